@@ -1,0 +1,207 @@
+#include "common/yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+std::string KindOf(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Null: return "nothing";
+    case YAML::NodeType::Scalar: return "'" + node.Scalar() + "'";
+    case YAML::NodeType::Sequence: return "a sequence";
+    case YAML::NodeType::Map: return "a map";
+    default: return "an undefined value";
+  }
+}
+
+}  // namespace
+
+YamlNode YamlNode::LoadFile(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be opened");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad() || !text) throw InputError(path + ": cannot be read");
+  return Parse(text.str(), path);
+}
+
+YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw InputError(origin + ":" + std::to_string(documents[1].Mark().line + 1) +
+                       ": a second YAML document begins here; one is expected");
+    }
+    return YamlNode(documents.empty() ? YAML::Node() : documents[0], origin, "");
+  } catch (const YAML::Exception& error) {
+    throw InputError(origin + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+}
+
+std::string YamlNode::Where() const {
+  std::string where = origin_;
+  const YAML::Mark mark = node_.Mark();
+  if (!mark.is_null()) where += ":" + std::to_string(mark.line + 1);
+  if (!path_.empty()) where += ": " + path_;
+  return where;
+}
+
+void YamlNode::Fail(const std::string& what) const { throw InputError(Where() + ": " + what); }
+
+std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
+  if (node_.IsNull()) return std::nullopt;
+  if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+  const YAML::Node value = node_[key];
+  if (!value.IsDefined() || value.IsNull()) return std::nullopt;
+  const auto origin = override_origins_.find(key);
+  return YamlNode(value, origin == override_origins_.end() ? origin_ : origin->second,
+                  origin == override_origins_.end() && !path_.empty() ? path_ + "." + key : key);
+}
+
+YamlNode YamlNode::At(const std::string& key) const {
+  if (!node_.IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(node_));
+  std::optional<YamlNode> value = Find(key);
+  if (!value) Fail("the field '" + key + "' is missing");
+  return *std::move(value);
+}
+
+std::vector<std::string> YamlNode::Keys() const {
+  std::vector<std::string> keys;
+  if (node_.IsNull()) return keys;
+  if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) Fail("a key is not plain text");
+    keys.push_back(entry.first.Scalar());
+  }
+  return keys;
+}
+
+void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
+  std::set<std::string> seen;
+  for (const std::string& key : Keys()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      std::string names;
+      for (const std::string_view name : known) names += (names.empty() ? "" : ", ") + std::string(name);
+      const std::optional<YamlNode> value = Find(key);
+      const std::string what = "unknown key '" + key + "'; known are: " + names;
+      if (value) value->Fail(what);
+      Fail(what);
+    }
+    if (!seen.insert(key).second) Fail("the key '" + key + "' occurs twice");
+  }
+}
+
+int YamlNode::Size() const {
+  if (!node_.IsSequence()) Fail("expected a sequence, found " + KindOf(node_));
+  return static_cast<int>(node_.size());
+}
+
+YamlNode YamlNode::At(int index) const {
+  if (index < 0 || index >= Size()) Fail("element " + std::to_string(index) + " is missing");
+  return YamlNode(node_[static_cast<std::size_t>(index)], origin_,
+                  path_ + "[" + std::to_string(index) + "]");
+}
+
+std::vector<YamlNode> YamlNode::Elements() const {
+  const int size = Size();
+  std::vector<YamlNode> elements;
+  elements.reserve(static_cast<std::size_t>(size));
+  // By iterator: access by index into a yaml-cpp sequence is linear in the index.
+  int index = 0;
+  for (const auto& element : node_) {
+    elements.push_back(YamlNode(element, origin_, path_ + "[" + std::to_string(index++) + "]"));
+  }
+  return elements;
+}
+
+double YamlNode::Double() const {
+  double value = 0;
+  if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value)) {
+    Fail("expected a number, found " + KindOf(node_));
+  }
+  if (!std::isfinite(value)) Fail("expected a finite number, found " + KindOf(node_));
+  return value;
+}
+
+double YamlNode::PositiveDouble() const {
+  const double value = Double();
+  if (value <= 0) Fail("must be greater than zero, found " + KindOf(node_));
+  return value;
+}
+
+long long YamlNode::Int() const {
+  long long value = 0;
+  if (!node_.IsScalar() || !YAML::convert<long long>::decode(node_, value)) {
+    Fail("expected an integer, found " + KindOf(node_));
+  }
+  return value;
+}
+
+bool YamlNode::Bool() const {
+  bool value = false;
+  if (!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value)) {
+    Fail("expected true or false, found " + KindOf(node_));
+  }
+  return value;
+}
+
+std::string YamlNode::String() const {
+  if (!node_.IsScalar()) Fail("expected text, found " + KindOf(node_));
+  return node_.Scalar();
+}
+
+std::vector<double> YamlNode::Doubles() const {
+  std::vector<double> values;
+  for (const YamlNode& element : Elements()) values.push_back(element.Double());
+  return values;
+}
+
+std::vector<double> YamlNode::Doubles(int expected_size) const {
+  if (Size() != expected_size) {
+    Fail("expected " + std::to_string(expected_size) + " numbers, found " + std::to_string(Size()));
+  }
+  return Doubles();
+}
+
+std::vector<std::string> YamlNode::Strings() const {
+  std::vector<std::string> values;
+  for (const YamlNode& element : Elements()) values.push_back(element.String());
+  return values;
+}
+
+double YamlNode::DoubleOr(const std::string& key, double fallback) const {
+  const std::optional<YamlNode> value = Find(key);
+  return value ? value->Double() : fallback;
+}
+
+long long YamlNode::IntOr(const std::string& key, long long fallback) const {
+  const std::optional<YamlNode> value = Find(key);
+  return value ? value->Int() : fallback;
+}
+
+bool YamlNode::BoolOr(const std::string& key, bool fallback) const {
+  const std::optional<YamlNode> value = Find(key);
+  return value ? value->Bool() : fallback;
+}
+
+std::string YamlNode::StringOr(const std::string& key, const std::string& fallback) const {
+  const std::optional<YamlNode> value = Find(key);
+  return value ? value->String() : fallback;
+}
+
+void YamlNode::Override(const std::string& key, const std::string& text, const std::string& origin) {
+  if (!node_.IsNull() && !node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+  node_[key] = Parse(text, origin).node_;
+  override_origins_[key] = origin;
+}
+
+}  // namespace planbench

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace planbench {
+
+/// Box centred at its frame's origin, edges along the axes.
+struct Box {
+  Eigen::Vector3d size;  ///< Edge lengths along x, y, z, m.
+};
+
+/// Sphere centred at its frame's origin.
+struct Sphere {
+  double radius;  ///< m
+};
+
+/// Cylinder with flat caps, axis along z, centred at its frame's origin.
+struct Cylinder {
+  double radius;  ///< m
+  double length;  ///< Along z, m.
+};
+
+/// Cone, axis along z, centred at its frame's origin: apex at z = +length/2, base at z = -length/2.
+struct Cone {
+  double radius;  ///< Of the base, m.
+  double length;  ///< Along z, m.
+};
+
+/// Triangles of a surface.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;                ///< m, in the shape's frame.
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into vertices.
+};
+
+/// A mesh, named by resource or given inline.
+struct Mesh {
+  std::string resource;  ///< URI (package://, file://) or path; empty for an inline mesh.
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< Applied to the resource's vertices, per axis.
+  TriangleMesh triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
+};
+
+using Shape = std::variant<Box, Sphere, Cylinder, Cone, Mesh>;
+
+/// "box", "sphere", "cylinder", "cone" or "mesh".
+std::string ShapeTypeName(const Shape& shape);
+
+/// A shape and its pose X_FS in the frame F of what it belongs to (a link, an object).
+struct PlacedShape {
+  Shape shape;
+  Eigen::Isometry3d X_FS = Eigen::Isometry3d::Identity();
+};
+
+/// Smallest sphere known to enclose a shape, in the shape's frame.
+struct BoundingSphere {
+  Eigen::Vector3d center;
+  double radius;
+};
+BoundingSphere ComputeBoundingSphere(const Shape& shape);
+
+}  // namespace planbench

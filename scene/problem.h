@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// Named joint positions (rad or m).
+struct JointState {
+  std::vector<std::string> names;
+  std::vector<double> positions;
+};
+
+/// Goal of one joint: position in [position - tolerance_below, position + tolerance_above].
+struct JointGoal {
+  std::string joint;
+  double position = 0;         ///< rad or m
+  double tolerance_above = 0;  ///< >= 0
+  double tolerance_below = 0;  ///< >= 0
+};
+
+/// Box that the request allows the robot to move in, in `frame`, m.
+struct Workspace {
+  std::string frame;
+  Eigen::Vector3d min_corner = Eigen::Vector3d::Constant(-1);
+  Eigen::Vector3d max_corner = Eigen::Vector3d::Constant(1);
+};
+
+/// One motion-planning problem: a MoveIt scene and request.
+struct Problem {
+  std::string set;   ///< Name of the problem set, "" outside one.
+  int index = 0;     ///< NNNN of sceneNNNN.yaml.
+  Scene scene;
+  std::string group;           ///< Planning group, may be empty (the robot's first).
+  JointState start;            ///< The request's start_state: every joint it names.
+  JointState scene_state;      ///< The scene's robot_state; serves joints the start does not name.
+  std::vector<JointGoal> goal;
+  std::optional<Workspace> workspace;
+  double time_limit_s = 0;     ///< allowed_planning_time; 0 if absent.
+};
+
+/// sceneNNNN.yaml and requestNNNN.yaml of one folder.
+struct ProblemFiles {
+  int index = 0;
+  std::filesystem::path scene;
+  std::filesystem::path request;
+};
+
+/// A folder of problems; its name is the folder's.
+struct ProblemSet {
+  std::string name;
+  std::filesystem::path folder;
+  std::vector<ProblemFiles> problems;  ///< By index, ascending.
+
+  /// The files of a problem, nullptr if the set has none of that index.
+  const ProblemFiles* Find(int index) const;
+};
+
+/// Lists a problem set. Throws InputError if the folder is missing, holds no pair, or holds a scene without
+/// its request or a request without its scene.
+ProblemSet ListProblemSet(const std::filesystem::path& folder);
+
+}  // namespace planbench

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/shapes.h"
+
+namespace planbench {
+
+/// An object of the world: shapes rigidly joined. W is the robot's base frame (every frame of the file is
+/// resolved into it by the reader).
+struct SceneObject {
+  std::string id;
+  Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< Object pose.
+  std::vector<PlacedShape> shapes;  ///< Poses X_OS in the object's frame (PlacedShape::X_FS).
+};
+
+/// An object that moves with a link. Its pose field holds X_LO, the object in the link's frame.
+struct AttachedObject {
+  std::string link;
+  SceneObject object;
+  std::vector<std::string> touch_links;  ///< Links the object may touch, besides `link` itself.
+};
+
+/// Which pairs of bodies (links, objects, attached objects, by name) may touch. MoveIt's meaning: an explicit
+/// entry decides; without one, the default entries of the two names decide: if both have one, the pair is
+/// allowed when both allow it, if one has, that one; without any the pair is checked.
+class AllowedCollisionMatrix {
+ public:
+  void SetEntry(const std::string& a, const std::string& b, bool allowed);
+  void SetDefaultEntry(const std::string& name, bool allowed);
+  bool Allowed(const std::string& a, const std::string& b) const;
+
+  /// Pairs in canonical order (first <= second).
+  const std::map<std::pair<std::string, std::string>, bool>& entries() const { return entries_; }
+  const std::map<std::string, bool>& default_entries() const { return default_entries_; }
+  bool operator==(const AllowedCollisionMatrix&) const = default;
+
+ private:
+  std::map<std::pair<std::string, std::string>, bool> entries_;
+  std::map<std::string, bool> default_entries_;
+};
+
+/// Pose of a named frame in W, as `fixed_frame_transforms` gives it.
+struct FrameTransform {
+  std::string frame;
+  Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
+};
+
+/// What surrounds the robot. A value; two scenes with equal content ids are the same scene.
+struct Scene {
+  std::string name;
+  std::string robot_name;           ///< robot_model_name of the file; may be empty.
+  std::string world_frame;          ///< Name of W, e.g. "base_link".
+  std::vector<SceneObject> objects;           ///< Ids unique.
+  std::vector<AttachedObject> attached;       ///< Ids unique, also among objects.
+  AllowedCollisionMatrix allowed_collisions;
+  std::vector<FrameTransform> fixed_frames;   ///< Without W's own identity.
+};
+
+/// Content hash of all that bears on collisions: world frame, objects (order, ids, poses, shapes with their
+/// triangles), attached objects, allowed collisions. Names of the scene and of the robot do not count.
+/// 32 hexadecimal digits.
+std::string SceneId(const Scene& scene);
+
+/// Content hash of a mesh's scaled vertices and triangles.
+std::string MeshId(const TriangleMesh& mesh);
+
+}  // namespace planbench
