@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "collision/collision_model.h"
+#include "robot_model/motion_bound.h"
+#include "robot_model/robot_folder.h"
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// Two bodies that touch. A body is a link, an object or an attached object, by name.
+struct Contact {
+  std::string body_a;  ///< A link or attached object.
+  std::string body_b;
+  double depth_m = 0;  ///< Depth of the deepest pair of their shapes, >= 0.
+};
+
+/// The two nearest bodies.
+struct ClosestPair {
+  double distance_m = 0;  ///< > 0 apart; <= 0 in collision (minus the depth where the engine knows it).
+  std::string body_a;     ///< Empty if there is no pair to check (distance_m is then infinity).
+  std::string body_b;
+};
+
+/// Decides whether configurations of a planning group collide: with the scene's objects, with attached objects,
+/// and with the robot itself, over the pairs that neither the scene's allowed-collision matrix, nor the
+/// robot's allowed_pairs, nor adjacency (two links joined by a joint) excludes. Touching counts as collision.
+/// Joint limits are not its business. Public functions validate, the Do... functions compute.
+///
+/// Not thread-safe: one instance a thread. Holds references to the robot and the group, which must outlive it.
+/// tests/contract/collision_checker_contract.h is the suite every engine passes.
+class CollisionChecker {
+ public:
+  virtual ~CollisionChecker() = default;
+  CollisionChecker(const CollisionChecker&) = delete;
+  CollisionChecker& operator=(const CollisionChecker&) = delete;
+
+  /// Name of the engine, e.g. "fcl".
+  virtual std::string_view EngineName() const = 0;
+  CollisionModel model() const { return model_; }
+  const Robot& robot() const { return *robot_; }
+  const PlanningGroup& group() const { return *group_; }
+  const JointSpace& space() const { return group_->space; }
+
+  /// Takes the world and the positions of the joints outside the group (`base_positions`: full positions; those
+  /// of the group's joints do not matter). Must be called before any check; may be called again. Throws
+  /// InputError, naming the body, for what cannot be represented: an attached object on an unknown link, a
+  /// mesh without triangles.
+  void SetScene(const Scene& scene, std::span<const double> base_positions);
+
+  /// True if nothing collides at q (n joints, group order, rad or m).
+  bool IsFree(std::span<const double> q);
+  /// Index of a configuration in collision among `num` (row-major, num x n), -1 if all are free. Which one, if
+  /// several collide, is the engine's choice; engines may check them in any order or at once.
+  int FindCollision(std::span<const double> qs, int num);
+  /// free[i] = IsFree(configuration i), for `num` configurations (row-major, num x n).
+  void CheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// A pair of bodies in contact at q, nothing if free; the same q gives the same pair.
+  std::optional<Contact> FindContact(std::span<const double> q);
+  /// The nearest pair at q.
+  ClosestPair FindClosest(std::span<const double> q);
+
+  /// Bound on the motion of the geometry this engine checks, for the scene set last (attached objects
+  /// included).
+  const MotionBound& motion_bound() const { return motion_bound_; }
+  /// Configurations checked since construction (by any of the functions above).
+  std::int64_t num_checks() const { return num_checks_; }
+
+ protected:
+  CollisionChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
+      : robot_(&robot), group_(&group), model_(model) {}
+
+  /// Returns the bound on the motion of its geometry.
+  virtual MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) = 0;
+  virtual bool DoIsFree(std::span<const double> q) = 0;
+  virtual int DoFindCollision(std::span<const double> qs, int num);
+  virtual void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  virtual std::optional<Contact> DoFindContact(std::span<const double> q) = 0;
+  virtual ClosestPair DoFindClosest(std::span<const double> q) = 0;
+
+ private:
+  void RequireReady(std::span<const double> qs, int num) const;
+
+  const Robot* robot_;
+  const PlanningGroup* group_;
+  CollisionModel model_;
+  MotionBound motion_bound_;
+  std::int64_t num_checks_ = 0;
+  bool has_scene_ = false;
+};
+
+/// The engine for a model. Throws InputError if it is not available, or if the robot lacks the geometry (spheres
+/// or mesh files).
+std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
+                                                       const PlanningGroup& group,
+                                                       CollisionModel model);
+
+}  // namespace planbench

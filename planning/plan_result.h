@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planning/plan_status.h"
+
+namespace planbench {
+
+/// n joint positions, group order, rad or m.
+using Configuration = std::vector<double>;
+/// Waypoints from start to goal, joined by edges.
+using Path = std::vector<Configuration>;
+
+/// An improved solution of an anytime planner.
+struct PlanProgress {
+  double elapsed_s = 0;  ///< On the clock of the planning time.
+  double epsilon = 0;    ///< Proven suboptimality bound; 0 if the planner gives none.
+  double cost = 0;       ///< In the planner's own unit.
+  std::int64_t expansions = 0;
+};
+
+/// Where the planning time went, s. Phases that a planner does not have are 0.
+struct PhaseTimes {
+  double setup_s = 0;      ///< Scene, robot state, planner structures for this request.
+  double collision_s = 0;  ///< Collision checking of states and edges.
+  double guidance_s = 0;   ///< Heuristic or nearest neighbours, where the planner can tell.
+  double search_s = 0;     ///< The rest of the planning time.
+  double simplification_s = 0;  ///< After planning; no part of the planning time.
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kInvalidRequest;
+  std::string message;         ///< Why, in one line, when not solved.
+  double planning_time_s = 0;  ///< Request and scene at hand -> first solution or verdict ready.
+  double total_time_s = 0;     ///< The same up to the end of the search (longer only for anytime).
+  PhaseTimes phases;
+  Path path;             ///< Raw; empty unless solved.
+  Path simplified_path;  ///< After the shared pass; empty if not asked for.
+  double epsilon = 0;    ///< Proven bound of the path's cost; 0 if the planner gives none.
+  double cost = 0;       ///< In the planner's own unit; 0 if it has none.
+  std::vector<PlanProgress> progress;
+  /// Counts by name: edges_checked, configurations_checked, and the planner's own (iterations,
+  /// expansions, states, ...).
+  std::map<std::string, double> counters;
+  double peak_memory_mb = 0;  ///< Peak resident memory of the process during the request, MiB.
+};
+
+}  // namespace planbench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "planning/planner.h"
+#include "robot_model/robot_folder.h"
+#include "scene/problem.h"
+
+namespace planbench {
+
+/// Start and goal in a group's coordinates.
+struct ResolvedQuery {
+  std::vector<double> base_positions;  ///< Full positions at the start.
+  Configuration start;                 ///< n joints, group order.
+  GoalBox goal;
+};
+
+/// Resolves named start and goal. Throws InputError (prefixed by `origin`) for unknown joints, sizes that differ,
+/// non-finite values, negative tolerances, a goal that misses or repeats a joint of the group.
+ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
+                           const std::vector<JointGoal>& goal, const std::string& origin);
+
+}  // namespace planbench
