@@ -9,9 +9,9 @@
 namespace planbench {
 
 /// Finds the files that URIs name. package://NAME/rest resolves through the packages given by name
-/// (`--package-path NAME=DIR`), else, if NAME is the name of `base_folder` itself or of no known package,
-/// through base_folder/rest. file:// URIs and absolute paths are taken as they are, relative paths from
-/// base_folder.
+/// (`--package-path NAME=DIR`), else, if NAME is the name of `base_folder` itself or of no known
+/// package, through base_folder/rest. file:// URIs and absolute paths are taken as they are,
+/// relative paths from base_folder.
 struct ResourceResolver {
   std::filesystem::path base_folder;
   std::map<std::string, std::filesystem::path> packages;
@@ -23,8 +23,9 @@ struct ResourceResolver {
 /// Parses "NAME=DIR" as given to --package-path; throws InputError.
 std::pair<std::string, std::filesystem::path> ParsePackagePath(const std::string& argument);
 
-/// Reads an STL (binary or ASCII), OBJ or DAE file, all its meshes joined with their node transforms and the
-/// file's unit applied, vertices scaled per axis. Throws InputError if it cannot be read or has no triangles.
+/// Reads an STL (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
+/// transforms and the file's unit applied, vertices scaled per axis. Throws InputError if it cannot
+/// be read or has no triangles.
 TriangleMesh LoadMesh(const std::filesystem::path& path,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 

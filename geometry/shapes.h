@@ -41,8 +41,10 @@ struct TriangleMesh {
 /// A mesh, named by resource or given inline.
 struct Mesh {
   std::string resource;  ///< URI (package://, file://) or path; empty for an inline mesh.
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< Applied to the resource's vertices, per axis.
-  TriangleMesh triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
+  Eigen::Vector3d scale =
+      Eigen::Vector3d::Ones();  ///< Applied to the resource's vertices, per axis.
+  TriangleMesh
+      triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
 };
 
 using Shape = std::variant<Box, Sphere, Cylinder, Cone, Mesh>;

@@ -7,8 +7,8 @@
 
 namespace planbench {
 
-/// Forward kinematics of a planning group with every other joint held: recomputes only the links the group
-/// moves. One instance a thread; refers to the model and group, which must outlive it.
+/// Forward kinematics of a planning group with every other joint held: recomputes only the links
+/// the group moves. One instance a thread; refers to the model and group, which must outlive it.
 class GroupKinematics {
  public:
   /// `base_positions`: full positions; those of the group's joints are placeholders.
@@ -30,15 +30,16 @@ class GroupKinematics {
  private:
   struct Step {
     int joint;
-    int group_index;  // -1: held joint
+    int group_index;         // -1: held joint
+    Eigen::Isometry3d X_PC;  // Child link in parent link; of group joints set by Update.
   };
   const RobotModel* model_;
   const PlanningGroup* group_;
-  std::vector<double> positions_;
   std::vector<Eigen::Isometry3d> X_BL_;
   std::vector<unsigned char> moved_by_group_;
-  std::vector<int> nearest_group_joint_;  // per link: the last group joint on its path from the root, -1
-  std::vector<Step> steps_;               // joints whose child links move, parents first
+  std::vector<int>
+      nearest_group_joint_;  // per link: the last group joint on its path from the root, -1
+  std::vector<Step> steps_;  // joints whose child links move, parents first
 };
 
 }  // namespace planbench

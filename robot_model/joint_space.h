@@ -6,21 +6,22 @@
 
 namespace planbench {
 
-/// The configuration space of a planning group: n joints in group order; positions in rad (revolute,
-/// continuous) or m (prismatic). Continuous joints wrap: differences and motions take the short way round.
+/// The configuration space of a planning group: n joints in group order; positions in rad
+/// (revolute, continuous) or m (prismatic). Continuous joints wrap: differences and motions take
+/// the short way round.
 class JointSpace {
  public:
   struct Joint {
     std::string name;
     bool continuous = false;  ///< Unbounded revolute joint.
     bool prismatic = false;
-    double lower = 0;  ///< -pi for a continuous joint.
-    double upper = 0;  ///< +pi for a continuous joint.
+    double lower = 0;         ///< -pi for a continuous joint.
+    double upper = 0;         ///< +pi for a continuous joint.
     double max_velocity = 0;  ///< rad/s or m/s
   };
 
-  /// Bounds of limits are inclusive; a position may exceed them by this much (rad or m), the rounding of
-  /// positions that were written as text.
+  /// Bounds of limits are inclusive; a position may exceed them by this much (rad or m), the
+  /// rounding of positions that were written as text.
   static constexpr double kLimitTolerance = 1e-6;
 
   JointSpace() = default;
@@ -36,13 +37,14 @@ class JointSpace {
   double Difference(int j, double from, double to) const;
   /// L2 norm of the differences (rad and m unweighted).
   double Distance(std::span<const double> from, std::span<const double> to) const;
-  /// Point at fraction t in [0, 1] of the straight motion. Continuous joints come out in [-pi, pi); with
-  /// t = 0 and t = 1 the ends come out exactly as given.
+  /// Point at fraction t in [0, 1] of the straight motion. Continuous joints come out in [-pi, pi);
+  /// with t = 0 and t = 1 the ends come out exactly as given.
   void Interpolate(std::span<const double> from, std::span<const double> to, double t,
                    std::span<double> out) const;
   /// Brings continuous joints into [-pi, pi).
   void Wrap(std::span<double> q) const;
-  /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1 if none.
+  /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1
+  /// if none.
   int FirstOutsideLimits(std::span<const double> q) const;
   bool WithinLimits(std::span<const double> q) const { return FirstOutsideLimits(q) < 0; }
 

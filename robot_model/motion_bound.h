@@ -8,17 +8,19 @@
 
 namespace planbench {
 
-/// A ball fixed to a link: a collision sphere, the bounding sphere of a shape, or a mesh vertex (radius 0).
+/// A ball fixed to a link: a collision sphere, the bounding sphere of a shape, or a mesh vertex
+/// (radius 0).
 struct LinkBall {
   int link = -1;
   Eigen::Vector3d p_LS;  ///< Centre in the link's frame, m.
   double radius = 0;     ///< m
 };
 
-/// Upper bound of how far any point of a robot's collision geometry moves on a straight joint motion:
-/// sum over joints of |dq_j| reach_j. reach_j (m/rad) bounds the distance from joint j's axis of any ball's far
-/// side beyond joint j over all configurations of the joints beyond it, within their limits; 1 for a prismatic
-/// joint that carries a ball, 0 for a joint that carries none.
+/// Upper bound of how far any point of a robot's collision geometry moves on a straight joint
+/// motion: sum over joints of |dq_j| reach_j. reach_j (m/rad) bounds the distance from joint j's
+/// axis of any ball's far side beyond joint j over all configurations of the joints beyond it,
+/// within their limits; 1 for a prismatic joint that carries a ball, 0 for a joint that carries
+/// none.
 class MotionBound {
  public:
   MotionBound() = default;

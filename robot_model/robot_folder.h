@@ -12,8 +12,8 @@
 
 namespace planbench {
 
-/// A robot as planbench uses it: what `robots/<name>/robot.yaml` and the files it names describe. Immutable
-/// after loading.
+/// A robot as planbench uses it: what `robots/<name>/robot.yaml` and the files it names describe.
+/// Immutable after loading.
 ///
 /// robot.yaml:
 ///   name: fetch
@@ -34,16 +34,18 @@ namespace planbench {
 struct Robot {
   std::string name;
   std::filesystem::path folder;
-  std::string content_id;  ///< Content hash of robot.yaml, the URDF and the spheres: equal robots, equal ids.
+  std::string content_id;  ///< Content hash of robot.yaml, the URDF and the spheres: equal robots,
+                           ///< equal ids.
   RobotModel model;
   std::vector<PlanningGroup> groups;
-  std::vector<LinkSphere> spheres;  ///< Sorted by link.
+  std::vector<LinkSphere> spheres;                 ///< Sorted by link.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
   double edge_resolution_m = 0.02;
   std::map<std::string, std::filesystem::path> planner_settings;  ///< By planner name, absolute.
   ResourceResolver resources;  ///< For the collision meshes the URDF names.
 
-  /// The group of that name; throws InputError naming the known ones. An empty name is the first group.
+  /// The group of that name; throws InputError naming the known ones. An empty name is the first
+  /// group.
   const PlanningGroup& Group(const std::string& group_name) const;
 };
 
@@ -51,14 +53,16 @@ struct Robot {
 Robot LoadRobot(const std::filesystem::path& folder,
                 const std::map<std::string, std::filesystem::path>& packages = {});
 
-/// The robot whose meshes judge paths: `folder` holds a robot.yaml, or exactly one .urdf file whose groups are
-/// then those of `planning_robot` (matched by joint and link names). `folder` also serves package://
-/// URIs. Throws InputError if the folder has neither, or lacks a joint or link of the planning groups.
+/// The robot whose meshes judge paths: `folder` holds a robot.yaml, or exactly one .urdf file whose
+/// groups are then those of `planning_robot` (matched by joint and link names). `folder` also
+/// serves package:// URIs. Throws InputError if the folder has neither, or lacks a joint or link of
+/// the planning groups.
 Robot LoadRefereeRobot(const std::filesystem::path& folder, const Robot& planning_robot,
                        const std::map<std::string, std::filesystem::path>& packages = {});
 
-/// Full positions from named ones: `names[i]` takes `positions[i]`, others their default. Throws InputError for
-/// unknown or fixed joints, sizes that differ, repeated names; `origin` names the source.
+/// Full positions from named ones: `names[i]` takes `positions[i]`, others their default. Throws
+/// InputError for unknown or fixed joints, sizes that differ, repeated names; `origin` names the
+/// source.
 std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
                                   const std::vector<double>& positions, const std::string& origin);
 

@@ -15,8 +15,8 @@ namespace planbench {
 
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
 
-/// A joint connects parent link P to child link C. J is the joint's frame: fixed in P, equal to C's frame
-/// when the joint is at zero.
+/// A joint connects parent link P to child link C. J is the joint's frame: fixed in P, equal to C's
+/// frame when the joint is at zero.
 struct Joint {
   std::string name;
   JointType type = JointType::kFixed;
@@ -30,11 +30,15 @@ struct Joint {
   int position_index = -1;  ///< Index into full position vectors; -1 for fixed joints.
 };
 
+/// Pose X_JC of the child link's frame in the joint's frame at a position (rad or m).
+Eigen::Isometry3d JointMotion(const Joint& joint, double position);
+
 struct Link {
   std::string name;
-  int parent_joint = -1;            ///< -1 for the root link.
-  std::vector<int> child_joints;    ///< In URDF order.
-  std::vector<PlacedShape> collision;  ///< Collision geometry of the URDF; meshes named, not loaded.
+  int parent_joint = -1;          ///< -1 for the root link.
+  std::vector<int> child_joints;  ///< In URDF order.
+  std::vector<PlacedShape>
+      collision;  ///< Collision geometry of the URDF; meshes named, not loaded.
 };
 
 /// A collision sphere fixed to a link.
@@ -52,14 +56,14 @@ struct PlanningGroup {
   JointSpace space;
 };
 
-/// Immutable kinematic tree of a robot, rooted at its base link B. Links are ordered so that a parent comes
-/// before its children; link 0 is the root. A full position vector holds every non-fixed joint
-/// (num_positions() values, rad or m), indexed by Joint::position_index.
+/// Immutable kinematic tree of a robot, rooted at its base link B. Links are ordered so that a
+/// parent comes before its children; link 0 is the root. A full position vector holds every
+/// non-fixed joint (num_positions() values, rad or m), indexed by Joint::position_index.
 class RobotModel {
  public:
-  /// Parses URDF text. `origin` names it in errors. Refuses (InputError): malformed XML, mimic, floating and
-  /// planar joints, joints without limits where limits are needed, lower > upper, zero axes, a tree that is
-  /// none. Collision meshes are recorded by resource, not loaded.
+  /// Parses URDF text. `origin` names it in errors. Refuses (InputError): malformed XML, mimic,
+  /// floating and planar joints, joints without limits where limits are needed, lower > upper, zero
+  /// axes, a tree that is none. Collision meshes are recorded by resource, not loaded.
   static RobotModel FromUrdf(const std::string& urdf_text, const std::string& origin);
 
   const std::string& name() const { return name_; }
@@ -76,8 +80,8 @@ class RobotModel {
   /// Full positions with every joint at zero, or at the nearest limit to zero.
   std::vector<double> DefaultPositions() const;
 
-  /// A planning group from joint names in order; throws InputError for unknown or fixed joints, a repeated
-  /// name, or an unknown tip link.
+  /// A planning group from joint names in order; throws InputError for unknown or fixed joints, a
+  /// repeated name, or an unknown tip link.
   PlanningGroup MakeGroup(const std::string& name, const std::vector<std::string>& joint_names,
                           const std::string& tip_link) const;
 

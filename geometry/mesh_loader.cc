@@ -1,0 +1,175 @@
+#include "geometry/mesh_loader.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <assimp/Importer.hpp>
+#include <utility>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr std::string_view kPackageScheme = "package://";
+constexpr std::string_view kFileScheme = "file://";
+
+// Gathers triangles, giving vertices of exactly the same position one index: STL names every corner
+// of every triangle anew, and tools that follow a surface need to know which corners meet.
+class MeshBuilder {
+ public:
+  std::uint32_t AddVertex(const Vector3d& vertex) {
+    // Adding 0.0 turns -0.0 into 0.0, which compares equal but orders apart nowhere.
+    const std::array<double, 3> key = {vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0};
+    const auto [entry, is_new] =
+        index_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    if (is_new) mesh_.vertices.emplace_back(key[0], key[1], key[2]);
+    return entry->second;
+  }
+
+  void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a == b || b == c || c == a) return;  // Joining made it a line: no surface.
+    mesh_.triangles.push_back({a, b, c});
+  }
+
+  TriangleMesh Take() { return std::move(mesh_); }
+
+ private:
+  TriangleMesh mesh_;
+  std::map<std::array<double, 3>, std::uint32_t> index_;
+};
+
+Eigen::Matrix4d ToEigen(const aiMatrix4x4& m) {
+  Eigen::Matrix4d result;
+  result << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
+      m.d3, m.d4;
+  return result;
+}
+
+// Adds the meshes of a node and of all below it. `to_shape` maps the node's parent into the shape's
+// frame.
+void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to_shape,
+             const std::string& file, MeshBuilder* builder) {
+  const Eigen::Matrix4d transform = to_shape * ToEigen(node.mTransformation);
+  // A mirroring transform turns surfaces inside out; the order of the corners turns them back.
+  const bool mirrored = transform.topLeftCorner<3, 3>().determinant() < 0;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    std::vector<std::uint32_t> indices;
+    indices.reserve(mesh.mNumVertices);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& p = mesh.mVertices[v];
+      const Vector3d vertex = (transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>();
+      if (!vertex.allFinite()) throw InputError(file + ": a vertex is not finite");
+      indices.push_back(builder->AddVertex(vertex));
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
+      const std::uint32_t a = indices.at(face.mIndices[0]);
+      const std::uint32_t b = indices.at(face.mIndices[1]);
+      const std::uint32_t c = indices.at(face.mIndices[2]);
+      if (mirrored) {
+        builder->AddTriangle(a, c, b);
+      } else {
+        builder->AddTriangle(a, b, c);
+      }
+    }
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    AddNode(scene, *node.mChildren[i], transform, file, builder);
+  }
+}
+
+fs::path Existing(const fs::path& path, const std::string& uri, const std::string& hint) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return path;
+  throw InputError(fmt::format("resource '{}': no file {}{}", uri, path.string(), hint));
+}
+
+// Name of a folder however it was written ("robots/fetch", "robots/fetch/", ".").
+std::string FolderName(const fs::path& folder) {
+  const fs::path normal = fs::absolute(folder).lexically_normal();
+  return normal.has_filename() ? normal.filename().string()
+                               : normal.parent_path().filename().string();
+}
+
+}  // namespace
+
+fs::path ResourceResolver::Resolve(const std::string& uri) const {
+  if (uri.empty()) throw InputError("resource '': the name is empty");
+  if (uri.starts_with(kPackageScheme)) {
+    const std::string rest = uri.substr(kPackageScheme.size());
+    const std::size_t slash = rest.find('/');
+    if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size()) {
+      throw InputError(fmt::format("resource '{}': expected package://NAME/path", uri));
+    }
+    const std::string package = rest.substr(0, slash);
+    const fs::path path = rest.substr(slash + 1);
+    const auto known = packages.find(package);
+    if (known != packages.end()) return Existing(known->second / path, uri, "");
+    const std::string hint =
+        package == FolderName(base_folder)
+            ? ""
+            : fmt::format("; give the package's folder by --package-path {}=DIR", package);
+    return Existing(base_folder / path, uri, hint);
+  }
+  if (uri.starts_with(kFileScheme)) {
+    return Existing(fs::path(uri.substr(kFileScheme.size())), uri, "");
+  }
+  if (uri.find("://") != std::string::npos) {
+    throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
+  }
+  return Existing(base_folder / uri, uri, "");  // An absolute path replaces the base.
+}
+
+std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
+    throw InputError(fmt::format("--package-path '{}': expected NAME=DIR", argument));
+  }
+  const std::string name = argument.substr(0, equals);
+  if (name.find('/') != std::string::npos) {
+    throw InputError(fmt::format("--package-path '{}': a package name has no '/'", argument));
+  }
+  const fs::path folder = argument.substr(equals + 1);
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw InputError(fmt::format("--package-path '{}': no folder {}", argument, folder.string()));
+  }
+  return {name, folder};
+}
+
+TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
+  const std::string file = path.string();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw InputError(file + ": no such mesh file");
+  if (!scale.allFinite() || (scale.array() == 0).any()) {
+    throw InputError(fmt::format("{}: mesh scale [{}, {}, {}] must be finite and not zero", file,
+                                 scale.x(), scale.y(), scale.z()));
+  }
+
+  Assimp::Importer importer;
+  // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw InputError(
+        fmt::format("{}: cannot be read as a mesh: {}", file, importer.GetErrorString()));
+  }
+
+  Eigen::Matrix4d scaling = Eigen::Matrix4d::Identity();
+  scaling.diagonal().head<3>() = scale;
+  MeshBuilder builder;
+  AddNode(*scene, *scene->mRootNode, scaling, file, &builder);
+  TriangleMesh mesh = builder.Take();
+  if (mesh.triangles.empty()) throw InputError(file + ": the mesh has no triangles");
+  return mesh;
+}
+
+}  // namespace planbench

@@ -1,0 +1,280 @@
+#include "robot_model/robot_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "common/content_hash.h"
+#include "common/error.h"
+#include "common/yaml.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + ": cannot be opened");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad() || !text) throw InputError(path.string() + ": cannot be read");
+  return text.str();
+}
+
+// The file a field of robot.yaml names, relative to the folder.
+fs::path NamedFile(const fs::path& folder, const YamlNode& field) {
+  const fs::path path = folder / field.String();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) field.Fail("no file " + path.string());
+  return path;
+}
+
+// Runs `parse`, whose errors do not know the field at fault, and says where it stands.
+template <typename Parse>
+auto AtField(const YamlNode& field, Parse parse) {
+  try {
+    return parse();
+  } catch (const InputError& error) {
+    field.Fail(error.what());
+  }
+}
+
+PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
+  node.AllowOnly({"name", "joints", "tip_link"});
+  const std::string name = node.At("name").String();
+  if (name.empty()) node.At("name").Fail("must not be empty");
+  const std::vector<std::string> joints = node.At("joints").Strings();
+  const std::string tip_link = node.At("tip_link").String();
+  return AtField(node, [&] { return model.MakeGroup(name, joints, tip_link); });
+}
+
+std::vector<PlanningGroup> ReadGroups(const YamlNode& node, const RobotModel& model) {
+  std::vector<PlanningGroup> groups;
+  std::set<std::string> names;
+  for (const YamlNode& element : node.Elements()) {
+    groups.push_back(ReadGroup(element, model));
+    if (!names.insert(groups.back().name).second) {
+      element.At("name").Fail(fmt::format("the group '{}' occurs twice", groups.back().name));
+    }
+  }
+  if (groups.empty()) node.Fail("at least one group is needed");
+  return groups;
+}
+
+int LinkAt(const YamlNode& node, const std::string& name, const RobotModel& model) {
+  const int link = model.FindLink(name);
+  if (link < 0) node.Fail(fmt::format("the robot '{}' has no link '{}'", model.name(), name));
+  return link;
+}
+
+std::vector<std::pair<int, int>> ReadAllowedPairs(const YamlNode& node, const RobotModel& model) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const YamlNode& element : node.Elements()) {
+    if (element.Size() != 2) element.Fail("expected a pair of links: [link_a, link_b]");
+    const int a = LinkAt(element, element.At(0).String(), model);
+    const int b = LinkAt(element, element.At(1).String(), model);
+    if (a == b) element.Fail("the two links are the same");
+    pairs.emplace_back(a, b);
+  }
+  return pairs;
+}
+
+std::vector<LinkSphere> ReadSpheres(const YamlNode& root, const RobotModel& model) {
+  root.AllowOnly({"links"});
+  const YamlNode links = root.At("links");
+  std::vector<LinkSphere> spheres;
+  std::set<std::string> seen;
+  for (const std::string& name : links.Keys()) {
+    if (!seen.insert(name).second) links.Fail(fmt::format("the link '{}' occurs twice", name));
+    const YamlNode list = links.At(name);
+    const int link = LinkAt(list, name, model);
+    for (const YamlNode& sphere : list.Elements()) {
+      sphere.AllowOnly({"center", "radius"});
+      const std::vector<double> center = sphere.At("center").Doubles(3);
+      const double radius = sphere.At("radius").PositiveDouble();
+      spheres.push_back({link, Eigen::Vector3d(center[0], center[1], center[2]), radius});
+    }
+  }
+  std::stable_sort(spheres.begin(), spheres.end(),
+                   [](const LinkSphere& a, const LinkSphere& b) { return a.link < b.link; });
+  return spheres;
+}
+
+std::vector<std::string> JointNames(const PlanningGroup& group) {
+  std::vector<std::string> names;
+  for (const JointSpace::Joint& joint : group.space.joints()) names.push_back(joint.name);
+  return names;
+}
+
+// The planning robot's group made of the referee's joints and links of the same names.
+PlanningGroup MatchGroup(const PlanningGroup& group, const Robot& planning_robot,
+                         const RobotModel& model, const std::string& origin) {
+  const std::string& tip =
+      planning_robot.model.links()[static_cast<std::size_t>(group.tip_link)].name;
+  try {
+    return model.MakeGroup(group.name, JointNames(group), tip);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: does not fit the robot '{}': {}", origin, planning_robot.name,
+                                 error.what()));
+  }
+}
+
+fs::path OnlyUrdf(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".urdf") {
+      found.push_back(entry.path());
+    }
+  }
+  if (found.size() != 1) {
+    throw InputError(
+        fmt::format("{}: expected a robot.yaml or exactly one .urdf file, found {} "
+                    ".urdf files",
+                    folder.string(), found.size()));
+  }
+  return found.front();
+}
+
+void NeedFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
+}
+
+// A referee with a robot.yaml of its own must still be able to judge every group that plans.
+void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
+  for (const PlanningGroup& group : planning_robot.groups) {
+    const std::string origin = (referee->folder / "robot.yaml").string();
+    PlanningGroup matched = MatchGroup(group, planning_robot, referee->model, origin);
+    const auto own = std::find_if(referee->groups.begin(), referee->groups.end(),
+                                  [&](const PlanningGroup& g) { return g.name == group.name; });
+    if (own == referee->groups.end()) {
+      referee->groups.push_back(std::move(matched));
+    } else if (own->joints != matched.joints) {
+      throw InputError(fmt::format("{}: group '{}' has other joints than in {}", origin, group.name,
+                                   (planning_robot.folder / "robot.yaml").string()));
+    }
+  }
+}
+
+}  // namespace
+
+const PlanningGroup& Robot::Group(const std::string& group_name) const {
+  if (group_name.empty() && !groups.empty()) return groups.front();
+  std::string known;
+  for (const PlanningGroup& group : groups) {
+    if (group.name == group_name) return group;
+    known += (known.empty() ? "" : ", ") + group.name;
+  }
+  throw InputError(
+      fmt::format("robot '{}' has no group '{}'; known are: {}", name, group_name, known));
+}
+
+Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& packages) {
+  NeedFolder(folder);
+  Robot robot;
+  robot.folder = fs::absolute(folder);
+  robot.resources = {robot.folder, packages};
+
+  const fs::path robot_file = folder / "robot.yaml";
+  const std::string robot_text = ReadText(robot_file);
+  const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
+  root.AllowOnly(
+      {"name", "urdf", "spheres", "edge_resolution_m", "groups", "allowed_pairs", "planners"});
+  ContentHash hash;
+  hash.Add(robot_text);
+
+  robot.name = root.At("name").String();
+  if (robot.name.empty()) root.At("name").Fail("must not be empty");
+  const fs::path urdf_file = NamedFile(folder, root.At("urdf"));
+  const std::string urdf_text = ReadText(urdf_file);
+  hash.Add(urdf_text);
+  robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string());
+  robot.groups = ReadGroups(root.At("groups"), robot.model);
+
+  if (const auto spheres = root.Find("spheres")) {
+    const fs::path spheres_file = NamedFile(folder, *spheres);
+    const std::string spheres_text = ReadText(spheres_file);
+    hash.Add(spheres_text);
+    robot.spheres = ReadSpheres(YamlNode::Parse(spheres_text, spheres_file.string()), robot.model);
+  }
+  if (const auto resolution = root.Find("edge_resolution_m")) {
+    robot.edge_resolution_m = resolution->PositiveDouble();
+  }
+  if (const auto pairs = root.Find("allowed_pairs")) {
+    robot.allowed_pairs = ReadAllowedPairs(*pairs, robot.model);
+  }
+  if (const auto planners = root.Find("planners")) {
+    for (const std::string& planner : planners->Keys()) {
+      // Planners read their own settings when they start: other programs must not need the files.
+      robot.planner_settings[planner] = robot.folder / planners->At(planner).String();
+    }
+  }
+  robot.content_id = hash.HexDigest();
+  return robot;
+}
+
+Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
+                       const std::map<std::string, fs::path>& packages) {
+  NeedFolder(folder);
+  if (fs::exists(folder / "robot.yaml")) {
+    Robot referee = LoadRobot(folder, packages);
+    AddPlanningGroups(planning_robot, &referee);
+    return referee;
+  }
+
+  const fs::path urdf_file = OnlyUrdf(folder);
+  const std::string urdf_text = ReadText(urdf_file);
+  Robot referee;
+  referee.folder = fs::absolute(folder);
+  referee.resources = {referee.folder, packages};
+  referee.model = RobotModel::FromUrdf(urdf_text, urdf_file.string());
+  referee.name = referee.model.name();
+  referee.edge_resolution_m = planning_robot.edge_resolution_m;
+  for (const PlanningGroup& group : planning_robot.groups) {
+    referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
+  }
+  // What the planning robot never checks, its judge does not either.
+  ContentHash hash;
+  hash.Add(urdf_text);
+  for (const auto& [a, b] : planning_robot.allowed_pairs) {
+    const auto& links = planning_robot.model.links();
+    const std::string& name_a = links[static_cast<std::size_t>(a)].name;
+    const std::string& name_b = links[static_cast<std::size_t>(b)].name;
+    const int link_a = referee.model.FindLink(name_a);
+    const int link_b = referee.model.FindLink(name_b);
+    if (link_a < 0 || link_b < 0) continue;  // A pair that this robot does not have.
+    referee.allowed_pairs.emplace_back(link_a, link_b);
+    hash.Add(name_a);
+    hash.Add(name_b);
+  }
+  referee.content_id = hash.HexDigest();
+  return referee;
+}
+
+std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
+                                  const std::vector<double>& positions, const std::string& origin) {
+  if (names.size() != positions.size()) {
+    throw InputError(
+        fmt::format("{}: {} joint names but {} positions", origin, names.size(), positions.size()));
+  }
+  std::vector<double> full = model.DefaultPositions();
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto fail = [&](const char* what) {
+      throw InputError(fmt::format("{}: joint '{}' {}", origin, names[i], what));
+    };
+    const int joint = model.FindJoint(names[i]);
+    if (joint < 0) fail("is unknown");
+    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
+    if (index < 0) fail("is fixed and takes no position");
+    if (!seen.insert(names[i]).second) fail("occurs twice");
+    full[static_cast<std::size_t>(index)] = positions[i];
+  }
+  return full;
+}
+
+}  // namespace planbench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <urdf_model/model.h>
+#include <urdf_world/types.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace planbench {
+
+/// A parsed URDF and where its elements stand in the text, which urdfdom does not tell: it keeps
+/// links and joints sorted by name.
+struct UrdfDocument {
+  urdf::ModelInterfaceSharedPtr model;
+  std::map<std::string, int> link_lines;   ///< Line of each <link name="...">, from 1.
+  std::map<std::string, int> joint_lines;  ///< Line of each <joint name="..." type="...">, from 1.
+  std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
+};
+
+/// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed);
+/// `origin` names the text.
+UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
+
+}  // namespace planbench
