@@ -13,22 +13,28 @@ namespace planbench {
 /// The referee's finding about a path.
 struct PathVerdict {
   bool valid = false;
-  std::string reason;       ///< Why not, in one line; empty if valid.
-  int segment = -1;         ///< Where: segment index, -1 if it is not a matter of place.
-  double fraction = 0;      ///< Where on the segment, [0, 1].
+  std::string reason;   ///< Why not, in one line; empty if valid.
+  int segment = -1;     ///< Where: segment index, -1 if it is not a matter of place.
+  double fraction = 0;  ///< Where on the segment, [0, 1].
   std::optional<Contact> contact;
-  double length = 0;        ///< See PathLength.
-  double tip_travel_m = 0;  ///< Travel of the tip link's origin, summed over samples.
-  double smoothness = 0;    ///< See PathSmoothness.
+  double length = 0;            ///< See PathLength.
+  double tip_travel_m = 0;      ///< Travel of the tip link's origin, summed over samples.
+  double smoothness = 0;        ///< See PathSmoothness.
   double clearance_min_m = 0;   ///< Over samples; 0 unless asked for and valid.
   double clearance_mean_m = 0;  ///< Mean over samples, each weighted by the motion it stands for.
   int num_samples = 0;
 };
 
-/// Judges a path by an engine of the caller's choice, independently of the planner: waypoints finite, of the right
-/// size, within limits; the first at `start`, the last inside `goal` (both to 1e-6); every edge sampled so that no
-/// point of the geometry moves more than `step_m` between samples, all samples free. An empty path is invalid.
+/// Judges a path by an engine of the caller's choice, independently of the planner: waypoints
+/// finite, of the right size, within limits; the first at `start`, the last inside `goal` (both to
+/// 1e-6); every edge sampled so that no point of the geometry moves more than `step_m` between
+/// samples, all samples free. An empty path is invalid. `base_positions` (full positions, those the
+/// checker's scene was set with) only serve the tip's travel; empty: the model's default positions,
+/// which is as good unless a held joint lies between the group's joints. Clearances are infinite
+/// where there is no pair of bodies to check. Throws InputError for a step that is not positive and
+/// for a start or goal of the wrong size.
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
-                      const GoalBox& goal, double step_m, bool with_clearance);
+                      const GoalBox& goal, double step_m, bool with_clearance,
+                      std::span<const double> base_positions = {});
 
 }  // namespace planbench

@@ -22,12 +22,14 @@ struct PlanProgress {
   std::int64_t expansions = 0;
 };
 
-/// Where the planning time went, s. Phases that a planner does not have are 0.
+/// Where the time up to the end of the search (PlanResult::total_time_s) went, s. That is the
+/// planning time, unless an anytime search went on after its first solution. Phases that a planner
+/// does not have are 0.
 struct PhaseTimes {
-  double setup_s = 0;      ///< Scene, robot state, planner structures for this request.
-  double collision_s = 0;  ///< Collision checking of states and edges.
-  double guidance_s = 0;   ///< Heuristic or nearest neighbours, where the planner can tell.
-  double search_s = 0;     ///< The rest of the planning time.
+  double setup_s = 0;           ///< Scene, robot state, planner structures for this request.
+  double collision_s = 0;       ///< Collision checking of states and edges.
+  double guidance_s = 0;        ///< Heuristic or nearest neighbours, where the planner can tell.
+  double search_s = 0;          ///< The rest.
   double simplification_s = 0;  ///< After planning; no part of the planning time.
 };
 
@@ -45,7 +47,9 @@ struct PlanResult {
   /// Counts by name: edges_checked, configurations_checked, and the planner's own (iterations,
   /// expansions, states, ...).
   std::map<std::string, double> counters;
-  double peak_memory_mb = 0;  ///< Peak resident memory of the process during the request, MiB.
+  double peak_memory_mb =
+      0;  ///< Peak resident memory of the process during the request, MiB. (Since the start
+          ///< of the process where the kernel forbids resetting it.)
 };
 
 }  // namespace planbench

@@ -7,6 +7,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "collision/edge_checker.h"
@@ -49,15 +51,16 @@ struct PlanControl {
 struct GoalBox {
   Configuration nominal;
   Configuration lower;  ///< <= nominal
-  Configuration upper;  ///< >= nominal; continuous joints are not wrapped: lower <= nominal <= upper holds.
+  Configuration
+      upper;  ///< >= nominal; continuous joints are not wrapped: lower <= nominal <= upper holds.
 
-  /// True if q is inside (continuous joints compared the short way round from nominal), limits inclusive with
-  /// 1e-9 to spare for rounding.
+  /// True if q is inside (continuous joints compared the short way round from nominal), limits
+  /// inclusive with 1e-9 to spare for rounding.
   bool Contains(const JointSpace& space, std::span<const double> q) const;
 };
 
-/// One search, from `start` to `goal` whatever the request's direction was (Planner has swapped them). Start and
-/// nominal goal have been found valid.
+/// One search, from `start` to `goal` whatever the request's direction was (Planner has swapped
+/// them). Start and nominal goal have been found valid.
 class SearchQuery {
  public:
   const JointSpace& space() const { return edges_->space(); }
@@ -74,11 +77,14 @@ class SearchQuery {
   bool ShouldStop() const;
   bool Cancelled() const;
   double RemainingSeconds() const;
-  /// Reports a solution of an anytime search the moment it is ready: the first stops the planning clock.
+  /// Reports a solution of an anytime search the moment it is ready: the first stops the planning
+  /// clock.
   void ReportSolution(double epsilon, double cost, std::int64_t expansions);
 
  private:
   friend class Planner;
+  double ElapsedSeconds() const;
+
   Configuration start_;
   GoalBox goal_;
   EdgeChecker* edges_ = nullptr;
@@ -91,21 +97,23 @@ class SearchQuery {
   std::vector<PlanProgress> progress_;
 };
 
-/// What a search found. Status is one of kSolved, kTimedOut, kExhausted, kCancelled, kMemoryLimit; a cancelled or
-/// timed-out anytime search that has a path returns it as kSolved.
+/// What a search found. Status is one of kSolved, kTimedOut, kExhausted, kCancelled, kMemoryLimit;
+/// a cancelled or timed-out anytime search that has a path returns it as kSolved.
 struct SearchResult {
   PlanStatus status = PlanStatus::kTimedOut;
   std::string message;
-  Path path;  ///< Query start to a point of the goal box; waypoints' edges all found valid by edges().
+  Path path;  ///< Query start to a point of the goal box; waypoints' edges all found valid by
+              ///< edges().
   double epsilon = 0;
   double cost = 0;
   double guidance_s = 0;  ///< Time spent on heuristic or nearest neighbours, if measured.
   std::map<std::string, double> counters;
 };
 
-/// A planner: resolves requests against the robot, sets the scene, checks start and goal, runs the search in the
-/// asked direction, takes the times, and simplifies, all the same for every algorithm. Only Search differs.
-/// tests/contract/planner_contract.h is the suite every planner passes.
+/// A planner: resolves requests against the robot, sets the scene, checks start and goal, runs the
+/// search in the asked direction, takes the times, and simplifies, all the same for every
+/// algorithm. Only Search differs. tests/contract/planner_contract.h is the suite every planner
+/// passes.
 ///
 /// Not thread-safe: one request at a time. The robot must outlive it.
 class Planner {
@@ -117,9 +125,11 @@ class Planner {
   virtual PlannerDescription Describe() const = 0;
   const Robot& robot() const { return *robot_; }
 
-  /// Solves a request in its scene. Never throws for bad requests: they come back as kInvalidRequest with a
-  /// message. The clock starts on entry (the caller has the scene). Deterministic up to the time limit: the
-  /// same request gives the same path whatever ran before.
+  /// Solves a request in its scene. Never throws for bad requests: they come back as
+  /// kInvalidRequest with a message. The clock starts on entry (the caller has the scene).
+  /// Deterministic up to the time limit: the same request gives the same path whatever ran before.
+  /// A solution that comes after the time limit counts as kTimedOut. A search that breaks its
+  /// contract (see SearchResult) aborts the process. `control` may be null.
   PlanResult Plan(const PlanRequest& request, const Scene& scene, PlanControl* control);
 
  protected:
@@ -129,6 +139,8 @@ class Planner {
   virtual SearchResult Search(SearchQuery& query) = 0;
 
  private:
+  void PlanInScene(const PlanRequest& request, const Scene& scene, PlanControl* control,
+                   std::chrono::steady_clock::time_point begin, PlanResult* result);
   CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model);
 
   const Robot* robot_;

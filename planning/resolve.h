@@ -16,8 +16,10 @@ struct ResolvedQuery {
   GoalBox goal;
 };
 
-/// Resolves named start and goal. Throws InputError (prefixed by `origin`) for unknown joints, sizes that differ,
-/// non-finite values, negative tolerances, a goal that misses or repeats a joint of the group.
+/// Resolves named start and goal. Throws InputError (prefixed by `origin`) for unknown joints,
+/// sizes that differ, non-finite values, negative tolerances, a start that misses and a goal that
+/// misses or repeats a joint of the group. The goal box is cut at the joint limits; a nominal goal
+/// outside them stays as it is.
 ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
                            const std::vector<JointGoal>& goal, const std::string& origin);
 

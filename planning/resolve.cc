@@ -1,0 +1,96 @@
+#include "planning/resolve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+void RequireFinite(double value, const std::string& origin, const std::string& what,
+                   const std::string& joint) {
+  if (!std::isfinite(value)) {
+    throw InputError(
+        fmt::format("{}: {} of joint '{}' is {}, not a finite number", origin, what, joint, value));
+  }
+}
+
+std::vector<double> ResolveStart(const Robot& robot, const PlanningGroup& group,
+                                 const JointState& start, const std::string& origin) {
+  std::vector<double> positions = FullPositions(robot.model, start.names, start.positions, origin);
+  for (std::size_t i = 0; i < start.names.size(); ++i) {
+    RequireFinite(start.positions[i], origin, "start position", start.names[i]);
+  }
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    if (std::find(start.names.begin(), start.names.end(), joint.name) == start.names.end()) {
+      throw InputError(fmt::format("{}: the start does not name joint '{}' of group '{}'", origin,
+                                   joint.name, group.name));
+    }
+  }
+  return positions;
+}
+
+void ResolveGoal(const JointSpace& space, const JointGoal& goal, std::size_t k, GoalBox* box) {
+  box->nominal[k] = goal.position;
+  box->lower[k] = goal.position - goal.tolerance_below;
+  box->upper[k] = goal.position + goal.tolerance_above;
+  const JointSpace::Joint& joint = space.joint(static_cast<int>(k));
+  if (joint.continuous) return;
+  // The part beyond the joint limits cannot be reached; min and max keep a nominal goal that is
+  // itself beyond them inside its box, for the planner to report.
+  box->lower[k] = std::min(box->nominal[k], std::max(box->lower[k], joint.lower));
+  box->upper[k] = std::max(box->nominal[k], std::min(box->upper[k], joint.upper));
+}
+
+}  // namespace
+
+ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
+                           const std::vector<JointGoal>& goal, const std::string& origin) {
+  const JointSpace& space = group.space;
+  const auto n = static_cast<std::size_t>(space.size());
+
+  ResolvedQuery query;
+  query.base_positions = ResolveStart(robot, group, start, origin);
+  query.start.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Joint& joint = robot.model.joints()[static_cast<std::size_t>(group.joints[k])];
+    query.start[k] = query.base_positions[static_cast<std::size_t>(joint.position_index)];
+  }
+
+  query.goal = {Configuration(n), Configuration(n), Configuration(n)};
+  std::vector<bool> given(n, false);
+  for (const JointGoal& joint_goal : goal) {
+    const int j = space.Find(joint_goal.joint);
+    if (j < 0) {
+      throw InputError(fmt::format("{}: goal for joint '{}', which is not in group '{}'", origin,
+                                   joint_goal.joint, group.name));
+    }
+    const auto k = static_cast<std::size_t>(j);
+    if (given[k]) {
+      throw InputError(fmt::format("{}: two goals for joint '{}'", origin, joint_goal.joint));
+    }
+    given[k] = true;
+    RequireFinite(joint_goal.position, origin, "goal position", joint_goal.joint);
+    for (const double tolerance : {joint_goal.tolerance_above, joint_goal.tolerance_below}) {
+      RequireFinite(tolerance, origin, "goal tolerance", joint_goal.joint);
+      if (tolerance < 0) {
+        throw InputError(fmt::format("{}: goal tolerance of joint '{}' is {}, must not be negative",
+                                     origin, joint_goal.joint, tolerance));
+      }
+    }
+    ResolveGoal(space, joint_goal, k, &query.goal);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!given[k]) {
+      throw InputError(fmt::format("{}: no goal for joint '{}' of group '{}'", origin,
+                                   space.joint(static_cast<int>(k)).name, group.name));
+    }
+  }
+  return query;
+}
+
+}  // namespace planbench
