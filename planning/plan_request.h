@@ -16,6 +16,7 @@ struct PlanRequest {
   std::string run_id;      ///< The benchmark session it belongs to.
   std::string request_id;  ///< Unique; equal ids are the same request.
   std::string scene_id;
+  std::string robot_id;    ///< Content id of the robot meant; empty: any.
   std::string group;            ///< Empty: the robot's first group.
   JointState start;             ///< All joints it names; those outside the group are held there.
   std::vector<JointGoal> goal;  ///< One for each joint of the group, any order.

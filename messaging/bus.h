@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "messaging/codec.h"
+
+namespace planbench {
+
+/// The default LCM URL. Its receive buffer keeps large messages from being dropped (lcmtypes/README.md).
+inline constexpr char kDefaultLcmUrl[] =
+    "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+
+/// `flag` if not empty, else $LCM_DEFAULT_URL if set, else kDefaultLcmUrl.
+std::string ResolveLcmUrl(const std::string& flag);
+
+/// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler to end, so it
+/// must not be destroyed from within the handler, nor outlive the bus.
+class Subscription {
+ public:
+  Subscription() = default;
+  Subscription(Subscription&&) noexcept;
+  Subscription& operator=(Subscription&&) noexcept;
+  ~Subscription();
+
+ private:
+  friend class Bus;
+  struct State;
+  explicit Subscription(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// The only owner of an LCM connection. Handlers run on the bus thread, one at a time, from Start() on; what they
+/// throw is logged with the channel's name and goes no further. Publishing is thread-safe.
+class Bus {
+ public:
+  /// Messages a subscription can hold while its handler is busy.
+  static constexpr int kDefaultQueueCapacity = 1024;
+
+  /// Connects; throws InputError in one line if the URL is bad or there is no multicast route. Warns if the
+  /// kernel caps the receive buffer that the URL asks for.
+  explicit Bus(const std::string& url);
+  /// Stops the bus thread.
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  const std::string& url() const { return url_; }
+
+  /// Starts the bus thread. Subscriptions may be made before and after.
+  void Start();
+
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message) {
+    PublishBytes(channel, Encode(message));
+  }
+  /// `on_bad_message`, if given, gets messages that could not be decoded, so that a server can refuse them; without
+  /// it they are logged.
+  template <typename Message>
+  [[nodiscard]] Subscription Subscribe(
+      const std::string& channel, std::function<void(const Message&)> handler,
+      std::function<void(const MessageError&)> on_bad_message = nullptr,
+      int queue_capacity = kDefaultQueueCapacity) {
+    return SubscribeBytes(
+        channel,
+        [handler = std::move(handler), on_bad_message = std::move(on_bad_message)](
+            const std::string& received_on, std::span<const std::uint8_t> bytes, std::int64_t) {
+          try {
+            handler(Decode<Message>(bytes, received_on));
+          } catch (const MessageError& error) {
+            if (!on_bad_message) throw;
+            on_bad_message(error);
+          }
+        },
+        queue_capacity);
+  }
+
+  void PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes);
+  /// `channel` may be a regular expression, e.g. ".*". The handler gets the channel, the bytes (valid during the
+  /// call) and the time of receipt (us since the Unix epoch). queue_capacity 0 is unbounded.
+  using BytesHandler = std::function<void(const std::string& channel,
+                                          std::span<const std::uint8_t> bytes, std::int64_t utime)>;
+  [[nodiscard]] Subscription SubscribeBytes(const std::string& channel, BytesHandler handler,
+                                            int queue_capacity = kDefaultQueueCapacity);
+
+ private:
+  struct Impl;
+  std::string url_;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,226 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planning/path_judge.h"
+#include "planning/plan_request.h"
+#include "planning/plan_result.h"
+#include "scene/problem.h"
+#include "scene/scene.h"
+
+/// The messages as value types; lcmtypes/ has the wire types, codec.h the conversions. `utime` fields are left out
+/// where only the moment of sending matters: Encode sets them.
+namespace planbench {
+
+struct DiscoverMessage {
+  std::string sender;
+};
+
+enum class NodeKind { kSceneServer = 0, kPlanner = 1, kDriver = 2, kLogger = 3 };
+/// "scene server", "planner", "driver", "logger".
+std::string_view NodeKindName(NodeKind kind);
+
+struct NodeStatusMessage {
+  std::int64_t utime = 0;        ///< us since the Unix epoch.
+  std::int64_t start_utime = 0;  ///< us since the Unix epoch.
+  std::string name;
+  NodeKind kind = NodeKind::kPlanner;
+  bool busy = false;
+  std::string request_id;
+  std::string host;
+  std::int32_t pid = 0;
+  std::string version;
+  std::string commit;
+  std::string robot_name;
+  std::string robot_id;
+  std::string algorithm;
+  std::string planner_class;
+  bool can_backward = false;
+  bool can_anytime = false;
+  std::vector<std::string> collision_models;
+  std::map<std::string, std::string> settings;
+};
+
+struct ProblemSetSummary {
+  std::string name;
+  std::vector<int> indices;  ///< Ascending.
+};
+
+struct ProblemSetsMessage {
+  std::string server;
+  std::string robot_name;
+  std::string robot_id;
+  bool has_meshes = false;
+  std::vector<ProblemSetSummary> sets;
+};
+
+struct ProblemRequestMessage {
+  std::string request_id;
+  std::string problem_set;
+  int problem_index = 0;
+};
+
+struct ProblemMessage {
+  std::string request_id;
+  bool ok = true;
+  std::string message;
+  std::string problem_set;
+  int problem_index = 0;
+  std::string scene_id;
+  std::string group;
+  JointState start;  ///< Every joint the problem names.
+  std::vector<JointGoal> goal;
+  double time_limit_s = 0;
+};
+
+struct SceneRequestMessage {
+  std::string request_id;
+  std::string scene_id;
+};
+
+struct SceneMessage {
+  std::string request_id;
+  std::string scene_id;
+  bool ok = true;
+  std::string message;
+  Scene scene;
+};
+
+struct PlanAckMessage {
+  enum class Verdict { kAccepted = 0, kBusy = 1, kRefused = 2 };
+  std::string planner;
+  std::string request_id;
+  Verdict verdict = Verdict::kAccepted;
+  std::string message;
+};
+
+struct PlanProgressMessage {
+  std::string planner;
+  std::string request_id;
+  PlanProgress progress;
+};
+
+struct PlanResultMessage {
+  std::string planner;
+  std::string run_id;
+  std::string request_id;
+  std::vector<std::string> joint_names;  ///< Of the paths' waypoints; empty if there is no path.
+  PlanResult result;
+};
+
+struct PlanCancelMessage {
+  std::string request_id;
+};
+
+struct AckMessage {
+  std::string id;
+  std::string sender;
+  bool ok = true;
+  std::string message;
+};
+
+/// A straight joint motion.
+struct EdgeQuery {
+  Configuration from;
+  Configuration to;
+};
+
+struct CollisionRequestMessage {
+  std::string request_id;
+  std::string scene_id;
+  std::string group;
+  JointState state;
+  CollisionModel collision_model = CollisionModel::kSpheres;
+  double edge_resolution_m = 0;
+  bool with_distance = false;
+  std::vector<Configuration> states;  ///< Group order; all of one size.
+  std::vector<EdgeQuery> edges;
+};
+
+struct CollisionVerdict {
+  bool within_limits = true;
+  bool free = true;
+  std::string body_a;
+  std::string body_b;
+  double depth_m = 0;
+  double fraction = 0;
+  double distance_m = 0;  ///< May be infinite: nothing to collide with.
+  std::string nearest_a;
+  std::string nearest_b;
+};
+
+struct CollisionReplyMessage {
+  std::string request_id;
+  bool ok = true;
+  std::string message;
+  std::string engine;
+  std::vector<CollisionVerdict> states;
+  std::vector<CollisionVerdict> edges;
+};
+
+struct PathCheckRequestMessage {
+  std::string request_id;
+  std::string scene_id;
+  std::string group;
+  JointState start;
+  std::vector<JointGoal> goal;
+  std::vector<std::string> joint_names;  ///< Of the waypoints.
+  Path path;
+  CollisionModel collision_model = CollisionModel::kSpheres;
+  double step_m = 0;
+  bool with_clearance = false;
+};
+
+struct PathCheckReplyMessage {
+  std::string request_id;
+  bool ok = false;
+  std::string message;
+  std::string engine;
+  double step_m = 0;
+  std::optional<PathVerdict> verdict;       ///< With the geometry of the request's collision model.
+  std::optional<PathVerdict> mesh_verdict;  ///< With the referee's mesh robot, if the server has one.
+};
+
+struct SessionMessage {
+  std::string run_id;
+  std::int64_t start_utime = 0;
+  bool finished = false;
+  double total_time_s = 0;
+  int num_runs = 0;
+  std::string version;
+  std::string commit;
+  std::string host;
+  std::string cpu;
+  double time_limit_s = 0;
+  std::uint64_t seed = 0;
+  std::string robot_name;
+  std::string robot_id;
+  std::map<std::string, std::string> settings;
+  std::vector<NodeStatusMessage> nodes;
+};
+
+struct RunRecordMessage {
+  std::string run_id;
+  std::string request_id;
+  std::string planner;
+  std::string algorithm;
+  std::string planner_class;
+  std::map<std::string, std::string> settings;
+  std::string problem_set;
+  int problem_index = 0;
+  int trial = 1;
+  std::int64_t start_utime = 0;
+  PlanStatus status = PlanStatus::kNoAnswer;
+  std::string message;
+  double roundtrip_time_s = 0;
+  PlanRequest request;
+  PlanResultMessage result;
+  PathCheckReplyMessage path_check;
+  PathCheckReplyMessage simplified_check;
+};
+
+}  // namespace planbench

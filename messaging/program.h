@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace planbench {
+
+/// Exit codes of every program.
+inline constexpr int kExitOk = 0;
+inline constexpr int kExitFailed = 1;    ///< Ran, but something failed.
+inline constexpr int kExitBadInput = 2;  ///< Bad use or bad input.
+
+/// What every main() has in common: --help, --version, --lcm-url, log set-up, signals, and errors as one line and an
+/// exit code. Usage: construct, add flags to `app()`, return Run(argc, argv, work).
+class Program {
+ public:
+  Program(const std::string& name, const std::string& description);
+
+  CLI::App& app() { return app_; }
+  /// The URL to use, after Run has parsed the flags.
+  std::string lcm_url() const;
+
+  /// Parses the flags and calls `work`, which returns the exit code. InputError ends with 2, any other exception
+  /// with 1, each after one line on stderr that begins with the program's name.
+  int Run(int argc, char** argv, const std::function<int()>& work);
+
+ private:
+  std::string name_;
+  CLI::App app_;
+  std::string lcm_url_flag_;
+};
+
+/// Adds --package-path NAME=DIR (repeatable) to an app.
+void AddPackagePathFlag(CLI::App* app, std::vector<std::string>* arguments);
+std::map<std::string, std::filesystem::path> ParsePackagePaths(
+    const std::vector<std::string>& arguments);
+
+/// True once SIGINT or SIGTERM arrived (handlers are installed by Program::Run).
+bool StopRequested();
+
+}  // namespace planbench

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <list>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "messaging/bus.h"
+
+namespace planbench {
+
+/// Client half of request and reply by request_id: repeats the request until the reply arrives, so that a lost
+/// datagram costs a moment and nothing else. Thread-safe; calls from several threads may be under way at once.
+template <typename Request, typename Reply>
+class RpcClient {
+ public:
+  RpcClient(Bus* bus, std::string request_channel, const std::string& reply_channel)
+      : bus_(bus),
+        request_channel_(std::move(request_channel)),
+        subscription_(bus->Subscribe<Reply>(reply_channel,
+                                            [this](const Reply& reply) { OnReply(reply); })) {}
+
+  /// Publishes the request every `retry_period` until the reply with its request_id arrives. Nothing if `timeout`
+  /// passes, or `give_up` (asked every 50 ms) says so.
+  std::optional<Reply> Call(const Request& request, std::chrono::milliseconds retry_period,
+                            std::chrono::milliseconds timeout,
+                            const std::function<bool()>& give_up = nullptr) {
+    using Clock = std::chrono::steady_clock;
+    const auto deadline = Clock::now() + timeout;
+    auto next_send = Clock::now();
+    std::unique_lock lock(mutex_);
+    waiting_.insert(request.request_id);
+    std::optional<Reply> reply;
+    while (true) {
+      if (Clock::now() >= next_send) {
+        lock.unlock();
+        bus_->Publish(request_channel_, request);
+        lock.lock();
+        next_send = Clock::now() + retry_period;
+      }
+      changed_.wait_until(lock, std::min({next_send, deadline,
+                                          Clock::now() + std::chrono::milliseconds(50)}));
+      const auto found = replies_.find(request.request_id);
+      if (found != replies_.end()) {
+        reply = std::move(found->second);
+        break;
+      }
+      if (Clock::now() >= deadline) break;
+      if (give_up) {
+        lock.unlock();
+        const bool stop = give_up();
+        lock.lock();
+        if (stop && replies_.count(request.request_id) == 0) break;
+      }
+    }
+    waiting_.erase(request.request_id);
+    replies_.erase(request.request_id);
+    return reply;
+  }
+
+ private:
+  void OnReply(const Reply& reply) {
+    const std::scoped_lock lock(mutex_);
+    if (waiting_.count(reply.request_id) == 0) return;
+    replies_.emplace(reply.request_id, reply);
+    changed_.notify_all();
+  }
+
+  Bus* bus_;
+  std::string request_channel_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::set<std::string> waiting_;
+  std::map<std::string, Reply> replies_;
+  Subscription subscription_;  // last: no reply may arrive before the rest stands
+};
+
+/// Server half: answers each request on a thread of its own, in order, one at a time. A request that is repeated
+/// while it waits or is being answered is not queued again; one answered lately is answered from the cache.
+template <typename Request, typename Reply>
+class RpcServer {
+ public:
+  /// Answers kept for repeated requests.
+  static constexpr std::size_t kCacheSize = 64;
+
+  /// `answer` must set nothing but the content: request_id is copied by the server. What it throws as InputError
+  /// becomes a reply with ok = false and the message.
+  RpcServer(Bus* bus, const std::string& request_channel, std::string reply_channel,
+            std::function<Reply(const Request&)> answer)
+      : bus_(bus),
+        reply_channel_(std::move(reply_channel)),
+        answer_(std::move(answer)),
+        worker_([this] { Work(); }),
+        subscription_(bus->Subscribe<Request>(
+            request_channel, [this](const Request& request) { OnRequest(request); },
+            [this](const MessageError& error) { OnBadRequest(error); })) {}
+
+  ~RpcServer() {
+    subscription_ = Subscription();
+    {
+      const std::scoped_lock lock(mutex_);
+      stopping_ = true;
+    }
+    changed_.notify_all();
+    worker_.join();
+  }
+
+ private:
+  void OnRequest(const Request& request) {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [id, reply] : cache_) {
+      if (id == request.request_id) {
+        bus_->Publish(reply_channel_, reply);
+        return;
+      }
+    }
+    if (!pending_.insert(request.request_id).second) return;
+    queue_.push_back(request);
+    changed_.notify_all();
+  }
+
+  void OnBadRequest(const MessageError& error) {
+    if (error.request_id().empty()) throw error;
+    bus_->Publish(reply_channel_, Refusal(error.request_id(), error.what()));
+  }
+
+  static Reply Refusal(const std::string& request_id, const std::string& why) {
+    Reply reply;
+    reply.request_id = request_id;
+    reply.ok = false;
+    reply.message = why;
+    return reply;
+  }
+
+  void Work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+      if (stopping_) return;
+      const Request request = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      Reply reply;
+      try {
+        reply = answer_(request);
+        reply.request_id = request.request_id;
+      } catch (const InputError& error) {
+        reply = Refusal(request.request_id, error.what());
+      }
+      bus_->Publish(reply_channel_, reply);
+      lock.lock();
+      pending_.erase(request.request_id);
+      cache_.emplace_back(request.request_id, std::move(reply));
+      if (cache_.size() > kCacheSize) cache_.pop_front();
+    }
+  }
+
+  Bus* bus_;
+  std::string reply_channel_;
+  std::function<Reply(const Request&)> answer_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stopping_ = false;
+  std::deque<Request> queue_;
+  std::set<std::string> pending_;
+  std::list<std::pair<std::string, Reply>> cache_;
+  std::thread worker_;
+  Subscription subscription_;
+};
+
+}  // namespace planbench
