@@ -8,8 +8,9 @@
 
 namespace planbench {
 
-/// Incremental 128-bit content hash (XXH3) of values in a fixed, platform-independent layout: integers
-/// and doubles little-endian, strings and lists preceded by their length, -0.0 hashed as 0.0.
+/// Incremental 128-bit content hash (XXH3) of values in a fixed, platform-independent layout:
+/// integers and doubles little-endian, strings and lists preceded by their length, -0.0 hashed as
+/// 0.0.
 class ContentHash {
  public:
   ContentHash();

@@ -5,9 +5,9 @@
 
 namespace planbench {
 
-/// Bad input or bad use: a file, a flag, a message or a setting that cannot be accepted. The message is
-/// one line that names where (file, line, field or channel) and what to change. Programs print it and
-/// exit with 2.
+/// Bad input or bad use: a file, a flag, a message or a setting that cannot be accepted. The
+/// message is one line that names where (file, line, field or channel) and what to change. Programs
+/// print it and exit with 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

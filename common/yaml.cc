@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -15,12 +16,27 @@ namespace {
 
 std::string KindOf(const YAML::Node& node) {
   switch (node.Type()) {
-    case YAML::NodeType::Null: return "nothing";
-    case YAML::NodeType::Scalar: return "'" + node.Scalar() + "'";
-    case YAML::NodeType::Sequence: return "a sequence";
-    case YAML::NodeType::Map: return "a map";
-    default: return "an undefined value";
+    case YAML::NodeType::Null:
+      return "nothing";
+    case YAML::NodeType::Scalar:
+      return "'" + node.Scalar() + "'";
+    case YAML::NodeType::Sequence:
+      return "a sequence";
+    case YAML::NodeType::Map:
+      return "a map";
+    default:
+      return "an undefined value";
   }
+}
+
+// from_chars and not yaml-cpp's streams: independent of the locale, and "010" is ten.
+template <typename Number>
+bool ParseNumber(const std::string& text, Number* value) {
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, *value);
+  return error == std::errc() && stop == end;
 }
 
 }  // namespace
@@ -29,7 +45,7 @@ YamlNode YamlNode::LoadFile(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be opened");
   std::ostringstream text;
-  text << file.rdbuf();
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
   if (file.bad() || !text) throw InputError(path + ": cannot be read");
   return Parse(text.str(), path);
 }
@@ -41,16 +57,21 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
       throw InputError(origin + ":" + std::to_string(documents[1].Mark().line + 1) +
                        ": a second YAML document begins here; one is expected");
     }
-    return YamlNode(documents.empty() ? YAML::Node() : documents[0], origin, "");
+    return YamlNode(documents.empty() ? YAML::Node() : documents[0], origin, "", true);
   } catch (const YAML::Exception& error) {
-    throw InputError(origin + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
+    const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
+    throw InputError(origin + line + ": no valid YAML: " + error.msg);
   }
+}
+
+YamlNode YamlNode::Child(const YAML::Node& node, const std::string& path) const {
+  return YamlNode(node, origin_, path, has_lines_);
 }
 
 std::string YamlNode::Where() const {
   std::string where = origin_;
   const YAML::Mark mark = node_.Mark();
-  if (!mark.is_null()) where += ":" + std::to_string(mark.line + 1);
+  if (has_lines_ && !mark.is_null()) where += ":" + std::to_string(mark.line + 1);
   if (!path_.empty()) where += ": " + path_;
   return where;
 }
@@ -58,17 +79,26 @@ std::string YamlNode::Where() const {
 void YamlNode::Fail(const std::string& what) const { throw InputError(Where() + ": " + what); }
 
 std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
+  if (const auto found = overrides_.find(key); found != overrides_.end()) {
+    if (found->second.node.IsNull()) return std::nullopt;
+    return YamlNode(found->second.node, found->second.origin, key, false);
+  }
   if (node_.IsNull()) return std::nullopt;
   if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  const YAML::Node value = node_[key];
-  if (!value.IsDefined() || value.IsNull()) return std::nullopt;
-  const auto origin = override_origins_.find(key);
-  return YamlNode(value, origin == override_origins_.end() ? origin_ : origin->second,
-                  origin == override_origins_.end() && !path_.empty() ? path_ + "." + key : key);
+  const std::string path = path_.empty() ? key : path_ + "." + key;
+  std::optional<YamlNode> value;
+  // By hand and not by node_[key], which keeps silent about a key that occurs twice.
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
+    if (value) Child(entry.first, path).Fail("the key '" + key + "' occurs twice");
+    value = Child(entry.second, path);
+  }
+  if (!value || value->node_.IsNull()) return std::nullopt;
+  return value;
 }
 
 YamlNode YamlNode::At(const std::string& key) const {
-  if (!node_.IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(node_));
+  if (!IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(node_));
   std::optional<YamlNode> value = Find(key);
   if (!value) Fail("the field '" + key + "' is missing");
   return *std::move(value);
@@ -76,27 +106,40 @@ YamlNode YamlNode::At(const std::string& key) const {
 
 std::vector<std::string> YamlNode::Keys() const {
   std::vector<std::string> keys;
-  if (node_.IsNull()) return keys;
-  if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  for (const auto& entry : node_) {
-    if (!entry.first.IsScalar()) Fail("a key is not plain text");
-    keys.push_back(entry.first.Scalar());
+  if (!node_.IsNull()) {
+    if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+    for (const auto& entry : node_) {
+      if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
+      keys.push_back(entry.first.Scalar());
+    }
+  }
+  for (const auto& [key, replacement] : overrides_) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   }
   return keys;
 }
 
 void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
-  std::set<std::string> seen;
-  for (const std::string& key : Keys()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      std::string names;
-      for (const std::string_view name : known) names += (names.empty() ? "" : ", ") + std::string(name);
-      const std::optional<YamlNode> value = Find(key);
-      const std::string what = "unknown key '" + key + "'; known are: " + names;
-      if (value) value->Fail(what);
-      Fail(what);
+  const auto require_known = [&](const std::string& key, const YamlNode& at) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) return;
+    std::string names;
+    for (const std::string_view name : known) {
+      names += (names.empty() ? "" : ", ") + std::string(name);
     }
-    if (!seen.insert(key).second) Fail("the key '" + key + "' occurs twice");
+    at.Fail("unknown key '" + key + "'; known are: " + names);
+  };
+  Keys();  // Throws unless this is a map with plain keys.
+  std::set<std::string> seen;
+  if (node_.IsMap()) {
+    for (const auto& entry : node_) {
+      const std::string& key = entry.first.Scalar();
+      const YamlNode at = Child(entry.first, path_.empty() ? key : path_ + "." + key);
+      require_known(key, at);
+      if (!seen.insert(key).second) at.Fail("the key '" + key + "' occurs twice");
+    }
+  }
+  for (const auto& [key, replacement] : overrides_) {
+    require_known(key, YamlNode(replacement.node, replacement.origin, key, false));
   }
 }
 
@@ -107,8 +150,7 @@ int YamlNode::Size() const {
 
 YamlNode YamlNode::At(int index) const {
   if (index < 0 || index >= Size()) Fail("element " + std::to_string(index) + " is missing");
-  return YamlNode(node_[static_cast<std::size_t>(index)], origin_,
-                  path_ + "[" + std::to_string(index) + "]");
+  return Child(node_[static_cast<std::size_t>(index)], path_ + "[" + std::to_string(index) + "]");
 }
 
 std::vector<YamlNode> YamlNode::Elements() const {
@@ -118,18 +160,19 @@ std::vector<YamlNode> YamlNode::Elements() const {
   // By iterator: access by index into a yaml-cpp sequence is linear in the index.
   int index = 0;
   for (const auto& element : node_) {
-    elements.push_back(YamlNode(element, origin_, path_ + "[" + std::to_string(index++) + "]"));
+    elements.push_back(Child(element, path_ + "[" + std::to_string(index++) + "]"));
   }
   return elements;
 }
 
 double YamlNode::Double() const {
   double value = 0;
-  if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value)) {
-    Fail("expected a number, found " + KindOf(node_));
-  }
-  if (!std::isfinite(value)) Fail("expected a finite number, found " + KindOf(node_));
-  return value;
+  if (!node_.IsScalar()) Fail("expected a number, found " + KindOf(node_));
+  if (ParseNumber(node_.Scalar(), &value) && std::isfinite(value)) return value;
+  const bool known_non_finite =
+      YAML::convert<double>::decode(node_, value) && !std::isfinite(value);  // .nan, .inf, nan, ...
+  Fail(std::string("expected a ") + (known_non_finite ? "finite " : "") + "number, found " +
+       KindOf(node_));
 }
 
 double YamlNode::PositiveDouble() const {
@@ -140,7 +183,7 @@ double YamlNode::PositiveDouble() const {
 
 long long YamlNode::Int() const {
   long long value = 0;
-  if (!node_.IsScalar() || !YAML::convert<long long>::decode(node_, value)) {
+  if (!node_.IsScalar() || !ParseNumber(node_.Scalar(), &value)) {
     Fail("expected an integer, found " + KindOf(node_));
   }
   return value;
@@ -198,10 +241,10 @@ std::string YamlNode::StringOr(const std::string& key, const std::string& fallba
   return value ? value->String() : fallback;
 }
 
-void YamlNode::Override(const std::string& key, const std::string& text, const std::string& origin) {
+void YamlNode::Override(const std::string& key, const std::string& text,
+                        const std::string& origin) {
   if (!node_.IsNull() && !node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  node_[key] = Parse(text, origin).node_;
-  override_origins_[key] = origin;
+  overrides_[key] = {Parse(text, origin).node_, origin};
 }
 
 }  // namespace planbench

@@ -33,15 +33,15 @@ struct Workspace {
 
 /// One motion-planning problem: a MoveIt scene and request.
 struct Problem {
-  std::string set;   ///< Name of the problem set, "" outside one.
-  int index = 0;     ///< NNNN of sceneNNNN.yaml.
+  std::string set;  ///< Name of the problem set, "" outside one.
+  int index = 0;    ///< NNNN of sceneNNNN.yaml.
   Scene scene;
-  std::string group;           ///< Planning group, may be empty (the robot's first).
-  JointState start;            ///< The request's start_state: every joint it names.
-  JointState scene_state;      ///< The scene's robot_state; serves joints the start does not name.
+  std::string group;       ///< Planning group, may be empty (the robot's first).
+  JointState start;        ///< The request's start_state: every joint it names.
+  JointState scene_state;  ///< The scene's robot_state; serves joints the start does not name.
   std::vector<JointGoal> goal;
   std::optional<Workspace> workspace;
-  double time_limit_s = 0;     ///< allowed_planning_time; 0 if absent.
+  double time_limit_s = 0;  ///< allowed_planning_time; 0 if absent.
 };
 
 /// sceneNNNN.yaml and requestNNNN.yaml of one folder.
@@ -61,8 +61,15 @@ struct ProblemSet {
   const ProblemFiles* Find(int index) const;
 };
 
-/// Lists a problem set. Throws InputError if the folder is missing, holds no pair, or holds a scene without
-/// its request or a request without its scene.
+/// Lists a problem set. Throws InputError if the folder is missing, holds no pair, or holds a scene
+/// without its request or a request without its scene.
 ProblemSet ListProblemSet(const std::filesystem::path& folder);
+
+/// NNNN of sceneNNNN.yaml or requestNNNN.yaml (any number of digits), nothing for other names.
+/// Throws InputError if the number is too large.
+std::optional<int> ProblemIndexOf(const std::filesystem::path& scene_or_request_file);
+
+/// Name of a problem set: its folder's, links not followed.
+std::string ProblemSetNameOf(const std::filesystem::path& folder);
 
 }  // namespace planbench

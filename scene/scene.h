@@ -12,8 +12,8 @@
 
 namespace planbench {
 
-/// An object of the world: shapes rigidly joined. W is the robot's base frame (every frame of the file is
-/// resolved into it by the reader).
+/// An object of the world: shapes rigidly joined. W is the robot's base frame (every frame of the
+/// file is resolved into it by the reader).
 struct SceneObject {
   std::string id;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< Object pose.
@@ -27,14 +27,20 @@ struct AttachedObject {
   std::vector<std::string> touch_links;  ///< Links the object may touch, besides `link` itself.
 };
 
-/// Which pairs of bodies (links, objects, attached objects, by name) may touch. MoveIt's meaning: an explicit
-/// entry decides; without one, the default entries of the two names decide: if both have one, the pair is
-/// allowed when both allow it, if one has, that one; without any the pair is checked.
+/// Which pairs of bodies (links, objects, attached objects, by name) may touch. MoveIt's meaning:
+/// an explicit entry decides; without one, the default entries of the two names decide: if both
+/// have one, the pair is allowed when both allow it, if one has, that one; without any the pair is
+/// checked.
 class AllowedCollisionMatrix {
  public:
   void SetEntry(const std::string& a, const std::string& b, bool allowed);
   void SetDefaultEntry(const std::string& name, bool allowed);
   bool Allowed(const std::string& a, const std::string& b) const;
+
+  /// The same matrix without the entries that change nothing: those that say what the default
+  /// entries say already, and those of a body with itself. Matrices that allow the same pairs by
+  /// the same defaults are then equal; the file reader gives this form.
+  AllowedCollisionMatrix Simplified() const;
 
   /// Pairs in canonical order (first <= second).
   const std::map<std::pair<std::string, std::string>, bool>& entries() const { return entries_; }
@@ -42,6 +48,8 @@ class AllowedCollisionMatrix {
   bool operator==(const AllowedCollisionMatrix&) const = default;
 
  private:
+  bool AllowedByDefault(const std::string& a, const std::string& b) const;
+
   std::map<std::pair<std::string, std::string>, bool> entries_;
   std::map<std::string, bool> default_entries_;
 };
@@ -55,17 +63,22 @@ struct FrameTransform {
 /// What surrounds the robot. A value; two scenes with equal content ids are the same scene.
 struct Scene {
   std::string name;
-  std::string robot_name;           ///< robot_model_name of the file; may be empty.
-  std::string world_frame;          ///< Name of W, e.g. "base_link".
-  std::vector<SceneObject> objects;           ///< Ids unique.
-  std::vector<AttachedObject> attached;       ///< Ids unique, also among objects.
+  std::string robot_name;                ///< robot_model_name of the file; may be empty.
+  std::string world_frame;               ///< Name of W, e.g. "base_link".
+  std::vector<SceneObject> objects;      ///< Ids unique.
+  std::vector<AttachedObject> attached;  ///< Ids unique, also among objects.
   AllowedCollisionMatrix allowed_collisions;
-  std::vector<FrameTransform> fixed_frames;   ///< Without W's own identity.
+  std::vector<FrameTransform> fixed_frames;  ///< Without W's own identity.
 };
 
-/// Content hash of all that bears on collisions: world frame, objects (order, ids, poses, shapes with their
-/// triangles), attached objects, allowed collisions. Names of the scene and of the robot do not count.
-/// 32 hexadecimal digits.
+/// Content hash of all that bears on collisions: world frame, objects (order, ids, poses, shapes
+/// with their triangles), attached objects, allowed collisions. Names of the scene and of the
+/// robot, fixed frames, a mesh's resource, the order of touch links and entries of the matrix that
+/// change nothing do not count. Positions and dimensions count to the last bit (but -0.0 is 0.0).
+/// Orientations count in steps of 1e-9 of OrientationOf's quaternion (scene/pose.h), and a scene
+/// that was written to a file or sent as position and OrientationOf, then rebuilt with
+/// PoseFromPositionOrientation, has exactly the same id. 32 hexadecimal digits. Throws
+/// std::invalid_argument if a mesh has no triangles (is not loaded).
 std::string SceneId(const Scene& scene);
 
 /// Content hash of a mesh's scaled vertices and triangles.

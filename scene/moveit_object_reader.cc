@@ -1,0 +1,235 @@
+#include "scene/moveit_object_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "common/error.h"
+#include "scene/moveit_fields.h"
+
+namespace planbench {
+namespace {
+
+// shape_msgs/SolidPrimitive's numbers are the places here, counted from 1.
+constexpr const char* kPrimitiveTypes[] = {"box", "sphere", "cylinder", "cone"};
+
+std::string LowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string ReadPrimitiveType(const YamlNode& node) {
+  const std::string type = LowerCase(node.String());
+  int number = 1;
+  for (const char* known : kPrimitiveTypes) {
+    if (type == known || type == std::to_string(number)) return known;
+    ++number;
+  }
+  node.Fail("unknown shape type '" + node.String() +
+            "'; known are: box (1), sphere (2), cylinder (3), cone (4)");
+}
+
+Shape ReadPrimitive(const YamlNode& node) {
+  const std::string type = ReadPrimitiveType(node.At("type"));
+  const YamlNode dimensions = node.At("dimensions");
+  const int count = type == "box" ? 3 : type == "sphere" ? 1 : 2;
+  dimensions.Doubles(count);
+  std::vector<double> values;
+  for (const YamlNode& dimension : dimensions.Elements()) {
+    values.push_back(dimension.PositiveDouble());
+  }
+  if (type == "box") return Box{{values[0], values[1], values[2]}};
+  if (type == "sphere") return Sphere{values[0]};
+  if (type == "cylinder") return Cylinder{.radius = values[1], .length = values[0]};
+  return Cone{.radius = values[1], .length = values[0]};
+}
+
+Mesh LoadMeshResource(const YamlNode& uri, const Eigen::Vector3d& scale,
+                      const ResourceResolver& resources) {
+  Mesh mesh;
+  mesh.resource = uri.String();
+  mesh.scale = scale;
+  try {
+    mesh.triangles = LoadMesh(resources.Resolve(mesh.resource), scale);
+  } catch (const InputError& error) {
+    uri.Fail(error.what());
+  }
+  return mesh;
+}
+
+Eigen::Vector3d ReadScale(const YamlNode& mesh) {
+  for (const char* key : {"dimensions", "scale"}) {
+    const std::optional<YamlNode> node = mesh.Find(key);
+    if (!node) continue;
+    const Eigen::Vector3d scale = ReadVector3(*node);
+    if (!(scale.array() > 0).all()) node->Fail("scales must be greater than zero");
+    return scale;
+  }
+  return Eigen::Vector3d::Ones();
+}
+
+Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
+  if (node.IsScalar()) return LoadMeshResource(node, Eigen::Vector3d::Ones(), resources);
+  if (const std::optional<YamlNode> uri = node.Find("resource")) {
+    return LoadMeshResource(*uri, ReadScale(node), resources);
+  }
+  Mesh mesh;
+  const YamlNode vertices = node.At("vertices");
+  for (const YamlNode& vertex : vertices.Elements()) {
+    mesh.triangles.vertices.push_back(ReadVector3(vertex));
+  }
+  const auto num_vertices = static_cast<long long>(mesh.triangles.vertices.size());
+  const YamlNode triangles = node.At("triangles");
+  for (const YamlNode& triangle : triangles.Elements()) {
+    const YamlNode indices = triangle.IsMap() ? triangle.At("vertex_indices") : triangle;
+    if (indices.Size() != 3) indices.Fail("a triangle has three vertex indices");
+    std::array<std::uint32_t, 3> corners;
+    for (int i = 0; i < 3; ++i) {
+      const YamlNode index = indices.At(i);
+      const long long value = index.Int();
+      if (value < 0 || value >= num_vertices) {
+        index.Fail("there is no vertex " + std::to_string(value) + " among " +
+                   std::to_string(num_vertices));
+      }
+      corners[i] = static_cast<std::uint32_t>(value);
+    }
+    mesh.triangles.triangles.push_back(corners);
+  }
+  if (mesh.triangles.triangles.empty()) triangles.Fail("the mesh has no triangles");
+  return mesh;
+}
+
+// `plural` as a sequence, or `singular` as one element or a sequence.
+std::vector<YamlNode> OneOrMore(const YamlNode& node, const std::string& plural,
+                                const std::string& singular) {
+  std::vector<YamlNode> elements = OptionalElements(node, plural);
+  if (const std::optional<YamlNode> value = node.Find(singular)) {
+    if (!elements.empty()) value->Fail("give either '" + singular + "' or '" + plural + "'");
+    if (value->IsSequence()) return value->Elements();
+    elements.push_back(*value);
+  }
+  return elements;
+}
+
+// Poses of `count` shapes; all may be left out (identity) if the object itself has a pose.
+std::vector<Eigen::Isometry3d> ReadShapePoses(const YamlNode& object, std::size_t count,
+                                              const std::string& plural,
+                                              const std::string& singular, bool has_object_pose) {
+  const std::vector<YamlNode> nodes = OneOrMore(object, plural, singular);
+  if (nodes.empty() && has_object_pose) {
+    return std::vector<Eigen::Isometry3d>(count, Eigen::Isometry3d::Identity());
+  }
+  if (nodes.size() != count) {
+    object.Fail("has " + std::to_string(count) + (count == 1 ? " shape" : " shapes") + " but " +
+                std::to_string(nodes.size()) + " " + plural);
+  }
+  std::vector<Eigen::Isometry3d> poses;
+  for (const YamlNode& node : nodes) poses.push_back(ReadPose(node));
+  return poses;
+}
+
+bool IsUnsetPose(const YamlNode& pose) {
+  for (const char* part : {"position", "orientation"}) {
+    const YamlNode node = pose.At(part);
+    if (node.IsMap()) {
+      for (const std::string& key : node.Keys()) {
+        if (node.At(key).Double() != 0) return false;
+      }
+    } else {
+      for (const double value : node.Doubles()) {
+        if (value != 0) return false;
+      }
+    }
+  }
+  return true;
+}
+
+void RequireAddOperation(const YamlNode& object) {
+  const std::optional<YamlNode> operation = object.Find("operation");
+  if (!operation) return;
+  const std::string text = LowerCase(operation->String());
+  if (text != "0" && text != "add") {
+    operation->Fail("only the operation ADD (0) is supported, found '" + text + "'");
+  }
+}
+
+AttachedObject ReadAttachedObject(const YamlNode& node, const ResourceResolver& resources) {
+  AttachedObject attached;
+  const YamlNode link = node.At("link_name");
+  attached.link = link.String();
+  if (attached.link.empty()) link.Fail("must not be empty");
+  const YamlNode object = node.At("object");
+  attached.object = ReadCollisionObject(object, resources);
+  const std::string frame = ReadFrame(object);
+  if (!frame.empty() && frame != attached.link) {
+    object.Fail("the object '" + attached.object.id + "' is given in the frame '" + frame +
+                "', but must be given in its link's, '" + attached.link + "'");
+  }
+  for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
+    attached.touch_links.push_back(touch_link.String());
+  }
+  return attached;
+}
+
+// Equal in all that bears on collisions.
+bool SameContent(const AttachedObject& a, const AttachedObject& b) {
+  Scene with_a;
+  Scene with_b;
+  with_a.attached = {a};
+  with_b.attached = {b};
+  return SceneId(with_a) == SceneId(with_b);
+}
+
+}  // namespace
+
+SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& resources) {
+  SceneObject object;
+  const YamlNode id = node.At("id");
+  object.id = id.String();
+  if (object.id.empty()) id.Fail("must not be empty");
+  RequireAddOperation(node);
+  RefuseElements(node, "planes", "planes are not supported");
+
+  const std::optional<YamlNode> pose = node.Find("pose");
+  const bool has_pose = pose && !IsUnsetPose(*pose);
+  if (has_pose) object.X_WO = ReadPose(*pose);
+
+  const std::vector<YamlNode> primitives = OptionalElements(node, "primitives");
+  const std::vector<YamlNode> meshes = OneOrMore(node, "meshes", "mesh");
+  if (primitives.empty() && meshes.empty()) {
+    node.Fail("the object '" + object.id + "' has no shape (primitives or meshes)");
+  }
+  const auto primitive_poses = ReadShapePoses(node, primitives.size(), "primitive_poses",
+                                              "primitive_pose", pose.has_value());
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    object.shapes.push_back({ReadPrimitive(primitives[i]), primitive_poses[i]});
+  }
+  const auto mesh_poses =
+      ReadShapePoses(node, meshes.size(), "mesh_poses", "mesh_pose", pose.has_value());
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    object.shapes.push_back({ReadMesh(meshes[i], resources), mesh_poses[i]});
+  }
+  return object;
+}
+
+void AddAttachedObjects(const YamlNode& message, const ResourceResolver& resources, Scene* scene) {
+  for (const YamlNode& node : OptionalElements(message, "attached_collision_objects")) {
+    const AttachedObject attached = ReadAttachedObject(node, resources);
+    const std::string& id = attached.object.id;
+    const YamlNode id_node = node.At("object").At("id");
+    for (const SceneObject& object : scene->objects) {
+      if (object.id == id) id_node.Fail("the object '" + id + "' is in the world already");
+    }
+    const auto known =
+        std::find_if(scene->attached.begin(), scene->attached.end(),
+                     [&](const AttachedObject& other) { return other.object.id == id; });
+    if (known == scene->attached.end()) {
+      scene->attached.push_back(attached);
+    } else if (!SameContent(*known, attached)) {
+      id_node.Fail("another object '" + id + "' is attached already");
+    }
+  }
+}
+
+}  // namespace planbench

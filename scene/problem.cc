@@ -1,0 +1,76 @@
+#include "scene/problem.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <regex>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace fs = std::filesystem;
+
+const ProblemFiles* ProblemSet::Find(int index) const {
+  const auto found =
+      std::lower_bound(problems.begin(), problems.end(), index,
+                       [](const ProblemFiles& files, int wanted) { return files.index < wanted; });
+  return found != problems.end() && found->index == index ? &*found : nullptr;
+}
+
+std::optional<int> ProblemIndexOf(const fs::path& scene_or_request_file) {
+  static const std::regex kName(R"((?:scene|request)(\d+)\.yaml)");
+  const std::string name = scene_or_request_file.filename().string();
+  std::smatch match;
+  if (!std::regex_match(name, match, kName)) return std::nullopt;
+  const std::string digits = match[1];
+  int index = 0;
+  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  if (result.ec != std::errc()) {
+    throw InputError(scene_or_request_file.string() + ": its number is too large");
+  }
+  return index;
+}
+
+std::string ProblemSetNameOf(const fs::path& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+ProblemSet ListProblemSet(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": there is no such folder of problems");
+  }
+  std::map<int, ProblemFiles> by_index;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const std::optional<int> index = ProblemIndexOf(path);
+    if (!index) continue;
+    ProblemFiles& files = by_index[*index];
+    files.index = *index;
+    fs::path& slot = path.filename().string().starts_with("scene") ? files.scene : files.request;
+    if (!slot.empty()) {
+      throw InputError(folder.string() + ": " + slot.filename().string() + " and " +
+                       path.filename().string() + " have the same number");
+    }
+    slot = path;
+  }
+  if (by_index.empty()) {
+    throw InputError(folder.string() +
+                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml)");
+  }
+  ProblemSet set;
+  set.name = ProblemSetNameOf(folder);
+  set.folder = folder;
+  for (const auto& [index, files] : by_index) {
+    if (files.request.empty()) {
+      throw InputError(files.scene.string() + ": has no request file of the same number beside it");
+    }
+    if (files.scene.empty()) {
+      throw InputError(files.request.string() + ": has no scene file of the same number beside it");
+    }
+    set.problems.push_back(files);
+  }
+  return set;
+}
+
+}  // namespace planbench

@@ -1,0 +1,47 @@
+#include "scene/scene.h"
+
+namespace planbench {
+namespace {
+
+std::pair<std::string, std::string> Ordered(const std::string& a, const std::string& b) {
+  return a <= b ? std::pair(a, b) : std::pair(b, a);
+}
+
+}  // namespace
+
+void AllowedCollisionMatrix::SetEntry(const std::string& a, const std::string& b, bool allowed) {
+  entries_[Ordered(a, b)] = allowed;
+}
+
+void AllowedCollisionMatrix::SetDefaultEntry(const std::string& name, bool allowed) {
+  default_entries_[name] = allowed;
+}
+
+bool AllowedCollisionMatrix::AllowedByDefault(const std::string& a, const std::string& b) const {
+  const auto default_a = default_entries_.find(a);
+  const auto default_b = default_entries_.find(b);
+  const bool has_a = default_a != default_entries_.end();
+  const bool has_b = default_b != default_entries_.end();
+  if (has_a && has_b) return default_a->second && default_b->second;
+  if (has_a) return default_a->second;
+  if (has_b) return default_b->second;
+  return false;
+}
+
+bool AllowedCollisionMatrix::Allowed(const std::string& a, const std::string& b) const {
+  const auto entry = entries_.find(Ordered(a, b));
+  return entry != entries_.end() ? entry->second : AllowedByDefault(a, b);
+}
+
+AllowedCollisionMatrix AllowedCollisionMatrix::Simplified() const {
+  AllowedCollisionMatrix simplified;
+  simplified.default_entries_ = default_entries_;
+  for (const auto& [pair, allowed] : entries_) {
+    if (pair.first != pair.second && allowed != AllowedByDefault(pair.first, pair.second)) {
+      simplified.entries_.emplace(pair, allowed);
+    }
+  }
+  return simplified;
+}
+
+}  // namespace planbench

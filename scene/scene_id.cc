@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <variant>
+
+#include "common/content_hash.h"
+#include "scene/pose.h"
+#include "scene/scene.h"
+
+namespace planbench {
+namespace {
+
+// Changes with the layout of what is hashed, so that ids of different layouts never meet.
+constexpr const char* kSceneLayout = "planbench scene 1";
+constexpr const char* kMeshLayout = "planbench mesh 1";
+
+void AddVector(const Eigen::Vector3d& vector, ContentHash* hash) {
+  for (int i = 0; i < 3; ++i) hash->Add(vector[i]);
+}
+
+// The orientation in steps of 1e-9: OrientationOf is exact between programs of one build, and the
+// rounding absorbs the last bits by which another compiler or a client in another language may
+// differ.
+void AddPose(const Eigen::Isometry3d& pose, ContentHash* hash) {
+  AddVector(pose.translation(), hash);
+  const Eigen::Quaterniond q = OrientationOf(pose);
+  for (const double component : {q.w(), q.x(), q.y(), q.z()}) {
+    hash->Add(static_cast<std::int64_t>(std::llround(component * 1e9)));
+  }
+}
+
+struct ShapeHasher {
+  ContentHash* hash;
+
+  void operator()(const Box& box) const { AddVector(box.size, hash); }
+  void operator()(const Sphere& sphere) const { hash->Add(sphere.radius); }
+  void operator()(const Cylinder& cylinder) const {
+    hash->Add(cylinder.radius);
+    hash->Add(cylinder.length);
+  }
+  void operator()(const Cone& cone) const {
+    hash->Add(cone.radius);
+    hash->Add(cone.length);
+  }
+  void operator()(const Mesh& mesh) const {
+    if (mesh.triangles.triangles.empty()) {
+      throw std::invalid_argument("SceneId: the mesh '" + mesh.resource + "' is not loaded");
+    }
+    hash->Add(MeshId(mesh.triangles));
+  }
+};
+
+void AddObject(const SceneObject& object, ContentHash* hash) {
+  hash->Add(object.id);
+  AddPose(object.X_WO, hash);
+  hash->Add(object.shapes.size());
+  // Primitives before meshes, as files keep them in two lists.
+  for (const bool meshes : {false, true}) {
+    for (const PlacedShape& placed : object.shapes) {
+      if (std::holds_alternative<Mesh>(placed.shape) != meshes) continue;
+      hash->Add(ShapeTypeName(placed.shape));
+      AddPose(placed.X_FS, hash);
+      std::visit(ShapeHasher{hash}, placed.shape);
+    }
+  }
+}
+
+void AddAttached(const AttachedObject& attached, ContentHash* hash) {
+  hash->Add(attached.link);
+  AddObject(attached.object, hash);
+  std::vector<std::string> touch_links = attached.touch_links;
+  std::sort(touch_links.begin(), touch_links.end());
+  touch_links.erase(std::unique(touch_links.begin(), touch_links.end()), touch_links.end());
+  hash->Add(touch_links.size());
+  for (const std::string& link : touch_links) hash->Add(link);
+}
+
+void AddAllowedCollisions(const AllowedCollisionMatrix& matrix, ContentHash* hash) {
+  const AllowedCollisionMatrix simplified = matrix.Simplified();
+  hash->Add(simplified.default_entries().size());
+  for (const auto& [name, allowed] : simplified.default_entries()) {
+    hash->Add(name);
+    hash->Add(allowed);
+  }
+  hash->Add(simplified.entries().size());
+  for (const auto& [pair, allowed] : simplified.entries()) {
+    hash->Add(pair.first);
+    hash->Add(pair.second);
+    hash->Add(allowed);
+  }
+}
+
+}  // namespace
+
+std::string SceneId(const Scene& scene) {
+  ContentHash hash;
+  hash.Add(kSceneLayout);
+  hash.Add(scene.world_frame);
+  hash.Add(scene.objects.size());
+  for (const SceneObject& object : scene.objects) AddObject(object, &hash);
+  hash.Add(scene.attached.size());
+  for (const AttachedObject& attached : scene.attached) AddAttached(attached, &hash);
+  AddAllowedCollisions(scene.allowed_collisions, &hash);
+  return hash.HexDigest();
+}
+
+std::string MeshId(const TriangleMesh& mesh) {
+  ContentHash hash;
+  hash.Add(kMeshLayout);
+  hash.Add(mesh.vertices.size());
+  for (const Eigen::Vector3d& vertex : mesh.vertices) AddVector(vertex, &hash);
+  hash.Add(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) hash.Add(static_cast<std::int64_t>(index));
+  }
+  return hash.HexDigest();
+}
+
+}  // namespace planbench
