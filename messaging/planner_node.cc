@@ -1,0 +1,261 @@
+#include "messaging/planner_node.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kSceneRequestPeriod{250};
+constexpr std::chrono::milliseconds kFirstResultPeriod{200};
+constexpr std::chrono::milliseconds kLongestResultPeriod{2000};
+
+}  // namespace
+
+PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner)
+    : bus_(bus),
+      name_(name),
+      channels_(name),
+      planner_(std::move(planner)),
+      description_(planner_->Describe()),
+      status_(MakeNodeStatus(name, NodeKind::kPlanner)) {
+  status_.robot_name = planner_->robot().name;
+  status_.robot_id = planner_->robot().content_id;
+  status_.algorithm = description_.algorithm;
+  status_.planner_class = PlannerClassName(description_.planner_class);
+  status_.can_backward = description_.backward;
+  status_.can_anytime = description_.anytime;
+  for (const CollisionModel model : description_.collision_models) {
+    status_.collision_models.emplace_back(CollisionModelName(model));
+  }
+  status_.settings = description_.settings;
+
+  solver_ = std::thread([this] { Solve(); });
+  requests_ = bus->Subscribe<PlanRequest>(
+      channels_.request, [this](const PlanRequest& request) { OnRequest(request); },
+      [this](const MessageError& error) { OnBadRequest(error); });
+  scene_messages_ = bus->Subscribe<SceneMessage>(
+      channel::kScene, [this](const SceneMessage& message) { OnScene(message); });
+  cancels_ = bus->Subscribe<PlanCancelMessage>(
+      channels_.cancel, [this](const PlanCancelMessage& message) { OnCancel(message); });
+  result_acks_ = bus->Subscribe<AckMessage>(
+      channels_.result_ack, [this](const AckMessage& message) { OnResultAck(message); });
+  announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return Status(); });
+}
+
+PlannerNode::~PlannerNode() {
+  requests_ = Subscription();
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+    if (job_) job_->control.cancelled = true;
+  }
+  changed_.notify_all();
+  solver_.join();
+}
+
+void PlannerNode::Run(const std::function<bool()>& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop()) {
+    Tick();
+    lock.unlock();
+    announcer_->ThrowIfDisplaced();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    lock.lock();
+  }
+}
+
+NodeStatusMessage PlannerNode::Status() const {
+  NodeStatusMessage status = status_;
+  const std::scoped_lock lock(mutex_);
+  status.busy = job_ != nullptr;
+  if (job_) status.request_id = job_->request.request_id;
+  return status;
+}
+
+std::string PlannerNode::ReasonToRefuse(const PlanRequest& request) const {
+  const Robot& robot = planner_->robot();
+  if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
+    return "the request is for another robot description (" + request.robot_id + ") than '" +
+           robot.name + "' here (" + robot.content_id + ")";
+  }
+  if (std::find(description_.collision_models.begin(), description_.collision_models.end(),
+                request.collision_model) == description_.collision_models.end()) {
+    return "the collision model '" + std::string(CollisionModelName(request.collision_model)) +
+           "' is not offered here";
+  }
+  if (request.direction == Direction::kBackward && !description_.backward) {
+    return description_.algorithm + " cannot search backward";
+  }
+  if (request.anytime && !description_.anytime) {
+    return description_.algorithm + " is no anytime planner";
+  }
+  return "";
+}
+
+void PlannerNode::Acknowledge(const std::string& request_id, PlanAckMessage::Verdict verdict,
+                              const std::string& message) {
+  bus_->Publish(channels_.ack, PlanAckMessage{name_, request_id, verdict, message});
+}
+
+void PlannerNode::OnRequest(const PlanRequest& request) {
+  using Verdict = PlanAckMessage::Verdict;
+  std::unique_lock lock(mutex_);
+  for (const Outcome& outcome : outcomes_) {
+    if (outcome.message.request_id == request.request_id) {
+      Acknowledge(request.request_id, Verdict::kAccepted, "");
+      bus_->Publish(channels_.result, outcome.message);
+      return;
+    }
+  }
+  if (job_ && job_->request.request_id == request.request_id) {
+    Acknowledge(request.request_id, Verdict::kAccepted, "");
+    return;
+  }
+  if (job_) {
+    Acknowledge(request.request_id, Verdict::kBusy, "working on " + job_->request.request_id);
+    return;
+  }
+  if (const std::string reason = ReasonToRefuse(request); !reason.empty()) {
+    Acknowledge(request.request_id, Verdict::kRefused, reason);
+    return;
+  }
+  auto job = std::make_unique<Job>();
+  job->request = request;
+  job->accepted = Clock::now();
+  job->next_scene_request = job->accepted;
+  for (const auto& [id, scene] : scenes_) {
+    if (id == request.scene_id) job->scene = scene;
+  }
+  job_ = std::move(job);
+  Acknowledge(request.request_id, Verdict::kAccepted, "");
+  Tick();
+  lock.unlock();
+  changed_.notify_all();
+}
+
+void PlannerNode::OnBadRequest(const MessageError& error) {
+  if (error.request_id().empty()) throw error;
+  Acknowledge(error.request_id(), PlanAckMessage::Verdict::kRefused, error.what());
+}
+
+void PlannerNode::OnScene(const SceneMessage& message) {
+  const std::scoped_lock lock(mutex_);
+  if (!message.ok) {
+    if (job_ && !job_->scene && job_->request.scene_id == message.scene_id) {
+      spdlog::warn("scene {}: {}", message.scene_id, message.message);
+    }
+    return;
+  }
+  const bool known = std::any_of(scenes_.begin(), scenes_.end(), [&](const auto& entry) {
+    return entry.first == message.scene_id;
+  });
+  if (known) return;
+  const auto scene = std::make_shared<const Scene>(message.scene);
+  scenes_.emplace_back(message.scene_id, scene);
+  if (scenes_.size() > kSceneCacheSize) scenes_.pop_front();
+  if (job_ && !job_->scene && job_->request.scene_id == message.scene_id) {
+    job_->scene = scene;
+    changed_.notify_all();
+  }
+}
+
+void PlannerNode::OnCancel(const PlanCancelMessage& message) {
+  const std::scoped_lock lock(mutex_);
+  if (job_ && job_->request.request_id == message.request_id) {
+    job_->control.cancelled = true;
+    changed_.notify_all();
+  }
+}
+
+void PlannerNode::OnResultAck(const AckMessage& message) {
+  const std::scoped_lock lock(mutex_);
+  for (Outcome& outcome : outcomes_) {
+    if (outcome.message.request_id == message.id) outcome.acknowledged = true;
+  }
+}
+
+void PlannerNode::Solve() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] {
+      return stopping_ || (job_ && (job_->scene || job_->control.cancelled));
+    });
+    if (!job_) return;  // stopping
+    if (!job_->scene) {
+      PlanResult result;
+      result.status = PlanStatus::kCancelled;
+      result.message = "cancelled while waiting for the scene";
+      Finish(std::move(result));
+      continue;
+    }
+    // Only this thread takes the job away, so it may be used without the lock.
+    Job& job = *job_;
+    job.control.on_progress = [&](const PlanProgress& progress) {
+      bus_->Publish(channels_.progress,
+                    PlanProgressMessage{name_, job.request.request_id, progress});
+    };
+    lock.unlock();
+    PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
+    lock.lock();
+    spdlog::info("{}: {} in {:.3f} ms{}{}", job.request.request_id,
+                 PlanStatusName(result.status), result.planning_time_s * 1e3,
+                 result.message.empty() ? "" : ": ", result.message);
+    Finish(std::move(result));
+  }
+}
+
+void PlannerNode::Finish(PlanResult result) {
+  Outcome outcome;
+  outcome.message.planner = name_;
+  outcome.message.run_id = job_->request.run_id;
+  outcome.message.request_id = job_->request.request_id;
+  if (!result.path.empty()) {
+    for (const JointSpace::Joint& joint :
+         planner_->robot().Group(job_->request.group).space.joints()) {
+      outcome.message.joint_names.push_back(joint.name);
+    }
+  }
+  outcome.message.result = std::move(result);
+  outcome.ready = Clock::now();
+  outcome.period = kFirstResultPeriod;
+  outcome.next_send = outcome.ready + outcome.period;
+  job_.reset();
+  bus_->Publish(channels_.result, outcome.message);
+  outcomes_.push_back(std::move(outcome));
+  if (outcomes_.size() > kResultCacheSize) outcomes_.pop_front();
+}
+
+void PlannerNode::Tick() {
+  const Clock::time_point now = Clock::now();
+  for (Outcome& outcome : outcomes_) {
+    if (outcome.acknowledged || now < outcome.next_send) continue;
+    if (now - outcome.ready > kResultTimeout) {
+      spdlog::warn("nobody acknowledged the result of {}", outcome.message.request_id);
+      outcome.acknowledged = true;  // given up; still answered when asked again
+      continue;
+    }
+    bus_->Publish(channels_.result, outcome.message);
+    outcome.period = std::min(2 * outcome.period, kLongestResultPeriod);
+    outcome.next_send = now + outcome.period;
+  }
+  if (!job_ || job_->scene || job_->control.cancelled) return;
+  if (now - job_->accepted > kSceneTimeout) {
+    PlanResult result;
+    result.status = PlanStatus::kInvalidRequest;
+    result.message = "the scene " + job_->request.scene_id + " was not to be had on " +
+                     channel::kScene;
+    Finish(std::move(result));
+  } else if (now >= job_->next_scene_request) {
+    bus_->Publish(channel::kSceneRequest,
+                  SceneRequestMessage{name_ + "/" + job_->request.request_id,
+                                      job_->request.scene_id});
+    job_->next_scene_request = now + kSceneRequestPeriod;
+  }
+}
+
+}  // namespace planbench
