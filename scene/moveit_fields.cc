@@ -38,7 +38,8 @@ Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
 
 Eigen::Isometry3d ReadPose(const YamlNode& node) {
   const Eigen::Vector3d position = ReadVector3(node.At("position"));
-  return PoseFromPositionOrientation(position, ReadQuaternion(node.At("orientation")));
+  return CanonicalPose(
+      PoseFromPositionOrientation(position, ReadQuaternion(node.At("orientation"))));
 }
 
 std::string ReadFrame(const YamlNode& message) {

@@ -21,7 +21,7 @@ Eigen::Vector3d ReadVector3(const YamlNode& node);
 /// within 1e-3.
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node);
 
-/// geometry_msgs/Pose: {position: .., orientation: ..}.
+/// geometry_msgs/Pose: {position: .., orientation: ..}. Canonical (scene/pose.h).
 Eigen::Isometry3d ReadPose(const YamlNode& node);
 
 /// header.frame_id of a message, "" without one.

@@ -80,7 +80,8 @@ std::vector<FrameTransform> ReadFixedFrames(const YamlNode& scene, const std::st
       child.Fail("the frame '" + frame.frame + "' is given twice");
     const YamlNode transform = node.At("transform");
     const Eigen::Vector3d translation = ReadVector3(transform.At("translation"));
-    frame.X_WF = PoseFromPositionOrientation(translation, ReadQuaternion(transform.At("rotation")));
+    frame.X_WF = CanonicalPose(
+        PoseFromPositionOrientation(translation, ReadQuaternion(transform.At("rotation"))));
     if (frame.frame != world_frame) {
       frames.push_back(frame);
     } else if (!frame.X_WF.isApprox(Eigen::Isometry3d::Identity(), 1e-9)) {
@@ -183,7 +184,7 @@ Scene ReadScene(const YamlNode& planning_scene, const ResourceResolver& resource
     if (!ids.insert(object.id).second) {
       node.At("id").Fail("the object '" + object.id + "' is given twice");
     }
-    object.X_WO = FrameInWorld(node, scene) * object.X_WO;
+    object.X_WO = CanonicalPose(FrameInWorld(node, scene) * object.X_WO);
     scene.objects.push_back(std::move(object));
   }
   if (const std::optional<YamlNode> robot_state = planning_scene.Find("robot_state")) {

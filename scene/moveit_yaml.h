@@ -13,14 +13,14 @@ namespace planbench {
 /// MotionBenchMaker and of MoveIt: keys in any order, fields that do not bear on planning ignored,
 /// optional ones absent, positions and orientations as sequences ([x, y, z], [x, y, z, w]) or as
 /// maps ({x: .., y: ..}). Meshes named by resource are loaded through `resources`, their scale
-/// applied. All poses come out in W, the frame that the headers of `fixed_frame_transforms` name
-/// (without these: that of the robot's joint state, else the one most objects are in); an empty
-/// frame means W too, and other frames must be fixed frames. Objects attached in the start state of
-/// the request join those of the scene. `set` and `index` come from the file names (see
-/// ListProblemSet), "" and 0 for other names. Throws InputError naming file, line and field, for
-/// malformed input and for what planbench would have to ignore although it bears on planning:
-/// octomaps, planes, link padding and scale, multi-DOF joints, object operations other than ADD,
-/// goals other than one set of joint constraints, path constraints.
+/// applied. All poses come out canonical (scene/pose.h) and in W, the frame that the headers of
+/// `fixed_frame_transforms` name (without these: that of the robot's joint state, else the one most
+/// objects are in); an empty frame means W too, and other frames must be fixed frames. Objects
+/// attached in the start state of the request join those of the scene. `set` and `index` come from
+/// the file names (see ListProblemSet), "" and 0 for other names. Throws InputError naming file,
+/// line and field, for malformed input and for what planbench would have to ignore although it
+/// bears on planning: octomaps, planes, link padding and scale, multi-DOF joints, object operations
+/// other than ADD, goals other than one set of joint constraints, path constraints.
 Problem ReadProblem(const std::filesystem::path& scene_file,
                     const std::filesystem::path& request_file, const ResourceResolver& resources);
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 
 namespace planbench {
 
@@ -10,15 +12,21 @@ namespace planbench {
 Eigen::Isometry3d PoseFromPositionOrientation(const Eigen::Vector3d& position,
                                               const Eigen::Quaterniond& orientation);
 
-/// The unit quaternion that stands for a pose's orientation wherever it is written down: in files,
-/// messages and content hashes. Its first component (in the order w, x, y, z) above 1e-9 in size is
-/// positive.
+/// A rotation in whole numbers: quaternion components w, x, y, z divided by the largest of them
+/// (the first of those that are equal within 1e-6), in steps of 2^-40.
 ///
-/// It survives being written down and read back any number of times: with
-/// X' = PoseFromPositionOrientation(p, OrientationOf(X)), OrientationOf(X') has the same bits as
-/// OrientationOf(X). A plain conversion does not give that: matrix to quaternion to matrix moves
-/// the last bits of most matrices. Here that round trip is repeated until it stands still (or moves
-/// in a circle, of which the smallest member is taken), and both X and X' lead to the same place.
+/// This form, and not the matrix or a plain quaternion, identifies an orientation in content
+/// hashes. Going from matrix to quaternion to matrix moves the last bits of most rotations, and of
+/// some of them a little further each time; that noise (1e-16) is far below a step, so whatever has
+/// been put on this grid once comes back as the same whole numbers.
+std::array<std::int64_t, 4> OrientationSteps(const Eigen::Isometry3d& pose);
+
+/// The unit quaternion of OrientationSteps: what stands for an orientation in files and messages.
+/// Differs from the pose's own by 1e-12 at most; identity, right angles and half turns are exact.
 Eigen::Quaterniond OrientationOf(const Eigen::Isometry3d& pose);
+
+/// The pose with OrientationOf's orientation. PoseFromPositionOrientation(p, OrientationOf(X)) of a
+/// pose X that has been through this function has the same bits as X.
+Eigen::Isometry3d CanonicalPose(const Eigen::Isometry3d& pose);
 
 }  // namespace planbench

@@ -74,11 +74,10 @@ struct Scene {
 /// Content hash of all that bears on collisions: world frame, objects (order, ids, poses, shapes
 /// with their triangles), attached objects, allowed collisions. Names of the scene and of the
 /// robot, fixed frames, a mesh's resource, the order of touch links and entries of the matrix that
-/// change nothing do not count. Positions and dimensions count to the last bit (but -0.0 is 0.0).
-/// Orientations count in steps of 1e-9 of OrientationOf's quaternion (scene/pose.h), and a scene
-/// that was written to a file or sent as position and OrientationOf, then rebuilt with
-/// PoseFromPositionOrientation, has exactly the same id. 32 hexadecimal digits. Throws
-/// std::invalid_argument if a mesh has no triangles (is not loaded).
+/// change nothing do not count. Positions and dimensions count to the last bit (but -0.0 is 0.0),
+/// orientations as OrientationSteps (scene/pose.h): a scene that was written to a file, or sent as
+/// positions and OrientationOf, and rebuilt with PoseFromPositionOrientation, has the same id.
+/// 32 hexadecimal digits. Throws std::invalid_argument if a mesh has no triangles (is not loaded).
 std::string SceneId(const Scene& scene);
 
 /// Content hash of a mesh's scaled vertices and triangles.

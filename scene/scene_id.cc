@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <variant>
 
@@ -18,15 +17,9 @@ void AddVector(const Eigen::Vector3d& vector, ContentHash* hash) {
   for (int i = 0; i < 3; ++i) hash->Add(vector[i]);
 }
 
-// The orientation in steps of 1e-9: OrientationOf is exact between programs of one build, and the
-// rounding absorbs the last bits by which another compiler or a client in another language may
-// differ.
 void AddPose(const Eigen::Isometry3d& pose, ContentHash* hash) {
   AddVector(pose.translation(), hash);
-  const Eigen::Quaterniond q = OrientationOf(pose);
-  for (const double component : {q.w(), q.x(), q.y(), q.z()}) {
-    hash->Add(static_cast<std::int64_t>(std::llround(component * 1e9)));
-  }
+  for (const std::int64_t step : OrientationSteps(pose)) hash->Add(step);
 }
 
 struct ShapeHasher {
