@@ -37,9 +37,9 @@ class GroupKinematics {
   const PlanningGroup* group_;
   std::vector<Eigen::Isometry3d> X_BL_;
   std::vector<unsigned char> moved_by_group_;
-  std::vector<int>
-      nearest_group_joint_;  // per link: the last group joint on its path from the root, -1
-  std::vector<Step> steps_;  // joints whose child links move, parents first
+  // Per link: the last group joint on its path from the root, -1 if there is none.
+  std::vector<int> nearest_group_joint_;
+  std::vector<Step> steps_;  // Joints whose child links move, parents first.
 };
 
 }  // namespace planbench

@@ -105,7 +105,9 @@ UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& 
     }
     errors = capture.errors();
   }
-  if (document.model == nullptr) {
+  // urdfdom goes on without a collision geometry that it cannot parse; the robot would then be
+  // smaller than meant, so that an error it reports is one even where it returns a model.
+  if (document.model == nullptr || !errors.empty()) {
     throw InputError(fmt::format("{}: not a valid URDF: {}", origin,
                                  errors.empty() ? "urdfdom gives no reason" : errors));
   }

@@ -1,0 +1,246 @@
+#include "geometry/mesh_loader.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <set>
+
+#include "tests/support/expect_input_error.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+
+using Corner = std::array<double, 3>;
+using Triangle = std::array<Corner, 3>;
+
+// A box of 1 x 2 x 3 m with its lowest corner at (0, 0, 0), outward triangles.
+constexpr double kSize[3] = {1, 2, 3};
+
+TriangleMesh BoxMesh() {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(kSize[0] * (i & 1), kSize[1] * ((i >> 1) & 1),
+                               kSize[2] * ((i >> 2) & 1));
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+// Triangles as a set that order of vertices and triangles does not change, but orientation does.
+std::set<Triangle> TriangleSet(const TriangleMesh& mesh) {
+  std::set<Triangle> triangles;
+  for (const auto& indices : mesh.triangles) {
+    Triangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d& v = mesh.vertices.at(indices[i]);
+      // Rounding to nanometres: files hold single precision.
+      for (int k = 0; k < 3; ++k) triangle[i][k] = std::round(v[k] * 1e6) / 1e6 + 0.0;
+    }
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+    triangles.insert(triangle);
+  }
+  return triangles;
+}
+
+double Volume(const TriangleMesh& mesh) {
+  double volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
+  }
+  return volume;
+}
+
+std::string AsciiStl(const TriangleMesh& mesh) {
+  std::string text = "solid box\n";
+  for (const auto& triangle : mesh.triangles) {
+    text += "facet normal 0 0 0\n outer loop\n";
+    for (const std::uint32_t i : triangle) {
+      const Vector3d& v = mesh.vertices[i];
+      text += fmt::format("  vertex {:e} {:e} {:e}\n", v.x(), v.y(), v.z());
+    }
+    text += " endloop\nendfacet\n";
+  }
+  return text + "endsolid box\n";
+}
+
+std::string BinaryStl(const TriangleMesh& mesh) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string data(80, ' ');
+  const auto append = [&data](const auto& value) {
+    data.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  append(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    append(std::array<float, 3>{0, 0, 0});
+    for (const std::uint32_t i : triangle) {
+      const Eigen::Vector3f v = mesh.vertices[i].cast<float>();
+      append(std::array<float, 3>{v.x(), v.y(), v.z()});
+    }
+    append(std::uint16_t{0});
+  }
+  return data;
+}
+
+std::string Obj(const TriangleMesh& mesh) {
+  std::string text;
+  for (const Vector3d& v : mesh.vertices) {
+    text += fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+  }
+  return text;
+}
+
+struct DaeOptions {
+  double unit = 1;  // m per unit of the file; the vertices are written in it.
+  std::string up_axis = "Z_UP";
+  std::string transform = "";  // Elements of the node, e.g. "<translate>1 0 0</translate>".
+};
+
+std::string Dae(const TriangleMesh& mesh, const DaeOptions& options = {}) {
+  std::string positions;
+  for (const Vector3d& v : mesh.vertices) {
+    positions +=
+        fmt::format("{} {} {} ", v.x() / options.unit, v.y() / options.unit, v.z() / options.unit);
+  }
+  std::string indices;
+  for (const auto& [a, b, c] : mesh.triangles) indices += fmt::format("{} {} {} ", a, b, c);
+  return fmt::format(R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><unit name="u" meter="{0}"/><up_axis>{1}</up_axis></asset>
+  <library_geometries><geometry id="box"><mesh>
+    <source id="positions">
+      <float_array id="values" count="{2}">{3}</float_array>
+      <technique_common><accessor source="#values" count="{4}" stride="3">
+        <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+      </accessor></technique_common>
+    </source>
+    <vertices id="vertices"><input semantic="POSITION" source="#positions"/></vertices>
+    <triangles count="{5}"><input semantic="VERTEX" source="#vertices" offset="0"/>
+      <p>{6}</p>
+    </triangles>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="scene">
+    <node id="node">{7}<instance_geometry url="#box"/></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#scene"/></scene>
+</COLLADA>
+)",
+                     options.unit, options.up_axis, 3 * mesh.vertices.size(), positions,
+                     mesh.vertices.size(), mesh.triangles.size(), indices, options.transform);
+}
+
+class LoadMeshTest : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+};
+
+TEST_F(LoadMeshTest, EveryFormatGivesTheSameTriangles) {
+  const TriangleMesh box = BoxMesh();
+  const std::vector<std::pair<std::string, std::string>> files = {{"ascii.stl", AsciiStl(box)},
+                                                                  {"binary.STL", BinaryStl(box)},
+                                                                  {"box.obj", Obj(box)},
+                                                                  {"box.dae", Dae(box)}};
+  for (const auto& [name, content] : files) {
+    SCOPED_TRACE(name);
+    const TriangleMesh mesh = LoadMesh(folder_.Write(name, content));
+    EXPECT_EQ(TriangleSet(mesh), TriangleSet(box));
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_EQ(mesh.vertices.size(), 8u);  // Joined: STL alone would give 36.
+    EXPECT_NEAR(Volume(mesh), 6, 1e-6);
+  }
+}
+
+TEST_F(LoadMeshTest, SplitsPolygonsIntoTriangles) {
+  const TriangleMesh mesh = LoadMesh(
+      folder_.Write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nf 1 2 3 4\n"));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+}
+
+TEST_F(LoadMeshTest, AppliesTheUnitOfColladaFilesAndIgnoresTheirUpAxis) {
+  const TriangleMesh box = BoxMesh();
+  for (const double unit : {1.0, 0.01, 0.0254}) {
+    for (const char* up_axis : {"X_UP", "Y_UP", "Z_UP"}) {
+      SCOPED_TRACE(fmt::format("{} {}", unit, up_axis));
+      const auto file = folder_.Write("box.dae", Dae(box, {.unit = unit, .up_axis = up_axis}));
+      EXPECT_EQ(TriangleSet(LoadMesh(file)), TriangleSet(box));
+    }
+  }
+}
+
+TEST_F(LoadMeshTest, AppliesNodeTransforms) {
+  const auto file = folder_.Write(
+      "box.dae", Dae(BoxMesh(), {.unit = 0.1,
+                                 .transform = "<translate>5 0 0</translate>"
+                                              "<rotate>0 0 1 90</rotate><scale>2 1 1</scale>"}));
+  const TriangleMesh mesh = LoadMesh(file);
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3d& vertex : mesh.vertices) bounds.extend(vertex);
+  // Scaled to 2 x 2 x 3, turned about z (x becomes -2..0, y 0..2), moved by 5 units of 0.1 m.
+  EXPECT_TRUE(bounds.min().isApprox(Vector3d(-1.5, 0, 0), 1e-6)) << bounds.min().transpose();
+  EXPECT_TRUE(bounds.max().isApprox(Vector3d(0.5, 2, 3), 1e-6)) << bounds.max().transpose();
+  EXPECT_NEAR(Volume(mesh), 12, 1e-5);
+}
+
+TEST_F(LoadMeshTest, ScalesPerAxisAndKeepsSurfacesFacingOutwards) {
+  const auto file = folder_.Write("box.stl", BinaryStl(BoxMesh()));
+  const TriangleMesh scaled = LoadMesh(file, Vector3d(0.5, 2, 0.001));
+  EXPECT_NEAR(Volume(scaled), 6 * 0.001, 1e-9);
+  const TriangleMesh mirrored = LoadMesh(file, Vector3d(-1, 1, 1));
+  EXPECT_NEAR(Volume(mirrored), 6, 1e-6);
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3d& vertex : mirrored.vertices) bounds.extend(vertex);
+  EXPECT_TRUE(bounds.min().isApprox(Vector3d(-1, 0, 0), 1e-6));
+}
+
+TEST_F(LoadMeshTest, RefusesBadFilesByName) {
+  ExpectInputError([&] { LoadMesh(folder_.path() / "none.stl"); }, {"none.stl", "no such"});
+  ExpectInputError([&] { LoadMesh(folder_.path()); }, {folder_.path().string(), "no such"});
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"empty.stl", ""},
+      {"noise.stl", "this is no mesh"},
+      {"cut.stl", BinaryStl(BoxMesh()).substr(0, 200)},
+      {"nothing.stl", "solid nothing\nendsolid nothing\n"},
+      {"points.obj", "o points\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"},
+      {"flat.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"},
+      {"cut.dae", Dae(BoxMesh()).substr(0, 700)},
+      {"unknown.xyz", "0 0 0\n"}};
+  for (const auto& [name, content] : files) {
+    SCOPED_TRACE(name);
+    const auto file = folder_.Write(name, content);
+    ExpectInputError([&file] { LoadMesh(file); }, {file.string()});
+  }
+}
+
+TEST_F(LoadMeshTest, RefusesScalesThatFlattenOrAreNoNumbers) {
+  const auto file = folder_.Write("box.stl", BinaryStl(BoxMesh()));
+  ExpectInputError([&] { LoadMesh(file, Vector3d(1, 0, 1)); }, {file.string(), "scale"});
+  ExpectInputError([&] { LoadMesh(file, Vector3d(1, NAN, 1)); }, {file.string(), "scale"});
+}
+
+TEST_F(LoadMeshTest, ReadsTheManufacturersMeshes) {
+  PLANBENCH_NEED_SHARED_DATA("fetch_description/meshes");
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(SharedData("fetch_description/meshes"))) {
+    const TriangleMesh mesh = LoadMesh(entry.path());
+    EXPECT_GE(mesh.triangles.size(), 12u) << entry.path();
+    for (const Vector3d& vertex : mesh.vertices) EXPECT_LT(vertex.norm(), 2) << entry.path();
+    ++count;
+  }
+  EXPECT_EQ(count, 20);
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include "geometry/mesh_loader.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResourceResolverTest : public testing::Test {
+ protected:
+  ResourceResolverTest() {
+    folder_.Write("robot/meshes/own.stl", "own");
+    folder_.Write("other/meshes/theirs.stl", "theirs");
+    resolver_ = {folder_.path() / "robot", {{"other_package", folder_.path() / "other"}}};
+  }
+
+  TemporaryFolder folder_;
+  ResourceResolver resolver_;
+};
+
+TEST_F(ResourceResolverTest, FindsFilesOfGivenPackages) {
+  EXPECT_EQ(resolver_.Resolve("package://other_package/meshes/theirs.stl"),
+            folder_.path() / "other/meshes/theirs.stl");
+}
+
+TEST_F(ResourceResolverTest, TheBaseFolderStandsForItsOwnPackageAndForUnknownOnes) {
+  const fs::path own = folder_.path() / "robot/meshes/own.stl";
+  EXPECT_EQ(resolver_.Resolve("package://robot/meshes/own.stl"), own);
+  EXPECT_EQ(resolver_.Resolve("package://somewhere_description/meshes/own.stl"), own);
+}
+
+TEST_F(ResourceResolverTest, AGivenPackageIsNotLookedForInTheBaseFolder) {
+  ExpectInputError([&] { resolver_.Resolve("package://other_package/meshes/own.stl"); },
+                   {"package://other_package/meshes/own.stl",
+                    (folder_.path() / "other/meshes/own.stl").string()});
+}
+
+TEST_F(ResourceResolverTest, TakesFileUrisAbsoluteAndRelativePaths) {
+  const fs::path own = folder_.path() / "robot/meshes/own.stl";
+  EXPECT_EQ(resolver_.Resolve("file://" + own.string()), own);
+  EXPECT_EQ(resolver_.Resolve(own.string()), own);
+  EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), own);
+}
+
+TEST_F(ResourceResolverTest, SaysWhatItTriedAndHowToMendIt) {
+  ExpectInputError([&] { resolver_.Resolve("package://lost/meshes/a.stl"); },
+                   {"package://lost/meshes/a.stl", (folder_.path() / "robot").string(),
+                    "--package-path lost=DIR"});
+  ExpectInputError([&] { resolver_.Resolve("meshes/a.stl"); }, {"meshes/a.stl", "no file"});
+  ExpectInputError([&] { resolver_.Resolve("meshes"); }, {"meshes", "no file"});  // A folder.
+  ExpectInputError([&] { resolver_.Resolve("http://host/a.stl"); }, {"http://host/a.stl"});
+  ExpectInputError([&] { resolver_.Resolve("package://lost"); }, {"package://NAME/path"});
+  ExpectInputError([&] { resolver_.Resolve("package:///a.stl"); }, {"package://NAME/path"});
+  ExpectInputError([&] { resolver_.Resolve(""); }, {"empty"});
+}
+
+TEST_F(ResourceResolverTest, ParsesPackagePaths) {
+  const std::string folder = (folder_.path() / "other").string();
+  const auto [name, path] = ParsePackagePath("my_package=" + folder);
+  EXPECT_EQ(name, "my_package");
+  EXPECT_EQ(path, folder);
+  const std::vector<std::string> malformed = {"my_package", "=" + folder, "my_package=", folder};
+  for (const std::string& bad : malformed) {
+    ExpectInputError([&] { ParsePackagePath(bad); }, {"--package-path", bad, "NAME=DIR"});
+  }
+  ExpectInputError([&] { ParsePackagePath("a=" + folder + "/nowhere"); }, {"no folder", "nowhere"});
+  ExpectInputError([&] { ParsePackagePath("a/b=" + folder); }, {"a/b", "no '/'"});
+}
+
+}  // namespace
+}  // namespace planbench
