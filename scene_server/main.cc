@@ -1,0 +1,50 @@
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "messaging/program.h"
+#include "scene_server/scene_server_node.h"
+
+int main(int argc, char** argv) {
+  using namespace planbench;
+  Program program(
+      "scene_server",
+      "Serves problem sets and scenes on the bus, answers collision queries, and judges "
+      "the planners' paths.");
+  std::string robot_folder;
+  std::string referee_folder;
+  std::vector<std::string> package_paths;
+  std::vector<std::filesystem::path> problem_folders;
+  std::string name = "scene_server";
+  program.app().add_option("--robot", robot_folder, "robot folder, e.g. robots/fetch")->required();
+  program.app()
+      .add_option("--problems", problem_folders,
+                  "problem set, or folder of problem sets (may be repeated)")
+      ->required()
+      ->allow_extra_args(false);
+  program.app().add_option("--referee-robot", referee_folder,
+                           "robot folder, or folder with one .urdf file, whose meshes judge every "
+                           "path too");
+  AddPackagePathFlag(&program.app(), &package_paths);
+  program.app().add_option("--name", name, "name on the bus")->capture_default_str();
+
+  return program.Run(argc, argv, [&] {
+    const auto packages = ParsePackagePaths(package_paths);
+    Robot robot = LoadRobot(robot_folder, packages);
+    std::optional<Robot> referee;
+    if (!referee_folder.empty()) referee = LoadRefereeRobot(referee_folder, robot, packages);
+    SceneService service(std::move(robot), std::move(referee), problem_folders);
+    Bus bus(program.lcm_url());
+    SceneServerNode node(&bus, name, &service);
+    bus.Start();
+    for (const auto& set : service.ProblemSets(name).sets) {
+      spdlog::info("serving problem set '{}': {} problems", set.name, set.indices.size());
+    }
+    node.Run(StopRequested);
+    return kExitOk;
+  });
+}

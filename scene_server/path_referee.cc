@@ -1,0 +1,136 @@
+#include "scene_server/path_referee.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+#include "planning/path_judge.h"
+#include "planning/resolve.h"
+
+namespace planbench {
+namespace {
+
+CollisionModel ModelToJudgeWith(CollisionModel asked) {
+  const std::vector<CollisionModel>& available = AvailableCollisionModels();
+  const bool exact = asked != CollisionModel::kVoxels &&
+                     std::find(available.begin(), available.end(), asked) != available.end();
+  return exact ? asked : CollisionModel::kSpheres;
+}
+
+/// Why the names cannot be those of the group's joints in some order; empty if they can.
+std::string FindFault(const std::vector<std::string>& joint_names, const PlanningGroup& group) {
+  for (const std::string& name : joint_names) {
+    if (group.space.Find(name) < 0) {
+      return fmt::format("the path names joint '{}', which is not in group '{}'", name, group.name);
+    }
+    if (std::count(joint_names.begin(), joint_names.end(), name) > 1) {
+      return fmt::format("the path names joint '{}' twice", name);
+    }
+  }
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    if (std::find(joint_names.begin(), joint_names.end(), joint.name) == joint_names.end()) {
+      return fmt::format("the path does not name joint '{}' of group '{}'", joint.name, group.name);
+    }
+  }
+  return "";
+}
+
+/// The waypoints in group order. Those of a wrong size are left as they are, for the judge to
+/// reject.
+Path InGroupOrder(const Path& path, const std::vector<std::string>& joint_names,
+                  const JointSpace& space) {
+  Path ordered = path;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].size() != joint_names.size()) continue;
+    for (std::size_t k = 0; k < joint_names.size(); ++k) {
+      ordered[i][static_cast<std::size_t>(space.Find(joint_names[k]))] = path[i][k];
+    }
+  }
+  return ordered;
+}
+
+/// Throws if judging would take for ever.
+void RequireFewSamples(const CollisionChecker& checker, const Path& path, double step_m) {
+  const auto n = static_cast<std::size_t>(checker.space().size());
+  double samples = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (path[i - 1].size() != n || path[i].size() != n) return;  // for the judge to reject
+    samples += 1 + checker.motion_bound().Between(checker.space(), path[i - 1], path[i]) / step_m;
+  }
+  if (samples > PathReferee::kMaxSamples) {
+    throw InputError(fmt::format("step_m: at {} m the path has more than {:.0f} samples", step_m,
+                                 PathReferee::kMaxSamples));
+  }
+}
+
+/// Full positions of the mesh robot at the start. Joints that only the planning robot has do not
+/// move anything of the mesh robot.
+std::vector<double> MeshRobotPositions(const RobotModel& model, const JointState& start) {
+  std::vector<double> positions = model.DefaultPositions();
+  for (std::size_t i = 0; i < start.names.size(); ++i) {
+    const int joint = model.FindJoint(start.names[i]);
+    if (joint < 0) continue;
+    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
+    if (index >= 0) positions[static_cast<std::size_t>(index)] = start.positions[i];
+  }
+  return positions;
+}
+
+}  // namespace
+
+PathReferee::PathReferee(const Robot& robot, const Robot* mesh_robot)
+    : robot_(&robot), mesh_robot_(mesh_robot), checkers_(robot) {
+  if (mesh_robot_ == nullptr) return;
+  mesh_checkers_.emplace(*mesh_robot_);
+  const auto empty_scene = std::make_shared<const Scene>();
+  for (const PlanningGroup& group : robot_->groups) {
+    mesh_checkers_->Get(mesh_robot_->Group(group.name), CollisionModel::kMeshes, "no scene",
+                        empty_scene, mesh_robot_->model.DefaultPositions());
+  }
+}
+
+PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
+                                         const std::shared_ptr<const Scene>& scene) {
+  if (!(request.step_m > 0) || !std::isfinite(request.step_m)) {
+    throw InputError(fmt::format("step_m is {}, must be greater than zero", request.step_m));
+  }
+  const PlanningGroup& group = robot_->Group(request.group);
+  const ResolvedQuery query =
+      ResolveQuery(*robot_, group, request.start, request.goal, "start and goal");
+
+  const std::scoped_lock lock(mutex_);
+  CollisionChecker& checker = checkers_.Get(group, ModelToJudgeWith(request.collision_model),
+                                            request.scene_id, scene, query.base_positions);
+  PathCheckReplyMessage reply;
+  reply.ok = true;
+  reply.engine = std::string(checker.EngineName());
+  reply.step_m = request.step_m;
+
+  const std::string fault = request.path.empty() ? "" : FindFault(request.joint_names, group);
+  if (!fault.empty()) {
+    reply.verdict.emplace();
+    reply.verdict->reason = fault;
+    if (mesh_robot_ != nullptr) reply.mesh_verdict = reply.verdict;
+    return reply;
+  }
+  const Path path = InGroupOrder(request.path, request.joint_names, group.space);
+  RequireFewSamples(checker, path, request.step_m);
+  reply.verdict = JudgePath(&checker, path, query.start, query.goal, request.step_m,
+                            request.with_clearance, query.base_positions);
+  if (mesh_robot_ != nullptr) {
+    const std::vector<double> positions = MeshRobotPositions(mesh_robot_->model, request.start);
+    CollisionChecker& meshes =
+        mesh_checkers_->Get(mesh_robot_->Group(group.name), CollisionModel::kMeshes,
+                            request.scene_id, scene, positions);
+    RequireFewSamples(meshes, path, request.step_m);
+    reply.mesh_verdict = JudgePath(&meshes, path, query.start, query.goal, request.step_m,
+                                   /*with_clearance=*/false, positions);
+  }
+  return reply;
+}
+
+}  // namespace planbench

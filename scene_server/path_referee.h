@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "messaging/messages.h"
+#include "robot_model/robot_folder.h"
+#include "scene/scene.h"
+#include "scene_server/checker_cache.h"
+
+namespace planbench {
+
+/// Judges paths, independently of the planners: with the planning robot's geometry of the collision
+/// model that was asked for, and, if there is one, with the meshes of a referee robot, which tell
+/// whether the real robot would have collided. Thread-safe (one path at a time).
+class PathReferee {
+ public:
+  /// Samples that one path may have; more are refused.
+  static constexpr double kMaxSamples = 1e6;
+
+  /// `mesh_robot` may be null; else it has the groups of `robot` and its meshes are loaded here
+  /// (InputError if one is missing). Holds references to both.
+  PathReferee(const Robot& robot, const Robot* mesh_robot);
+
+  /// Judges at the asked step. Waypoints may name the group's joints in any order; a path that
+  /// names other joints, or not all, is invalid. A model that has no exact geometry of its own is
+  /// judged with spheres: `voxels`, which only rasterises the world that the spheres meet, and any
+  /// that this build lacks. Meshes are judged without clearances, which cost too much. Throws
+  /// InputError naming the field for a step that is not positive or gives too many samples, an
+  /// unknown group, a start or goal that cannot be resolved.
+  PathCheckReplyMessage Judge(const PathCheckRequestMessage& request,
+                              const std::shared_ptr<const Scene>& scene);
+
+ private:
+  const Robot* robot_;
+  const Robot* mesh_robot_;
+  std::mutex mutex_;
+  CheckerCache checkers_;
+  std::optional<CheckerCache> mesh_checkers_;
+};
+
+}  // namespace planbench

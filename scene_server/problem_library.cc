@@ -1,0 +1,144 @@
+#include "scene_server/problem_library.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "common/error.h"
+#include "scene/moveit_yaml.h"
+#include "scene_server/problem_fit.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool HoldsProblems(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (ProblemIndexOf(entry.path())) return true;
+  }
+  return false;
+}
+
+/// The folder itself if it holds problems, else its sub-folders that do, by name.
+std::vector<fs::path> SetFolders(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": there is no such folder of problems");
+  }
+  if (HoldsProblems(folder)) return {folder};
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory() && HoldsProblems(entry.path())) found.push_back(entry.path());
+  }
+  if (found.empty()) {
+    throw InputError(folder.string() +
+                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml), nor does "
+                     "any folder in it");
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::string DescribeIndices(const std::vector<ProblemFiles>& problems) {
+  std::string text;
+  for (std::size_t i = 0; i < problems.size();) {
+    std::size_t last = i;
+    while (last + 1 < problems.size() && problems[last + 1].index == problems[last].index + 1) {
+      ++last;
+    }
+    if (!text.empty()) text += ", ";
+    text += last == i ? fmt::format("{}", problems[i].index)
+                      : fmt::format("{}-{}", problems[i].index, problems[last].index);
+    i = last + 1;
+  }
+  return text;
+}
+
+ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& folders)
+    : robot_(&robot) {
+  if (folders.empty()) throw InputError("--problems: at least one folder of problems is needed");
+  try {
+    for (const fs::path& folder : folders) {
+      for (const fs::path& set_folder : SetFolders(folder)) AddSet(set_folder);
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+  }
+  for (const auto& [name, set] : sets_) Read(set, set.problems.front());
+}
+
+void ProblemLibrary::AddSet(const fs::path& folder) {
+  ProblemSet set = ListProblemSet(folder);
+  const std::string name = set.name;
+  const auto [existing, added] = sets_.emplace(name, std::move(set));
+  if (!added) {
+    throw InputError(fmt::format("two problem sets are named '{}': {} and {}", name,
+                                 existing->second.folder.string(), folder.string()));
+  }
+}
+
+ServedProblem ProblemLibrary::Find(const std::string& set_name, int index) {
+  const auto set = sets_.find(set_name);
+  if (set == sets_.end()) {
+    std::string known;
+    for (const auto& [name, other] : sets_) known += (known.empty() ? "" : ", ") + name;
+    throw InputError(fmt::format("no problem set '{}'; known are: {}", set_name, known));
+  }
+  const ProblemFiles* files = set->second.Find(index);
+  if (files == nullptr) {
+    throw InputError(fmt::format("problem set '{}' has no problem {}; it has {}", set_name, index,
+                                 DescribeIndices(set->second.problems)));
+  }
+  const std::scoped_lock lock(mutex_);
+  return Read(set->second, *files);
+}
+
+std::shared_ptr<const Scene> ProblemLibrary::FindScene(const std::string& scene_id) {
+  const std::scoped_lock lock(mutex_);
+  if (scenes_.count(scene_id) == 0) ReadAll();
+  const auto found = scenes_.find(scene_id);
+  return found == scenes_.end() ? nullptr : found->second;
+}
+
+const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFiles& files) {
+  const std::pair key(set.name, files.index);
+  if (const auto known = problems_.find(key); known != problems_.end()) return known->second;
+
+  // Meshes that a scene names by a relative path lie beside it.
+  Problem problem =
+      ReadProblem(files.scene, files.request, {set.folder, robot_->resources.packages});
+  RequireProblemFits(problem, files, *robot_);
+
+  ServedProblem served;
+  served.message.problem_set = set.name;
+  served.message.problem_index = files.index;
+  served.message.scene_id = SceneId(problem.scene);
+  served.message.group = robot_->Group(problem.group).name;
+  served.message.start = StartOf(problem);
+  served.message.goal = problem.goal;
+  served.message.time_limit_s = problem.time_limit_s;
+  // Problems that differ only in their query share the scene.
+  std::shared_ptr<const Scene>& scene = scenes_[served.message.scene_id];
+  if (!scene) scene = std::make_shared<const Scene>(std::move(problem.scene));
+  served.scene = scene;
+  return problems_.emplace(key, std::move(served)).first->second;
+}
+
+void ProblemLibrary::ReadAll() {
+  if (all_read_) return;
+  all_read_ = true;
+  for (const auto& [name, set] : sets_) {
+    for (const ProblemFiles& files : set.problems) {
+      try {
+        Read(set, files);
+      } catch (const InputError& error) {
+        spdlog::warn("{}", error.what());
+      }
+    }
+  }
+}
+
+}  // namespace planbench

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "messaging/messages.h"
+#include "robot_model/robot_folder.h"
+#include "scene/problem.h"
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// A problem as it is served.
+struct ServedProblem {
+  ProblemMessage message;  ///< But for the request_id.
+  std::shared_ptr<const Scene> scene;
+};
+
+/// The problem sets of some folders, their problems read when they are first asked for and kept
+/// from then on: files changed later are not noticed. Thread-safe. Holds a reference to the robot.
+class ProblemLibrary {
+ public:
+  /// Each folder is a set, or, if it holds no problem itself, a folder of sets. The first problem
+  /// of every set is read, so that one for another robot fails here. Throws InputError: no such
+  /// folder, no problem in it, two sets of one name (both folders named), and what Find throws.
+  ProblemLibrary(const Robot& robot, const std::vector<std::filesystem::path>& folders);
+
+  /// By name.
+  const std::map<std::string, ProblemSet>& sets() const { return sets_; }
+
+  /// Throws InputError: no such set or index (with what there is), a file that cannot be read, a
+  /// problem that does not fit the robot.
+  ServedProblem Find(const std::string& set, int index);
+
+  /// The scene of that content id, null if no problem has it. Problems that nobody has asked for
+  /// yet are read if need be: a server that was restarted must still know the scenes that others
+  /// hold on to.
+  std::shared_ptr<const Scene> FindScene(const std::string& scene_id);
+
+ private:
+  void AddSet(const std::filesystem::path& folder);
+  const ServedProblem& Read(const ProblemSet& set, const ProblemFiles& files);
+  void ReadAll();
+
+  const Robot* robot_;
+  std::map<std::string, ProblemSet> sets_;
+  std::mutex mutex_;
+  std::map<std::pair<std::string, int>, ServedProblem> problems_;  // by set and index
+  std::map<std::string, std::shared_ptr<const Scene>> scenes_;     // by content id
+  bool all_read_ = false;
+};
+
+/// Ascending numbers in words: "1-100", "1-3, 7".
+std::string DescribeIndices(const std::vector<ProblemFiles>& problems);
+
+}  // namespace planbench

@@ -1,0 +1,69 @@
+#include "scene_server/scene_server_node.h"
+
+#include <chrono>
+#include <thread>
+
+#include "messaging/channels.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::chrono::seconds kProblemSetsPeriod{1};
+constexpr std::chrono::milliseconds kStopPeriod{50};
+
+NodeStatusMessage StatusOf(const std::string& name, const SceneService& service) {
+  RequireNodeName(name);
+  NodeStatusMessage status = MakeNodeStatus(name, NodeKind::kSceneServer);
+  status.robot_name = service.robot().name;
+  status.robot_id = service.robot().content_id;
+  for (const CollisionModel model : AvailableCollisionModels()) {
+    status.collision_models.emplace_back(CollisionModelName(model));
+  }
+  status.settings["robot"] = service.robot().folder.string();
+  if (service.mesh_robot()) {
+    status.settings["referee_robot"] = service.mesh_robot()->folder.string();
+  }
+  return status;
+}
+
+}  // namespace
+
+SceneServerNode::SceneServerNode(Bus* bus, const std::string& name, SceneService* service)
+    : bus_(bus),
+      problem_sets_(service->ProblemSets(name)),
+      problems_(bus, channel::kProblemRequest, channel::kProblem,
+                [bus, service](const ProblemRequestMessage& request) {
+                  const ProblemAnswer answer = service->AnswerProblem(request);
+                  if (answer.scene) bus->Publish(channel::kScene, *answer.scene);
+                  return answer.problem;
+                }),
+      scenes_(
+          bus, channel::kSceneRequest, channel::kScene,
+          [service](const SceneRequestMessage& request) { return service->AnswerScene(request); }),
+      collisions_(bus, channel::kCollisionRequest, channel::kCollisionReply,
+                  [service](const CollisionRequestMessage& request) {
+                    return service->AnswerCollision(request);
+                  }),
+      path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
+                   [service](const PathCheckRequestMessage& request) {
+                     return service->AnswerPathCheck(request);
+                   }),
+      announcer_(
+          bus, [status = StatusOf(name, *service)] { return status; },
+          [this] { PublishProblemSets(); }) {}
+
+void SceneServerNode::Run(const std::function<bool()>& stop) {
+  auto next_announcement = std::chrono::steady_clock::now();
+  while (!stop()) {
+    announcer_.ThrowIfDisplaced();
+    if (std::chrono::steady_clock::now() >= next_announcement) {
+      PublishProblemSets();
+      next_announcement += kProblemSetsPeriod;
+    }
+    std::this_thread::sleep_for(kStopPeriod);
+  }
+}
+
+void SceneServerNode::PublishProblemSets() { bus_->Publish(channel::kProblemSets, problem_sets_); }
+
+}  // namespace planbench
