@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <set>
-#include <sstream>
 
 #include "common/content_hash.h"
 #include "common/error.h"
@@ -19,10 +19,9 @@ namespace fs = std::filesystem;
 std::string ReadText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad() || !text) throw InputError(path.string() + ": cannot be read");
-  return text.str();
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (file.bad()) throw InputError(path.string() + ": cannot be read");
+  return text;
 }
 
 // The file a field of robot.yaml names, relative to the folder.

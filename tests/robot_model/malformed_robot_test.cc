@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "robot_model/robot_folder.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+constexpr char kUrdf[] = R"(<robot name="tiny">
+  <link name="base"/><link name="arm"/><link name="hand"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
+  <joint name="weld" type="fixed"><parent link="arm"/><child link="hand"/></joint>
+</robot>)";
+
+constexpr char kSpheres[] = R"(links:
+  arm:
+    - {center: [0, 0, 0], radius: 0.1}
+)";
+
+constexpr char kRobot[] = R"(name: tiny
+urdf: tiny.urdf
+spheres: spheres.yaml
+edge_resolution_m: 0.05
+groups:
+  - name: all
+    joints: [turn]
+    tip_link: hand
+allowed_pairs: [[base, hand]]
+planners: {ara: ara.yaml}
+)";
+
+std::string Replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+// A change of robot.yaml (or spheres.yaml) and what the message must name: line and field.
+struct Malformed {
+  std::string name;
+  std::string what;
+  std::string by;
+  std::vector<std::string> message;
+};
+
+void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
+
+class MalformedFolderTest : public testing::TestWithParam<Malformed> {
+ protected:
+  void ExpectRefused(const std::string& robot_yaml, const std::string& spheres_yaml,
+                     std::vector<std::string> parts) {
+    folder_.Write("tiny.urdf", kUrdf);
+    folder_.Write("robot.yaml", robot_yaml);
+    folder_.Write("spheres.yaml", spheres_yaml);
+    parts.push_back(folder_.path().string());
+    ExpectInputError([this] { LoadRobot(folder_.path()); }, parts);
+  }
+
+  TemporaryFolder folder_;
+};
+
+class MalformedRobotYamlTest : public MalformedFolderTest {};
+class MalformedSpheresYamlTest : public MalformedFolderTest {};
+
+TEST_P(MalformedRobotYamlTest, IsRefusedWithFileLineAndField) {
+  std::vector<std::string> parts = GetParam().message;
+  parts.push_back("robot.yaml");
+  ExpectRefused(Replaced(kRobot, GetParam().what, GetParam().by), kSpheres, parts);
+}
+
+TEST_P(MalformedSpheresYamlTest, IsRefusedWithFileLineAndField) {
+  std::vector<std::string> parts = GetParam().message;
+  parts.push_back("spheres.yaml");
+  ExpectRefused(kRobot, Replaced(kSpheres, GetParam().what, GetParam().by), parts);
+}
+
+const Malformed kMalformedRobots[] = {
+    {"NoYaml", "[turn]", "[turn", {"robot.yaml:"}},
+    {"NoMap", kRobot, "- robot", {"expected a map"}},
+    {"UnknownKey", "edge_resolution_m", "edge_resolution", {":4:", "edge_resolution", "unknown"}},
+    {"RepeatedKey", "edge_resolution_m: 0.05", "name: tiny", {"'name' occurs twice"}},
+    {"NoName", "name: tiny\n", "", {"'name' is missing"}},
+    {"EmptyName", "name: tiny", "name: ''", {":1:", "name", "empty"}},
+    {"NoUrdf", "urdf: tiny.urdf\n", "", {"'urdf' is missing"}},
+    {"UrdfNotThere", "tiny.urdf", "huge.urdf", {":2:", "urdf", "no file", "huge.urdf"}},
+    {"SpheresNotThere", "spheres.yaml", "balls.yaml", {":3:", "spheres", "no file", "balls.yaml"}},
+    {"ResolutionNoNumber", "0.05", "fine", {":4:", "edge_resolution_m", "'fine'"}},
+    {"ResolutionZero", "0.05", "0", {":4:", "edge_resolution_m", "greater than zero"}},
+    {"NoGroups",
+     "groups:\n  - name: all\n    joints: [turn]\n    tip_link: hand\n",
+     "",
+     {"'groups' is missing"}},
+    {"GroupsEmpty",
+     "groups:\n  - name: all\n    joints: [turn]\n    tip_link: hand\n",
+     "groups: []\n",
+     {":5:", "groups", "at least one"}},
+    {"GroupsNoList",
+     "  - name: all\n    joints",
+     "    name: all\n    joints",
+     {":6:", "groups", "expected a sequence"}},
+    {"GroupUnknownKey", "tip_link: hand", "tip: hand", {":8:", "groups[0]", "unknown key 'tip'"}},
+    {"GroupWithoutName", "name: all\n    joints", "joints", {"groups[0]", "'name' is missing"}},
+    {"UnknownJoint", "[turn]", "[spin]", {":6:", "groups[0]", "joint 'spin' is unknown"}},
+    {"FixedJoint", "[turn]", "[weld]", {":6:", "groups[0]", "joint 'weld' is fixed"}},
+    {"UnknownTip", "tip_link: hand", "tip_link: claw", {":6:", "groups[0]", "'claw' is unknown"}},
+    {"RepeatedGroup",
+     "allowed_pairs:",
+     "  - {name: all, joints: [turn], tip_link: arm}\nallowed_pairs:",
+     {":9:", "groups[1].name", "twice"}},
+    {"PairNoPair", "[[base, hand]]", "[[base]]", {":9:", "allowed_pairs[0]", "pair"}},
+    {"PairUnknownLink", "[[base, hand]]", "[[base, claw]]", {":9:", "allowed_pairs[0]", "'claw'"}},
+    {"PairOfOne", "[[base, hand]]", "[[base, base]]", {":9:", "allowed_pairs[0]", "same"}},
+    {"PlannersNoMap", "{ara: ara.yaml}", "[ara.yaml]", {":10:", "planners", "expected a map"}},
+    {"PlannerNoText", "{ara: ara.yaml}", "{ara: [a]}", {":10:", "planners.ara", "expected text"}},
+};
+
+const Malformed kMalformedSpheres[] = {
+    {"NoYaml", "[0, 0, 0]", "[0, 0, 0", {"spheres.yaml:"}},
+    {"NoLinks", "links:", "robots:", {"unknown key 'robots'"}},
+    {"Empty", kSpheres, "", {"links"}},
+    {"UnknownLink", "arm:", "leg:", {":3:", "links.leg", "no link 'leg'"}},
+    {"RepeatedLink", "links:", "links:\n  arm: []", {"links", "'arm' occurs twice"}},
+    {"NoList", "- {center", "{center", {":3:", "links.arm", "expected a sequence"}},
+    {"UnknownKey", "radius: 0.1", "radius: 0.1, name: s", {":3:", "links.arm[0]", "'name'"}},
+    {"NoRadius", ", radius: 0.1", "", {":3:", "links.arm[0]", "'radius' is missing"}},
+    {"NegativeRadius", "0.1", "-0.1", {":3:", "links.arm[0].radius", "greater than zero"}},
+    {"RadiusNan", "0.1", ".nan", {":3:", "links.arm[0].radius", "finite"}},
+    {"ShortCenter", "[0, 0, 0]", "[0, 0]", {":3:", "links.arm[0].center", "expected 3 numbers"}},
+    {"CenterNoNumber", "[0, 0, 0]", "[0, x, 0]", {":3:", "links.arm[0].center[1]", "'x'"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, MalformedRobotYamlTest, testing::ValuesIn(kMalformedRobots),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, MalformedSpheresYamlTest, testing::ValuesIn(kMalformedSpheres),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(MalformedFolder, TheUnchangedFilesAreFine) {
+  TemporaryFolder folder;
+  folder.Write("tiny.urdf", kUrdf);
+  folder.Write("robot.yaml", kRobot);
+  folder.Write("spheres.yaml", kSpheres);
+  const Robot robot = LoadRobot(folder.path());
+  EXPECT_EQ(robot.name, "tiny");
+  EXPECT_EQ(robot.edge_resolution_m, 0.05);
+  EXPECT_EQ(robot.allowed_pairs, (std::vector<std::pair<int, int>>{{0, 2}}));
+}
+
+TEST(MalformedFolder, FoldersAndFilesThatAreMissingAreNamed) {
+  TemporaryFolder folder;
+  ExpectInputError([&] { LoadRobot(folder.path() / "nowhere"); }, {"nowhere", "no such folder"});
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml", "cannot be opened"});
+}
+
+}  // namespace
+}  // namespace planbench

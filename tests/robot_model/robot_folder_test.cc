@@ -1,0 +1,239 @@
+#include "robot_model/robot_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "common/yaml.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path FetchFolder() { return fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"; }
+
+constexpr char kUrdf[] = R"(<robot name="small">
+  <link name="base"/>
+  <link name="arm"><collision><geometry>
+    <mesh filename="package://small_description/meshes/arm.stl"/></geometry></collision></link>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
+</robot>)";
+constexpr char kRobot[] =
+    "name: small\nurdf: small.urdf\ngroups:\n  - {name: all, joints: [turn], tip_link: arm}\n"
+    "allowed_pairs: [[base, arm]]\n";
+
+void WriteSmallRobot(const TemporaryFolder& folder, const std::string& name) {
+  folder.Write(name + "/small.urdf", kUrdf);
+  folder.Write(name + "/robot.yaml", kRobot);
+}
+
+TEST(LoadRobot, LoadsTheFetch) {
+  const Robot fetch = LoadRobot(FetchFolder());
+  EXPECT_EQ(fetch.name, "fetch");
+  EXPECT_EQ(fetch.model.name(), "fetch");
+  EXPECT_EQ(fetch.edge_resolution_m, 0.02);
+  EXPECT_EQ(fetch.content_id.size(), 32u);
+  EXPECT_EQ(fetch.model.num_links(), 26);
+  EXPECT_EQ(fetch.model.num_positions(), 15);
+  EXPECT_EQ(fetch.planner_settings.at("ara"), FetchFolder() / "ara.yaml");
+  EXPECT_EQ(fetch.planner_settings.at("rrtc"), FetchFolder() / "rrtc.yaml");
+  EXPECT_EQ(fetch.resources.base_folder, FetchFolder());
+
+  ASSERT_EQ(fetch.groups.size(), 1u);
+  const PlanningGroup& group = fetch.groups[0];
+  EXPECT_EQ(group.name, "arm_with_torso");
+  std::vector<std::string> names;
+  std::vector<std::string> continuous;
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    names.push_back(joint.name);
+    if (joint.continuous) continuous.push_back(joint.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"torso_lift_joint", "shoulder_pan_joint",
+                                             "shoulder_lift_joint", "upperarm_roll_joint",
+                                             "elbow_flex_joint", "forearm_roll_joint",
+                                             "wrist_flex_joint", "wrist_roll_joint"}));
+  EXPECT_EQ(continuous, (std::vector<std::string>{"upperarm_roll_joint", "forearm_roll_joint",
+                                                  "wrist_roll_joint"}));
+  EXPECT_TRUE(group.space.joint(0).prismatic);
+  EXPECT_EQ(group.tip_link, fetch.model.FindLink("gripper_link"));
+}
+
+TEST(LoadRobot, FetchHasTheStudysSpheres) {
+  const Robot fetch = LoadRobot(FetchFolder());
+  EXPECT_EQ(fetch.spheres.size(), 213u);
+  for (std::size_t i = 1; i < fetch.spheres.size(); ++i) {
+    EXPECT_LE(fetch.spheres[i - 1].link, fetch.spheres[i].link);
+  }
+  std::map<std::string, int> count;
+  for (const LinkSphere& sphere : fetch.spheres) {
+    ++count[fetch.model.links()[static_cast<std::size_t>(sphere.link)].name];
+  }
+  EXPECT_EQ(count.size(), 13u);
+  EXPECT_EQ(count["torso_lift_link"], 113);
+  EXPECT_EQ(count["l_gripper_finger_link"], 8);
+}
+
+TEST(LoadRobot, FetchSpheresEqualThePublishedOnes) {
+  PLANBENCH_NEED_SHARED_DATA("paper/collision_model_fetch.yaml");
+  using SphereFigures = std::tuple<std::string, double, double, double, double>;
+  std::multiset<SphereFigures> published;
+  const YamlNode root = YamlNode::LoadFile(SharedData("paper/collision_model_fetch.yaml").string());
+  for (const YamlNode& link : root.At("robot_collision_model").At("spheres_models").Elements()) {
+    for (const YamlNode& s : link.At("spheres").Elements()) {
+      published.emplace(link.At("link_name").String(), s.At("x").Double(), s.At("y").Double(),
+                        s.At("z").Double(), s.At("radius").Double());
+    }
+  }
+  const Robot fetch = LoadRobot(FetchFolder());
+  std::multiset<SphereFigures> ours;
+  for (const LinkSphere& s : fetch.spheres) {
+    ours.emplace(fetch.model.links()[static_cast<std::size_t>(s.link)].name, s.p_LS.x(), s.p_LS.y(),
+                 s.p_LS.z(), s.radius);
+  }
+  EXPECT_EQ(ours, published);
+}
+
+TEST(LoadRobot, ContentIdFollowsTheContentNotThePlace) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "here");
+  WriteSmallRobot(folder, "there/again");
+  const std::string id = LoadRobot(folder.path() / "here").content_id;
+  EXPECT_EQ(LoadRobot(folder.path() / "there/again").content_id, id);
+
+  folder.Write("here/robot.yaml", std::string(kRobot) + "edge_resolution_m: 0.01\n");
+  EXPECT_NE(LoadRobot(folder.path() / "here").content_id, id);
+  folder.Write("here/robot.yaml", kRobot);
+  EXPECT_EQ(LoadRobot(folder.path() / "here").content_id, id);
+  folder.Write("here/small.urdf", std::string(kUrdf) + "\n");
+  EXPECT_NE(LoadRobot(folder.path() / "here").content_id, id);
+
+  const std::string with_spheres = std::string(kRobot) + "spheres: spheres.yaml\n";
+  folder.Write("there/again/robot.yaml", with_spheres);
+  folder.Write("there/again/spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 1}]}");
+  const std::string spheres_id = LoadRobot(folder.path() / "there/again").content_id;
+  folder.Write("there/again/spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
+  EXPECT_NE(LoadRobot(folder.path() / "there/again").content_id, spheres_id);
+}
+
+TEST(LoadRobot, OptionalFieldsHaveDefaults) {
+  TemporaryFolder folder;
+  folder.Write("small.urdf", kUrdf);
+  folder.Write("robot.yaml",
+               "name: small\nurdf: small.urdf\n"
+               "groups: [{name: all, joints: [turn], tip_link: arm}]\n");
+  const Robot robot = LoadRobot(folder.path());
+  EXPECT_EQ(robot.edge_resolution_m, 0.02);
+  EXPECT_TRUE(robot.spheres.empty());
+  EXPECT_TRUE(robot.allowed_pairs.empty());
+  EXPECT_TRUE(robot.planner_settings.empty());
+}
+
+TEST(LoadRobot, ResolvesMeshesByPackageOrFolder) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  folder.Write("small/meshes/arm.stl", "");
+  folder.Write("description/meshes/arm.stl", "");
+  const std::string uri = "package://small_description/meshes/arm.stl";
+  EXPECT_EQ(LoadRobot(folder.path() / "small").resources.Resolve(uri),
+            folder.path() / "small/meshes/arm.stl");
+  EXPECT_EQ(
+      LoadRobot(folder.path() / "small", {{"small_description", folder.path() / "description"}})
+          .resources.Resolve(uri),
+      folder.path() / "description/meshes/arm.stl");
+}
+
+TEST(Robot, FindsGroupsByName) {
+  const Robot fetch = LoadRobot(FetchFolder());
+  EXPECT_EQ(fetch.Group("").name, "arm_with_torso");
+  EXPECT_EQ(fetch.Group("arm_with_torso").name, "arm_with_torso");
+  ExpectInputError([&] { fetch.Group("leg"); }, {"fetch", "'leg'", "arm_with_torso"});
+}
+
+TEST(LoadRefereeRobot, TakesAFolderWithOneUrdf) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  folder.Write("small_description/other_name.urdf", kUrdf);
+  folder.Write("small_description/meshes/arm.stl", "");
+  const Robot planning = LoadRobot(folder.path() / "small");
+  const Robot referee = LoadRefereeRobot(folder.path() / "small_description", planning);
+  ASSERT_EQ(referee.groups.size(), 1u);
+  EXPECT_EQ(referee.groups[0].name, "all");
+  EXPECT_EQ(referee.groups[0].space.joint(0).name, "turn");
+  EXPECT_EQ(referee.allowed_pairs, planning.allowed_pairs);
+  EXPECT_EQ(referee.resources.Resolve("package://small_description/meshes/arm.stl"),
+            folder.path() / "small_description/meshes/arm.stl");
+  EXPECT_EQ(referee.content_id.size(), 32u);
+  EXPECT_NE(referee.content_id, planning.content_id);
+}
+
+TEST(LoadRefereeRobot, TakesARobotFolderToo) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  WriteSmallRobot(folder, "exact");
+  folder.Write("exact/robot.yaml",
+               "name: exact\nurdf: small.urdf\n"
+               "groups: [{name: own, joints: [turn], tip_link: base}]\n");
+  const Robot planning = LoadRobot(folder.path() / "small");
+  const Robot referee = LoadRefereeRobot(folder.path() / "exact", planning);
+  EXPECT_EQ(referee.name, "exact");
+  EXPECT_EQ(referee.Group("").name, "own");
+  EXPECT_EQ(referee.Group("all").space.joint(0).name, "turn");  // To judge the planner's paths by.
+}
+
+TEST(LoadRefereeRobot, RefusesRobotsThatDoNotFit) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  const Robot planning = LoadRobot(folder.path() / "small");
+  const auto load = [&](const char* name) {
+    return [&planning, path = folder.path() / name] { LoadRefereeRobot(path, planning); };
+  };
+  ExpectInputError(load("nowhere"), {"nowhere", "no such folder"});
+
+  folder.Write("none/readme", "");
+  ExpectInputError(load("none"), {"none", "exactly one .urdf", "found 0"});
+  folder.Write("two/a.urdf", kUrdf);
+  folder.Write("two/b.urdf", kUrdf);
+  ExpectInputError(load("two"), {"two", "exactly one .urdf", "found 2"});
+
+  folder.Write("joint/a.urdf", R"(<robot name="r"><link name="base"/><link name="arm"/>
+    <joint name="spin" type="continuous"><parent link="base"/><child link="arm"/></joint>
+    </robot>)");
+  ExpectInputError(load("joint"), {"joint/a.urdf", "small", "'turn' is unknown"});
+  folder.Write("link/a.urdf", R"(<robot name="r"><link name="base"/><link name="limb"/>
+    <joint name="turn" type="continuous"><parent link="base"/><child link="limb"/></joint>
+    </robot>)");
+  ExpectInputError(load("link"), {"link/a.urdf", "small", "'arm' is unknown"});
+
+  folder.Write("group/a.urdf", R"(<robot name="r"><link name="base"/><link name="arm"/>
+    <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
+    <link name="hand"/>
+    <joint name="grip" type="continuous"><parent link="arm"/><child link="hand"/></joint>
+    </robot>)");
+  folder.Write("group/robot.yaml",
+               "name: group\nurdf: a.urdf\n"
+               "groups: [{name: all, joints: [grip], tip_link: hand}]\n");
+  ExpectInputError(load("group"), {"group/robot.yaml", "group 'all'", "other joints"});
+}
+
+TEST(LoadRefereeRobot, JudgesTheFetchByTheManufacturersDescription) {
+  PLANBENCH_NEED_SHARED_DATA("fetch_description");
+  const Robot fetch = LoadRobot(FetchFolder());
+  const Robot referee = LoadRefereeRobot(SharedData("fetch_description"), fetch);
+  EXPECT_EQ(referee.Group("").name, "arm_with_torso");
+  int meshes = 0;
+  for (const Link& link : referee.model.links()) {
+    for (const PlacedShape& placed : link.collision) {
+      EXPECT_NO_THROW(referee.resources.Resolve(std::get<Mesh>(placed.shape).resource));
+      ++meshes;
+    }
+  }
+  EXPECT_EQ(meshes, 21);
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,182 @@
+#include "robot_model/robot_model.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "robot_model/robot_folder.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+
+// A tree whose text lists joints and links in no helpful order, with a comment and a transmission
+// that mention joints too.
+constexpr char kTree[] = R"(<robot name="tree">
+  <!-- <joint name="zulu" type="fixed"/> -->
+  <link name="leaf_b"/>
+  <transmission name="t"><joint name="alpha"><hardwareInterface/></joint></transmission>
+  <joint name="zulu" type="prismatic">
+    <parent link="trunk"/><child link="branch"/>
+    <axis xyz="0 0 2"/><limit lower="0.1" upper="0.5" velocity="0.2" effort="1"/>
+  </joint>
+  <joint name="mike" type="fixed"><parent link="branch"/><child link="leaf_b"/></joint>
+  <link name="trunk">
+    <collision><geometry><box size="1 2 3"/></geometry></collision>
+    <collision><origin xyz="0 0 1"/><geometry><cylinder radius="0.1" length="0.4"/></geometry>
+    </collision>
+  </link>
+  <joint name="alpha" type="continuous">
+    <parent link="trunk"/><child link="twig"/><axis xyz="0 1 0"/>
+  </joint>
+  <link name="twig"><collision><geometry><sphere radius="0.2"/></geometry></collision></link>
+  <link name="branch"><collision><geometry>
+    <mesh filename="package://tree/meshes/branch.stl" scale="0.001 0.002 0.003"/>
+  </geometry></collision></link>
+  <joint name="bravo" type="revolute">
+    <parent link="branch"/><child link="leaf_a"/><axis xyz="1 0 0"/>
+    <limit lower="-2" upper="-1" velocity="3" effort="1"/>
+  </joint>
+  <link name="leaf_a"/>
+</robot>
+)";
+
+class RobotModelTest : public testing::Test {
+ protected:
+  const RobotModel model_ = RobotModel::FromUrdf(kTree, "tree.urdf");
+};
+
+TEST_F(RobotModelTest, OrdersLinksDepthFirstInTheOrderOfTheText) {
+  EXPECT_EQ(model_.name(), "tree");
+  std::vector<std::string> links;
+  for (const Link& link : model_.links()) links.push_back(link.name);
+  EXPECT_EQ(links, (std::vector<std::string>{"trunk", "branch", "leaf_b", "leaf_a", "twig"}));
+  std::vector<std::string> joints;
+  for (const Joint& joint : model_.joints()) joints.push_back(joint.name);
+  EXPECT_EQ(joints, (std::vector<std::string>{"zulu", "mike", "bravo", "alpha"}));
+  EXPECT_EQ(model_.links()[0].child_joints, (std::vector<int>{0, 3}));
+}
+
+TEST_F(RobotModelTest, IsConsistent) {
+  EXPECT_EQ(model_.links()[0].parent_joint, -1);
+  int positions = 0;
+  for (int j = 0; j < static_cast<int>(model_.joints().size()); ++j) {
+    const Joint& joint = model_.joints()[static_cast<std::size_t>(j)];
+    EXPECT_LT(joint.parent_link, joint.child_link);
+    EXPECT_EQ(model_.links()[static_cast<std::size_t>(joint.child_link)].parent_joint, j);
+    EXPECT_EQ(model_.FindJoint(joint.name), j);
+    if (joint.type == JointType::kFixed) {
+      EXPECT_EQ(joint.position_index, -1);
+    } else {
+      EXPECT_EQ(joint.position_index, positions++);
+    }
+  }
+  EXPECT_EQ(model_.num_positions(), positions);
+  for (int i = 0; i < model_.num_links(); ++i) {
+    EXPECT_EQ(model_.FindLink(model_.links()[static_cast<std::size_t>(i)].name), i);
+  }
+  EXPECT_EQ(model_.FindLink("root"), -1);
+  EXPECT_EQ(model_.FindJoint("trunk"), -1);
+}
+
+TEST_F(RobotModelTest, ReadsJoints) {
+  const Joint& zulu = model_.joints()[0];
+  EXPECT_EQ(zulu.type, JointType::kPrismatic);
+  EXPECT_EQ(zulu.axis_J, Vector3d::UnitZ());  // Normalised.
+  EXPECT_EQ(zulu.lower, 0.1);
+  EXPECT_EQ(zulu.upper, 0.5);
+  EXPECT_EQ(zulu.max_velocity, 0.2);
+  EXPECT_EQ(model_.joints()[1].type, JointType::kFixed);
+  EXPECT_EQ(model_.joints()[2].type, JointType::kRevolute);
+  const Joint& alpha = model_.joints()[3];
+  EXPECT_EQ(alpha.type, JointType::kContinuous);
+  EXPECT_EQ(alpha.lower, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(alpha.upper, std::numeric_limits<double>::infinity());
+}
+
+TEST_F(RobotModelTest, ReadsCollisionGeometry) {
+  const Link& trunk = model_.links()[0];
+  ASSERT_EQ(trunk.collision.size(), 2u);
+  EXPECT_EQ(std::get<Box>(trunk.collision[0].shape).size, Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<Cylinder>(trunk.collision[1].shape).radius, 0.1);
+  EXPECT_EQ(std::get<Cylinder>(trunk.collision[1].shape).length, 0.4);
+  EXPECT_EQ(trunk.collision[1].X_FS.translation(), Vector3d::UnitZ());
+  const Link& branch = model_.links()[1];
+  ASSERT_EQ(branch.collision.size(), 1u);
+  const Mesh& mesh = std::get<Mesh>(branch.collision[0].shape);
+  EXPECT_EQ(mesh.resource, "package://tree/meshes/branch.stl");
+  EXPECT_EQ(mesh.scale, Vector3d(0.001, 0.002, 0.003));
+  EXPECT_TRUE(mesh.triangles.vertices.empty());
+  const Link& twig = model_.links()[4];
+  EXPECT_EQ(std::get<Sphere>(twig.collision.at(0).shape).radius, 0.2);
+}
+
+TEST_F(RobotModelTest, AdjacentLinksAreJoinedByAJoint) {
+  const auto adjacent = [this](const char* a, const char* b) {
+    EXPECT_EQ(model_.Adjacent(model_.FindLink(a), model_.FindLink(b)),
+              model_.Adjacent(model_.FindLink(b), model_.FindLink(a)));
+    return model_.Adjacent(model_.FindLink(a), model_.FindLink(b));
+  };
+  EXPECT_TRUE(adjacent("trunk", "branch"));
+  EXPECT_TRUE(adjacent("branch", "leaf_b"));
+  EXPECT_FALSE(adjacent("trunk", "leaf_b"));
+  EXPECT_FALSE(adjacent("leaf_a", "leaf_b"));
+  EXPECT_FALSE(adjacent("trunk", "trunk"));
+}
+
+TEST_F(RobotModelTest, DefaultPositionsAreTheNearestToZeroWithinLimits) {
+  EXPECT_EQ(model_.DefaultPositions(), (std::vector<double>{0.1, -1, 0}));
+}
+
+TEST_F(RobotModelTest, MakesGroupsInTheOrderGiven) {
+  const PlanningGroup group = model_.MakeGroup("arm", {"alpha", "zulu"}, "leaf_a");
+  EXPECT_EQ(group.name, "arm");
+  EXPECT_EQ(group.joints, (std::vector<int>{3, 0}));
+  EXPECT_EQ(group.tip_link, model_.FindLink("leaf_a"));
+  ASSERT_EQ(group.space.size(), 2);
+  EXPECT_TRUE(group.space.joint(0).continuous);
+  EXPECT_FALSE(group.space.joint(0).prismatic);
+  EXPECT_EQ(group.space.joint(0).lower, -std::numbers::pi);
+  EXPECT_EQ(group.space.joint(0).upper, std::numbers::pi);
+  EXPECT_EQ(group.space.joint(1).name, "zulu");
+  EXPECT_TRUE(group.space.joint(1).prismatic);
+  EXPECT_EQ(group.space.joint(1).lower, 0.1);
+  EXPECT_EQ(group.space.joint(1).upper, 0.5);
+  EXPECT_EQ(group.space.joint(1).max_velocity, 0.2);
+}
+
+TEST_F(RobotModelTest, RefusesGroupsItCannotMake) {
+  const auto make = [this](std::vector<std::string> joints, const char* tip) {
+    return [this, joints, tip] { model_.MakeGroup("arm", joints, tip); };
+  };
+  ExpectInputError(make({"alpha", "yankee"}, "twig"), {"arm", "tree", "'yankee' is unknown"});
+  ExpectInputError(make({"mike"}, "twig"), {"arm", "'mike' is fixed"});
+  ExpectInputError(make({"alpha", "alpha"}, "twig"), {"arm", "'alpha' is repeated"});
+  ExpectInputError(make({"alpha"}, "stem"), {"arm", "tip link 'stem'"});
+  ExpectInputError(make({}, "twig"), {"arm", "no joints"});
+}
+
+TEST_F(RobotModelTest, FullPositionsTakeNamedOnesAndDefaults) {
+  EXPECT_EQ(FullPositions(model_, {"alpha", "zulu"}, {3, 0.3}, "start"),
+            (std::vector<double>{0.3, -1, 3}));
+  EXPECT_EQ(FullPositions(model_, {}, {}, "start"), model_.DefaultPositions());
+}
+
+TEST_F(RobotModelTest, FullPositionsRefusesWhatTheRobotDoesNotHave) {
+  const auto full = [this](std::vector<std::string> names, std::vector<double> positions) {
+    return [this, names, positions] {
+      FullPositions(model_, names, positions, "request0001.yaml: start");
+    };
+  };
+  const std::string origin = "request0001.yaml: start";
+  ExpectInputError(full({"alpha"}, {1, 2}), {origin, "1 joint names", "2 positions"});
+  ExpectInputError(full({"yankee"}, {1}), {origin, "'yankee' is unknown"});
+  ExpectInputError(full({"mike"}, {1}), {origin, "'mike' is fixed"});
+  ExpectInputError(full({"alpha", "alpha"}, {1, 1}), {origin, "'alpha' occurs twice"});
+}
+
+}  // namespace
+}  // namespace planbench
