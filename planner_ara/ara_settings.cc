@@ -1,0 +1,108 @@
+#include "planner_ara/ara_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+void ApplyByJoint(const YamlNode& node, const std::string& key,
+                  std::map<std::string, double>* values) {
+  const std::optional<YamlNode> map = node.Find(key);
+  if (!map) return;
+  for (const std::string& joint : map->Keys()) {
+    (*values)[joint] = map->At(joint).PositiveDouble();
+  }
+}
+
+double NonNegative(const YamlNode& node, const std::string& key, double fallback) {
+  const std::optional<YamlNode> value = node.Find(key);
+  if (!value) return fallback;
+  if (value->Double() < 0) value->Fail("must not be negative");
+  return value->Double();
+}
+
+double Positive(const YamlNode& node, const std::string& key, double fallback) {
+  const std::optional<YamlNode> value = node.Find(key);
+  return value ? value->PositiveDouble() : fallback;
+}
+
+double AtLeastOne(const YamlNode& node, const std::string& key, double fallback) {
+  const std::optional<YamlNode> value = node.Find(key);
+  if (!value) return fallback;
+  if (value->Double() < 1) value->Fail("must be at least 1");
+  return value->Double();
+}
+
+std::string ByJointAsText(const std::map<std::string, double>& values) {
+  std::string text;
+  for (const auto& [joint, value] : values) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", joint, value);
+  }
+  return "{" + text + "}";
+}
+
+}  // namespace
+
+void AraSettings::Apply(const YamlNode& node) {
+  node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
+                  "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
+                  "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
+                  "memory_limit_mb"});
+  ApplyByJoint(node, "discretization", &discretization);
+  ApplyByJoint(node, "joint_weights", &joint_weights);
+  primitives = node.StringOr("primitives", primitives);
+  use_long_primitives = node.BoolOr("use_long_primitives", use_long_primitives);
+  use_short_primitives = node.BoolOr("use_short_primitives", use_short_primitives);
+  long_primitives_beyond = NonNegative(node, "long_primitives_beyond", long_primitives_beyond);
+  short_primitives_within = NonNegative(node, "short_primitives_within", short_primitives_within);
+  if (const std::optional<YamlNode> value = node.Find("cost")) {
+    const std::string name = value->String();
+    if (name == "distance") {
+      cost = MoveCost::kDistance;
+    } else if (name == "uniform") {
+      cost = MoveCost::kUniform;
+    } else {
+      value->Fail("expected distance or uniform, found '" + name + "'");
+    }
+  }
+  epsilon.initial = AtLeastOne(node, "epsilon_initial", epsilon.initial);
+  epsilon.decrement = Positive(node, "epsilon_decrement", epsilon.decrement);
+  epsilon.final = AtLeastOne(node, "epsilon_final", epsilon.final);
+  memory_limit_mb = Positive(node, "memory_limit_mb", memory_limit_mb);
+}
+
+void AraSettings::Validate(const std::string& origin) const {
+  if (primitives.empty()) throw InputError(origin + ": the field 'primitives' is missing");
+  if (discretization.empty()) throw InputError(origin + ": the field 'discretization' is missing");
+  if (epsilon.initial < epsilon.final) {
+    throw InputError(fmt::format("{}: epsilon_initial {} is less than epsilon_final {}", origin,
+                                 epsilon.initial, epsilon.final));
+  }
+}
+
+std::map<std::string, std::string> AraSettings::AsText() const {
+  std::map<std::string, std::string> text{
+      {"discretization", ByJointAsText(discretization)},
+      {"joint_weights", ByJointAsText(joint_weights)},
+      {"primitives", primitives.string()},
+      {"use_long_primitives", fmt::format("{}", use_long_primitives)},
+      {"use_short_primitives", fmt::format("{}", use_short_primitives)},
+      {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
+      {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
+      {"epsilon_initial", fmt::format("{}", epsilon.initial)},
+      {"epsilon_decrement", fmt::format("{}", epsilon.decrement)},
+      {"epsilon_final", fmt::format("{}", epsilon.final)},
+      {"memory_limit_mb", fmt::format("{}", memory_limit_mb)},
+  };
+  if (std::isfinite(short_primitives_within)) {
+    text["short_primitives_within"] = fmt::format("{}", short_primitives_within);
+  }
+  return text;
+}
+
+}  // namespace planbench

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "common/yaml.h"
+#include "planner_ara/epsilon_schedule.h"
+
+namespace planbench {
+
+/// What a move between lattice points costs.
+enum class MoveCost {
+  kDistance,  ///< The weighted length of its motion.
+  kUniform,   ///< 1, whatever its length.
+};
+
+/// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
+struct AraSettings {
+  /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
+  std::map<std::string, double> discretization;
+  /// Weight of a joint in distances, per rad or m, > 0; 1 for joints that are not named.
+  std::map<std::string, double> joint_weights;
+  /// The file of motion primitives; relative paths start at the robot folder.
+  std::filesystem::path primitives;
+  bool use_long_primitives = true;
+  bool use_short_primitives = true;
+  /// Long primitives are used in states at least this far (weighted joint distance) from both start
+  /// and goal.
+  double long_primitives_beyond = 0;
+  /// Short primitives are used in states at most this far from start or goal; absent: everywhere.
+  double short_primitives_within = std::numeric_limits<double>::infinity();
+  MoveCost cost = MoveCost::kDistance;
+  EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
+  double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.
+
+  /// Replaces the values that `node` names (a map or nothing); of discretization and joint_weights,
+  /// those of the joints it names. Throws InputError naming file, line and key for unknown keys,
+  /// wrong types and values out of range.
+  void Apply(const YamlNode& node);
+  /// Throws InputError, prefixed by `origin`, unless the settings hold together.
+  void Validate(const std::string& origin) const;
+  /// Every setting as text, by key.
+  std::map<std::string, std::string> AsText() const;
+};
+
+}  // namespace planbench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace planbench {
+
+/// The values of epsilon an anytime search goes through: initial, initial - decrement, ..., final.
+struct EpsilonSchedule {
+  double initial = 10;   ///< >= final
+  double decrement = 1;  ///< > 0
+  double final = 1;      ///< >= 1
+
+  /// The next value below both `epsilon` and the bound already proven (values the bound has
+  /// overtaken are skipped); nothing once `bound` has reached the final value.
+  std::optional<double> Next(double epsilon, double bound) const {
+    if (bound <= final || epsilon <= final) return std::nullopt;
+    const double below = std::min(epsilon, bound);
+    const double steps = std::floor((initial - below) / decrement + 1e-9) + 1;
+    return std::max(final, initial - steps * decrement);
+  }
+};
+
+}  // namespace planbench

@@ -1,0 +1,89 @@
+#include "planner_ara/lattice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kMaxCells = 65535;
+
+}  // namespace
+
+Lattice::Lattice(const JointSpace& space, std::span<const double> anchor,
+                 std::span<const double> discretization) {
+  constexpr double kTwoPi = 2 * std::numbers::pi;
+  for (int j = 0; j < space.size(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    const JointSpace::Joint& joint = space.joint(j);
+    const double range = joint.continuous ? kTwoPi : joint.upper - joint.lower;
+    const double cells = range / discretization[i];
+    if (cells > kMaxCells) {
+      throw InputError(fmt::format("discretization of {}: {} gives more than {:.0f} cells",
+                                   joint.name, discretization[i], kMaxCells));
+    }
+    LatticeAxis axis;
+    axis.wraps = joint.continuous;
+    int below = 0;  // cells on the lower side of the anchor
+    int above = 0;
+    if (joint.continuous) {
+      const int num = static_cast<int>(std::lround(cells));
+      if (num < 3) {
+        throw InputError(fmt::format("discretization of {}: {} gives fewer than 3 cells",
+                                     joint.name, discretization[i]));
+      }
+      axis.step = kTwoPi / num;
+      above = num - 1;
+    } else {
+      axis.step = discretization[i];
+      const double slack = JointSpace::kLimitTolerance / 2;
+      below = std::max(0, static_cast<int>((anchor[i] - joint.lower + slack) / axis.step));
+      above = std::max(0, static_cast<int>((joint.upper - anchor[i] + slack) / axis.step));
+    }
+    for (int k = -below; k <= above; ++k) {
+      const double value = anchor[i] + k * axis.step;
+      axis.values.push_back(joint.continuous && k != 0 ? WrapAngle(value) : value);
+    }
+    anchor_.push_back(static_cast<Coordinate>(below));
+    axes_.push_back(std::move(axis));
+  }
+}
+
+std::size_t LatticePoints::SlotOf(std::span<const Lattice::Coordinate> coordinates) const {
+  std::uint64_t hash = 0;
+  for (const Lattice::Coordinate coordinate : coordinates) {
+    hash = (hash ^ coordinate) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 32;
+  }
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash & mask;
+  while (slots_[slot] != kEmpty &&
+         !std::equal(coordinates.begin(), coordinates.end(), coordinates_.Record(slots_[slot]))) {
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+std::uint32_t LatticePoints::FindOrAdd(std::span<const Lattice::Coordinate> coordinates) {
+  std::size_t slot = SlotOf(coordinates);
+  if (slots_[slot] != kEmpty) return slots_[slot];
+  if ((size() + 1) * 3 > slots_.size() * 2) {
+    Grow();
+    slot = SlotOf(coordinates);
+  }
+  slots_[slot] = static_cast<std::uint32_t>(size());
+  std::copy(coordinates.begin(), coordinates.end(), coordinates_.Append());
+  return slots_[slot];
+}
+
+void LatticePoints::Grow() {
+  slots_.assign(slots_.size() * 2, kEmpty);
+  for (std::uint32_t point = 0; point < size(); ++point) slots_[SlotOf(Coordinates(point))] = point;
+}
+
+}  // namespace planbench

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "planner_ara/ara_settings.h"
+#include "planner_ara/ara_star.h"
+#include "planner_ara/goal_distance.h"
+#include "planner_ara/lattice.h"
+#include "planner_ara/motion_primitives.h"
+#include "planning/planner.h"
+
+namespace planbench {
+
+/// AraSettings resolved against a planning group, and the choices that are not the user's.
+struct ManipulationGraphOptions {
+  std::vector<double> discretization;  ///< n joints, rad or m.
+  std::vector<double> weights;         ///< n joints, per rad or m.
+  MotionPrimitives primitives;         ///< Those in use.
+  double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
+  double short_moves_within = std::numeric_limits<double>::infinity();
+  MoveCost cost = MoveCost::kDistance;
+  bool remember_edges = false;  ///< For searches that expand a state more than once.
+};
+
+/// Resolves settings against a group. `primitives_file` is absolute. Throws InputError, prefixed by
+/// `origin`, for joints of the group without a discretisation, and what LoadMotionPrimitives
+/// refuses.
+ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const JointSpace& space,
+                                        const std::string& primitives_file,
+                                        const std::string& origin);
+
+/// The graph an ARA* search of a manipulation problem runs on (SearchGraph): the points of a
+/// lattice anchored at the start, joined by motion primitives, and the goal as one more state,
+/// joined to every lattice point by the straight motion to the nearest point of the goal box (and
+/// to its nominal point, if that is another).
+///
+/// Costs and heuristic are in one unit: weighted joint distance, or, with uniform costs, that
+/// distance over the length of the longest primitive. Every edge costs at least the length of its
+/// motion in that unit, and the edge to the nearest goal point exactly that, so the joint distance
+/// to the goal box is a consistent heuristic.
+class ManipulationGraph {
+ public:
+  static constexpr StateId kGoal = 0;
+  static constexpr StateId kStart = 1;
+
+  /// `start` is valid. Throws InputError for a primitive that moves a continuous joint half a turn
+  /// or more, and what Lattice refuses. The edge checker must outlive this.
+  ManipulationGraph(EdgeChecker* edges, std::span<const double> start, const GoalBox& goal,
+                    ManipulationGraphOptions options);
+
+  void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
+  bool IsValidEdge(StateId source, const CandidateEdge& edge);
+  double Heuristic(StateId state) const;
+
+  const Lattice& lattice() const { return lattice_; }
+  /// Configuration of a lattice point (not of kGoal), n joints.
+  void ConfigurationOf(StateId state, std::span<double> q) const;
+  /// The configurations of a path from kStart to kGoal.
+  Path Configurations(const std::vector<PathStep>& steps) const;
+
+  /// Lattice points seen.
+  std::int64_t num_states() const { return static_cast<std::int64_t>(points_.size()); }
+  /// Edges to the goal whose validity was checked.
+  std::int64_t num_goal_connections_tried() const { return num_goal_connections_tried_; }
+  std::size_t bytes() const { return points_.bytes() + known_edges_.bytes(); }
+
+ private:
+  enum Action : std::uint16_t { kToNearestGoal = 0, kToNominalGoal = 1, kFirstMove = 2 };
+  // Of an edge, two bits each.
+  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
+
+  struct Move {
+    std::vector<int> cells;  // by joint
+    double cost;
+    bool is_long;
+  };
+
+  void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
+  double SquaredDistance(const std::vector<std::vector<double>>& terms, StateId state) const;
+  void GoalConfiguration(std::uint16_t action, std::span<const double> from,
+                         std::span<double> to) const;
+  void SelectSource(StateId state);
+  bool Check(const CandidateEdge& edge);
+  std::uint64_t* KnowledgeWord(StateId state, std::uint16_t action, int* shift);
+
+  EdgeChecker* edges_;
+  GoalBox goal_;
+  ManipulationGraphOptions options_;
+  Lattice lattice_;
+  LatticePoints points_;
+  GoalDistance goal_distance_;
+  std::vector<Move> moves_;
+  double unit_ = 1;  // cost of a motion of weighted length 1
+  bool moves_depend_on_place_ = false;
+  // Squared weighted distance by joint and cell, to the goal box and to the start.
+  std::vector<std::vector<double>> goal_terms_;
+  std::vector<std::vector<double>> start_terms_;
+  ChunkedArray<std::uint64_t> known_edges_;  // by state
+  std::size_t known_words_ = 0;              // of a state
+  std::int64_t num_goal_connections_tried_ = 0;
+
+  // The state whose edges are at hand.
+  StateId source_ = kGoal;
+  std::vector<double> from_;
+  std::vector<double> to_;
+  std::vector<Lattice::Coordinate> target_;
+};
+
+}  // namespace planbench

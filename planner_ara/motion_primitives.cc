@@ -1,0 +1,117 @@
+#include "planner_ara/motion_primitives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::string_view kHeader = "Motion_Primitives(degrees):";
+constexpr int kMaxMultiple = 32767;  // half the cells a lattice axis can have
+constexpr int kMaxRows = 16384;      // two actions a row, numbered in 16 bits
+
+// Integers of one line; `first_word` to be skipped has been removed.
+std::vector<int> Integers(std::string_view line, const std::string& where) {
+  std::vector<int> values;
+  std::istringstream words{std::string(line)};
+  std::string word;
+  while (words >> word) {
+    int value = 0;
+    const char* end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || rest != end) {
+      throw InputError(where + ": expected an integer, found '" + word + "'");
+    }
+    values.push_back(value);
+  }
+  return values;
+}
+
+std::vector<int> Row(const std::string& line, const std::string& where, int columns) {
+  std::vector<int> row = Integers(line, where);
+  if (static_cast<int>(row.size()) != columns) {
+    throw InputError(fmt::format("{}: expected {} numbers, found {}", where, columns, row.size()));
+  }
+  if (std::all_of(row.begin(), row.end(), [](int value) { return value == 0; })) {
+    throw InputError(where + ": a motion primitive of zeros moves nothing");
+  }
+  for (const int value : row) {
+    if (value < -kMaxMultiple || value > kMaxMultiple) {
+      throw InputError(fmt::format("{}: {} is beyond +-{}", where, value, kMaxMultiple));
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+MotionPrimitives ParseMotionPrimitives(const std::string& text, const std::string& origin,
+                                       int num_joints) {
+  std::istringstream lines(text);
+  std::string line;
+  int number = 0;
+  const auto where = [&] { return fmt::format("{}:{}", origin, number); };
+  const auto next_line = [&] {  // the next line that is not blank
+    while (std::getline(lines, line)) {
+      ++number;
+      if (line.find_first_not_of(" \t\r") != std::string::npos) return true;
+    }
+    return false;
+  };
+
+  if (!next_line() || line.compare(line.find_first_not_of(" \t"), kHeader.size(), kHeader) != 0) {
+    throw InputError(fmt::format("{}:{}: expected '{} ROWS COLUMNS NUM_SHORT'", origin,
+                                 std::max(number, 1), kHeader));
+  }
+  const std::size_t header_end = line.find(':') + 1;
+  const std::vector<int> counts = Integers(std::string_view(line).substr(header_end), where());
+  if (counts.size() != 3) {
+    throw InputError(fmt::format("{}: expected three numbers, ROWS COLUMNS NUM_SHORT, found {}",
+                                 where(), counts.size()));
+  }
+  const int rows = counts[0];
+  const int columns = counts[1];
+  const int num_short = counts[2];
+  if (rows < 1 || rows > kMaxRows) {
+    throw InputError(fmt::format("{}: {} rows; 1 to {} are possible", where(), rows, kMaxRows));
+  }
+  if (num_short < 0 || num_short > rows) {
+    throw InputError(fmt::format("{}: {} short primitives of {}", where(), num_short, rows));
+  }
+  if (columns != num_joints) {
+    throw InputError(fmt::format("{}: {} columns, but the planning group has {} joints", where(),
+                                 columns, num_joints));
+  }
+
+  MotionPrimitives primitives;
+  for (int row = 0; row < rows; ++row) {
+    if (!next_line()) {
+      throw InputError(
+          fmt::format("{}:{}: {} rows announced, {} found", origin, number, rows, row));
+    }
+    auto& moves = row < rows - num_short ? primitives.long_moves : primitives.short_moves;
+    moves.push_back(Row(line, where(), columns));
+  }
+  if (next_line()) {
+    throw InputError(fmt::format("{}: text after the {} rows announced", where(), rows));
+  }
+  return primitives;
+}
+
+MotionPrimitives LoadMotionPrimitives(const std::string& path, int num_joints) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be opened");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad() || !text) throw InputError(path + ": cannot be read");
+  return ParseMotionPrimitives(text.str(), path, num_joints);
+}
+
+}  // namespace planbench

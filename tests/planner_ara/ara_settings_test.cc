@@ -1,0 +1,121 @@
+#include "planner_ara/ara_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+AraSettings Read(const std::string& text) {
+  AraSettings settings;
+  settings.Apply(YamlNode::Parse(text, "ara.yaml"));
+  return settings;
+}
+
+TEST(AraSettings, ReadsEveryKey) {
+  const AraSettings settings = Read(R"(
+discretization: {lift: 0.005, roll: 0.1}
+joint_weights: {lift: 3}
+primitives: arm.mprim
+use_long_primitives: false
+use_short_primitives: true
+long_primitives_beyond: 0.5
+short_primitives_within: 0.4
+cost: uniform
+epsilon_initial: 30
+epsilon_decrement: 2
+epsilon_final: 1.5
+memory_limit_mb: 100
+)");
+  EXPECT_EQ(settings.discretization,
+            (std::map<std::string, double>{{"lift", 0.005}, {"roll", 0.1}}));
+  EXPECT_EQ(settings.joint_weights, (std::map<std::string, double>{{"lift", 3}}));
+  EXPECT_EQ(settings.primitives, "arm.mprim");
+  EXPECT_FALSE(settings.use_long_primitives);
+  EXPECT_TRUE(settings.use_short_primitives);
+  EXPECT_EQ(settings.long_primitives_beyond, 0.5);
+  EXPECT_EQ(settings.short_primitives_within, 0.4);
+  EXPECT_EQ(settings.cost, MoveCost::kUniform);
+  EXPECT_EQ(settings.epsilon.initial, 30);
+  EXPECT_EQ(settings.epsilon.decrement, 2);
+  EXPECT_EQ(settings.epsilon.final, 1.5);
+  EXPECT_EQ(settings.memory_limit_mb, 100);
+  settings.Validate("ara.yaml");
+}
+
+TEST(AraSettings, NothingLeavesTheDefaults) {
+  EXPECT_EQ(Read("").AsText(), AraSettings().AsText());
+  EXPECT_TRUE(std::isinf(Read("").short_primitives_within));
+}
+
+TEST(AraSettings, LaterValuesAreLaidOverEarlierOnes) {
+  AraSettings settings = Read("{discretization: {lift: 0.005, roll: 0.1}, epsilon_initial: 9}");
+  YamlNode node = YamlNode::Parse("", "parameter");
+  node.Override("discretization", "{roll: 0.2}", "parameter discretization");
+  node.Override("cost", "uniform", "parameter cost");
+  settings.Apply(node);
+  EXPECT_EQ(settings.discretization,
+            (std::map<std::string, double>{{"lift", 0.005}, {"roll", 0.2}}));
+  EXPECT_EQ(settings.cost, MoveCost::kUniform);
+  EXPECT_EQ(settings.epsilon.initial, 9);
+}
+
+TEST(AraSettings, TextReadsBackAsTheSameSettings) {
+  const AraSettings settings = Read(
+      "{discretization: {lift: 0.005, roll: 0.017453292519943295}, joint_weights: {lift: 3}, "
+      "primitives: a.mprim, short_primitives_within: 0.25, cost: uniform, epsilon_initial: 7.5}");
+  AraSettings again;
+  for (const auto& [key, text] : settings.AsText()) {
+    YamlNode node = YamlNode::Parse("", "parameter");
+    node.Override(key, text, "parameter " + key);
+    again.Apply(node);
+  }
+  EXPECT_EQ(again.AsText(), settings.AsText());
+  EXPECT_EQ(again.discretization, settings.discretization);
+}
+
+TEST(AraSettings, RefusesWhatItCannotUse) {
+  struct Case {
+    std::string text;
+    std::vector<std::string> message;
+  };
+  const std::vector<Case> cases = {
+      {"[1, 2]", {"ara.yaml:1", "expected a map"}},
+      {"\nepsilon: 3", {"ara.yaml:2", "epsilon", "unknown key"}},
+      {"cost: cheap", {"ara.yaml:1: cost:", "distance or uniform", "cheap"}},
+      {"discretization: 0.1", {"ara.yaml:1: discretization:", "map"}},
+      {"discretization: {lift: 0}", {"ara.yaml:1: discretization.lift:", "greater than zero"}},
+      {"discretization: {lift: fine}", {"ara.yaml:1: discretization.lift:", "number"}},
+      {"joint_weights: {lift: -1}", {"ara.yaml:1: joint_weights.lift:", "greater than zero"}},
+      {"use_long_primitives: 3", {"ara.yaml:1: use_long_primitives:", "true or false"}},
+      {"long_primitives_beyond: -1", {"ara.yaml:1: long_primitives_beyond:", "negative"}},
+      {"short_primitives_within: .inf", {"ara.yaml:1: short_primitives_within:", "finite"}},
+      {"epsilon_initial: 0.9", {"ara.yaml:1: epsilon_initial:", "at least 1"}},
+      {"epsilon_decrement: 0", {"ara.yaml:1: epsilon_decrement:", "greater than zero"}},
+      {"epsilon_final: .nan", {"ara.yaml:1: epsilon_final:", "finite"}},
+      {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
+      {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},
+  };
+  for (const Case& test : cases) {
+    SCOPED_TRACE(test.text);
+    ExpectInputError([&] { Read(test.text); }, test.message);
+  }
+}
+
+TEST(AraSettings, MustHoldTogether) {
+  const std::string cells = "discretization: {lift: 0.1}\n";
+  ExpectInputError([&] { Read(cells).Validate("ara.yaml"); }, {"ara.yaml", "'primitives'"});
+  ExpectInputError([&] { Read("primitives: a.mprim").Validate("ara.yaml"); },
+                   {"ara.yaml", "'discretization'"});
+  ExpectInputError(
+      [&] {
+        Read(cells + "primitives: a.mprim\nepsilon_initial: 2\nepsilon_final: 3").Validate("x");
+      },
+      {"epsilon_initial 2", "epsilon_final 3"});
+}
+
+}  // namespace
+}  // namespace planbench

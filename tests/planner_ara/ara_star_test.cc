@@ -1,0 +1,245 @@
+#include "planner_ara/ara_star.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "planner_ara/epsilon_schedule.h"
+#include "tests/planner_ara/random_graph.h"
+
+namespace planbench {
+namespace {
+
+constexpr StateId kStart = 0;
+constexpr StateId kGoal = 1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kNumGraphs = 400;
+const auto kNever = [] { return false; };
+
+double CostOf(const ExplicitGraph& graph, const std::vector<PathStep>& path) {
+  EXPECT_FALSE(path.empty());
+  if (path.empty()) return kInfinity;
+  EXPECT_EQ(path.front().state, kStart);
+  EXPECT_EQ(path.back().state, kGoal);
+  double cost = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const ExplicitGraph::Edge& edge = graph.edges[path[i - 1].state][path[i].action];
+    EXPECT_EQ(edge.target, path[i].state);
+    EXPECT_TRUE(edge.valid);
+    cost += edge.cost;
+  }
+  return cost;
+}
+
+void ExpectNoneTwice(const std::vector<StateId>& expanded) {
+  EXPECT_EQ(std::set<StateId>(expanded.begin(), expanded.end()).size(), expanded.size());
+}
+
+TEST(AraStar, KeepsItsPromiseAtEveryEpsilon) {
+  int num_solvable = 0;
+  int num_improved = 0;
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    double last_bound = kInfinity;
+    double last_cost = kInfinity;
+    for (const double epsilon : {20.0, 5.0, 3.0, 2.0, 1.5, 1.2, 1.1, 1.0}) {
+      graph.expanded.clear();
+      const ImproveOutcome outcome = search.ImprovePath(epsilon, kNever);
+      ExpectNoneTwice(graph.expanded);
+      if (optimum == kInfinity) {
+        EXPECT_EQ(outcome, ImproveOutcome::kExhausted);
+        EXPECT_EQ(search.goal_cost(), kInfinity);
+        EXPECT_EQ(search.bound(), kInfinity);
+        EXPECT_TRUE(search.Path().empty());
+        continue;
+      }
+      ASSERT_EQ(outcome, ImproveOutcome::kConverged);
+      EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
+      EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
+      EXPECT_GE(search.bound(), 1);
+      EXPECT_LE(search.bound(), epsilon + 1e-12);
+      EXPECT_LE(search.bound(), last_bound);
+      EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
+      num_improved += last_cost != kInfinity && search.goal_cost() < last_cost ? 1 : 0;
+      last_bound = search.bound();
+      last_cost = search.goal_cost();
+    }
+    if (optimum == kInfinity) continue;
+    ++num_solvable;
+    EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
+    EXPECT_NEAR(CostOf(graph, search.Path()), optimum, 1e-9);
+    EXPECT_EQ(search.bound(), 1);
+  }
+  // The graphs put the promise to the test.
+  EXPECT_GT(num_solvable, kNumGraphs / 2);
+  EXPECT_LT(num_solvable, kNumGraphs);
+  EXPECT_GT(num_improved, 50);
+}
+
+TEST(AraStar, BoundHoldsWhereverItIsStopped) {
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    for (const double epsilon : {8.0, 1.3, 1.0}) {
+      for (ImproveOutcome outcome = ImproveOutcome::kStopped;
+           outcome == ImproveOutcome::kStopped;) {
+        int budget = 2;
+        outcome = search.ImprovePath(epsilon, [&] { return budget-- == 0; });
+        if (search.goal_cost() == kInfinity) continue;
+        EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
+        EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
+      }
+    }
+  }
+}
+
+TEST(AraStar, GoesOnWhereItWasStopped) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph at_once = RandomGraph(seed, kGoal);
+    ExplicitGraph in_steps = at_once;
+    AraStar<ExplicitGraph> search_at_once(&at_once, kStart, kGoal);
+    AraStar<ExplicitGraph> search_in_steps(&in_steps, kStart, kGoal);
+    for (const double epsilon : {4.0, 1.5, 1.0}) {
+      const ImproveOutcome outcome = search_at_once.ImprovePath(epsilon, kNever);
+      ImproveOutcome last = ImproveOutcome::kStopped;
+      while (last == ImproveOutcome::kStopped) {
+        int budget = 1;
+        last = search_in_steps.ImprovePath(epsilon, [&] { return budget-- == 0; });
+      }
+      EXPECT_EQ(last, outcome);
+      EXPECT_EQ(search_in_steps.goal_cost(), search_at_once.goal_cost());
+    }
+    EXPECT_EQ(in_steps.expanded, at_once.expanded);
+  }
+}
+
+TEST(AraStar, IsDeterministic) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    ExplicitGraph first = RandomGraph(seed, kGoal);
+    ExplicitGraph second = first;
+    for (ExplicitGraph* graph : {&first, &second}) {
+      AraStar<ExplicitGraph> search(graph, kStart, kGoal);
+      for (const double epsilon : {3.0, 2.0, 1.0}) search.ImprovePath(epsilon, kNever);
+    }
+    EXPECT_EQ(first.expanded, second.expanded);
+  }
+}
+
+TEST(AraStar, WithoutHeuristicAndInflationIsDijkstra) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    graph.heuristic.assign(graph.heuristic.size(), 0);
+    const std::vector<double> costs = TrueCosts(graph, kStart, false);
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    search.ImprovePath(1, kNever);
+    if (costs[kGoal] == kInfinity) {
+      EXPECT_EQ(search.goal_cost(), kInfinity);
+    } else {
+      EXPECT_NEAR(search.goal_cost(), costs[kGoal], 1e-9);
+    }
+    ExpectNoneTwice(graph.expanded);
+    for (std::size_t i = 0; i < graph.expanded.size(); ++i) {
+      EXPECT_LE(costs[graph.expanded[i]], costs[kGoal]);
+      if (i > 0) {
+        EXPECT_GE(costs[graph.expanded[i]], costs[graph.expanded[i - 1]] - 1e-9);
+      }
+    }
+  }
+}
+
+// Start 0, goal 1. State 2 is cheap to reach by way of 3, but the inflated heuristic of 3 lets the
+// search come to 2 directly first; when 3 is expanded in turn, 2 is closed and must wait.
+ExplicitGraph GraphWithLateImprovement() {
+  ExplicitGraph graph(5);
+  graph.Add(0, 2, 6);
+  graph.Add(0, 3, 1);
+  graph.Add(3, 2, 1);
+  graph.Add(2, 4, 1);
+  graph.Add(4, 1, 10);
+  graph.heuristic = {12, 0, 11, 12, 10};
+  return graph;
+}
+
+TEST(AraStar, StateImprovedAfterItsExpansionWaitsForTheNextIteration) {
+  ExplicitGraph graph = GraphWithLateImprovement();
+  // At epsilon 10 the keys are: 2: 6 + 110, 3: 1 + 120, 4: 7 + 100; the goal is reached at 17
+  // before 3 is looked at.
+  AraStar<ExplicitGraph> search(&graph, 0, 1);
+  ASSERT_EQ(search.ImprovePath(10, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4}));
+  EXPECT_EQ(search.goal_cost(), 17);
+  EXPECT_DOUBLE_EQ(search.bound(), 17.0 / 13);  // 3 is the only open state: 1 + 12
+
+  // At 1.2: 3 has 1 + 14.4 < 17. It improves 2 (key 2 + 13.2), 4 (3 + 12) and the goal.
+  graph.expanded.clear();
+  ASSERT_EQ(search.ImprovePath(1.2, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(graph.expanded, (std::vector<StateId>{3, 2, 4}));
+  EXPECT_EQ(search.goal_cost(), 13);
+  EXPECT_EQ(search.bound(), 1);
+}
+
+TEST(AraStar, ClosedStateIsImprovedButNotExpandedAgain) {
+  ExplicitGraph graph = GraphWithLateImprovement();
+  graph.edges[4][0].cost = 30;
+  graph.heuristic = {4, 0, 3, 4, 2};
+  // At epsilon 6 the keys are: 2: 6 + 18, 4: 7 + 12, goal 37, then 3: 1 + 24 < 37. State 2 falls to
+  // 2, but is closed; waiting in INCONS it puts the lower bound at 2 + 3, which proves less than
+  // epsilon does.
+  AraStar<ExplicitGraph> search(&graph, 0, 1);
+  ASSERT_EQ(search.ImprovePath(6, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4, 3}));
+  EXPECT_EQ(search.goal_cost(), 37);
+  EXPECT_EQ(search.bound(), 6);
+  // The next iteration takes it up.
+  graph.expanded.clear();
+  ASSERT_EQ(search.ImprovePath(5.9, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(graph.expanded, (std::vector<StateId>{2, 4}));
+  EXPECT_EQ(search.goal_cost(), 33);
+  EXPECT_EQ(search.bound(), 1);
+}
+
+TEST(AraStar, AsksOnlyAboutEdgesThatWouldImprove) {
+  ExplicitGraph graph(3);
+  graph.Add(0, 2, 1);
+  graph.Add(0, 1, 5);
+  graph.Add(2, 0, 1);  // back to the start
+  graph.Add(2, 1, 6);  // dearer than what is known
+  graph.Add(2, 2, 0);  // nowhere
+  AraStar<ExplicitGraph> search(&graph, 0, 1);
+  EXPECT_EQ(search.ImprovePath(1, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2}));
+  EXPECT_EQ(graph.num_validity_checks, 2);
+  EXPECT_EQ(search.num_expansions(), 2);
+  EXPECT_EQ(search.num_edges_generated(), 5);
+}
+
+TEST(AraStar, StartThatIsTheGoalNeedsNoSearch) {
+  ExplicitGraph graph(1);
+  AraStar<ExplicitGraph> search(&graph, 0, 0);
+  EXPECT_EQ(search.ImprovePath(3, kNever), ImproveOutcome::kConverged);
+  EXPECT_EQ(search.goal_cost(), 0);
+  EXPECT_EQ(search.bound(), 1);
+  EXPECT_EQ(search.Path().size(), 1U);
+  EXPECT_TRUE(graph.expanded.empty());
+}
+
+TEST(AraStar, StoppedAtOnceHasNothing) {
+  ExplicitGraph graph = GraphWithLateImprovement();
+  AraStar<ExplicitGraph> search(&graph, 0, 1);
+  EXPECT_EQ(search.ImprovePath(2, [] { return true; }), ImproveOutcome::kStopped);
+  EXPECT_EQ(search.bound(), kInfinity);
+  EXPECT_TRUE(search.Path().empty());
+  EXPECT_TRUE(graph.expanded.empty());
+}
+
+}  // namespace
+}  // namespace planbench
