@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "collision/collision_model.h"
 #include "robot_model/motion_bound.h"
@@ -22,18 +23,22 @@ struct Contact {
 
 /// The two nearest bodies.
 struct ClosestPair {
-  double distance_m = 0;  ///< > 0 apart; <= 0 in collision (minus the depth where the engine knows it).
-  std::string body_a;     ///< Empty if there is no pair to check (distance_m is then infinity).
+  double distance_m =
+      0;  ///< > 0 apart; <= 0 in collision (minus the depth where the engine knows it).
+  std::string body_a;  ///< Empty if there is no pair to check (distance_m is then infinity).
   std::string body_b;
 };
 
-/// Decides whether configurations of a planning group collide: with the scene's objects, with attached objects,
-/// and with the robot itself, over the pairs that neither the scene's allowed-collision matrix, nor the
-/// robot's allowed_pairs, nor adjacency (two links joined by a joint) excludes. Touching counts as collision.
-/// Joint limits are not its business. Public functions validate, the Do... functions compute.
+/// Decides whether configurations of a planning group collide: with the scene's objects, with
+/// attached objects, and with the robot itself, over the pairs that neither the scene's
+/// allowed-collision matrix, nor the robot's allowed_pairs, nor adjacency (two links joined by a
+/// joint) excludes. Touching counts as collision. Bodies are solid: one wholly inside another
+/// collides with it, as far as a mesh is a closed surface. Joint limits are not its business.
+/// Public functions validate (InputError for wrong sizes, values that are not finite, or a check
+/// before SetScene), the Do... functions compute.
 ///
-/// Not thread-safe: one instance a thread. Holds references to the robot and the group, which must outlive it.
-/// tests/contract/collision_checker_contract.h is the suite every engine passes.
+/// Not thread-safe: one instance a thread. Holds references to the robot and the group, which must
+/// outlive it. tests/contract/collision_checker_contract.h is the suite every engine passes.
 class CollisionChecker {
  public:
   virtual ~CollisionChecker() = default;
@@ -47,28 +52,33 @@ class CollisionChecker {
   const PlanningGroup& group() const { return *group_; }
   const JointSpace& space() const { return group_->space; }
 
-  /// Takes the world and the positions of the joints outside the group (`base_positions`: full positions; those
-  /// of the group's joints do not matter). Must be called before any check; may be called again. Throws
-  /// InputError, naming the body, for what cannot be represented: an attached object on an unknown link, a
-  /// mesh without triangles.
+  /// Takes the world and the positions of the joints outside the group (`base_positions`: full
+  /// positions; those of the group's joints do not matter). Must be called before any check; may be
+  /// called again. Throws InputError, naming the body, for what cannot be represented: an attached
+  /// object on an unknown link, a mesh without triangles.
   void SetScene(const Scene& scene, std::span<const double> base_positions);
 
   /// True if nothing collides at q (n joints, group order, rad or m).
   bool IsFree(std::span<const double> q);
-  /// Index of a configuration in collision among `num` (row-major, num x n), -1 if all are free. Which one, if
-  /// several collide, is the engine's choice; engines may check them in any order or at once.
+  /// Index of a configuration in collision among `num` (row-major, num x n), -1 if all are free.
+  /// Which one, if several collide, is the engine's choice; engines may check them in any order or
+  /// at once.
   int FindCollision(std::span<const double> qs, int num);
   /// free[i] = IsFree(configuration i), for `num` configurations (row-major, num x n).
   void CheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// Number of configurations that FindCollision handles at once; callers that choose how many to
+  /// hand over gain by multiples of it.
+  virtual int BatchSize() const { return 1; }
   /// A pair of bodies in contact at q, nothing if free; the same q gives the same pair.
   std::optional<Contact> FindContact(std::span<const double> q);
   /// The nearest pair at q.
   ClosestPair FindClosest(std::span<const double> q);
 
-  /// Bound on the motion of the geometry this engine checks, for the scene set last (attached objects
-  /// included).
+  /// Bound on the motion of the geometry this engine checks, for the scene set last (attached
+  /// objects included).
   const MotionBound& motion_bound() const { return motion_bound_; }
-  /// Configurations checked since construction (by any of the functions above).
+  /// Configurations checked since construction (by any of the functions above). FindCollision
+  /// counts those up to and including the one it returns.
   std::int64_t num_checks() const { return num_checks_; }
 
  protected:
@@ -94,8 +104,12 @@ class CollisionChecker {
   bool has_scene_ = false;
 };
 
-/// The engine for a model. Throws InputError if it is not available, or if the robot lacks the geometry (spheres
-/// or mesh files).
+/// The engine for a model; the one place where an engine is chosen. A further engine derives from
+/// CollisionChecker, takes the pairs to check from PairRules (pair_rules.h) and the poses from
+/// RigidBodies (rigid_bodies.h), is instantiated in the contract suite
+/// (tests/contract/collision_checker_contract.h), and is returned from here for the model it
+/// serves, its name standing in AvailableCollisionModels() if the model is new. Throws InputError
+/// if it is not available, or if the robot lacks the geometry (spheres or mesh files).
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model);

@@ -8,10 +8,11 @@
 
 namespace planbench {
 
-/// Validity of states and edges, the same for every planner. A state is valid if it is within the joint limits and
-/// free. An edge is the straight joint motion (continuous joints the short way round), sampled evenly so that no point
-/// of the collision geometry moves more than `edge_resolution_m` between neighbouring samples by the motion
-/// bound; both ends are samples. It is valid if both ends are within limits and all samples are free.
+/// Validity of states and edges, the same for every planner. A state is valid if it is within the
+/// joint limits and free. An edge is the straight joint motion (continuous joints the short way
+/// round), sampled evenly so that no point of the collision geometry moves more than
+/// `edge_resolution_m` between neighbouring samples by the motion bound; both ends are samples. It
+/// is valid if both ends are within limits and all samples are free.
 ///
 /// Not thread-safe: one instance a thread.
 class EdgeChecker {
@@ -23,7 +24,8 @@ class EdgeChecker {
     double seconds = 0;               ///< Time spent in both.
   };
 
-  /// The checker must outlive this and have its scene set. Throws InputError unless edge_resolution_m > 0.
+  /// The checker must outlive this and have its scene set. Throws InputError unless
+  /// edge_resolution_m > 0.
   EdgeChecker(CollisionChecker* checker, double edge_resolution_m);
 
   const JointSpace& space() const { return checker_->space(); }

@@ -1,0 +1,99 @@
+#include "collision/collision_checker.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+bool AllFinite(std::span<const double> values) {
+  for (double value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void CollisionChecker::SetScene(const Scene& scene, std::span<const double> base_positions) {
+  const int expected = robot_->model.num_positions();
+  if (static_cast<int>(base_positions.size()) != expected) {
+    throw InputError(fmt::format("collision checker: {} base positions given, robot '{}' has {}",
+                                 base_positions.size(), robot_->name, expected));
+  }
+  if (!AllFinite(base_positions)) {
+    throw InputError("collision checker: a base position is not finite");
+  }
+  has_scene_ = false;  // stays so if the engine refuses the scene
+  motion_bound_ = DoSetScene(scene, base_positions);
+  has_scene_ = true;
+}
+
+void CollisionChecker::RequireReady(std::span<const double> qs, int num) const {
+  if (!has_scene_) throw InputError("collision checker: no scene is set");
+  if (num < 0 || qs.size() != static_cast<std::size_t>(num) * group_->joints.size()) {
+    throw InputError(
+        fmt::format("collision checker: {} values given for {} configurations of the {} joints of "
+                    "group '{}'",
+                    qs.size(), num, group_->joints.size(), group_->name));
+  }
+  if (!AllFinite(qs)) throw InputError("collision checker: a joint position is not finite");
+}
+
+bool CollisionChecker::IsFree(std::span<const double> q) {
+  RequireReady(q, 1);
+  ++num_checks_;
+  return DoIsFree(q);
+}
+
+int CollisionChecker::FindCollision(std::span<const double> qs, int num) {
+  RequireReady(qs, num);
+  const int found = DoFindCollision(qs, num);
+  num_checks_ += found < 0 ? num : found + 1;
+  return found;
+}
+
+void CollisionChecker::CheckAll(std::span<const double> qs, int num,
+                                std::span<unsigned char> free) {
+  RequireReady(qs, num);
+  if (free.size() != static_cast<std::size_t>(num)) {
+    throw InputError(fmt::format("collision checker: room for {} verdicts on {} configurations",
+                                 free.size(), num));
+  }
+  num_checks_ += num;
+  DoCheckAll(qs, num, free);
+}
+
+std::optional<Contact> CollisionChecker::FindContact(std::span<const double> q) {
+  RequireReady(q, 1);
+  ++num_checks_;
+  return DoFindContact(q);
+}
+
+ClosestPair CollisionChecker::FindClosest(std::span<const double> q) {
+  RequireReady(q, 1);
+  ++num_checks_;
+  return DoFindClosest(q);
+}
+
+int CollisionChecker::DoFindCollision(std::span<const double> qs, int num) {
+  const std::size_t n = group_->joints.size();
+  for (int i = 0; i < num; ++i) {
+    if (!DoIsFree(qs.subspan(static_cast<std::size_t>(i) * n, n))) return i;
+  }
+  return -1;
+}
+
+void CollisionChecker::DoCheckAll(std::span<const double> qs, int num,
+                                  std::span<unsigned char> free) {
+  const std::size_t n = group_->joints.size();
+  for (int i = 0; i < num; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    free[index] = DoIsFree(qs.subspan(index * n, n)) ? 1 : 0;
+  }
+}
+
+}  // namespace planbench

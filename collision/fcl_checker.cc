@@ -1,0 +1,424 @@
+#include "collision/fcl_checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "collision/pair_rules.h"
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Culling may err towards "may touch" only; this absorbs the rounding of frames some metres apart.
+constexpr double kRoundingMargin = 1e-12;
+
+template <typename Container, typename Index>
+auto& At(Container& container, Index index) {
+  return container[static_cast<std::size_t>(index)];
+}
+
+bool BallMissesBox(const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& box_center,
+                   const Eigen::Vector3d& box_half_size) {
+  const Eigen::Vector3d outside = ((center - box_center).cwiseAbs() - box_half_size).cwiseMax(0.0);
+  const double reach = radius + kRoundingMargin;
+  return outside.squaredNorm() > reach * reach;
+}
+
+/// Signed distance of a point from a box: a lower bound of its signed distance from whatever is in
+/// the box.
+double BoxDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& box_center,
+                   const Eigen::Vector3d& box_half_size) {
+  const Eigen::Vector3d beyond = (point - box_center).cwiseAbs() - box_half_size;
+  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+}  // namespace
+
+FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
+    : CollisionChecker(robot, group, model) {
+  for (int link = 0; link < robot.model.num_links(); ++link) {
+    LinkGeometry geometry{link, SphereTree(), {}, {}};
+    if (model == CollisionModel::kSpheres) {
+      std::vector<SphereTree::Ball> spheres;
+      for (const LinkSphere& sphere : robot.spheres) {
+        if (sphere.link != link) continue;
+        spheres.push_back({sphere.p_LS, sphere.radius});
+        geometry.balls.push_back({link, sphere.p_LS, sphere.radius});
+      }
+      geometry.spheres = SphereTree(std::move(spheres));
+    } else {
+      const Link& urdf_link = At(robot.model.links(), link);
+      for (const PlacedShape& placed : urdf_link.collision) {
+        Shape shape = placed.shape;
+        if (auto* mesh = std::get_if<Mesh>(&shape);
+            mesh != nullptr && mesh->triangles.triangles.empty() && !mesh->resource.empty()) {
+          mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
+        }
+        const Pose X_LS = Pose::From(placed.X_FS);
+        geometry.shapes.emplace_back(FclShape(shape, urdf_link.name), X_LS);
+        if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+          for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
+            geometry.balls.push_back({link, X_LS * vertex, 0});
+          }
+        } else {
+          const BoundingSphere bound = ComputeBoundingSphere(shape);
+          geometry.balls.push_back({link, X_LS * bound.center, bound.radius});
+        }
+      }
+    }
+    if (!geometry.balls.empty()) links_.push_back(std::move(geometry));
+  }
+  if (links_.empty()) {
+    throw InputError(
+        fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
+                    model == CollisionModel::kSpheres ? "collision spheres" : "collision geometry",
+                    CollisionModelName(model)));
+  }
+}
+
+void FclChecker::AddGeometry(Geometry geometry) {
+  if (geometry.tree != nullptr) {
+    const SphereTree::Node& root = geometry.tree->nodes().front();
+    geometry.ball_center = root.center;
+    geometry.ball_radius = root.radius;
+    geometry.box_center = geometry.tree->box_center();
+    geometry.box_half_size = geometry.tree->box_half_size();
+    geometry.pose = geometry.rigid_body;
+    geometry.first_node = static_cast<int>(node_positions_.size());
+    node_positions_.resize(node_positions_.size() + geometry.tree->nodes().size());
+  } else {
+    geometry.ball_center = geometry.shape->bounding_sphere().center;
+    geometry.ball_radius = geometry.shape->bounding_sphere().radius;
+    geometry.box_center = geometry.shape->box_center();
+    geometry.box_half_size = geometry.shape->box_half_size();
+    geometry.pose = static_cast<int>(poses_.size());
+    poses_.push_back(geometry.X_GS);
+    if (geometry.rigid_body != 0) moving_shapes_.push_back(static_cast<int>(geometries_.size()));
+  }
+  geometries_.push_back(geometry);
+}
+
+void FclChecker::AddLink(const LinkGeometry& link) {
+  const int body = static_cast<int>(bodies_.size());
+  bodies_.push_back({Body::Kind::kLink, link.link, At(robot().model.links(), link.link).name});
+  Geometry geometry;
+  geometry.body = body;
+  geometry.rigid_body = rigid_bodies_->BodyOf(link.link);
+  const Pose& X_GL = rigid_bodies_->X_GL(link.link);
+  if (!link.spheres.nodes().empty()) {
+    geometry.tree = &trees_.emplace_back(link.spheres.Transformed(X_GL));
+    AddGeometry(geometry);
+  }
+  for (const auto& [shape, X_LS] : link.shapes) {
+    geometry.shape = &shape;
+    geometry.X_GS = X_GL * X_LS;
+    AddGeometry(geometry);
+  }
+}
+
+void FclChecker::AddShapes(int body, int rigid_body, const Pose& X_GO,
+                           const std::vector<PlacedShape>& shapes, const std::string& name) {
+  for (const PlacedShape& placed : shapes) {
+    Geometry geometry;
+    geometry.body = body;
+    geometry.rigid_body = rigid_body;
+    geometry.X_GS = X_GO * Pose::From(placed.X_FS);
+    geometry.shape = &object_shapes_.emplace_back(placed.shape, name);
+    AddGeometry(geometry);
+  }
+}
+
+MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> base_positions) {
+  rigid_bodies_.emplace(robot().model, group(), base_positions);
+  bodies_.clear();
+  geometries_.clear();
+  trees_.clear();
+  object_shapes_.clear();
+  moving_shapes_.clear();
+  node_positions_.clear();
+  poses_.assign(static_cast<std::size_t>(rigid_bodies_->size()), Pose());
+
+  std::vector<LinkBall> balls;
+  for (const LinkGeometry& link : links_) {
+    AddLink(link);
+    balls.insert(balls.end(), link.balls.begin(), link.balls.end());
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    const int body = static_cast<int>(bodies_.size());
+    bodies_.push_back({Body::Kind::kObject, static_cast<int>(i), object.id});
+    AddShapes(body, 0, Pose::From(object.X_WO), object.shapes, object.id);
+  }
+  const PairRules rules(robot(), scene);
+  for (std::size_t i = 0; i < scene.attached.size(); ++i) {
+    const AttachedObject& attached = scene.attached[i];
+    const int link = rules.LinkOf(attached);
+    const int body = static_cast<int>(bodies_.size());
+    bodies_.push_back({Body::Kind::kAttached, static_cast<int>(i), attached.object.id});
+    AddShapes(body, rigid_bodies_->BodyOf(link),
+              rigid_bodies_->X_GL(link) * Pose::From(attached.object.X_WO), attached.object.shapes,
+              attached.object.id);
+    for (const PlacedShape& placed : attached.object.shapes) {
+      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
+      balls.push_back({link, attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
+    }
+  }
+  ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
+  placed_at_.assign(geometries_.size(), -1);
+  ListPairs(scene);
+  return MotionBound(robot().model, group(), base_positions, balls);
+}
+
+bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const Body& a,
+                              const Body& b) const {
+  using Kind =
+      Body::Kind;  // bodies_ holds links, then objects, then attached objects: a.kind <= b.kind
+  switch (a.kind) {
+    case Kind::kLink:
+      if (b.kind == Kind::kLink) return rules.ChecksLinks(a.index, b.index);
+      if (b.kind == Kind::kObject) {
+        return rules.ChecksLinkWithObject(a.index, At(scene.objects, b.index));
+      }
+      return rules.ChecksAttachedWithLink(At(scene.attached, b.index), a.index);
+    case Kind::kObject:
+      return b.kind == Kind::kAttached &&
+             rules.ChecksAttachedWithObject(At(scene.attached, b.index),
+                                            At(scene.objects, a.index));
+    case Kind::kAttached:
+      return rules.ChecksAttached(At(scene.attached, a.index), At(scene.attached, b.index));
+  }
+  return false;
+}
+
+void FclChecker::ListPairs(const Scene& scene) {
+  const PairRules rules(robot(), scene);
+  const std::size_t num_bodies = bodies_.size();
+  std::vector<unsigned char> checked(num_bodies * num_bodies, 0);
+  for (std::size_t a = 0; a < num_bodies; ++a) {
+    for (std::size_t b = a + 1; b < num_bodies; ++b) {
+      checked[a * num_bodies + b] = ChecksBodies(rules, scene, bodies_[a], bodies_[b]) ? 1 : 0;
+    }
+  }
+
+  pairs_.clear();
+  std::vector<Pair> standing;
+  const int num_geometries = static_cast<int>(geometries_.size());
+  for (int g = 0; g < num_geometries; ++g) {
+    for (int h = g + 1; h < num_geometries; ++h) {
+      const Geometry& a = At(geometries_, g);
+      const Geometry& b = At(geometries_, h);
+      if (At(checked, static_cast<std::size_t>(a.body) * num_bodies +
+                          static_cast<std::size_t>(b.body)) == 0) {
+        continue;
+      }
+      const bool b_is_source =
+          b.tree != nullptr && (a.tree == nullptr || b.tree->num_spheres() < a.tree->num_spheres());
+      const Pair pair{b_is_source ? h : g, b_is_source ? g : h,
+                      !OutOfReach(a, b) && !OutOfReach(b, a)};
+      (a.rigid_body == b.rigid_body ? standing : pairs_).push_back(pair);
+    }
+  }
+
+  order_.clear();
+  for (bool can_meet : {true, false}) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (pairs_[i].can_meet == can_meet) order_.push_back(static_cast<int>(i));
+    }
+    if (can_meet) num_meeting_ = order_.size();
+  }
+
+  // Where the robot stands does not matter to pairs that keep their relative pose.
+  Place(std::vector<double>(group().joints.size(), 0.0));
+  standing_contact_.reset();
+  standing_closest_ = {kInfinity, "", ""};
+  for (const Pair& pair : standing) {
+    if (!standing_contact_ && Touch(pair)) standing_contact_ = ContactOf(standing, pair);
+    const double distance = Distance(pair, standing_closest_.distance_m);
+    if (distance < standing_closest_.distance_m) SetClosest(pair, distance, &standing_closest_);
+  }
+  by_bound_.reserve(pairs_.size());
+}
+
+bool FclChecker::OutOfReach(const Geometry& moving, const Geometry& carrier) const {
+  if (!rigid_bodies_->Descends(moving.rigid_body, carrier.rigid_body)) return false;
+  const RigidBodies::Ball reach =
+      rigid_bodies_->Reach(carrier.rigid_body, moving.rigid_body,
+                           {moving.X_GS * moving.ball_center, moving.ball_radius});
+  return BallMissesBox(carrier.X_GS.InverseTimes(reach.center), reach.radius, carrier.box_center,
+                       carrier.box_half_size);
+}
+
+void FclChecker::Place(std::span<const double> q) {
+  ++placement_;
+  rigid_bodies_->ComputePoses(
+      q, std::span(poses_).first(static_cast<std::size_t>(rigid_bodies_->size())));
+  for (int g : moving_shapes_) {
+    const Geometry& geometry = At(geometries_, g);
+    At(poses_, geometry.pose) = At(poses_, geometry.rigid_body) * geometry.X_GS;
+  }
+  for (std::size_t g = 0; g < geometries_.size(); ++g) {
+    const Geometry& geometry = geometries_[g];
+    ball_positions_[g] = At(poses_, geometry.pose) * geometry.ball_center;
+  }
+}
+
+void FclChecker::PlaceNodes(int g) {
+  if (At(placed_at_, g) == placement_) return;
+  At(placed_at_, g) = placement_;
+  const Geometry& geometry = At(geometries_, g);
+  const Pose& X_WS = At(poses_, geometry.pose);
+  auto position = node_positions_.begin() + geometry.first_node;
+  for (const SphereTree::Node& node : geometry.tree->nodes()) *position++ = X_WS * node.center;
+}
+
+bool FclChecker::Touch(const Pair& pair) {
+  const Geometry& source = At(geometries_, pair.source);
+  const Geometry& target = At(geometries_, pair.target);
+  const Pose& X_WT = At(poses_, target.pose);
+  if (BallMissesBox(X_WT.InverseTimes(At(ball_positions_, pair.source)), source.ball_radius,
+                    target.box_center, target.box_half_size)) {
+    return false;
+  }
+  if (source.tree == nullptr) {
+    const Pose& X_WS = At(poses_, source.pose);
+    if (BallMissesBox(X_WS.InverseTimes(At(ball_positions_, pair.target)), target.ball_radius,
+                      source.box_center, source.box_half_size)) {
+      return false;
+    }
+    return target.shape->Touches(*source.shape, X_WT.Inverse() * X_WS);
+  }
+
+  PlaceNodes(pair.source);
+  const auto nodes = source.tree->nodes();
+  const int end = static_cast<int>(nodes.size());
+  for (int i = 0; i < end;) {
+    const SphereTree::Node& node = At(nodes, i);
+    const Eigen::Vector3d center = X_WT.InverseTimes(At(node_positions_, source.first_node + i));
+    if (BallMissesBox(center, node.radius, target.box_center, target.box_half_size)) {
+      i = node.next;
+      continue;
+    }
+    if (target.tree != nullptr) {
+      if (!target.tree->Touches(center, node.radius)) {
+        i = node.next;
+        continue;
+      }
+      if (node.leaf) return true;
+    } else if (node.leaf && target.shape->TouchesBall(center, node.radius)) {
+      return true;
+    }
+    ++i;
+  }
+  return false;
+}
+
+bool FclChecker::DoIsFree(std::span<const double> q) {
+  if (standing_contact_) return false;
+  Place(q);
+  const std::size_t end = rigid_bodies_->WithinTravel(q) ? num_meeting_ : order_.size();
+  for (std::size_t i = 0; i < end; ++i) {
+    if (!Touch(At(pairs_, order_[i]))) continue;
+    // Pairs that hit move to the front, one step at a time: the next check will find them sooner.
+    if (i > 0 && i != num_meeting_) std::swap(order_[i], order_[i - 1]);
+    return false;
+  }
+  return true;
+}
+
+std::optional<Contact> FclChecker::DoFindContact(std::span<const double> q) {
+  if (standing_contact_) return standing_contact_;
+  Place(q);
+  for (const Pair& pair : pairs_) {
+    if (Touch(pair)) return ContactOf(pairs_, pair);
+  }
+  return std::nullopt;
+}
+
+Contact FclChecker::ContactOf(std::span<const Pair> pairs, const Pair& touching) {
+  const auto bodies_of = [this](const Pair& pair) {
+    return std::minmax(At(geometries_, pair.source).body, At(geometries_, pair.target).body);
+  };
+  const auto [first, second] = bodies_of(touching);
+  double distance = 0;
+  for (const Pair& pair : pairs) {
+    const auto [a, b] = bodies_of(pair);
+    if (a == first && b == second) distance = Distance(pair, distance);
+  }
+  Contact contact{At(bodies_, first).name, At(bodies_, second).name, -distance};
+  if (At(bodies_, first).kind == Body::Kind::kObject) std::swap(contact.body_a, contact.body_b);
+  return contact;
+}
+
+double FclChecker::DistanceBound(const Pair& pair) const {
+  const Geometry& source = At(geometries_, pair.source);
+  const Geometry& target = At(geometries_, pair.target);
+  const Eigen::Vector3d center =
+      At(poses_, target.pose).InverseTimes(At(ball_positions_, pair.source));
+  return BoxDistance(center, target.box_center, target.box_half_size) - source.ball_radius;
+}
+
+double FclChecker::Distance(const Pair& pair, double at_most) {
+  const Geometry& source = At(geometries_, pair.source);
+  const Geometry& target = At(geometries_, pair.target);
+  const Pose& X_WT = At(poses_, target.pose);
+  if (source.tree == nullptr) {
+    return std::min(
+        at_most, target.shape->Distance(*source.shape, X_WT.Inverse() * At(poses_, source.pose)));
+  }
+  PlaceNodes(pair.source);
+  double best = at_most;
+  const auto nodes = source.tree->nodes();
+  const int end = static_cast<int>(nodes.size());
+  for (int i = 0; i < end;) {
+    const SphereTree::Node& node = At(nodes, i);
+    const Eigen::Vector3d center = X_WT.InverseTimes(At(node_positions_, source.first_node + i));
+    const double bound = BoxDistance(center, target.box_center, target.box_half_size) - node.radius;
+    if (bound - kRoundingMargin >= best) {
+      i = node.next;
+      continue;
+    }
+    if (node.leaf) {
+      best = target.tree != nullptr
+                 ? target.tree->Distance(center, node.radius, best)
+                 : std::min(best, target.shape->BallDistance(center, node.radius));
+    }
+    ++i;
+  }
+  return best;
+}
+
+void FclChecker::SetClosest(const Pair& pair, double distance, ClosestPair* closest) const {
+  const auto [first, second] =
+      std::minmax(At(geometries_, pair.source).body, At(geometries_, pair.target).body);
+  *closest = {distance, At(bodies_, first).name, At(bodies_, second).name};
+  if (At(bodies_, first).kind == Body::Kind::kObject) std::swap(closest->body_a, closest->body_b);
+}
+
+ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
+  Place(q);
+  by_bound_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    by_bound_.emplace_back(DistanceBound(pairs_[i]), static_cast<int>(i));
+  }
+  std::sort(by_bound_.begin(), by_bound_.end());
+  double best = standing_closest_.distance_m;
+  int best_pair = -1;
+  for (const auto& [bound, index] : by_bound_) {
+    if (bound - kRoundingMargin >= best) break;
+    const double distance = Distance(At(pairs_, index), best);
+    if (distance < best) {
+      best = distance;
+      best_pair = index;
+    }
+  }
+  ClosestPair closest = standing_closest_;
+  if (best_pair >= 0) SetClosest(At(pairs_, best_pair), best, &closest);
+  return closest;
+}
+
+}  // namespace planbench

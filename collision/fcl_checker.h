@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "collision/collision_checker.h"
+#include "collision/fcl_shape.h"
+#include "collision/rigid_bodies.h"
+#include "collision/sphere_tree.h"
+
+namespace planbench {
+
+/// The FCL engine, in double precision: robot spheres or the URDF's collision geometry against
+/// exact shapes.
+///
+/// What a check costs is decided in SetScene: it lists the pairs of geometries that may meet at
+/// all, decides once those that do not move relative to each other, and drops those out of each
+/// other's reach. A check moves one frame per group joint and then asks, pair by pair, first the
+/// bounding sphere of one against the bounding box of the other, then (sphere against sphere) plain
+/// arithmetic or (anything else) FCL's narrow phase.
+class FclChecker : public CollisionChecker {
+ public:
+  /// `model`: kSpheres or kMeshes. Throws InputError if the robot has no spheres, no collision
+  /// geometry, or a mesh that cannot be read.
+  FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model);
+
+  std::string_view EngineName() const override { return "fcl"; }
+
+ protected:
+  MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
+  bool DoIsFree(std::span<const double> q) override;
+  std::optional<Contact> DoFindContact(std::span<const double> q) override;
+  ClosestPair DoFindClosest(std::span<const double> q) override;
+
+ private:
+  /// Geometry of one link, in the link's frame.
+  struct LinkGeometry {
+    int link;
+    SphereTree spheres;                             // spheres model
+    std::vector<std::pair<FclShape, Pose>> shapes;  // meshes model, X_LS
+    std::vector<LinkBall> balls;                    // for the motion bound
+  };
+  /// A body: a link with geometry, an object, or an attached object.
+  struct Body {
+    enum class Kind { kLink, kObject, kAttached } kind;
+    int index;  // link index, or index in the scene's list
+    std::string name;
+  };
+  /// One thing to test: the sphere tree of a link, or one shape. Frame S is the rigid body's frame
+  /// for a tree, the shape's own for a shape.
+  struct Geometry {
+    int body = 0;        // index into bodies_
+    int rigid_body = 0;  // that it is fixed to
+    int pose = 0;        // index into poses_: X_WS
+    Pose X_GS;           // in the rigid body's frame
+    const SphereTree* tree = nullptr;
+    const FclShape* shape = nullptr;
+    Eigen::Vector3d ball_center = Eigen::Vector3d::Zero();  // bounding ball and box, in S
+    double ball_radius = 0;
+    Eigen::Vector3d box_center = Eigen::Vector3d::Zero();
+    Eigen::Vector3d box_half_size = Eigen::Vector3d::Zero();
+    int first_node = 0;  // of a tree: where its nodes' world positions begin in node_positions_
+  };
+  /// Two geometries to test against each other. If one is a tree, the source is; of two trees the
+  /// smaller.
+  struct Pair {
+    int source;
+    int target;
+    bool can_meet;
+  };
+
+  void AddLink(const LinkGeometry& link);
+  void AddShapes(int body, int rigid_body, const Pose& X_GO, const std::vector<PlacedShape>& shapes,
+                 const std::string& name);
+  void AddGeometry(Geometry geometry);
+  void ListPairs(const Scene& scene);
+  bool ChecksBodies(const class PairRules& rules, const Scene& scene, const Body& a,
+                    const Body& b) const;
+  bool OutOfReach(const Geometry& moving, const Geometry& carrier) const;
+
+  void Place(std::span<const double> q);
+  void PlaceNodes(int geometry);
+  bool Apart(const Geometry& a, const Geometry& b) const;
+  bool Touch(const Pair& pair);
+  double Distance(const Pair& pair, double at_most);
+  double DistanceBound(const Pair& pair) const;
+  Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);
+  void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
+
+  std::vector<LinkGeometry> links_;
+
+  // Of the scene set last.
+  std::optional<RigidBodies> rigid_bodies_;
+  std::vector<Body> bodies_;
+  std::deque<SphereTree> trees_;
+  std::deque<FclShape> object_shapes_;
+  std::vector<Geometry> geometries_;
+  std::vector<Pair> pairs_;                  // whose relative pose varies, in fixed order
+  std::optional<Contact> standing_contact_;  // of pairs whose relative pose does not vary
+  ClosestPair standing_closest_;
+  std::vector<int>
+      order_;  // indices into pairs_: those that can meet (often hit first), then the others
+  std::size_t num_meeting_ = 0;
+
+  // Of the configuration checked last.
+  std::vector<Pose> poses_;         // rigid bodies, then shapes
+  std::vector<int> moving_shapes_;  // geometries whose shape's pose follows a moving body
+  std::vector<Eigen::Vector3d> ball_positions_;  // in W, by geometry
+  std::vector<Eigen::Vector3d> node_positions_;  // in W, see Geometry::first_node
+  std::vector<std::int64_t> placed_at_;  // by geometry: the value of placement_ its nodes are of
+  std::int64_t placement_ = 0;
+  std::vector<std::pair<double, int>> by_bound_;  // scratch of FindClosest
+};
+
+}  // namespace planbench

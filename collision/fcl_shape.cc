@@ -1,0 +1,285 @@
+#include "collision/fcl_shape.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_box.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_cylinder.h>
+#include <fcl/narrowphase/distance.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "collision/solid_mesh.h"
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+using BvhModel = fcl::BVHModel<fcl::OBBRSSd>;
+
+template <typename... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <typename... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+fcl::Transform3d Translation(const Eigen::Vector3d& p) {
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  X.translation() = p;
+  return X;
+}
+
+double DistancePointToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                              const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double length_squared = along.squaredNorm();
+  const double t =
+      length_squared > 0 ? std::clamp((p - a).dot(along) / length_squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
+  std::vector<fcl::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  auto model = std::make_unique<BvhModel>();
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
+  model->addSubModel(mesh.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+void RequireSizes(const std::string& owner, const Shape& shape,
+                  std::initializer_list<double> sizes) {
+  for (double size : sizes) {
+    if (!std::isfinite(size) || size < 0) {
+      throw InputError(
+          fmt::format("'{}': a {} has the size {} m", owner, ShapeTypeName(shape), size));
+    }
+  }
+}
+
+void RequireTriangles(const std::string& owner, const Mesh& mesh) {
+  const TriangleMesh& m = mesh.triangles;
+  const std::string name = mesh.resource.empty() ? "a mesh" : "mesh " + mesh.resource;
+  if (m.triangles.empty()) {
+    throw InputError(fmt::format("'{}': {} has no triangles", owner, name));
+  }
+  for (const auto& triangle : m.triangles) {
+    for (std::uint32_t index : triangle) {
+      if (index >= m.vertices.size()) {
+        throw InputError(fmt::format("'{}': {} has {} vertices, a triangle names vertex {}", owner,
+                                     name, m.vertices.size(), index));
+      }
+    }
+  }
+  for (const Eigen::Vector3d& vertex : m.vertices) {
+    if (!vertex.allFinite()) {
+      throw InputError(fmt::format("'{}': {} has a vertex that is not finite", owner, name));
+    }
+  }
+}
+
+}  // namespace
+
+struct FclShape::Geometry {
+  std::unique_ptr<fcl::CollisionGeometryd> fcl;
+  std::variant<Box, Sphere, Cylinder, Cone, SolidMesh> shape;
+
+  bool IsMesh() const { return std::holds_alternative<SolidMesh>(shape); }
+  const SolidMesh& mesh() const { return std::get<SolidMesh>(shape); }
+
+  /// Distance of a point from the surface of the mesh.
+  double SurfaceDistance(const Eigen::Vector3d& point) const {
+    const fcl::Sphered dot(0);
+    fcl::DistanceResultd result;
+    const double distance = fcl::distance(fcl.get(), fcl::Transform3d::Identity(), &dot,
+                                          Translation(point), fcl::DistanceRequestd(), result);
+    return std::max(distance, 0.0);  // FCL gives -1 for a point on the surface
+  }
+};
+
+FclShape::FclShape(const Shape& shape, const std::string& owner)
+    : geometry_(std::make_unique<Geometry>()), bounding_sphere_{Eigen::Vector3d::Zero(), 0} {
+  std::visit(Overloaded{
+                 [&](const Box& box) {
+                   RequireSizes(owner, shape, {box.size.x(), box.size.y(), box.size.z()});
+                   geometry_->fcl = std::make_unique<fcl::Boxd>(box.size);
+                   geometry_->shape = box;
+                   box_half_size_ = box.size / 2;
+                 },
+                 [&](const Sphere& sphere) {
+                   RequireSizes(owner, shape, {sphere.radius});
+                   geometry_->fcl = std::make_unique<fcl::Sphered>(sphere.radius);
+                   geometry_->shape = sphere;
+                   box_half_size_ = Eigen::Vector3d::Constant(sphere.radius);
+                 },
+                 [&](const Cylinder& cylinder) {
+                   RequireSizes(owner, shape, {cylinder.radius, cylinder.length});
+                   geometry_->fcl =
+                       std::make_unique<fcl::Cylinderd>(cylinder.radius, cylinder.length);
+                   geometry_->shape = cylinder;
+                   box_half_size_ << cylinder.radius, cylinder.radius, cylinder.length / 2;
+                 },
+                 [&](const Cone& cone) {
+                   RequireSizes(owner, shape, {cone.radius, cone.length});
+                   geometry_->fcl = std::make_unique<fcl::Coned>(cone.radius, cone.length);
+                   geometry_->shape = cone;
+                   box_half_size_ << cone.radius, cone.radius, cone.length / 2;
+                 },
+                 [&](const Mesh& mesh) {
+                   RequireTriangles(owner, mesh);
+                   geometry_->fcl = MakeMesh(mesh.triangles);
+                   geometry_->shape = SolidMesh(mesh.triangles);
+                   Eigen::AlignedBox3d box;
+                   for (const auto& triangle : mesh.triangles.triangles) {
+                     for (std::uint32_t index : triangle) {
+                       box.extend(mesh.triangles.vertices[index]);
+                     }
+                   }
+                   box_center_ = box.center();
+                   box_half_size_ = box.sizes() / 2;
+                 },
+             },
+             shape);
+  geometry_->fcl->computeLocalAABB();
+  bounding_sphere_ = ComputeBoundingSphere(shape);
+}
+
+FclShape::~FclShape() = default;
+FclShape::FclShape(FclShape&&) noexcept = default;
+
+bool FclShape::TouchesBall(const Eigen::Vector3d& center, double radius) const {
+  const auto identity = fcl::Transform3d::Identity();
+  return std::visit(Overloaded{
+                        [&](const Box&) {
+                          return fcl::detail::sphereBoxIntersect<double>(
+                              fcl::Sphered(radius), Translation(center),
+                              static_cast<const fcl::Boxd&>(*geometry_->fcl), identity, nullptr);
+                        },
+                        [&](const Sphere& sphere) {
+                          const double reach = sphere.radius + radius;
+                          return center.squaredNorm() <= reach * reach;
+                        },
+                        [&](const Cylinder&) {
+                          return fcl::detail::sphereCylinderIntersect<double>(
+                              fcl::Sphered(radius), Translation(center),
+                              static_cast<const fcl::Cylinderd&>(*geometry_->fcl), identity,
+                              nullptr);
+                        },
+                        [&](const Cone& cone) { return ConeDistance(cone, center) <= radius; },
+                        [&](const SolidMesh& mesh) {
+                          const fcl::Sphered ball(radius);
+                          fcl::CollisionResultd result;
+                          fcl::collide(geometry_->fcl.get(), identity, &ball, Translation(center),
+                                       fcl::CollisionRequestd(), result);
+                          return result.isCollision() || mesh.Contains(center);
+                        },
+                    },
+                    geometry_->shape);
+}
+
+double FclShape::BallDistance(const Eigen::Vector3d& center, double radius) const {
+  const auto identity = fcl::Transform3d::Identity();
+  return std::visit(
+      Overloaded{
+          [&](const Box&) {
+            const fcl::Sphered ball(radius);
+            const auto& box = static_cast<const fcl::Boxd&>(*geometry_->fcl);
+            double distance = 0;
+            if (fcl::detail::sphereBoxDistance<double>(ball, Translation(center), box, identity,
+                                                       &distance, nullptr, nullptr)) {
+              return distance;
+            }
+            std::vector<fcl::ContactPointd> contacts;
+            fcl::detail::sphereBoxIntersect<double>(ball, Translation(center), box, identity,
+                                                    &contacts);
+            return contacts.empty() ? 0.0 : -contacts.front().penetration_depth;
+          },
+          [&](const Sphere& sphere) { return center.norm() - sphere.radius - radius; },
+          [&](const Cylinder&) {
+            const fcl::Sphered ball(radius);
+            const auto& cylinder = static_cast<const fcl::Cylinderd&>(*geometry_->fcl);
+            double distance = 0;
+            if (fcl::detail::sphereCylinderDistance<double>(
+                    ball, Translation(center), cylinder, identity, &distance, nullptr, nullptr)) {
+              return distance;
+            }
+            std::vector<fcl::ContactPointd> contacts;
+            fcl::detail::sphereCylinderIntersect<double>(ball, Translation(center), cylinder,
+                                                         identity, &contacts);
+            return contacts.empty() ? 0.0 : -contacts.front().penetration_depth;
+          },
+          [&](const Cone& cone) { return ConeDistance(cone, center) - radius; },
+          [&](const SolidMesh& mesh) {
+            const double distance = geometry_->SurfaceDistance(center);
+            return (mesh.Contains(center) ? -distance : distance) - radius;
+          },
+      },
+      geometry_->shape);
+}
+
+bool FclShape::Contains(const FclShape& other, const Pose& X_SO) const {
+  if (!geometry_->IsMesh()) return false;  // FCL takes primitives as solid
+  const SolidMesh& mesh = geometry_->mesh();
+  if (!mesh.closed()) return false;
+  if (!other.geometry_->IsMesh()) return mesh.Contains(X_SO.translation);
+  const auto& points = other.geometry_->mesh().component_points();
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Eigen::Vector3d& point) { return mesh.Contains(X_SO * point); });
+}
+
+bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
+  if (const auto* sphere = std::get_if<Sphere>(&other.geometry_->shape)) {
+    return TouchesBall(X_SO.translation, sphere->radius);
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&geometry_->shape)) {
+    return other.TouchesBall(X_SO.Inverse().translation, sphere->radius);
+  }
+  fcl::CollisionResultd result;
+  fcl::collide(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
+               X_SO.ToIsometry(), fcl::CollisionRequestd(), result);
+  return result.isCollision() || Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
+}
+
+double FclShape::Distance(const FclShape& other, const Pose& X_SO) const {
+  if (const auto* sphere = std::get_if<Sphere>(&other.geometry_->shape)) {
+    return BallDistance(X_SO.translation, sphere->radius);
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&geometry_->shape)) {
+    return other.BallDistance(X_SO.Inverse().translation, sphere->radius);
+  }
+  // The verdict decides the sign, so that distance and verdict never disagree.
+  if (Touches(other, X_SO)) return 0;
+  fcl::DistanceResultd result;
+  const double distance =
+      fcl::distance(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
+                    X_SO.ToIsometry(), fcl::DistanceRequestd(), result);
+  return std::max(distance, std::numeric_limits<double>::min());
+}
+
+double ConeDistance(const Cone& cone, const Eigen::Vector3d& point) {
+  // In the half-plane through the axis the cone is the triangle of apex, rim and centre of the
+  // base.
+  const Eigen::Vector2d p(point.head<2>().norm(), point.z());
+  const Eigen::Vector2d apex(0, cone.length / 2);
+  const Eigen::Vector2d rim(cone.radius, -cone.length / 2);
+  const Eigen::Vector2d base(0, -cone.length / 2);
+  const double distance =
+      std::min(DistancePointToSegment(p, apex, rim), DistancePointToSegment(p, rim, base));
+  const Eigen::Vector2d side = rim - apex;
+  const bool inside =
+      p.y() >= base.y() && side.x() * (p.y() - apex.y()) - side.y() * (p.x() - apex.x()) <= 0;
+  return inside ? -distance : distance;
+}
+
+}  // namespace planbench

@@ -1,0 +1,59 @@
+#include "collision/pair_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/error.h"
+
+namespace planbench {
+
+PairRules::PairRules(const Robot& robot, const Scene& scene) : robot_(&robot), scene_(&scene) {
+  for (const AttachedObject& attached : scene.attached) {
+    if (LinkOf(attached) < 0) {
+      throw InputError(
+          fmt::format("scene: object '{}' is attached to link '{}', which robot '{}' "
+                      "does not have",
+                      attached.object.id, attached.link, robot.name));
+    }
+  }
+}
+
+const std::string& PairRules::LinkName(int link) const {
+  return robot_->model.links()[static_cast<std::size_t>(link)].name;
+}
+
+int PairRules::LinkOf(const AttachedObject& attached) const {
+  return robot_->model.FindLink(attached.link);
+}
+
+bool PairRules::ChecksLinks(int link_a, int link_b) const {
+  if (link_a == link_b || robot_->model.Adjacent(link_a, link_b)) return false;
+  for (const auto& [a, b] : robot_->allowed_pairs) {
+    if ((a == link_a && b == link_b) || (a == link_b && b == link_a)) return false;
+  }
+  return !scene_->allowed_collisions.Allowed(LinkName(link_a), LinkName(link_b));
+}
+
+bool PairRules::ChecksLinkWithObject(int link, const SceneObject& object) const {
+  return !scene_->allowed_collisions.Allowed(LinkName(link), object.id);
+}
+
+bool PairRules::ChecksAttachedWithLink(const AttachedObject& attached, int link) const {
+  const std::string& name = LinkName(link);
+  if (name == attached.link) return false;
+  const auto& touch = attached.touch_links;
+  if (std::find(touch.begin(), touch.end(), name) != touch.end()) return false;
+  return !scene_->allowed_collisions.Allowed(attached.object.id, name);
+}
+
+bool PairRules::ChecksAttachedWithObject(const AttachedObject& attached,
+                                         const SceneObject& object) const {
+  return !scene_->allowed_collisions.Allowed(attached.object.id, object.id);
+}
+
+bool PairRules::ChecksAttached(const AttachedObject& a, const AttachedObject& b) const {
+  return a.link != b.link && !scene_->allowed_collisions.Allowed(a.object.id, b.object.id);
+}
+
+}  // namespace planbench

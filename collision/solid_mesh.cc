@@ -1,0 +1,145 @@
+#include "collision/solid_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace planbench {
+namespace {
+
+bool LexicographicLess(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// Sign of where (x, y) stands against the edge between two points in the xy-plane, if the edge
+/// spans y: +1 if the edge passes at a greater x, else 0. The ends are ordered first, so that
+/// triangles sharing an edge agree to the last bit and a ray cannot slip between them.
+bool PassesRightOf(double x, double y, Eigen::Vector3d from, Eigen::Vector3d to) {
+  if ((from.y() > y) == (to.y() > y)) return false;
+  if (LexicographicLess(to, from)) std::swap(from, to);
+  return x < from.x() + (y - from.y()) / (to.y() - from.y()) * (to.x() - from.x());
+}
+
+}  // namespace
+
+SolidMesh::SolidMesh(const TriangleMesh& mesh) {
+  struct Less {
+    bool operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+      return LexicographicLess(a, b);
+    }
+  };
+  std::map<Eigen::Vector3d, int, Less> index_of;
+  std::vector<int> welded;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    welded.push_back(index_of.emplace(vertex, static_cast<int>(index_of.size())).first->second);
+  }
+
+  std::map<std::pair<int, int>, int> triangles_at_edge;
+  std::vector<int> parent(index_of.size());  // disjoint sets of vertices
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int v) {
+    while (parent[static_cast<std::size_t>(v)] != v) {
+      parent[static_cast<std::size_t>(v)] =
+          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+      v = parent[static_cast<std::size_t>(v)];
+    }
+    return v;
+  };
+  std::vector<int> used;
+  for (const auto& triangle : mesh.triangles) {
+    const std::array<int, 3> v = {welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]};
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // no area
+    triangles_.push_back(
+        {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = v[k];
+      const int b = v[(k + 1) % 3];
+      ++triangles_at_edge[{std::min(a, b), std::max(a, b)}];
+      parent[static_cast<std::size_t>(root(a))] = root(b);
+    }
+    used.push_back(v[0]);
+  }
+  closed_ =
+      !triangles_.empty() && std::all_of(triangles_at_edge.begin(), triangles_at_edge.end(),
+                                         [](const auto& entry) { return entry.second % 2 == 0; });
+
+  std::vector<bool> seen(index_of.size(), false);
+  for (std::size_t t = 0; t < used.size(); ++t) {
+    const auto component = static_cast<std::size_t>(root(used[t]));
+    if (!seen[component]) component_points_.push_back(triangles_[t].a);
+    seen[component] = true;
+  }
+  if (closed_) BuildGrid();
+}
+
+void SolidMesh::BuildGrid() {
+  grid_low_ = grid_high_ = triangles_.front().a.head<2>();
+  for (const Triangle& t : triangles_) {
+    for (const Eigen::Vector3d* p : {&t.a, &t.b, &t.c}) {
+      grid_low_ = grid_low_.cwiseMin(p->head<2>());
+      grid_high_ = grid_high_.cwiseMax(p->head<2>());
+    }
+  }
+  grid_size_ =
+      std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles_.size()))), 1, 256);
+  const Eigen::Vector2d cell_size =
+      ((grid_high_ - grid_low_) / grid_size_).cwiseMax(Eigen::Vector2d::Constant(1e-12));
+  const auto cell_of = [&](double value, int axis) {
+    return std::clamp(static_cast<int>((value - grid_low_[axis]) / cell_size[axis]), 0,
+                      grid_size_ - 1);
+  };
+  std::vector<std::vector<std::uint32_t>> cells(static_cast<std::size_t>(grid_size_ * grid_size_));
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Triangle& t = triangles_[i];
+    const auto [x_low, x_high] = std::minmax({t.a.x(), t.b.x(), t.c.x()});
+    const auto [y_low, y_high] = std::minmax({t.a.y(), t.b.y(), t.c.y()});
+    for (int y = cell_of(y_low, 1); y <= cell_of(y_high, 1); ++y) {
+      for (int x = cell_of(x_low, 0); x <= cell_of(x_high, 0); ++x) {
+        cells[static_cast<std::size_t>(y * grid_size_ + x)].push_back(
+            static_cast<std::uint32_t>(i));
+      }
+    }
+  }
+  cell_begin_.push_back(0);
+  for (const auto& cell : cells) {
+    cell_triangles_.insert(cell_triangles_.end(), cell.begin(), cell.end());
+    cell_begin_.push_back(static_cast<std::uint32_t>(cell_triangles_.size()));
+  }
+}
+
+bool SolidMesh::InGrid(const Eigen::Vector3d& point, std::size_t* cell) const {
+  int index[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    if (point[axis] < grid_low_[axis] || point[axis] > grid_high_[axis]) return false;
+    const double cell_size = std::max((grid_high_[axis] - grid_low_[axis]) / grid_size_, 1e-12);
+    index[axis] = std::clamp(static_cast<int>((point[axis] - grid_low_[axis]) / cell_size), 0,
+                             grid_size_ - 1);
+  }
+  *cell = static_cast<std::size_t>(index[1] * grid_size_ + index[0]);
+  return true;
+}
+
+bool SolidMesh::Contains(const Eigen::Vector3d& point) const {
+  std::size_t cell = 0;
+  if (!closed_ || !InGrid(point, &cell)) return false;
+  bool inside = false;  // crossings of the ray along +z, modulo 2
+  for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
+    const Triangle& t = triangles_[cell_triangles_[i]];
+    const bool over = PassesRightOf(point.x(), point.y(), t.a, t.b) ^
+                      PassesRightOf(point.x(), point.y(), t.b, t.c) ^
+                      PassesRightOf(point.x(), point.y(), t.c, t.a);
+    if (!over) continue;
+    const Eigen::Vector3d normal = (t.b - t.a).cross(t.c - t.a);
+    if (normal.z() == 0) continue;  // seen edge-on
+    const double height =
+        t.a.z() -
+        (normal.x() * (point.x() - t.a.x()) + normal.y() * (point.y() - t.a.y())) / normal.z();
+    if (height > point.z()) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace planbench
