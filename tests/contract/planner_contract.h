@@ -1,0 +1,255 @@
+#pragma once
+
+// What every planner must do, whatever its algorithm. A planner's test instantiates it:
+//
+//   INSTANTIATE_TEST_SUITE_P(Rrtc, PlannerContract, testing::Values(PlannerFactory{"rrtc", make}));
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <thread>
+
+#include "planning/path_judge.h"
+#include "planning/path_metrics.h"
+#include "planning/planner.h"
+#include "planning/resolve.h"
+#include "support/planning_problems.h"
+
+namespace planbench {
+
+/// Makes the planner under test, with settings that suit the robot (planar3 of tests/data or
+/// robots/fetch).
+struct PlannerFactory {
+  std::string name;
+  std::function<std::unique_ptr<Planner>(const Robot&)> make;
+};
+inline void PrintTo(const PlannerFactory& factory, std::ostream* out) { *out << factory.name; }
+
+class PlannerContract : public testing::TestWithParam<PlannerFactory> {
+ protected:
+  std::unique_ptr<Planner> Make(const Robot& robot) const { return GetParam().make(robot); }
+
+  /// Expects the paths to be valid for the asked edge resolution and for half of it.
+  static void ExpectSolved(const Robot& robot, const PlanRequest& request, const Scene& scene,
+                           const PlanResult& result) {
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    ExpectValid(robot, request, scene, result.path, "raw path");
+    if (request.simplify) {
+      ExpectValid(robot, request, scene, result.simplified_path, "simplified path");
+      const JointSpace& space = robot.Group(request.group).space;
+      EXPECT_LE(PathLength(space, result.simplified_path), PathLength(space, result.path) + 1e-9);
+    }
+    EXPECT_GT(result.planning_time_s, 0);
+    EXPECT_LE(result.planning_time_s, request.time_limit_s);
+  }
+
+  static void ExpectValid(const Robot& robot, const PlanRequest& request, const Scene& scene,
+                          const Path& path, const std::string& what) {
+    const PlanningGroup& group = robot.Group(request.group);
+    const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, what);
+    const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
+    checker->SetScene(scene, query.base_positions);
+    for (const double step_m : {robot.edge_resolution_m, robot.edge_resolution_m / 2}) {
+      const PathVerdict verdict =
+          JudgePath(checker.get(), path, query.start, query.goal, step_m, false);
+      EXPECT_TRUE(verdict.valid) << what << " at " << step_m << " m: " << verdict.reason;
+    }
+    EXPECT_EQ(path.front(), query.start) << what;
+  }
+
+  const Robot planar_ = LoadPlanarRobot();
+  const Configuration left_ = {0.6, 0, 0};    ///< Stretched, left of post_ahead.
+  const Configuration right_ = {-0.6, 0, 0};  ///< Stretched, right of it.
+};
+
+TEST_P(PlannerContract, SolvesAndThePathIsValid) {
+  const Scene scene = PostsScene();
+  const PlanRequest request = MakeRequest(planar_, left_, right_);
+  const PlanResult result = Make(planar_)->Plan(request, scene, nullptr);
+  ExpectSolved(planar_, request, scene, result);
+  ASSERT_FALSE(result.path.empty());
+  EXPECT_EQ(result.path.back(), right_);
+  EXPECT_GT(result.counters.at("edges_checked"), 0);
+  EXPECT_GT(result.counters.at("configurations_checked"), 0);
+}
+
+TEST_P(PlannerContract, BackwardPathsRunFromStartToGoal) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  if (!planner->Describe().backward) GTEST_SKIP() << "does not search backward";
+  const Scene scene = PostsScene();
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.direction = Direction::kBackward;
+  const PlanResult result = planner->Plan(request, scene, nullptr);
+  ExpectSolved(planar_, request, scene, result);
+  ASSERT_FALSE(result.path.empty());
+  EXPECT_EQ(result.path.front(), left_);
+  EXPECT_EQ(result.path.back(), right_);
+}
+
+TEST_P(PlannerContract, SolvesForTheFetch) {
+  const Robot fetch = LoadFetch();
+  const Scene scene = FetchTableScene(fetch);
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = MakeRequest(fetch, FetchTucked(), FetchOverTable());
+    request.direction = direction;
+    ExpectSolved(fetch, request, scene, Make(fetch)->Plan(request, scene, nullptr));
+  }
+}
+
+TEST_P(PlannerContract, TheSameRequestGivesTheSamePathWhateverRanBefore) {
+  const Scene scene = PostsScene();
+  const PlanRequest request = MakeRequest(planar_, left_, right_);
+  PlanRequest other = MakeRequest(planar_, {1.5, 0.5, 0.5}, {-1.5, 0.5, -0.5});
+  other.seed = 7;
+
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  const PlanResult first = planner->Plan(request, scene, nullptr);
+  planner->Plan(other, EmptyPlanarScene(), nullptr);
+  other.direction = Direction::kBackward;
+  planner->Plan(other, scene, nullptr);
+  const PlanResult again = planner->Plan(request, scene, nullptr);
+  const PlanResult fresh = Make(planar_)->Plan(request, scene, nullptr);
+
+  ASSERT_EQ(first.status, PlanStatus::kSolved) << first.message;
+  EXPECT_EQ(first.path, again.path);
+  EXPECT_EQ(first.simplified_path, again.simplified_path);
+  EXPECT_EQ(first.counters, again.counters);
+  EXPECT_EQ(first.path, fresh.path);
+  EXPECT_EQ(first.simplified_path, fresh.simplified_path);
+  EXPECT_EQ(first.counters, fresh.counters);
+}
+
+TEST_P(PlannerContract, EndsAnywhereInTheGoalBox) {
+  const Scene scene = PostsScene();
+  const PlanRequest request = MakeRequest(planar_, left_, right_, 0.2);
+  ExpectSolved(planar_, request, scene, Make(planar_)->Plan(request, scene, nullptr));
+}
+
+TEST_P(PlannerContract, AStartInsideTheGoalBoxIsSolvedAtOnce) {
+  const Scene scene = PostsScene();
+  const PlanRequest request = MakeRequest(planar_, left_, {0.7, 0.1, 0}, 0.2);
+  const PlanResult result = Make(planar_)->Plan(request, scene, nullptr);
+  ExpectSolved(planar_, request, scene, result);
+  EXPECT_LE(result.path.size(), 2u);
+}
+
+TEST_P(PlannerContract, AContinuousJointTakesTheShortWay) {
+  const Scene scene = EmptyPlanarScene();
+  const PlanRequest request = MakeRequest(planar_, {3.0, 0.3, 0}, {-3.0, 0.3, 0});
+  const PlanResult result = Make(planar_)->Plan(request, scene, nullptr);
+  ExpectSolved(planar_, request, scene, result);
+  EXPECT_LT(PathLength(planar_.groups.front().space, result.simplified_path), 0.3);
+}
+
+TEST_P(PlannerContract, AStartBeyondATurnIsTheSameStart) {
+  const Scene scene = PostsScene();
+  PlanRequest request = MakeRequest(planar_, {0.6 + 2 * 3.14159265358979, 0, 0}, right_);
+  ExpectSolved(planar_, request, scene, Make(planar_)->Plan(request, scene, nullptr));
+  request.direction = Direction::kBackward;
+  ExpectSolved(planar_, request, scene, Make(planar_)->Plan(request, scene, nullptr));
+}
+
+TEST_P(PlannerContract, AStartInCollisionIsNamed) {
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = MakeRequest(planar_, {0, 0, 0}, right_);
+    request.direction = direction;
+    const PlanResult result = Make(planar_)->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kStartInvalid) << result.message;
+    EXPECT_NE(result.message.find("post_ahead"), std::string::npos) << result.message;
+    EXPECT_TRUE(result.path.empty());
+  }
+}
+
+TEST_P(PlannerContract, AGoalInCollisionIsNamed) {
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = MakeRequest(planar_, left_, {0, 0, 0});
+    request.direction = direction;
+    const PlanResult result = Make(planar_)->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kGoalInvalid) << result.message;
+    EXPECT_NE(result.message.find("post_ahead"), std::string::npos) << result.message;
+    EXPECT_TRUE(result.path.empty());
+  }
+}
+
+TEST_P(PlannerContract, TheTimeLimitEndsAHopelessSearch) {
+  PlanRequest request = MakeRequest(planar_, {1.57, 0, 0}, {-1.57, 0, 0});
+  request.time_limit_s = 0.2;
+  const PlanResult result = Make(planar_)->Plan(request, WallsScene(), nullptr);
+  EXPECT_TRUE(result.status == PlanStatus::kTimedOut || result.status == PlanStatus::kExhausted)
+      << PlanStatusName(result.status) << ": " << result.message;
+  EXPECT_TRUE(result.path.empty());
+  EXPECT_FALSE(result.message.empty());
+  EXPECT_LT(result.total_time_s, 10) << "far more than the slack of a busy machine";
+}
+
+TEST_P(PlannerContract, ACancelledSearchReturns) {
+  PlanRequest request = MakeRequest(planar_, {1.57, 0, 0}, {-1.57, 0, 0});
+  request.time_limit_s = 600;
+  PlanControl control;
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  std::thread canceller([&control] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    control.cancelled = true;
+  });
+  const PlanResult result = planner->Plan(request, WallsScene(), &control);
+  canceller.join();
+  EXPECT_TRUE(result.status == PlanStatus::kCancelled || result.status == PlanStatus::kExhausted)
+      << PlanStatusName(result.status) << ": " << result.message;
+  EXPECT_LT(result.total_time_s, 60);
+
+  // And the planner is as good as before.
+  const PlanRequest next = MakeRequest(planar_, left_, right_);
+  ExpectSolved(planar_, next, PostsScene(), planner->Plan(next, PostsScene(), nullptr));
+}
+
+TEST_P(PlannerContract, AnUnknownParameterIsRefusedByName) {
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.parameters["no_such_parameter"] = "1";
+  const PlanResult result = Make(planar_)->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+  EXPECT_NE(result.message.find("no_such_parameter"), std::string::npos) << result.message;
+}
+
+TEST_P(PlannerContract, ParametersServeTheirRequestOnly) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.parameters["no_such_parameter"] = "1";
+  planner->Plan(request, PostsScene(), nullptr);
+  request.parameters.clear();
+  ExpectSolved(planar_, request, PostsScene(), planner->Plan(request, PostsScene(), nullptr));
+}
+
+TEST_P(PlannerContract, DescribesItself) {
+  const PlannerDescription description = Make(planar_)->Describe();
+  EXPECT_FALSE(description.algorithm.empty());
+  EXPECT_FALSE(description.collision_models.empty());
+  EXPECT_FALSE(description.settings.empty());
+}
+
+TEST_P(PlannerContract, AnAnytimePlannerReportsItsSolutions) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  if (!planner->Describe().anytime) GTEST_SKIP() << "is no anytime planner";
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.anytime = true;
+  request.time_limit_s = 5;
+  PlanControl control;
+  std::vector<PlanProgress> seen;
+  control.on_progress = [&seen](const PlanProgress& progress) { seen.push_back(progress); };
+  const PlanResult result = planner->Plan(request, PostsScene(), &control);
+  ExpectSolved(planar_, request, PostsScene(), result);
+  ASSERT_FALSE(result.progress.empty());
+  EXPECT_EQ(seen.size(), result.progress.size());
+  EXPECT_EQ(result.planning_time_s, result.progress.front().elapsed_s);
+  EXPECT_LE(result.planning_time_s, result.total_time_s);
+  for (std::size_t i = 1; i < result.progress.size(); ++i) {
+    EXPECT_LE(result.progress[i].cost, result.progress[i - 1].cost);
+    EXPECT_LE(result.progress[i].epsilon, result.progress[i - 1].epsilon);
+    EXPECT_GE(result.progress[i].elapsed_s, result.progress[i - 1].elapsed_s);
+  }
+}
+
+}  // namespace planbench

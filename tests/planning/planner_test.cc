@@ -1,0 +1,450 @@
+#include "planning/planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "common/error.h"
+#include "planning/path_metrics.h"
+#include "support/planning_problems.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+
+/// A planner whose search is a function of the test.
+class ScriptedPlanner final : public Planner {
+ public:
+  using Script = std::function<SearchResult(SearchQuery&)>;
+  ScriptedPlanner(const Robot& robot, Script script) : Planner(robot), script_(std::move(script)) {}
+
+  PlannerDescription Describe() const override { return description; }
+
+  PlannerDescription description = {"scripted", PlannerClass::kSampleThenSearch, true,
+                                    true,       {CollisionModel::kSpheres},      {}};
+  int num_searches = 0;
+
+ protected:
+  SearchResult Search(SearchQuery& query) override {
+    ++num_searches;
+    return script_(query);
+  }
+
+ private:
+  Script script_;
+};
+
+SearchResult Solved(Path path) {
+  SearchResult result;
+  result.status = PlanStatus::kSolved;
+  result.path = std::move(path);
+  return result;
+}
+
+SearchResult Straight(SearchQuery& query) { return Solved({query.start(), query.goal().nominal}); }
+
+/// Through a point that both ends are free of.
+SearchResult ByWayOf(SearchQuery& query) {
+  return Solved({query.start(), {0.5, 2.0, 1.0}, query.goal().nominal});
+}
+
+SearchResult Ended(PlanStatus status) {
+  SearchResult result;
+  result.status = status;
+  result.message = "because";
+  return result;
+}
+
+class PlannerTest : public testing::Test {
+ protected:
+  PlanResult Plan(ScriptedPlanner::Script script, const PlanRequest& request,
+                  const Scene& scene = EmptyPlanarScene(), PlanControl* control = nullptr) {
+    ScriptedPlanner planner(robot_, std::move(script));
+    PlanResult result = planner.Plan(request, scene, control);
+    num_searches_ = planner.num_searches;
+    return result;
+  }
+  PlanRequest Request(double tolerance = 0) const {
+    return MakeRequest(robot_, start_, goal_, tolerance);
+  }
+
+  const Robot robot_ = LoadPlanarRobot();
+  const Configuration start_ = {0.6, 0, 0};
+  const Configuration goal_ = {-0.6, 0, 0};
+  int num_searches_ = 0;
+};
+
+TEST_F(PlannerTest, ForwardSearchesFromStartToGoal) {
+  const PlanResult result = Plan(
+      [&](SearchQuery& query) {
+        EXPECT_EQ(query.start(), start_);
+        EXPECT_EQ(query.goal().nominal, goal_);
+        EXPECT_NEAR(query.goal().lower[1], -0.1, 1e-12);
+        EXPECT_EQ(query.seed(), 1u);
+        EXPECT_FALSE(query.anytime());
+        return ByWayOf(query);
+      },
+      Request(0.1));
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(result.path, (Path{start_, {0.5, 2.0, 1.0}, goal_}));
+  EXPECT_EQ(result.simplified_path, (Path{start_, goal_}));
+}
+
+TEST_F(PlannerTest, BackwardSearchesFromTheNominalGoalToTheStartPoint) {
+  PlanRequest request = Request(0.1);
+  request.direction = Direction::kBackward;
+  const PlanResult result = Plan(
+      [&](SearchQuery& query) {
+        EXPECT_EQ(query.start(), goal_);
+        EXPECT_EQ(query.goal().nominal, start_);
+        EXPECT_EQ(query.goal().lower, start_);
+        EXPECT_EQ(query.goal().upper, start_);
+        return ByWayOf(query);
+      },
+      request);
+  EXPECT_EQ(result.path, (Path{start_, {0.5, 2.0, 1.0}, goal_}));
+}
+
+TEST_F(PlannerTest, EndsGetTheirExactValues) {
+  PlanRequest request = Request();
+  request.start.positions[0] += 2 * M_PI;
+  const Configuration start = request.start.positions;
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    request.direction = direction;
+    const PlanResult result = Plan(
+        [](SearchQuery& query) {
+          Path path = {query.start(), query.goal().nominal};
+          for (Configuration& q : path) query.space().Wrap(q);
+          return Solved(path);
+        },
+        request);
+    EXPECT_EQ(result.path, (Path{start, goal_}));
+  }
+}
+
+TEST_F(PlannerTest, SimplificationIsTimedApartAndOnlyWhenAskedFor) {
+  PlanRequest request = Request();
+  request.simplify = false;
+  const PlanResult plain = Plan(ByWayOf, request);
+  EXPECT_TRUE(plain.simplified_path.empty());
+  EXPECT_EQ(plain.phases.simplification_s, 0);
+  const PlanResult simplified = Plan(ByWayOf, Request());
+  EXPECT_GT(simplified.phases.simplification_s, 0);
+  EXPECT_EQ(simplified.counters, plain.counters) << "simplification is no part of the counts";
+}
+
+TEST_F(PlannerTest, PhasesAddUpToTheTotalTime) {
+  const PlanResult result = Plan(
+      [](SearchQuery& query) {
+        SearchResult found = Straight(query);
+        EXPECT_TRUE(query.edges().IsValidEdge(query.start(), query.goal().nominal));
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        found.guidance_s = 0.015;
+        found.counters["expansions"] = 12;
+        found.epsilon = 3;
+        found.cost = 4;
+        return found;
+      },
+      Request());
+  const PhaseTimes& phases = result.phases;
+  EXPECT_GT(phases.setup_s, 0);
+  EXPECT_GT(phases.collision_s, 0);
+  EXPECT_EQ(phases.guidance_s, 0.015);
+  EXPECT_GE(phases.search_s, 0.004);
+  EXPECT_NEAR(phases.setup_s + phases.collision_s + phases.guidance_s + phases.search_s,
+              result.total_time_s, 1e-9);
+  EXPECT_EQ(result.planning_time_s, result.total_time_s);
+  EXPECT_EQ(result.counters.at("expansions"), 12);
+  EXPECT_EQ(result.counters.at("edges_checked"), 1);
+  EXPECT_GT(result.counters.at("configurations_checked"), 2);
+  EXPECT_EQ(result.epsilon, 3);
+  EXPECT_EQ(result.cost, 4);
+  EXPECT_GT(result.peak_memory_mb, 1);
+}
+
+TEST_F(PlannerTest, ThePeakIsTheRequestsOwn) {
+  const auto with_memory = [](std::size_t mib) {
+    return [mib](SearchQuery& query) {
+      std::vector<char> block(mib << 20, 1);
+      // Keeps the optimiser from leaving the block out.
+      asm volatile("" : : "g"(block.data()) : "memory");
+      return Straight(query);
+    };
+  };
+  const double small = Plan(with_memory(1), Request()).peak_memory_mb;
+  const double large = Plan(with_memory(200), Request()).peak_memory_mb;
+  EXPECT_GT(large, small + 150);
+  const double small_again = Plan(with_memory(1), Request()).peak_memory_mb;
+  if (small_again > large - 1) GTEST_SKIP() << "the kernel does not let the peak be reset";
+  EXPECT_LT(small_again, small + 50);
+}
+
+TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
+  PlanRequest request = Request();
+  request.anytime = true;
+  PlanControl control;
+  std::vector<PlanProgress> seen;
+  control.on_progress = [&seen](const PlanProgress& progress) { seen.push_back(progress); };
+  const PlanResult result = Plan(
+      [](SearchQuery& query) {
+        EXPECT_TRUE(query.anytime());
+        query.ReportSolution(10, 500, 7);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        query.ReportSolution(1, 400, 70);
+        return Straight(query);
+      },
+      request, EmptyPlanarScene(), &control);
+  ASSERT_EQ(result.progress.size(), 2u);
+  EXPECT_EQ(seen.size(), 2u);
+  EXPECT_EQ(result.planning_time_s, result.progress[0].elapsed_s);
+  EXPECT_GE(result.total_time_s, result.planning_time_s + 0.02);
+  EXPECT_EQ(result.progress[1].epsilon, 1);
+  EXPECT_EQ(result.progress[1].cost, 400);
+  EXPECT_EQ(result.progress[1].expansions, 70);
+}
+
+TEST_F(PlannerTest, AnytimeIsForPlannersThatAre) {
+  ScriptedPlanner planner(robot_, [](SearchQuery& query) {
+    EXPECT_FALSE(query.anytime());
+    return Straight(query);
+  });
+  planner.description.anytime = false;
+  PlanRequest request = Request();
+  request.anytime = true;
+  EXPECT_EQ(planner.Plan(request, EmptyPlanarScene(), nullptr).status, PlanStatus::kSolved);
+}
+
+TEST_F(PlannerTest, DeadlineAndCancellation) {
+  PlanRequest request = Request();
+  request.time_limit_s = 0.05;
+  const auto until_stopped = [](SearchQuery& query) {
+    while (!query.ShouldStop()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return Ended(query.Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut);
+  };
+  const PlanResult late = Plan(until_stopped, request);
+  EXPECT_EQ(late.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(late.message, "because");
+  EXPECT_GE(late.planning_time_s, 0.05);
+  EXPECT_TRUE(late.path.empty());
+
+  request.time_limit_s = 1000;
+  PlanControl control;
+  control.cancelled = true;
+  EXPECT_EQ(Plan(until_stopped, request, EmptyPlanarScene(), &control).status,
+            PlanStatus::kCancelled);
+  const PlanResult remaining = Plan(
+      [](SearchQuery& query) {
+        EXPECT_LE(query.RemainingSeconds(), 1000);
+        EXPECT_GT(query.RemainingSeconds(), 900);
+        EXPECT_FALSE(query.ShouldStop());
+        return Straight(query);
+      },
+      request);
+  EXPECT_EQ(remaining.status, PlanStatus::kSolved);
+}
+
+TEST_F(PlannerTest, ASolutionAfterTheLimitIsNone) {
+  PlanRequest request = Request();
+  request.time_limit_s = 0.01;
+  const PlanResult result = Plan(
+      [](SearchQuery& query) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return Straight(query);
+      },
+      request);
+  EXPECT_EQ(result.status, PlanStatus::kTimedOut);
+  EXPECT_TRUE(result.path.empty());
+  EXPECT_THAT(result.message, HasSubstr("0.01"));
+}
+
+TEST_F(PlannerTest, VerdictsOfTheSearchPassThrough) {
+  for (const PlanStatus status : {PlanStatus::kTimedOut, PlanStatus::kExhausted,
+                                  PlanStatus::kCancelled, PlanStatus::kMemoryLimit}) {
+    const PlanResult result = Plan([&](SearchQuery&) { return Ended(status); }, Request());
+    EXPECT_EQ(result.status, status);
+    EXPECT_EQ(result.message, "because");
+    EXPECT_TRUE(result.path.empty());
+    EXPECT_TRUE(result.simplified_path.empty());
+  }
+}
+
+TEST_F(PlannerTest, AStartInTheGoalNeedsNoSearch) {
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = MakeRequest(robot_, start_, {0.65 - 2 * M_PI, 0, 0.05}, 0.1);
+    request.direction = direction;
+    const PlanResult result = Plan(Straight, request);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_EQ(result.path, Path{start_});
+    EXPECT_EQ(num_searches_, 0);
+  }
+}
+
+TEST_F(PlannerTest, StartsAndGoalsOutsideTheLimitsAreNamed) {
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = MakeRequest(robot_, {0.6, 2.7, 0}, goal_);
+    request.direction = direction;
+    const PlanResult start = Plan(Straight, request);
+    EXPECT_EQ(start.status, PlanStatus::kStartInvalid);
+    EXPECT_THAT(start.message, HasSubstr("elbow"));
+    EXPECT_THAT(start.message, HasSubstr("2.7"));
+    EXPECT_THAT(start.message, HasSubstr("-2.6, 2.6"));
+
+    request = MakeRequest(robot_, start_, {0, 0, -3}, 0.1);
+    request.direction = direction;
+    const PlanResult goal = Plan(Straight, request);
+    EXPECT_EQ(goal.status, PlanStatus::kGoalInvalid);
+    EXPECT_THAT(goal.message, HasSubstr("wrist"));
+    EXPECT_THAT(goal.message, HasSubstr("-3"));
+    EXPECT_EQ(num_searches_, 0);
+  }
+}
+
+TEST_F(PlannerTest, StartsAndGoalsInCollisionAreNamed) {
+  const PlanResult start = Plan(Straight, MakeRequest(robot_, {0, 0, 0}, goal_), PostsScene());
+  EXPECT_EQ(start.status, PlanStatus::kStartInvalid);
+  EXPECT_THAT(start.message, HasSubstr("post_ahead"));
+  const PlanResult goal = Plan(Straight, MakeRequest(robot_, start_, {M_PI, 0, 0}), PostsScene());
+  EXPECT_EQ(goal.status, PlanStatus::kGoalInvalid);
+  EXPECT_THAT(goal.message, HasSubstr("post_behind"));
+  EXPECT_EQ(num_searches_, 0);
+}
+
+TEST_F(PlannerTest, BothEndsInvalidIsAnInvalidStart) {
+  const PlanResult result =
+      Plan(Straight, MakeRequest(robot_, {0, 0, 0}, {M_PI, 0, 0}), PostsScene());
+  EXPECT_EQ(result.status, PlanStatus::kStartInvalid);
+}
+
+TEST_F(PlannerTest, HeldJointsAreTakenFromTheStart) {
+  PlanRequest request = MakeRequest(robot_, {0, 0, 0}, goal_);
+  request.start.names.push_back("lift");
+  request.start.positions.push_back(0.5);  // Over the post.
+  EXPECT_EQ(Plan(Straight, request, PostsScene()).status, PlanStatus::kSolved);
+  request.start.positions.back() = 0;
+  EXPECT_EQ(Plan(Straight, request, PostsScene()).status, PlanStatus::kStartInvalid);
+}
+
+TEST_F(PlannerTest, ASceneDoesNotOutliveItsRequest) {
+  ScriptedPlanner planner(robot_, Straight);
+  const PlanRequest request = MakeRequest(robot_, {0, 0, 0}, goal_);
+  EXPECT_EQ(planner.Plan(request, PostsScene(), nullptr).status, PlanStatus::kStartInvalid);
+  EXPECT_EQ(planner.Plan(request, EmptyPlanarScene(), nullptr).status, PlanStatus::kSolved);
+  EXPECT_EQ(planner.Plan(request, PostsScene(), nullptr).status, PlanStatus::kStartInvalid);
+}
+
+TEST_F(PlannerTest, TheEdgeResolutionIsTheRequestsOrTheRobots) {
+  PlanRequest request = Request();
+  for (const double asked : {0.0, 0.004}) {
+    request.edge_resolution_m = asked;
+    Plan(
+        [&](SearchQuery& query) {
+          EXPECT_EQ(query.edges().edge_resolution_m(), asked > 0 ? asked : 0.02);
+          return Straight(query);
+        },
+        request);
+    EXPECT_EQ(num_searches_, 1);
+  }
+}
+
+TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    std::string what;
+    std::function<void(PlanRequest*)> spoil;
+    std::string part;
+  };
+  const std::vector<Case> cases = {
+      {"no time", [](PlanRequest* r) { r->time_limit_s = 0; }, "time_limit_s"},
+      {"negative time", [](PlanRequest* r) { r->time_limit_s = -1; }, "time_limit_s"},
+      {"time NaN", [](PlanRequest* r) { r->time_limit_s = kNan; }, "time_limit_s"},
+      {"negative step", [](PlanRequest* r) { r->edge_resolution_m = -0.1; }, "edge_resolution_m"},
+      {"step NaN", [](PlanRequest* r) { r->edge_resolution_m = kNan; }, "edge_resolution_m"},
+      {"infinite step", [](PlanRequest* r) { r->edge_resolution_m = INFINITY; },
+       "edge_resolution_m"},
+      {"model", [](PlanRequest* r) { r->collision_model = CollisionModel::kVoxels; }, "voxels"},
+      {"group", [](PlanRequest* r) { r->group = "leg"; }, "leg"},
+      {"start joint", [](PlanRequest* r) { r->start.names[0] = "knee"; }, "knee"},
+      {"start NaN", [](PlanRequest* r) { r->start.positions[0] = kNan; }, "shoulder"},
+      {"no start", [](PlanRequest* r) { r->start = {}; }, "shoulder"},
+      {"no goal", [](PlanRequest* r) { r->goal.clear(); }, "shoulder"},
+      {"goal twice", [](PlanRequest* r) { r->goal[1] = r->goal[0]; }, "shoulder"},
+      {"tolerance", [](PlanRequest* r) { r->goal[2].tolerance_above = -1; }, "wrist"},
+  };
+  for (const Case& bad : cases) {
+    SCOPED_TRACE(bad.what);
+    PlanRequest request = Request();
+    bad.spoil(&request);
+    const PlanResult result = Plan(Straight, request);
+    EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+    EXPECT_THAT(result.message, HasSubstr(bad.part));
+    EXPECT_EQ(result.message.find('\n'), std::string::npos);
+    EXPECT_EQ(num_searches_, 0);
+  }
+}
+
+TEST_F(PlannerTest, BackwardIsForPlannersThatCan) {
+  ScriptedPlanner planner(robot_, Straight);
+  planner.description.backward = false;
+  PlanRequest request = Request();
+  request.direction = Direction::kBackward;
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+  EXPECT_THAT(result.message, HasSubstr("backward"));
+}
+
+TEST_F(PlannerTest, BadParametersAreABadRequest) {
+  PlanRequest request = Request();
+  request.parameters["colour"] = "green";
+  const PlanResult result = Plan(
+      [](SearchQuery& query) -> SearchResult {
+        throw InputError("no parameter " + query.parameters().begin()->first);
+      },
+      request);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+  EXPECT_EQ(result.message, "no parameter colour");
+}
+
+TEST_F(PlannerTest, RunningOutOfMemoryIsAStatus) {
+  const PlanResult result =
+      Plan([](SearchQuery&) -> SearchResult { throw std::bad_alloc(); }, Request());
+  EXPECT_EQ(result.status, PlanStatus::kMemoryLimit);
+  EXPECT_GT(result.planning_time_s, 0);
+}
+
+TEST_F(PlannerTest, OtherExceptionsAreNotSwallowed) {
+  EXPECT_THROW(
+      Plan([](SearchQuery&) -> SearchResult { throw std::logic_error("a mistake"); }, Request()),
+      std::logic_error);
+}
+
+using PlannerDeathTest = PlannerTest;
+
+TEST_F(PlannerDeathTest, SearchesAreHeldToTheirContract) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  struct Case {
+    ScriptedPlanner::Script script;
+    std::string message;
+  };
+  const std::vector<Case> cases = {
+      {[](SearchQuery&) { return Solved({}); }, "without a path"},
+      {[](SearchQuery& query) { return Solved({query.goal().nominal}); }, "begin at the start"},
+      {[](SearchQuery& query) { return Solved({query.start()}); }, "end in the goal"},
+      {[](SearchQuery& query) {
+         return Solved({query.start(), {}, query.goal().nominal});
+       },
+       "wrong size"},
+      {[](SearchQuery&) { return Ended(PlanStatus::kStartInvalid); }, "START_INVALID"},
+  };
+  for (const Case& broken : cases) {
+    EXPECT_DEATH(Plan(broken.script, Request()), "scripted: broken invariant: .*" + broken.message);
+  }
+}
+
+}  // namespace
+}  // namespace planbench

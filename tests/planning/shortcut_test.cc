@@ -1,0 +1,108 @@
+#include "planning/shortcut.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/path_judge.h"
+#include "planning/path_metrics.h"
+#include "support/planning_problems.h"
+
+namespace planbench {
+namespace {
+
+bool Never() { return false; }
+
+class ShortcutTest : public testing::Test {
+ protected:
+  Path Shortcut(const Path& path, const Scene& scene, std::uint64_t seed = 1, int attempts = 200,
+                const std::function<bool()>& should_stop = Never) {
+    checker_->SetScene(scene, robot_.model.DefaultPositions());
+    EdgeChecker edges(checker_.get(), kResolution);
+    return ShortcutPath(&edges, path, seed, attempts, should_stop);
+  }
+
+  void ExpectValid(const Path& path, const Scene& scene) {
+    checker_->SetScene(scene, robot_.model.DefaultPositions());
+    const Configuration& goal = path.back();
+    const PathVerdict verdict =
+        JudgePath(checker_.get(), path, path.front(), {goal, goal, goal}, kResolution, false);
+    EXPECT_TRUE(verdict.valid) << verdict.reason;
+  }
+
+  static constexpr double kResolution = 0.02;
+  const Robot robot_ = LoadPlanarRobot();
+  const JointSpace& space_ = robot_.groups.front().space;
+  const std::unique_ptr<CollisionChecker> checker_ =
+      MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
+  /// Folds, passes the post ahead, stretches; with detours.
+  const Path around_post_ = {{0.6, 0, 0},     {0.9, 0.5, 0.3},  {0.7, 1.3, 1.0},
+                             {0.6, 2.0, 1.5}, {-0.3, 2.1, 1.2}, {-1.0, 2.0, 1.5},
+                             {-1.1, 1.0, 0},  {-0.9, 0.2, 0.2}, {-0.6, 0, 0}};
+};
+
+TEST_F(ShortcutTest, TheInputIsValid) { ExpectValid(around_post_, PostsScene()); }
+
+TEST_F(ShortcutTest, WithoutObstaclesTheStraightEdgeRemains) {
+  const Path path = Shortcut(around_post_, EmptyPlanarScene());
+  EXPECT_EQ(path, (Path{around_post_.front(), around_post_.back()}));
+}
+
+TEST_F(ShortcutTest, KeepsClearOfObstaclesAndShortens) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Path path = Shortcut(around_post_, PostsScene(), seed);
+    ExpectValid(path, PostsScene());
+    EXPECT_EQ(path.front(), around_post_.front());
+    EXPECT_EQ(path.back(), around_post_.back());
+    EXPECT_GT(path.size(), 2u) << "the straight edge runs through the post";
+    EXPECT_LT(PathLength(space_, path), 0.9 * PathLength(space_, around_post_));
+  }
+}
+
+TEST_F(ShortcutTest, MoreAttemptsNeverLengthen) {
+  double length = PathLength(space_, around_post_);
+  for (const int attempts : {0, 10, 50, 200, 500}) {
+    const double shorter = PathLength(space_, Shortcut(around_post_, PostsScene(), 3, attempts));
+    EXPECT_LE(shorter, length + 1e-12) << attempts;
+    length = shorter;
+  }
+}
+
+TEST_F(ShortcutTest, IsDeterministic) {
+  const Path once = Shortcut(around_post_, PostsScene(), 5);
+  Shortcut(around_post_, EmptyPlanarScene(), 9);
+  EXPECT_EQ(Shortcut(around_post_, PostsScene(), 5), once);
+  EXPECT_NE(Shortcut(around_post_, PostsScene(), 6), once);
+}
+
+TEST_F(ShortcutTest, StopsWhenTold) {
+  int calls = 0;
+  const Path path = Shortcut(around_post_, PostsScene(), 1, 1'000'000, [&] { return ++calls > 5; });
+  ExpectValid(path, PostsScene());
+  EXPECT_EQ(Shortcut(around_post_, PostsScene(), 1, 100, [] { return true; }), around_post_);
+}
+
+TEST_F(ShortcutTest, ShortPathsStayAsTheyAre) {
+  EXPECT_EQ(Shortcut({}, EmptyPlanarScene()), Path{});
+  EXPECT_EQ(Shortcut({{1, 0, 0}}, EmptyPlanarScene()), (Path{{1, 0, 0}}));
+  EXPECT_EQ(Shortcut({{1, 0, 0}, {0, 0, 0}}, EmptyPlanarScene()), (Path{{1, 0, 0}, {0, 0, 0}}));
+}
+
+TEST_F(ShortcutTest, RepeatedWaypointsDoNoHarm) {
+  const Path path = {around_post_[0], around_post_[0], around_post_[3], around_post_[3],
+                     around_post_[3], around_post_[5], around_post_[8], around_post_[8]};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Path shorter = Shortcut(path, PostsScene(), seed);
+    EXPECT_EQ(shorter.front(), path.front());
+    EXPECT_EQ(shorter.back(), path.back());
+    EXPECT_LE(PathLength(space_, shorter), PathLength(space_, path) + 1e-12);
+  }
+}
+
+TEST_F(ShortcutTest, EndsKeepTheirExactValues) {
+  const Configuration beyond_a_turn = {0.6 + 2 * 3.14159265358979, 0, 0};
+  Path path = around_post_;
+  path.front() = beyond_a_turn;
+  EXPECT_EQ(Shortcut(path, PostsScene()).front(), beyond_a_turn);
+}
+
+}  // namespace
+}  // namespace planbench
