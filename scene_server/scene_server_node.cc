@@ -12,7 +12,6 @@ constexpr std::chrono::seconds kProblemSetsPeriod{1};
 constexpr std::chrono::milliseconds kStopPeriod{50};
 
 NodeStatusMessage StatusOf(const std::string& name, const SceneService& service) {
-  RequireNodeName(name);
   NodeStatusMessage status = MakeNodeStatus(name, NodeKind::kSceneServer);
   status.robot_name = service.robot().name;
   status.robot_id = service.robot().content_id;
