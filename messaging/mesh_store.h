@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+
+#include "geometry/shapes.h"
+
+namespace planbench {
+
+/// Where the meshes of scenes lie, so that messages can name them instead of holding them:
+/// $PLANBENCH_MESH_STORE, else $XDG_CACHE_HOME/planbench/meshes, else ~/.cache/planbench/meshes.
+/// Throws InputError if none of these variables is set.
+std::filesystem::path MeshStoreFolder();
+
+/// Puts a mesh into the store as <MeshId>.obj, unless it is there, and returns its file:// URI. The
+/// file is text in the OBJ format: one `v x y z` a vertex (m, shortest decimals that read back as
+/// the same doubles), one `f a b c` a triangle (vertices from 1). It appears whole or not at all.
+/// Throws InputError naming the file if it cannot be written.
+std::string StoreMesh(const TriangleMesh& mesh);
+
+/// Reads a file that StoreMesh wrote, vertices multiplied by `scale`. Unlike LoadMesh it keeps
+/// every double and the order of vertices and triangles, so that MeshId stays. Throws InputError
+/// naming the file (and line) if it is missing, is no such file, or has no triangles.
+TriangleMesh LoadStoredMesh(const std::string& uri, const Eigen::Vector3d& scale);
+
+}  // namespace planbench
