@@ -76,7 +76,7 @@ inline PlanRequest MakeRequest(const Robot& robot, const Configuration& start,
 inline Scene FetchTableScene(const Robot& fetch) {
   Scene scene;
   scene.world_frame = "base_link";
-  AddBox(&scene, "table", {0.85, 0, 0.6}, {0.6, 1.2, 0.04});
+  AddBox(&scene, "table", {0.85, 0, 0.5}, {0.6, 1.2, 0.04});
   constexpr std::array<std::string_view, 3> kBody = {"base_link", "torso_fixed_link",
                                                      "torso_lift_link"};
   constexpr std::array<std::string_view, 7> kArm = {
