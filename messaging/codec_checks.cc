@@ -184,6 +184,7 @@ CollisionRequestMessage Decode(std::span<const std::uint8_t> bytes, const std::s
   message.collision_model = wire::Model(wire.collision_model, at("collision_model"));
   message.edge_resolution_m = wire::NonNegative(wire.edge_resolution_m, at("edge_resolution_m"));
   message.with_distance = wire::Bool(wire.with_distance, at("with_distance"));
+  wire::AtLeast(0, wire.num_joints, at("num_joints"));
   for (std::size_t i = 0; i < wire.position.size(); ++i) {
     message.states.push_back(wire::ConfigurationFromWire(wire.position[i], at("position", i)));
   }
