@@ -1,0 +1,250 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene_server/problem_fit.h"
+#include "scene_server/scene_service.h"
+#include "tests/scene_server/tiny_world.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/shared_data.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Expects a service with these folders not to start, and to say why in one line.
+void ExpectStartFailure(const TemporaryFolder& folder, const std::vector<fs::path>& problems,
+                        const std::vector<std::string>& parts) {
+  const Robot robot = LoadRobot(WriteTinyRobot(folder));
+  ExpectInputError([&] { SceneService(robot, std::nullopt, problems); }, parts);
+}
+
+/// The same for a set of one problem.
+void ExpectStartFailure(const Problem& problem, const std::vector<std::string>& parts) {
+  const TemporaryFolder folder;
+  WriteTinyProblem(problem, folder.path() / "set", 1);
+  ExpectStartFailure(folder, {folder.path() / "set"}, parts);
+}
+
+TEST(ProblemAnswer, GivesTheProblemAndItsScene) {
+  TinyWorld world;
+  const ProblemAnswer answer = world.service().AnswerProblem({"id 7", "cans", 1});
+  const ProblemMessage& problem = answer.problem;
+  ASSERT_TRUE(problem.ok) << problem.message;
+  EXPECT_EQ(problem.request_id, "id 7");
+  EXPECT_EQ(problem.problem_set, "cans");
+  EXPECT_EQ(problem.problem_index, 1);
+  EXPECT_EQ(problem.group, "arm");
+  EXPECT_EQ(problem.time_limit_s, 7);
+  ASSERT_EQ(problem.goal.size(), 2u);
+  EXPECT_EQ(problem.goal[1].joint, "swing");
+  EXPECT_EQ(problem.goal[1].position, kGoalSwing);
+
+  ASSERT_TRUE(answer.scene);
+  EXPECT_TRUE(answer.scene->ok);
+  EXPECT_EQ(answer.scene->request_id, "id 7");
+  EXPECT_EQ(answer.scene->scene_id, problem.scene_id);
+  EXPECT_EQ(SceneId(answer.scene->scene), problem.scene_id);
+  EXPECT_EQ(problem.scene_id, SceneId(TinyProblem().scene));
+}
+
+TEST(ProblemAnswer, StartIsTheScenesStateOverlaidByTheRequests) {
+  TinyWorld world;
+  const JointState start = world.service().AnswerProblem({"id", "cans", 1}).problem.start;
+  EXPECT_THAT(start.names, ElementsAre("lift", "swing", "finger_joint"));
+  EXPECT_THAT(start.positions, ElementsAre(0, kStartSwing, 0.05));
+}
+
+TEST(ProblemAnswer, StartKeepsJointsThatOnlyTheRequestNames) {
+  Problem problem;
+  problem.scene_state = {{"a"}, {1}};
+  problem.start = {{"b", "a"}, {2, 3}};
+  const JointState start = StartOf(problem);
+  EXPECT_THAT(start.names, ElementsAre("a", "b"));
+  EXPECT_THAT(start.positions, ElementsAre(3, 2));
+}
+
+TEST(ProblemAnswer, NamesTheGroupThatAnEmptyNameMeans) {
+  const TemporaryFolder folder;
+  Problem problem = TinyProblem();
+  problem.group = "";
+  WriteTinyProblem(problem, folder.path() / "set", 1);
+  SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt, {folder.path() / "set"});
+  EXPECT_EQ(service.AnswerProblem({"id", "set", 1}).problem.group, "arm");
+}
+
+TEST(ProblemAnswer, ProblemsOfEqualScenesShareTheId) {
+  TinyWorld world;
+  const auto scene_id = [&](int index) {
+    return world.service().AnswerProblem({"id", "cans", index}).problem.scene_id;
+  };
+  EXPECT_EQ(scene_id(1), scene_id(5));
+  EXPECT_NE(scene_id(1), scene_id(2));
+}
+
+TEST(ProblemAnswer, UnknownSetNamesTheKnownOnes) {
+  TinyWorld world;
+  const ProblemAnswer answer = world.service().AnswerProblem({"id", "boxes", 1});
+  EXPECT_FALSE(answer.problem.ok);
+  EXPECT_FALSE(answer.scene);
+  EXPECT_EQ(answer.problem.request_id, "id");
+  EXPECT_EQ(answer.problem.problem_set, "boxes");
+  EXPECT_THAT(answer.problem.message, AllOf(HasSubstr("'boxes'"), HasSubstr("cans")));
+}
+
+TEST(ProblemAnswer, UnknownIndexNamesTheRange) {
+  TinyWorld world;
+  const ProblemMessage problem = world.service().AnswerProblem({"id", "cans", 3}).problem;
+  EXPECT_FALSE(problem.ok);
+  EXPECT_THAT(problem.message, AllOf(HasSubstr("'cans' has no problem 3"), HasSubstr("1-2, 5")));
+  EXPECT_EQ(problem.problem_index, 3);
+}
+
+TEST(ProblemAnswer, MalformedFileIsRefusedWithFileAndLine) {
+  TinyWorld world;
+  world.folder().Write("problems/cans/request0002.yaml", "group_name: arm\ngoal_constraints: 3\n");
+  const ProblemAnswer answer = world.service().AnswerProblem({"id", "cans", 2});
+  EXPECT_FALSE(answer.problem.ok);
+  EXPECT_FALSE(answer.scene);
+  EXPECT_THAT(answer.problem.message, HasSubstr("request0002.yaml:2"));
+}
+
+TEST(ProblemAnswer, ProblemsAreReadOnceAndKept) {
+  TinyWorld world;
+  ASSERT_TRUE(world.service().AnswerProblem({"id", "cans", 5}).problem.ok);
+  fs::remove(world.folder().path() / "problems/cans/scene0005.yaml");
+  EXPECT_TRUE(world.service().AnswerProblem({"another id", "cans", 5}).problem.ok);
+}
+
+TEST(SceneAnswer, GivesAServedScene) {
+  TinyWorld world;
+  const std::string scene_id = world.SceneIdOfFirst();
+  const SceneMessage scene = world.service().AnswerScene({"id", scene_id});
+  ASSERT_TRUE(scene.ok) << scene.message;
+  EXPECT_EQ(scene.request_id, "id");
+  EXPECT_EQ(scene.scene_id, scene_id);
+  EXPECT_EQ(SceneId(scene.scene), scene_id);
+}
+
+TEST(SceneAnswer, FindsTheSceneOfAProblemThatNobodyAskedForYet) {
+  TinyWorld world;
+  Problem problem = TinyProblem();
+  problem.scene.objects.pop_back();                                    // as in problem 2
+  world.folder().Write("problems/cans/request0005.yaml", "nonsense");  // must not be in the way
+  const SceneMessage scene = world.service().AnswerScene({"id", SceneId(problem.scene)});
+  ASSERT_TRUE(scene.ok) << scene.message;
+  EXPECT_EQ(scene.scene.objects.size(), 1u);
+}
+
+TEST(SceneAnswer, UnknownSceneIsRefused) {
+  TinyWorld world;
+  const SceneMessage scene = world.service().AnswerScene({"id", "0123"});
+  EXPECT_FALSE(scene.ok);
+  EXPECT_EQ(scene.request_id, "id");
+  EXPECT_EQ(scene.scene_id, "0123");
+  EXPECT_THAT(scene.message, HasSubstr("'0123'"));
+}
+
+TEST(ProblemSets, AreSummarised) {
+  TinyWorld world;
+  const ProblemSetsMessage message = world.service().ProblemSets("server");
+  EXPECT_EQ(message.server, "server");
+  EXPECT_EQ(message.robot_name, "tiny");
+  EXPECT_EQ(message.robot_id, world.service().robot().content_id);
+  EXPECT_FALSE(message.has_meshes);
+  ASSERT_EQ(message.sets.size(), 1u);
+  EXPECT_EQ(message.sets[0].name, "cans");
+  EXPECT_THAT(message.sets[0].indices, ElementsAre(1, 2, 5));
+
+  TinyWorld with_meshes(/*with_mesh_robot=*/true);
+  EXPECT_TRUE(with_meshes.service().ProblemSets("server").has_meshes);
+}
+
+TEST(ProblemSets, FolderOfSetsServesEach) {
+  const TemporaryFolder folder;
+  for (const char* name : {"b", "a"}) {
+    WriteTinyProblem(TinyProblem(), folder.path() / "problems" / name, 1);
+  }
+  folder.Write("problems/notes/readme.txt", "no problems here");
+  SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt,
+                       {folder.path() / "problems"});
+  const ProblemSetsMessage message = service.ProblemSets("server");
+  ASSERT_EQ(message.sets.size(), 2u);
+  EXPECT_EQ(message.sets[0].name, "a");
+  EXPECT_EQ(message.sets[1].name, "b");
+}
+
+TEST(ProblemSets, TwoOfOneNameAreRefusedWithBothFolders) {
+  const TemporaryFolder folder;
+  const fs::path one = folder.path() / "one" / "cans";
+  const fs::path two = folder.path() / "two" / "cans";
+  WriteTinyProblem(TinyProblem(), one, 1);
+  WriteTinyProblem(TinyProblem(), two, 1);
+  ExpectStartFailure(folder, {one, two}, {"'cans'", one.string(), two.string()});
+}
+
+TEST(ProblemSets, FoldersWithoutProblemsAreRefused) {
+  const TemporaryFolder folder;
+  const fs::path missing = folder.path() / "missing";
+  ExpectStartFailure(folder, {missing}, {missing.string(), "no such folder"});
+  const fs::path empty = folder.path() / "empty";
+  fs::create_directories(empty / "also_empty");
+  ExpectStartFailure(folder, {empty}, {empty.string(), "holds no problems"});
+  ExpectStartFailure(folder, {}, {"--problems"});
+}
+
+TEST(WrongRobot, FailsAtStartByItsName) {
+  Problem problem = TinyProblem();
+  problem.scene.robot_name = "fetch";
+  ExpectStartFailure(problem, {"scene0001.yaml", "robot_model_name", "'fetch'", "'tiny'"});
+}
+
+TEST(WrongRobot, FailsAtStartByAJoint) {
+  Problem problem = TinyProblem();
+  problem.scene_state.names[0] = "torso";
+  ExpectStartFailure(problem, {"scene0001.yaml: robot_state", "'torso'"});
+  problem = TinyProblem();
+  problem.start.names[0] = "torso";
+  ExpectStartFailure(problem, {"request0001.yaml: start_state", "'torso'"});
+  problem = TinyProblem();
+  problem.goal[0].joint = "torso";
+  ExpectStartFailure(problem, {"request0001.yaml", "goal", "'torso'"});
+}
+
+TEST(WrongRobot, FailsAtStartByTheGroup) {
+  Problem problem = TinyProblem();
+  problem.group = "legs";
+  ExpectStartFailure(problem, {"request0001.yaml: group_name", "'legs'"});
+}
+
+TEST(WrongRobot, FailsAtStartByTheLinkOfAnAttachedObject) {
+  Problem problem = TinyProblem();
+  AttachedObject attached;
+  attached.link = "hand";
+  attached.object = problem.scene.objects[0];
+  attached.object.id = "cup";
+  problem.scene.attached.push_back(attached);
+  ExpectStartFailure(problem, {"scene0001.yaml", "'cup'", "'hand'"});
+}
+
+TEST(PublishedSets, AllProblemsFitTheFetch) {
+  PLANBENCH_NEED_SHARED_DATA("problems");
+  SceneService service(LoadRobot(fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"), std::nullopt,
+                       {SharedData("problems")});
+  const ProblemSetsMessage sets = service.ProblemSets("server");
+  ASSERT_EQ(sets.sets.size(), 3u);
+  for (const ProblemSetSummary& set : sets.sets) {
+    EXPECT_EQ(set.indices.size(), 100u);
+    for (const int index : {1, 50, 100}) {
+      const ProblemMessage problem = service.AnswerProblem({"id", set.name, index}).problem;
+      EXPECT_TRUE(problem.ok) << problem.message;
+      EXPECT_EQ(problem.start.names.size(), 15u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace planbench
