@@ -168,10 +168,11 @@ std::vector<YamlNode> YamlNode::Elements() const {
 double YamlNode::Double() const {
   double value = 0;
   if (!node_.IsScalar()) Fail("expected a number, found " + KindOf(node_));
-  if (ParseNumber(node_.Scalar(), &value) && std::isfinite(value)) return value;
-  const bool known_non_finite =
-      YAML::convert<double>::decode(node_, value) && !std::isfinite(value);  // .nan, .inf, nan, ...
-  Fail(std::string("expected a ") + (known_non_finite ? "finite " : "") + "number, found " +
+  const bool parsed = ParseNumber(node_.Scalar(), &value);
+  if (parsed && std::isfinite(value)) return value;
+  const bool non_finite =
+      parsed || (YAML::convert<double>::decode(node_, value) && !std::isfinite(value));
+  Fail(std::string("expected a ") + (non_finite ? "finite " : "") + "number, found " +
        KindOf(node_));
 }
 

@@ -1,0 +1,237 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.h"
+#include "scene/moveit_yaml.h"
+#include "tests/scene/problem_texts.h"
+
+namespace planbench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Scene ParseScene(const std::string& text, const ResourceResolver& resources = {}) {
+  return ReadScene(YamlNode::Parse(text, "scene.yaml"), resources);
+}
+
+TEST(MoveItReader, ReadsEveryField) {
+  const Problem problem = ParseProblem(kFullScene);
+  const Scene& scene = problem.scene;
+  EXPECT_EQ(scene.name, "kitchen");
+  EXPECT_EQ(scene.robot_name, "fetch");
+  EXPECT_EQ(scene.world_frame, "base_link");
+  ASSERT_EQ(scene.fixed_frames.size(), 1);
+  EXPECT_EQ(scene.fixed_frames[0].frame, "camera");
+
+  ASSERT_EQ(scene.objects.size(), 3);
+  const SceneObject& shelf = scene.objects[0];
+  EXPECT_EQ(shelf.X_WO.translation(), Eigen::Vector3d(1, 0, 0.5));
+  EXPECT_NEAR(shelf.X_WO.linear()(0, 0), 0.28, 1e-12);  // cos of the yaw whose half has sine 0.6
+  EXPECT_NEAR(shelf.X_WO.linear()(1, 0), 0.96, 1e-12);
+  ASSERT_EQ(shelf.shapes.size(), 2);
+  EXPECT_EQ(std::get<Box>(shelf.shapes[0].shape).size, Eigen::Vector3d(1.2, 0.4, 0.04));
+  EXPECT_EQ(std::get<Sphere>(shelf.shapes[1].shape).radius, 0.05);
+  EXPECT_EQ(shelf.shapes[1].X_FS.translation(), Eigen::Vector3d(0.1, 0, 0.3));
+
+  const SceneObject& can = scene.objects[1];
+  EXPECT_EQ(std::get<Cylinder>(can.shapes[0].shape).length, 0.14);
+  EXPECT_EQ(std::get<Cylinder>(can.shapes[0].shape).radius, 0.03);
+  const Eigen::Vector3d p_WC = can.X_WO * can.shapes[0].X_FS.translation();
+  EXPECT_TRUE(p_WC.isApprox(Eigen::Vector3d(0, 0.5, 1), 1e-12)) << p_WC.transpose();
+
+  const auto& wedge = std::get<Mesh>(scene.objects[2].shapes[0].shape);
+  EXPECT_EQ(wedge.triangles.vertices.size(), 4);
+  EXPECT_THAT(wedge.triangles.triangles[2], ElementsAre(1, 2, 3));
+
+  ASSERT_EQ(scene.attached.size(), 1);
+  EXPECT_EQ(scene.attached[0].link, "gripper_link");
+  EXPECT_EQ(scene.attached[0].object.id, "tool");
+  EXPECT_EQ(std::get<Cone>(scene.attached[0].object.shapes[0].shape).length, 0.2);
+  EXPECT_THAT(scene.attached[0].touch_links, ElementsAre("l_finger", "r_finger"));
+
+  EXPECT_TRUE(scene.allowed_collisions.Allowed("b", "a"));
+  EXPECT_FALSE(scene.allowed_collisions.Allowed("a", "tool"));
+  EXPECT_TRUE(scene.allowed_collisions.Allowed("shelf", "tool"));
+
+  EXPECT_EQ(problem.group, "arm");
+  EXPECT_EQ(problem.time_limit_s, 12.5);
+  ASSERT_TRUE(problem.workspace);
+  EXPECT_EQ(problem.workspace->frame, "base_link");
+  EXPECT_EQ(problem.workspace->min_corner, Eigen::Vector3d(-1, -2, 0));
+  EXPECT_THAT(problem.start.names, ElementsAre("a_joint", "b_joint"));
+  EXPECT_THAT(problem.start.positions, ElementsAre(0.5, 1));
+  ASSERT_EQ(problem.goal.size(), 2);
+  EXPECT_EQ(problem.goal[0].tolerance_above, 0.25);
+  EXPECT_EQ(problem.goal[0].tolerance_below, 0.125);
+  EXPECT_EQ(problem.goal[1].position, -3.141592653589793);
+  EXPECT_EQ(problem.goal[1].tolerance_above, 0);
+}
+
+// Each pair of texts says the same in two dialects.
+struct Dialect {
+  const char* name;
+  const char* from;
+  const char* to;
+};
+
+void PrintTo(const Dialect& dialect, std::ostream* out) { *out << dialect.name; }
+
+class SceneDialect : public testing::TestWithParam<Dialect> {};
+
+TEST_P(SceneDialect, MeansTheSameScene) {
+  const std::string text = Replaced(kFullScene, GetParam().from, GetParam().to);
+  EXPECT_EQ(SceneId(ParseScene(text)), SceneId(ParseScene(kFullScene)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Dialects, SceneDialect,
+    testing::Values(
+        Dialect{"VectorAsMap", "position: [1, 0, 0.5]", "position: {y: 0, x: 1.0, z: 5e-1}"},
+        Dialect{"QuaternionAsMap", "orientation: [0, 0, 0.6, 0.8]",
+                "orientation: {w: 0.8, x: 0, y: 0, z: 0.6}"},
+        Dialect{"QuaternionOfOtherSign", "[0, 0, 0.6, 0.8]", "[0, 0, -0.6, -0.8]"},
+        Dialect{"NegativeZero", "position: [1, 0, 0.5]", "position: [1, -0.0, 0.5]"},
+        Dialect{"QuotedNumbersAndNames", "{type: sphere, dimensions: [0.05]}",
+                "{\"type\": 'sphere', \"dimensions\": ['+0.05']}"},
+        Dialect{"TypeAsNumber", "{type: sphere, dimensions: [0.05]}",
+                "{dimensions: [0.05], type: 2}"},
+        Dialect{"TypeInCapitals", "type: cylinder", "type: CYLINDER"},
+        Dialect{"NoOperation", "      operation: 0\n", ""},
+        Dialect{"OperationAsWord", "operation: 0", "operation: ADD"},
+        Dialect{"OtherName", "name: kitchen", "name: \"\""},
+        Dialect{"NameAsNull", "name: kitchen", "name: ~"},
+        Dialect{"NoRobotName", "robot_model_name: fetch\n", ""},
+        Dialect{"RowsAsMaps", "- [true, false, true]", "- {enabled: [true, false, true]}"},
+        Dialect{"RowsAsNumbers", "- [true, false, true]", "- [1, 0, 1]"},
+        Dialect{"TrianglesAsMaps", "[0, 2, 1],", "{vertex_indices: [0, 2, 1]},"},
+        Dialect{"SingleMesh", "      meshes:\n        - vertices",
+                "      mesh:\n        - vertices"},
+        Dialect{"UnsetPose", "    - id: can\n",
+                "    - id: can\n"
+                "      pose: {position: {x: 0, y: 0, z: 0}, orientation: [0, 0, 0, 0]}\n"},
+        Dialect{"IgnoredFields", "name: kitchen",
+                "is_diff: false\nobject_colors: []\nlink_padding: [{link_name: a, padding: 0}]\n"
+                "link_scale: [{link_name: a, scale: 1}]"},
+        Dialect{"EmptyOctomap", "world:\n", "world:\n  octomap: {octomap: {id: \"\", data: []}}\n"},
+        Dialect{"EmptyPlanes", "    - id: can\n", "    - id: can\n      planes: []\n"},
+        Dialect{"DiagonalIsTrue", "[false, true, false]\n    - [true, false",
+                "[true, true, false]\n    - [true, false"},
+        Dialect{"WindowsLineEnds", "name: kitchen\n", "name: kitchen\r\n"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(MoveItReader, KeysInReverseOrderAndNoNewlineAtTheEnd) {
+  const Scene scene = ParseScene(
+      "world:\n  collision_objects:\n"
+      "    - primitive_poses: [{orientation: [0, 0, 0, 1], position: [1, 2, 3]}]\n"
+      "      primitives: [{dimensions: [0.1], type: sphere}]\n"
+      "      header: {frame_id: base_link}\n      id: ball\n"
+      "allowed_collision_matrix:\n  entry_values: [[false, true], [true, false]]\n"
+      "  entry_names: [a, b]\nname: \"\"");
+  EXPECT_EQ(scene.world_frame, "base_link");
+  EXPECT_TRUE(scene.allowed_collisions.Allowed("a", "b"));
+  EXPECT_EQ(scene.objects[0].shapes[0].X_FS.translation(), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
+  const Scene scene = ParseScene(
+      "world: {collision_objects: [{id: ball, pose: {position: [1, 2, 3], "
+      "orientation: [0, 0, 0, 1]}, primitives: [{type: sphere, dimensions: [1]}]}]}");
+  EXPECT_EQ(scene.objects[0].X_WO.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_TRUE(scene.objects[0].shapes[0].X_FS.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(MoveItReader, WorldFrame) {
+  const std::string object =
+      "{primitives: [{type: sphere, dimensions: [1]}], primitive_poses: "
+      "[{position: [0, 0, 0], orientation: [0, 0, 0, 1]}], ";
+  const std::string one_in_a =
+      "world: {collision_objects: [" + object + "id: x, header: {frame_id: a}}]}\n";
+  EXPECT_EQ(ParseScene(one_in_a).world_frame, "a");
+  EXPECT_EQ(
+      ParseScene(one_in_a + "robot_state: {joint_state: {header: {frame_id: a}}}").world_frame,
+      "a");
+  const std::string identity = "transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}]\n";
+  EXPECT_EQ(ParseScene(one_in_a +
+                       "fixed_frame_transforms: [{header: {frame_id: w}, "
+                       "child_frame_id: a, " +
+                       identity)
+                .world_frame,
+            "w");
+  EXPECT_EQ(ParseScene("robot_model_name: free_space").world_frame, "");
+  EXPECT_TRUE(ParseScene("robot_model_name: free_space").objects.empty());
+}
+
+TEST(MoveItReader, AttachedObjectsOfTheRequestJoinTheScene) {
+  const std::string attached = R"(
+  attached_collision_objects:
+    - link_name: gripper_link
+      object: {id: ID, primitives: [{type: cone, dimensions: [0.2, RADIUS]}],
+               primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]}
+      touch_links: [r_finger, l_finger])";
+  const auto request = [&](const std::string& id, const std::string& radius) {
+    return Replaced(kFullRequest, "start_state:",
+                    "start_state:" + Replaced(Replaced(attached, "ID", id), "RADIUS", radius));
+  };
+  EXPECT_EQ(ParseProblem(kFullScene, request("other", "0.04")).scene.attached.size(), 2);
+  // Said again, in another order of touch links: the same object.
+  EXPECT_EQ(ParseProblem(kFullScene, request("tool", "0.04")).scene.attached.size(), 1);
+  EXPECT_THROW(ParseProblem(kFullScene, request("tool", "0.05")), InputError);
+  EXPECT_THROW(ParseProblem(kFullScene, request("can", "0.04")), InputError);
+}
+
+class MeshFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_ / "meshes");
+    std::ofstream(folder_ / "meshes" / "tri.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string Scene(const std::string& mesh) {
+    return "world:\n  collision_objects:\n    - id: m\n      meshes:\n        - " + mesh +
+           "\n      mesh_poses:\n        - {position: [0, 0, 0], orientation: [0, 0, 0, 1]}\n";
+  }
+
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      ("planbench_mesh_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
+       testing::UnitTest::GetInstance()->current_test_info()->name());
+  ResourceResolver resources_{.base_folder = folder_, .packages = {{"things", folder_}}};
+};
+
+TEST_F(MeshFile, LoadsResourceAndAppliesScale) {
+  const planbench::Scene scene = ParseScene(
+      Scene("{resource: 'package://things/meshes/tri.obj', dimensions: [2, 3, 1]}"), resources_);
+  const auto& mesh = std::get<Mesh>(scene.objects[0].shapes[0].shape);
+  EXPECT_EQ(mesh.resource, "package://things/meshes/tri.obj");
+  EXPECT_EQ(mesh.scale, Eigen::Vector3d(2, 3, 1));
+  ASSERT_EQ(mesh.triangles.triangles.size(), 1);
+  Eigen::Vector3d top = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& vertex : mesh.triangles.vertices) top = top.cwiseMax(vertex);
+  EXPECT_EQ(top, Eigen::Vector3d(2, 3, 0));
+
+  Problem problem;
+  problem.scene = scene;
+  Problem again;
+  again.scene = ParseScene(SceneToYaml(problem), resources_);
+  EXPECT_EQ(SceneId(again.scene), SceneId(scene));
+  EXPECT_EQ(SceneToYaml(again), SceneToYaml(problem));
+}
+
+TEST_F(MeshFile, MissingResourceNamesTheLineOfTheScene) {
+  try {
+    ParseScene(Scene("{resource: 'package://things/meshes/none.obj'}"), resources_);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("scene.yaml:5: world.collision_objects[0].meshes[0].resource: "));
+    EXPECT_THAT(error.what(), HasSubstr("none.obj"));
+  }
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,88 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.h"
+#include "scene/problem.h"
+
+namespace planbench {
+namespace {
+namespace fs = std::filesystem;
+
+class ProblemSetFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(parent_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(parent_); }
+  void Touch(const std::string& name) { std::ofstream(folder_ / name) << "x: 1\n"; }
+  std::string Error() {
+    try {
+      ListProblemSet(folder_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  fs::path parent_ =
+      fs::path(testing::TempDir()) /
+      (std::string("planbench_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::path folder_ = parent_ / "my_set";
+};
+
+TEST_F(ProblemSetFolder, ListsPairsByIndex) {
+  for (const char* name : {"scene0010.yaml", "request0010.yaml", "request0002.yaml",
+                           "scene0002.yaml", "scene123456.yaml", "request123456.yaml",
+                           "path0002.yaml", "config.yaml", "scene0003.yaml.orig", "scene.yaml"}) {
+    Touch(name);
+  }
+  const ProblemSet set = ListProblemSet(folder_);
+  EXPECT_EQ(set.name, "my_set");
+  ASSERT_EQ(set.problems.size(), 3);
+  EXPECT_EQ(set.problems[0].index, 2);
+  EXPECT_EQ(set.problems[1].index, 10);
+  EXPECT_EQ(set.problems[2].index, 123456);
+  EXPECT_EQ(set.problems[1].scene, folder_ / "scene0010.yaml");
+  ASSERT_NE(set.Find(10), nullptr);
+  EXPECT_EQ(set.Find(10)->request, folder_ / "request0010.yaml");
+  EXPECT_EQ(set.Find(3), nullptr);
+  EXPECT_EQ(set.Find(999999), nullptr);
+  EXPECT_EQ(ListProblemSet(folder_ / "").name, "my_set");
+  EXPECT_EQ(ListProblemSet(folder_ / ".").name, "my_set");
+}
+
+TEST_F(ProblemSetFolder, MissingFolder) {
+  fs::remove_all(folder_);
+  EXPECT_THAT(Error(), testing::HasSubstr(folder_.string()));
+}
+
+TEST_F(ProblemSetFolder, EmptyFolder) {
+  EXPECT_THAT(Error(), testing::HasSubstr("holds no problems"));
+}
+
+TEST_F(ProblemSetFolder, SceneWithoutRequest) {
+  Touch("scene0001.yaml");
+  EXPECT_THAT(Error(), testing::HasSubstr("scene0001.yaml: has no request"));
+}
+
+TEST_F(ProblemSetFolder, RequestWithoutScene) {
+  Touch("request0001.yaml");
+  EXPECT_THAT(Error(), testing::HasSubstr("request0001.yaml: has no scene"));
+}
+
+TEST_F(ProblemSetFolder, SameNumberTwice) {
+  for (const char* name : {"scene1.yaml", "scene0001.yaml", "request1.yaml"}) Touch(name);
+  EXPECT_THAT(Error(), testing::HasSubstr("have the same number"));
+}
+
+TEST_F(ProblemSetFolder, NumberTooLarge) {
+  Touch("scene99999999999999999999.yaml");
+  EXPECT_THAT(Error(), testing::HasSubstr("too large"));
+}
+
+}  // namespace
+}  // namespace planbench
