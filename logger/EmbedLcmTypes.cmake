@@ -1,0 +1,12 @@
+# cmake -DOUTPUT=FILE.cc -DFILES="a.lcm|b.lcm|..." -P EmbedLcmTypes.cmake: writes the files into C++ source.
+string(REPLACE "|" ";" files "${FILES}")
+set(source "#include \"logger/lcm_type_files.h\"\n\nnamespace planbench {\n\n")
+string(APPEND source "const std::vector<LcmTypeFile>& LcmTypeFiles() {\n")
+string(APPEND source "  static const std::vector<LcmTypeFile> files = {\n")
+foreach(file IN LISTS files)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" text)
+  string(APPEND source "{\"${name}\", R\"lcmtype(${text})lcmtype\"},\n")
+endforeach()
+string(APPEND source "  };\n  return files;\n}\n\n}  // namespace planbench\n")
+file(WRITE "${OUTPUT}" "${source}")

@@ -1,0 +1,85 @@
+#include "logger/logger_node.h"
+
+#include <spdlog/spdlog.h>
+
+namespace planbench {
+
+LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
+    : queue_(options.queue_bytes),
+      recorder_(
+          options.out, options.resume, options.name,
+          [bus](const std::string& channel, const AckMessage& ack) { bus->Publish(channel, ack); }),
+      status_(MakeNodeStatus(options.name, NodeKind::kLogger)) {
+  status_.settings["out"] = recorder_.folder().path().string();
+  writer_ = std::thread([this] { Write(); });
+  constexpr int kUnbounded = 0;
+  try {
+    everything_ = bus->SubscribeBytes(
+        ".*",
+        [this](const std::string& channel, std::span<const std::uint8_t> bytes,
+               std::int64_t utime) { OnMessage(channel, bytes, utime); },
+        kUnbounded);
+    announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return status_; });
+  } catch (...) {
+    Stop();
+    throw;
+  }
+  spdlog::info("recording to {}", recorder_.folder().path().string());
+}
+
+LoggerNode::~LoggerNode() { Stop(); }
+
+bool LoggerNode::Run(const std::function<bool()>& stop) {
+  while (!stop() && !failed_) {
+    announcer_->ThrowIfDisplaced();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  Stop();
+  if (failure_) std::rethrow_exception(failure_);
+  const RecorderTally& tally = recorder_.tally();
+  spdlog::info("recorded {} messages, {} runs ({} repeated)", tally.events, tally.runs,
+               tally.repetitions);
+  if (num_dropped() > 0) {
+    spdlog::error("{} messages were dropped: the event log is incomplete", num_dropped());
+  }
+  if (tally.failures > 0) {
+    spdlog::error("{} run records or sessions could not be stored", tally.failures);
+  }
+  return num_dropped() == 0 && tally.failures == 0;
+}
+
+void LoggerNode::OnMessage(const std::string& channel, std::span<const std::uint8_t> bytes,
+                           std::int64_t utime) {
+  if (queue_.Push(channel, bytes, utime)) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_complaint_ < std::chrono::seconds(1)) return;
+  last_complaint_ = now;
+  spdlog::error("messages come faster than they can be written: {} dropped so far",
+                queue_.num_dropped());
+}
+
+void LoggerNode::Write() {
+  constexpr std::chrono::milliseconds kPatience{500};
+  try {
+    while (true) {
+      const std::optional<ReceivedMessage> message = queue_.Pop(kPatience);
+      if (message) recorder_.Record(*message);
+      if (!queue_.empty()) continue;
+      recorder_.Flush();
+      if (queue_.closed()) return;
+    }
+  } catch (const std::exception& error) {
+    spdlog::critical("cannot record any more: {}", error.what());
+    failure_ = std::current_exception();
+    failed_ = true;
+  }
+}
+
+void LoggerNode::Stop() {
+  announcer_.reset();
+  everything_ = Subscription();
+  queue_.Close();
+  if (writer_.joinable()) writer_.join();
+}
+
+}  // namespace planbench

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <thread>
+
+#include "logger/message_queue.h"
+#include "logger/session_recorder.h"
+#include "messaging/bus.h"
+#include "messaging/node_announcer.h"
+
+namespace planbench {
+
+struct LoggerOptions {
+  std::filesystem::path out;  ///< Session folder.
+  std::string name = "logger";
+  bool resume = false;  ///< Add to a folder that holds results already.
+  /// Memory for messages that wait to be written.
+  std::size_t queue_bytes = std::size_t{512} << 20;
+};
+
+/// The logger as a process on the bus: the bus thread copies every message into a bounded queue, a
+/// thread of its own records them.
+class LoggerNode {
+ public:
+  /// Goes live. Throws InputError if the folder cannot be used.
+  LoggerNode(Bus* bus, const LoggerOptions& options);
+  /// Records what was received so far and closes the files.
+  ~LoggerNode();
+  LoggerNode(const LoggerNode&) = delete;
+  LoggerNode& operator=(const LoggerNode&) = delete;
+
+  /// Runs until `stop` (asked every 50 ms) says so, then records what was received so far. True if
+  /// everything that came was recorded: nothing dropped, no run record refused. Throws
+  /// std::runtime_error if the folder cannot be written, InputError if an older process has the
+  /// name.
+  bool Run(const std::function<bool()>& stop);
+
+  std::int64_t num_dropped() const { return queue_.num_dropped(); }
+
+ private:
+  void OnMessage(const std::string& channel, std::span<const std::uint8_t> bytes,
+                 std::int64_t utime);
+  void Write();
+  void Stop();
+
+  MessageQueue queue_;
+  SessionRecorder recorder_;
+  std::chrono::steady_clock::time_point last_complaint_;  // bus thread only
+  std::atomic<bool> failed_ = false;
+  std::exception_ptr failure_;  // the writer's; to be read after failed_ or the join
+  std::thread writer_;
+  NodeStatusMessage status_;
+  Subscription everything_;
+  std::unique_ptr<NodeAnnouncer> announcer_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,21 @@
+#include "logger/logger_node.h"
+#include "messaging/program.h"
+
+int main(int argc, char** argv) {
+  using namespace planbench;
+  Program program("logger",
+                  "Records everything on the bus: an LCM event log and a results database.");
+  LoggerOptions options;
+  program.app()
+      .add_option("--out", options.out, "Session folder; created if it does not exist")
+      ->required();
+  program.app().add_option("--name", options.name, "Name on the bus")->capture_default_str();
+  program.app().add_flag("--resume", options.resume,
+                         "Add to a session folder that holds results already");
+  return program.Run(argc, argv, [&] {
+    Bus bus(program.lcm_url());
+    LoggerNode logger(&bus, options);
+    bus.Start();
+    return logger.Run(StopRequested) ? kExitOk : kExitFailed;
+  });
+}

@@ -1,0 +1,255 @@
+#include "logger/results_database.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "common/error.h"
+#include "logger/results_schema.h"
+#include "logger/run_columns.h"
+#include "logger/session_json.h"
+#include "logger/utc_time.h"
+
+namespace planbench {
+namespace {
+
+SqliteConnection Open(const std::filesystem::path& file) {
+  SqliteConnection connection(file, SqliteConnection::Mode::kReadWriteCreate);
+  const auto not_ours = [&](const std::string& why) {
+    return InputError(file.string() + " is no results database of this program: " + why);
+  };
+  SqliteValue tables;
+  try {
+    // A killed process leaves the file whole, a reader never blocks the writer, and a commit costs
+    // no wait for the disk.
+    connection.Execute(
+        "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA foreign_keys = ON;");
+    tables = connection.QueryValue("SELECT count(*) FROM sqlite_master");
+  } catch (const SqliteError& error) {
+    if (error.kind() == SqliteError::Kind::kBusy) throw;
+    throw not_ours(error.what());
+  }
+  if (tables == SqliteValue(std::int64_t{0})) {
+    SqliteTransaction transaction(&connection);
+    connection.Execute(ResultsSchema());
+    transaction.Commit();
+  }
+  const SqliteValue version = connection.QueryValue("PRAGMA user_version");
+  if (version != SqliteValue(std::int64_t{kResultsSchemaVersion})) {
+    throw not_ours(fmt::format("its user_version is {}, not {}", std::get<std::int64_t>(version),
+                               kResultsSchemaVersion));
+  }
+  return connection;
+}
+
+std::string InsertRunSql() {
+  std::string names = "experimentid, plannerid";
+  std::string values = "?, ?";
+  for (const RunColumn& column : RunColumns()) {
+    names += std::string(", ") + column.name;
+    values += ", ?";
+  }
+  return fmt::format("INSERT INTO runs ({}) VALUES ({})", names, values);
+}
+
+std::string AsLines(const std::map<std::string, std::string>& settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) text += fmt::format("{} = {}\n", key, value);
+  return text;
+}
+
+/// What sets planners of one name apart: `settings` of plannerConfigs.
+std::string PlannerSettings(const RunRecordMessage& record) {
+  // Parameters of the request hold over the planner's own settings.
+  std::map<std::string, std::string> settings = record.request.parameters;
+  settings.insert(record.settings.begin(), record.settings.end());
+  return fmt::format("algorithm = {}\nplanner_class = {}\n", record.algorithm,
+                     record.planner_class) +
+         AsLines(settings);
+}
+
+/// What Planner Arena compares over time; it shows the last word.
+std::string ExperimentVersion(const SessionMessage& session) {
+  std::string version = "planbench " + session.version;
+  if (!session.commit.empty()) version += "+" + session.commit;
+  return version;
+}
+
+}  // namespace
+
+ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
+    : connection_(Open(file)),
+      find_session_(connection_.Prepare(
+          "SELECT start_utime, finished, total_time FROM sessions WHERE run_id = ?")),
+      put_session_(connection_.Prepare(
+          "INSERT OR REPLACE INTO sessions (run_id, start_utime, finished, total_time, num_runs, "
+          "time_limit, version, hostname, cpuinfo, date, seed, setup, details) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")),
+      update_experiments_(connection_.Prepare(
+          "UPDATE experiments SET "
+          "(totaltime, timelimit, version, hostname, cpuinfo, date, seed, setup) = "
+          "(SELECT iif(finished, total_time, NULL), time_limit, version, hostname, cpuinfo, date, "
+          "seed, setup FROM sessions WHERE run_id = ?1) "
+          "WHERE id IN (SELECT experimentid FROM experiment_sessions WHERE run_id = ?1) "
+          "AND EXISTS (SELECT 1 FROM sessions WHERE run_id = ?1)")),
+      find_experiment_(connection_.Prepare("SELECT experimentid FROM experiment_sessions "
+                                           "WHERE run_id = ? AND problem_set = ?")),
+      insert_experiment_(connection_.Prepare(
+          "INSERT INTO experiments (name, timelimit, memorylimit, runcount, version) "
+          "VALUES (?, ?, 0, 0, 'planbench')")),
+      insert_experiment_session_(
+          connection_.Prepare("INSERT INTO experiment_sessions VALUES (?, ?, ?)")),
+      count_run_(connection_.Prepare(
+          "UPDATE experiments SET runcount = max(runcount, (SELECT count(*) FROM runs "
+          "WHERE experimentid = ?1 AND plannerid = ?2)) WHERE id = ?1")),
+      find_planner_(
+          connection_.Prepare("SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?")),
+      insert_planner_(
+          connection_.Prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")),
+      find_run_(connection_.Prepare("SELECT id FROM runs WHERE run_id = ? AND request_id = ?")),
+      insert_run_(connection_.Prepare(InsertRunSql())),
+      // Two improvements at one reading of the clock: the later one stands.
+      insert_progress_(connection_.Prepare(
+          "INSERT OR REPLACE INTO progress (runid, time, epsilon, cost, expansions) "
+          "VALUES (?, ?, ?, ?, ?)")),
+      insert_counter_(connection_.Prepare("INSERT INTO counters VALUES (?, ?, ?)")),
+      insert_position_(connection_.Prepare("INSERT INTO paths VALUES (?, ?, ?, ?, ?)")) {}
+
+ResultsDatabase::~ResultsDatabase() {
+  try {
+    connection_.Execute("PRAGMA journal_mode = DELETE");
+  } catch (const SqliteError& error) {
+    // Another program still reads; SQLite keeps the log beside the file, and any reader finds it
+    // there.
+    spdlog::info("the write-ahead log stays: {}", error.what());
+  }
+}
+
+void ResultsDatabase::Store(const SessionMessage& session) {
+  SqliteTransaction transaction(&connection_);
+  find_session_.BindAll(session.run_id);
+  if (find_session_.Step()) {
+    const auto known =
+        std::make_tuple(find_session_.Int(0), find_session_.Int(1) != 0, find_session_.Double(2));
+    find_session_.Reset();
+    if (std::make_tuple(session.start_utime, session.finished, session.total_time_s) < known) {
+      return;
+    }
+  }
+  const std::string setup = fmt::format("run_id = {}\nrobot = {} ({})\n", session.run_id,
+                                        session.robot_name, session.robot_id) +
+                            AsLines(session.settings);
+  // Named, because texts must live until the statement has run.
+  const std::string version = ExperimentVersion(session);
+  const std::string date = IsoTime(session.start_utime);
+  const std::string seed = std::to_string(session.seed);
+  const std::string details = SessionJson(session);
+  put_session_
+      .BindAll(session.run_id, session.start_utime, session.finished ? 1 : 0, session.total_time_s,
+               session.num_runs, session.time_limit_s, version, session.host, session.cpu, date,
+               seed, setup, details)
+      .Run();
+  update_experiments_.BindAll(session.run_id).Run();
+  transaction.Commit();
+}
+
+ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) {
+  SqliteTransaction transaction(&connection_);
+  find_run_.BindAll(record.run_id, record.request_id);
+  if (find_run_.Step()) {
+    find_run_.Reset();
+    return Outcome::kAlreadyStored;
+  }
+  const std::int64_t experiment = ExperimentId(record);
+  const std::int64_t planner = PlannerId(record);
+  std::vector<SqliteValue> values;
+  values.reserve(RunColumns().size());
+  int parameter = 0;
+  insert_run_.Bind(++parameter, experiment);
+  insert_run_.Bind(++parameter, planner);
+  for (const RunColumn& column : RunColumns()) {
+    values.push_back(column.value(record));
+    insert_run_.Bind(++parameter, values.back());
+  }
+  insert_run_.Run();
+  const std::int64_t run = connection_.LastInsertId();
+  count_run_.BindAll(experiment, planner).Run();
+
+  const PlanResult& result = record.result.result;
+  InsertProgress(run, result);
+  InsertCounters(run, result);
+  InsertPath(run, "raw", result.path, record.result.joint_names);
+  InsertPath(run, "simplified", result.simplified_path, record.result.joint_names);
+  transaction.Commit();
+  return Outcome::kStored;
+}
+
+std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {
+  find_experiment_.BindAll(record.run_id, record.problem_set);
+  if (find_experiment_.Step()) {
+    const std::int64_t id = find_experiment_.Int(0);
+    find_experiment_.Reset();
+    return id;
+  }
+  insert_experiment_.BindAll(record.problem_set, record.request.time_limit_s).Run();
+  const std::int64_t id = connection_.LastInsertId();
+  insert_experiment_session_.BindAll(id, record.run_id, record.problem_set).Run();
+  update_experiments_.BindAll(record.run_id).Run();
+  return id;
+}
+
+std::int64_t ResultsDatabase::PlannerId(const RunRecordMessage& record) {
+  const std::string settings = PlannerSettings(record);
+  find_planner_.BindAll(record.planner, settings);
+  if (find_planner_.Step()) {
+    const std::int64_t id = find_planner_.Int(0);
+    find_planner_.Reset();
+    return id;
+  }
+  insert_planner_.BindAll(record.planner, settings).Run();
+  return connection_.LastInsertId();
+}
+
+void ResultsDatabase::InsertProgress(std::int64_t run, const PlanResult& result) {
+  for (const PlanProgress& progress : result.progress) {
+    const SqliteValue epsilon =
+        progress.epsilon == 0 ? SqliteValue() : SqliteValue(progress.epsilon);
+    insert_progress_.BindAll(run, progress.elapsed_s, epsilon, progress.cost, progress.expansions)
+        .Run();
+  }
+}
+
+void ResultsDatabase::InsertCounters(std::int64_t run, const PlanResult& result) {
+  for (const auto& [name, value] : result.counters) {
+    insert_counter_.BindAll(run, name, value).Run();
+  }
+}
+
+void ResultsDatabase::InsertPath(std::int64_t run, const char* kind, const Path& path,
+                                 const std::vector<std::string>& joint_names) {
+  for (std::size_t waypoint = 0; waypoint < path.size(); ++waypoint) {
+    const Configuration& q = path[waypoint];
+    if (q.size() != joint_names.size()) {
+      throw InputError(fmt::format("waypoint {} of the {} path has {} positions for {} joint names",
+                                   waypoint, kind, q.size(), joint_names.size()));
+    }
+    for (std::size_t joint = 0; joint < q.size(); ++joint) {
+      insert_position_
+          .BindAll(run, kind, static_cast<std::int64_t>(waypoint), joint_names[joint], q[joint])
+          .Run();
+    }
+  }
+}
+
+std::vector<std::string> ResultsDatabase::Sessions() {
+  std::vector<std::string> sessions;
+  SqliteStatement statement =
+      connection_.Prepare("SELECT details FROM sessions ORDER BY start_utime, run_id");
+  while (statement.Step()) sessions.push_back(statement.Text(0));
+  return sessions;
+}
+
+}  // namespace planbench

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "logger/sqlite.h"
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// results.sqlite, built from messages alone: equal messages in equal order give equal contents,
+/// whether they come live or from a replay. docs/database.md describes the tables.
+///
+/// A call has either stored everything of its message or nothing, also if the process is killed
+/// within it. Throws SqliteError where the database fails. Not thread-safe.
+class ResultsDatabase {
+ public:
+  /// Opens the file or creates it. Throws InputError if it is no results database of this version.
+  explicit ResultsDatabase(const std::filesystem::path& file);
+  /// Leaves one plain file: what is in the write-ahead log is moved into it.
+  ~ResultsDatabase();
+  ResultsDatabase(const ResultsDatabase&) = delete;
+  ResultsDatabase& operator=(const ResultsDatabase&) = delete;
+
+  /// Stores a session or its later state. Of the messages about one session that with the latest
+  /// start counts, then the finished one, then the one with the longest total time: a late
+  /// repetition changes nothing.
+  void Store(const SessionMessage& session);
+
+  enum class Outcome { kStored, kAlreadyStored };
+  /// Stores a run. Of records with the same run_id and request_id the first counts. Throws
+  /// InputError for a record that contradicts itself.
+  Outcome Store(const RunRecordMessage& record);
+
+  /// SessionJson of every session, oldest first.
+  std::vector<std::string> Sessions();
+
+ private:
+  std::int64_t ExperimentId(const RunRecordMessage& record);
+  std::int64_t PlannerId(const RunRecordMessage& record);
+  void InsertProgress(std::int64_t run, const PlanResult& result);
+  void InsertCounters(std::int64_t run, const PlanResult& result);
+  void InsertPath(std::int64_t run, const char* kind, const Path& path,
+                  const std::vector<std::string>& joint_names);
+
+  SqliteConnection connection_;
+  SqliteStatement find_session_;
+  SqliteStatement put_session_;
+  SqliteStatement update_experiments_;
+  SqliteStatement find_experiment_;
+  SqliteStatement insert_experiment_;
+  SqliteStatement insert_experiment_session_;
+  SqliteStatement count_run_;
+  SqliteStatement find_planner_;
+  SqliteStatement insert_planner_;
+  SqliteStatement find_run_;
+  SqliteStatement insert_run_;
+  SqliteStatement insert_progress_;
+  SqliteStatement insert_counter_;
+  SqliteStatement insert_position_;
+};
+
+}  // namespace planbench

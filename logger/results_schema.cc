@@ -1,0 +1,96 @@
+#include "logger/results_schema.h"
+
+#include <fmt/format.h>
+
+#include "logger/run_columns.h"
+#include "planning/plan_status.h"
+
+namespace planbench {
+namespace {
+
+// Planner Arena takes every column of `experiments` after the twelfth for a parameter of the
+// problem, and OMPL's importer fills `plannerConfigs` and `enums` by position: our own facts stand
+// in tables of their own. It also appends rows to `runs` that know nothing of our columns, so these
+// may all be NULL.
+constexpr char kOmplTables[] = R"sql(
+CREATE TABLE experiments (
+  id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
+  totaltime REAL, timelimit REAL, memorylimit REAL, runcount INTEGER,
+  version VARCHAR(128), hostname VARCHAR(1024), cpuinfo TEXT,
+  date DATETIME, seed VARCHAR(24), setup TEXT);
+CREATE TABLE plannerConfigs (
+  id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512) NOT NULL, settings TEXT);
+CREATE TABLE enums (
+  name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
+)sql";
+
+constexpr char kRunsKeys[] = R"sql(
+  FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE,
+  FOREIGN KEY (plannerid) REFERENCES plannerConfigs(id) ON DELETE CASCADE,
+  UNIQUE (run_id, request_id));
+CREATE INDEX runs_by_experiment ON runs (experimentid, plannerid);
+CREATE INDEX runs_by_problem ON runs (problem_set, problem_index);
+)sql";
+
+// OMPL's names of quantities that `runs` has under the names used throughout here.
+constexpr char kOmplRunColumns[] = R"sql(
+  solution_length REAL GENERATED ALWAYS AS (path_length) VIRTUAL,
+  solution_clearance REAL GENERATED ALWAYS AS (clearance) VIRTUAL,
+  solution_smoothness REAL GENERATED ALWAYS AS (smoothness) VIRTUAL,
+  solution_segments INTEGER GENERATED ALWAYS AS (num_waypoints - 1) VIRTUAL,
+  correct_solution BOOLEAN GENERATED ALWAYS AS (referee_valid) VIRTUAL,
+  simplified_solution_length REAL GENERATED ALWAYS AS (path_length_simplified) VIRTUAL,
+  simplified_solution_clearance REAL GENERATED ALWAYS AS (clearance_simplified) VIRTUAL,
+  simplified_solution_smoothness REAL GENERATED ALWAYS AS (smoothness_simplified) VIRTUAL,
+  simplified_solution_segments INTEGER
+    GENERATED ALWAYS AS (num_waypoints_simplified - 1) VIRTUAL,
+  simplified_correct_solution BOOLEAN GENERATED ALWAYS AS (simplified_valid) VIRTUAL,)sql";
+
+// Planner Arena cannot do without progress.best_cost.
+constexpr char kOtherTables[] = R"sql(
+CREATE TABLE progress (
+  runid INTEGER, time REAL, epsilon REAL, cost REAL, expansions INTEGER,
+  best_cost REAL GENERATED ALWAYS AS (cost) VIRTUAL,
+  PRIMARY KEY (runid, time),
+  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
+CREATE TABLE counters (
+  runid INTEGER, name TEXT, value REAL,
+  PRIMARY KEY (runid, name),
+  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE) WITHOUT ROWID;
+CREATE TABLE paths (
+  runid INTEGER, kind TEXT CHECK (kind IN ('raw', 'simplified')), waypoint INTEGER, joint TEXT,
+  position REAL,
+  PRIMARY KEY (runid, kind, waypoint, joint),
+  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE) WITHOUT ROWID;
+CREATE TABLE sessions (
+  run_id TEXT PRIMARY KEY, start_utime INTEGER, finished BOOLEAN, total_time REAL,
+  num_runs INTEGER, time_limit REAL, version TEXT, hostname TEXT, cpuinfo TEXT, date TEXT,
+  seed TEXT, setup TEXT, details TEXT);
+CREATE TABLE experiment_sessions (
+  experimentid INTEGER PRIMARY KEY, run_id TEXT, problem_set TEXT,
+  UNIQUE (run_id, problem_set),
+  FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE);
+)sql";
+
+}  // namespace
+
+std::string ResultsSchema() {
+  std::string sql = kOmplTables;
+  for (int i = 0; i < kNumPlanStatuses; ++i) {
+    sql += fmt::format("INSERT INTO enums VALUES ('status', {}, '{}');\n", i,
+                       PlanStatusName(static_cast<PlanStatus>(i)));
+  }
+  sql +=
+      "CREATE TABLE runs (\n"
+      "  id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER,\n";
+  for (const RunColumn& column : RunColumns()) {
+    sql += fmt::format("  {} {},\n", column.name, column.type);
+  }
+  sql += kOmplRunColumns;
+  sql += kRunsKeys;
+  sql += kOtherTables;
+  sql += fmt::format("PRAGMA user_version = {};\n", kResultsSchemaVersion);
+  return sql;
+}
+
+}  // namespace planbench

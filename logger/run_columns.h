@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "logger/sqlite.h"
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// A column of table `runs`, besides id, experimentid and plannerid. docs/database.md defines each.
+struct RunColumn {
+  const char* name;
+  /// REAL, INTEGER, TEXT, or what OMPL's tools know as BOOLEAN and ENUM.
+  const char* type;
+  /// What a record has to say; NULL where it says nothing.
+  SqliteValue (*value)(const RunRecordMessage&);
+};
+
+/// All of them, in the order of the table.
+const std::vector<RunColumn>& RunColumns();
+
+}  // namespace planbench

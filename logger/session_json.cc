@@ -1,0 +1,84 @@
+#include "logger/session_json.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "logger/utc_time.h"
+
+namespace planbench {
+namespace {
+
+// Keeps the order in which keys are written, for the reader's sake.
+using Json = nlohmann::ordered_json;
+
+std::string Dump(const Json& json, int indent) {
+  // Text that is no UTF-8 (a host's name, a message) must not cost the file.
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json NodeJson(const NodeStatusMessage& node) {
+  Json json;
+  json["name"] = node.name;
+  json["kind"] = NodeKindName(node.kind);
+  json["version"] = node.version;
+  json["commit"] = node.commit;
+  json["host"] = node.host;
+  json["pid"] = node.pid;
+  json["start_time"] = IsoTime(node.start_utime);
+  if (!node.robot_name.empty()) {
+    json["robot"] = {{"name", node.robot_name}, {"id", node.robot_id}};
+  }
+  if (node.kind == NodeKind::kPlanner) {
+    json["algorithm"] = node.algorithm;
+    json["planner_class"] = node.planner_class;
+    json["backward"] = node.can_backward;
+    json["anytime"] = node.can_anytime;
+    json["collision_models"] = node.collision_models;
+  }
+  json["settings"] = node.settings;
+  return json;
+}
+
+}  // namespace
+
+std::string SessionJson(const SessionMessage& session) {
+  Json json;
+  json["run_id"] = session.run_id;
+  json["start_time"] = IsoTime(session.start_utime);
+  json["finished"] = session.finished;
+  json["total_time_s"] = session.total_time_s;
+  json["num_runs"] = session.num_runs;
+  json["version"] = session.version;
+  json["commit"] = session.commit;
+  json["host"] = session.host;
+  json["cpu"] = session.cpu;
+  json["seed"] = session.seed;
+  json["time_limit_s"] = session.time_limit_s;
+  json["robot"] = {{"name", session.robot_name}, {"id", session.robot_id}};
+  json["flags"] = session.settings;
+  json["nodes"] = Json::array();
+  for (const NodeStatusMessage& node : session.nodes) json["nodes"].push_back(NodeJson(node));
+  return Dump(json, -1);
+}
+
+void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions) {
+  Json json;
+  json["sessions"] = Json::array();
+  for (const std::string& session : sessions) json["sessions"].push_back(Json::parse(session));
+  const std::filesystem::path unfinished = file.string() + ".part";
+  std::ofstream stream(unfinished, std::ios::trunc);
+  stream << Dump(json, 2) << '\n';
+  stream.close();
+  if (!stream) {
+    throw std::runtime_error("cannot write " + unfinished.string() + ": " + std::strerror(errno));
+  }
+  std::error_code error;
+  std::filesystem::rename(unfinished, file, error);
+  if (error) throw std::runtime_error("cannot write " + file.string() + ": " + error.message());
+}
+
+}  // namespace planbench

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// A session as a JSON object: versions, commit, host, CPU, the driver's flags, seed, robot, and
+/// the nodes that took part with their settings. Holds nothing that changes with the moment the
+/// message was sent.
+std::string SessionJson(const SessionMessage& session);
+
+/// Writes {"sessions": [...]} of such objects, so that a reader sees the old file or the new one
+/// but never half of one. Throws std::runtime_error naming the file.
+void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions);
+
+}  // namespace planbench

@@ -1,0 +1,72 @@
+#include "logger/session_recorder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "logger/session_json.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+
+namespace planbench {
+
+SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resume,
+                                 std::string sender, Acknowledge acknowledge)
+    : folder_(folder, resume),
+      sender_(std::move(sender)),
+      acknowledge_(std::move(acknowledge)),
+      event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew),
+      database_(folder_.results()) {}
+
+void SessionRecorder::Record(const ReceivedMessage& message) {
+  event_log_.Write(message);
+  ++tally_.events;
+  if (message.channel == channel::kRunRecord) {
+    StoreAndAcknowledge(channel::kRunRecordAck, message, [&](std::string* id) {
+      const auto record = Decode<RunRecordMessage>(message.bytes, message.channel);
+      *id = record.request_id;
+      const auto outcome = database_.Store(record);
+      ++(outcome == ResultsDatabase::Outcome::kStored ? tally_.runs : tally_.repetitions);
+    });
+  } else if (message.channel == channel::kSession) {
+    StoreAndAcknowledge(channel::kSessionAck, message, [&](std::string* id) {
+      const auto session = Decode<SessionMessage>(message.bytes, message.channel);
+      *id = session.run_id;
+      database_.Store(session);
+      WriteRunJson(folder_.run_json(), database_.Sessions());
+    });
+  }
+}
+
+void SessionRecorder::StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
+                                          const std::function<void(std::string* id)>& store) {
+  std::string id;
+  std::string refusal;
+  try {
+    store(&id);
+  } catch (const MessageError& error) {
+    id = error.request_id();
+    refusal = error.what();
+  } catch (const InputError& error) {
+    refusal = error.what();
+  } catch (const SqliteError& error) {
+    if (error.kind() == SqliteError::Kind::kStorage) throw;
+    if (error.kind() == SqliteError::Kind::kBusy) {
+      // The sender repeats what is not acknowledged.
+      ++tally_.failures;
+      spdlog::error("{} '{}' not stored: {}", message.channel, id, error.what());
+      return;
+    }
+    refusal = error.what();
+  }
+  event_log_.Flush();
+  if (refusal.empty()) {
+    acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});
+    return;
+  }
+  ++tally_.failures;
+  spdlog::error("{} '{}' cannot be stored: {}", message.channel, id, refusal);
+  if (!id.empty()) acknowledge_(ack_channel, AckMessage{id, sender_, false, refusal});
+}
+
+}  // namespace planbench

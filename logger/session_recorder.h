@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "logger/event_log.h"
+#include "logger/message_queue.h"
+#include "logger/results_database.h"
+#include "logger/session_folder.h"
+
+namespace planbench {
+
+/// What a logger has done.
+struct RecorderTally {
+  std::int64_t events = 0;       ///< Written to the event log.
+  std::int64_t runs = 0;         ///< Stored in the database.
+  std::int64_t repetitions = 0;  ///< Run records that were stored already.
+  std::int64_t failures = 0;     ///< Run records and sessions that could not be stored.
+};
+
+/// Writes messages into a session folder: each into the event log; run records and sessions,
+/// wherever they come from (a live driver or a replay), into results.sqlite and run.json. Not
+/// thread-safe.
+class SessionRecorder {
+ public:
+  /// Publishes an acknowledgement on a channel.
+  using Acknowledge = std::function<void(const std::string& channel, const AckMessage& ack)>;
+
+  /// `sender`: name in the acknowledgements. Throws InputError if the folder cannot be used.
+  SessionRecorder(const std::filesystem::path& folder, bool resume, std::string sender,
+                  Acknowledge acknowledge);
+
+  /// Records one message. Acknowledges a run record or session once the event log is flushed and
+  /// the database committed, or with ok = false if it can never be stored. Throws
+  /// std::runtime_error if the folder cannot be written (disk full); then nothing is acknowledged.
+  void Record(const ReceivedMessage& message);
+  /// Hands what was written to the operating system. Throws like Record.
+  void Flush() { event_log_.Flush(); }
+
+  const SessionFolder& folder() const { return folder_; }
+  const RecorderTally& tally() const { return tally_; }
+
+ private:
+  /// Runs `store`, which stores the message with that id; acknowledges or refuses it.
+  void StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
+                           const std::function<void(std::string* id)>& store);
+
+  SessionFolder folder_;
+  std::string sender_;
+  Acknowledge acknowledge_;
+  EventLog event_log_;
+  ResultsDatabase database_;
+  RecorderTally tally_;
+};
+
+}  // namespace planbench
