@@ -22,8 +22,8 @@ auto& At(Container& container, Index index) {
   return container[static_cast<std::size_t>(index)];
 }
 
-bool BallMissesBox(const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& box_center,
-                   const Eigen::Vector3d& box_half_size) {
+inline bool BallMissesBox(const Eigen::Vector3d& center, double radius,
+                          const Eigen::Vector3d& box_center, const Eigen::Vector3d& box_half_size) {
   const Eigen::Vector3d outside = ((center - box_center).cwiseAbs() - box_half_size).cwiseMax(0.0);
   const double reach = radius + kRoundingMargin;
   return outside.squaredNorm() > reach * reach;
@@ -143,11 +143,7 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
   node_positions_.clear();
   poses_.assign(static_cast<std::size_t>(rigid_bodies_->size()), Pose());
 
-  std::vector<LinkBall> balls;
-  for (const LinkGeometry& link : links_) {
-    AddLink(link);
-    balls.insert(balls.end(), link.balls.begin(), link.balls.end());
-  }
+  for (const LinkGeometry& link : links_) AddLink(link);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     const int body = static_cast<int>(bodies_.size());
@@ -163,15 +159,39 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
     AddShapes(body, rigid_bodies_->BodyOf(link),
               rigid_bodies_->X_GL(link) * Pose::From(attached.object.X_WO), attached.object.shapes,
               attached.object.id);
+  }
+  ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
+  placed_at_.assign(geometries_.size(), -1);
+  ListPairs(scene);
+  return BoundMotion(scene, base_positions);
+}
+
+MotionBound FclChecker::BoundMotion(const Scene& scene, std::span<const double> base_positions) {
+  // The vertices of a robot's meshes are many and their bound depends on the held joints only,
+  // which seldom change.
+  std::vector<double> held(base_positions.begin(), base_positions.end());
+  for (int joint : group().joints) {
+    At(held, At(robot().model.joints(), joint).position_index) = 0;
+  }
+  if (scene.attached.empty() && held == bound_at_) return links_bound_;
+
+  std::vector<LinkBall> balls;
+  for (const LinkGeometry& link : links_) {
+    balls.insert(balls.end(), link.balls.begin(), link.balls.end());
+  }
+  for (const AttachedObject& attached : scene.attached) {
+    const int link = robot().model.FindLink(attached.link);
     for (const PlacedShape& placed : attached.object.shapes) {
       const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
       balls.push_back({link, attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
     }
   }
-  ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
-  placed_at_.assign(geometries_.size(), -1);
-  ListPairs(scene);
-  return MotionBound(robot().model, group(), base_positions, balls);
+  MotionBound bound(robot().model, group(), base_positions, balls);
+  if (scene.attached.empty()) {
+    bound_at_ = std::move(held);
+    links_bound_ = bound;
+  }
+  return bound;
 }
 
 bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const Body& a,
@@ -357,9 +377,13 @@ Contact FclChecker::ContactOf(std::span<const Pair> pairs, const Pair& touching)
 double FclChecker::DistanceBound(const Pair& pair) const {
   const Geometry& source = At(geometries_, pair.source);
   const Geometry& target = At(geometries_, pair.target);
-  const Eigen::Vector3d center =
+  const Eigen::Vector3d source_T =
       At(poses_, target.pose).InverseTimes(At(ball_positions_, pair.source));
-  return BoxDistance(center, target.box_center, target.box_half_size) - source.ball_radius;
+  const Eigen::Vector3d target_S =
+      At(poses_, source.pose).InverseTimes(At(ball_positions_, pair.target));
+  return std::max(
+      BoxDistance(source_T, target.box_center, target.box_half_size) - source.ball_radius,
+      BoxDistance(target_S, source.box_center, source.box_half_size) - target.ball_radius);
 }
 
 double FclChecker::Distance(const Pair& pair, double at_most) {
@@ -367,8 +391,7 @@ double FclChecker::Distance(const Pair& pair, double at_most) {
   const Geometry& target = At(geometries_, pair.target);
   const Pose& X_WT = At(poses_, target.pose);
   if (source.tree == nullptr) {
-    return std::min(
-        at_most, target.shape->Distance(*source.shape, X_WT.Inverse() * At(poses_, source.pose)));
+    return target.shape->Distance(*source.shape, X_WT.Inverse() * At(poses_, source.pose), at_most);
   }
   PlaceNodes(pair.source);
   double best = at_most;

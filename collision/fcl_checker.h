@@ -80,6 +80,7 @@ class FclChecker : public CollisionChecker {
                  const std::string& name);
   void AddGeometry(Geometry geometry);
   void ListPairs(const Scene& scene);
+  MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions);
   bool ChecksBodies(const class PairRules& rules, const Scene& scene, const Body& a,
                     const Body& b) const;
   bool OutOfReach(const Geometry& moving, const Geometry& carrier) const;
@@ -94,6 +95,8 @@ class FclChecker : public CollisionChecker {
   void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
 
   std::vector<LinkGeometry> links_;
+  std::vector<double> bound_at_;  // base positions (the group's as 0) that links_bound_ holds for
+  MotionBound links_bound_;       // without attached objects
 
   // Of the scene set last.
   std::optional<RigidBodies> rigid_bodies_;

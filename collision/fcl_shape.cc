@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -231,7 +232,7 @@ double FclShape::BallDistance(const Eigen::Vector3d& center, double radius) cons
 bool FclShape::Contains(const FclShape& other, const Pose& X_SO) const {
   if (!geometry_->IsMesh()) return false;  // FCL takes primitives as solid
   const SolidMesh& mesh = geometry_->mesh();
-  if (!mesh.closed()) return false;
+  if (!mesh.has_inside()) return false;
   if (!other.geometry_->IsMesh()) return mesh.Contains(X_SO.translation);
   const auto& points = other.geometry_->mesh().component_points();
   return std::any_of(points.begin(), points.end(),
@@ -251,20 +252,26 @@ bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
   return result.isCollision() || Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
 }
 
-double FclShape::Distance(const FclShape& other, const Pose& X_SO) const {
+double FclShape::Distance(const FclShape& other, const Pose& X_SO, double at_most) const {
   if (const auto* sphere = std::get_if<Sphere>(&other.geometry_->shape)) {
-    return BallDistance(X_SO.translation, sphere->radius);
+    return std::min(at_most, BallDistance(X_SO.translation, sphere->radius));
   }
   if (const auto* sphere = std::get_if<Sphere>(&geometry_->shape)) {
-    return other.BallDistance(X_SO.Inverse().translation, sphere->radius);
+    return std::min(at_most, other.BallDistance(X_SO.Inverse().translation, sphere->radius));
   }
-  // The verdict decides the sign, so that distance and verdict never disagree.
-  if (Touches(other, X_SO)) return 0;
+  if (at_most <= 0) return at_most;
   fcl::DistanceResultd result;
+  result.min_distance = at_most;  // FCL skips what is further
   const double distance =
       fcl::distance(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
                     X_SO.ToIsometry(), fcl::DistanceRequestd(), result);
-  return std::max(distance, std::numeric_limits<double>::min());
+  // Where shapes almost touch the verdict decides the sign, so that the two never disagree.
+  constexpr double kAlmostTouching = 1e-5;
+  const bool touches = distance < kAlmostTouching
+                           ? Touches(other, X_SO)
+                           : Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
+  if (touches) return 0;
+  return std::min(at_most, std::max(distance, std::numeric_limits<double>::min()));
 }
 
 double ConeDistance(const Cone& cone, const Eigen::Vector3d& point) {

@@ -31,9 +31,10 @@ class FclShape {
   bool TouchesBall(const Eigen::Vector3d& center, double radius) const;
   double BallDistance(const Eigen::Vector3d& center, double radius) const;
 
-  /// Another shape, at pose X_SO in this shape's frame.
+  /// Another shape, at pose X_SO in this shape's frame. Distance gives the smaller of the distance
+  /// and `at_most`, sooner for a small `at_most`.
   bool Touches(const FclShape& other, const Pose& X_SO) const;
-  double Distance(const FclShape& other, const Pose& X_SO) const;
+  double Distance(const FclShape& other, const Pose& X_SO, double at_most) const;
 
  private:
   struct Geometry;

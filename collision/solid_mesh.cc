@@ -37,42 +37,58 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     welded.push_back(index_of.emplace(vertex, static_cast<int>(index_of.size())).first->second);
   }
 
-  std::map<std::pair<int, int>, int> triangles_at_edge;
+  struct Edge {
+    int triangles = 0;
+    int balance = 0;  // triangles that run along it less those that run against it
+  };
+  std::map<std::pair<int, int>, Edge> edges;
   std::vector<int> parent(index_of.size());  // disjoint sets of vertices
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&parent](int v) {
     while (parent[static_cast<std::size_t>(v)] != v) {
-      parent[static_cast<std::size_t>(v)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
-      v = parent[static_cast<std::size_t>(v)];
+      int& up = parent[static_cast<std::size_t>(v)];
+      up = parent[static_cast<std::size_t>(up)];
+      v = up;
     }
     return v;
   };
-  std::vector<int> used;
+  std::vector<Triangle> all;
+  std::vector<int> vertex_of;  // one vertex of each triangle
   for (const auto& triangle : mesh.triangles) {
     const std::array<int, 3> v = {welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]};
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // no area
-    triangles_.push_back(
-        {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]});
+    all.push_back(
+        {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]], true});
+    vertex_of.push_back(v[0]);
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = v[k];
       const int b = v[(k + 1) % 3];
-      ++triangles_at_edge[{std::min(a, b), std::max(a, b)}];
+      Edge& edge = edges[{std::min(a, b), std::max(a, b)}];
+      ++edge.triangles;
+      edge.balance += a < b ? 1 : -1;
       parent[static_cast<std::size_t>(root(a))] = root(b);
     }
-    used.push_back(v[0]);
   }
-  closed_ =
-      !triangles_.empty() && std::all_of(triangles_at_edge.begin(), triangles_at_edge.end(),
-                                         [](const auto& entry) { return entry.second % 2 == 0; });
 
-  std::vector<bool> seen(index_of.size(), false);
-  for (std::size_t t = 0; t < used.size(); ++t) {
-    const auto component = static_cast<std::size_t>(root(used[t]));
-    if (!seen[component]) component_points_.push_back(triangles_[t].a);
-    seen[component] = true;
+  struct Component {
+    bool seen = false;
+    bool closed = true;
+    bool oriented = true;
+  };
+  std::vector<Component> components(index_of.size());  // by root vertex
+  for (const auto& [ends, edge] : edges) {
+    Component& component = components[static_cast<std::size_t>(root(ends.first))];
+    if (edge.triangles % 2 != 0) component.closed = false;
+    if (edge.balance != 0) component.oriented = false;
   }
-  if (closed_) BuildGrid();
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    Component& component = components[static_cast<std::size_t>(root(vertex_of[t]))];
+    if (!component.seen) component_points_.push_back(all[t].a);
+    component.seen = true;
+    all[t].oriented = component.oriented;
+    if (component.closed) triangles_.push_back(all[t]);
+  }
+  if (has_inside()) BuildGrid();
 }
 
 void SolidMesh::BuildGrid() {
@@ -124,8 +140,10 @@ bool SolidMesh::InGrid(const Eigen::Vector3d& point, std::size_t* cell) const {
 
 bool SolidMesh::Contains(const Eigen::Vector3d& point) const {
   std::size_t cell = 0;
-  if (!closed_ || !InGrid(point, &cell)) return false;
-  bool inside = false;  // crossings of the ray along +z, modulo 2
+  if (!has_inside() || !InGrid(point, &cell)) return false;
+  // Crossings of the ray along +z.
+  int winding = 0;
+  bool odd = false;
   for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
     const Triangle& t = triangles_[cell_triangles_[i]];
     const bool over = PassesRightOf(point.x(), point.y(), t.a, t.b) ^
@@ -137,9 +155,14 @@ bool SolidMesh::Contains(const Eigen::Vector3d& point) const {
     const double height =
         t.a.z() -
         (normal.x() * (point.x() - t.a.x()) + normal.y() * (point.y() - t.a.y())) / normal.z();
-    if (height > point.z()) inside = !inside;
+    if (height <= point.z()) continue;
+    if (t.oriented) {
+      winding += normal.z() > 0 ? 1 : -1;
+    } else {
+      odd = !odd;
+    }
   }
-  return inside;
+  return winding != 0 || odd;
 }
 
 }  // namespace planbench

@@ -9,29 +9,31 @@
 namespace planbench {
 
 /// What a triangle mesh says of the space it encloses. Vertices at equal coordinates are one vertex
-/// (STL files repeat them); a component is a set of triangles joined by vertices.
+/// (STL files repeat them); a component is a set of triangles joined by vertices, and is closed if
+/// every edge is shared by an even number of them.
 class SolidMesh {
  public:
   explicit SolidMesh(const TriangleMesh& mesh);
 
-  /// True if every edge of the surface is shared by an even number of triangles, so that inside and
-  /// outside are told apart.
-  bool closed() const { return closed_; }
+  /// True if some component is closed, so that the mesh has an inside.
+  bool has_inside() const { return !triangles_.empty(); }
   /// One vertex of each component.
   const std::vector<Eigen::Vector3d>& component_points() const { return component_points_; }
-  /// True if the mesh is closed and a ray from the point crosses it an odd number of times.
+  /// True if closed components enclose the point: those of consistent orientation by a winding
+  /// number that is not 0 (so that overlapping solids join and inverted ones are cavities), others
+  /// by an odd number of crossings.
   bool Contains(const Eigen::Vector3d& point) const;
 
  private:
   struct Triangle {
     Eigen::Vector3d a, b, c;
+    bool oriented;  // of a component of consistent orientation
   };
   bool InGrid(const Eigen::Vector3d& point, std::size_t* cell) const;
   void BuildGrid();
 
-  bool closed_ = false;
   std::vector<Eigen::Vector3d> component_points_;
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_;  // of the closed components
   // Triangles by the cells of a grid over x and y that their bounding rectangles touch.
   Eigen::Vector2d grid_low_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d grid_high_ = Eigen::Vector2d::Zero();
