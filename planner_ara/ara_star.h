@@ -5,35 +5,33 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "planner_ara/chunked_array.h"
-#include "planner_ara/state_heap.h"
+#include "planner_ara/edge_heap.h"
 
 namespace planbench {
 
-/// A directed edge out of a state, its validity not yet known.
+/// A directed edge out of a state, its validity not known.
 struct CandidateEdge {
-  StateId target = 0;
-  double cost = 0;           ///< >= 0
-  std::uint16_t action = 0;  ///< The graph's own number of the edge among those of its source.
+  double cost = 0;              ///< >= 0
+  double target_heuristic = 0;  ///< Of the state it leads to.
+  std::uint16_t action = 0;     ///< The graph's own number of the edge among those of its source.
 };
 
-/// An implicit graph. Ids are dense: any id the graph has handed out is below the number of its
-/// states.
-/// - CandidateEdges(s, &edges) appends the edges out of s, validity unknown; the same at every
-/// call.
-/// - IsValidEdge(s, edge) decides about one of them; asked only where the edge would lower the cost
-/// of its target.
-/// - Heuristic(s) is a lower bound of the cost from s to the goal, 0 at the goal, and consistent:
-///   h(s) <= cost(s, t) + h(t) for every valid edge.
+/// An implicit graph. State ids are dense: they are handed out from 0 upwards as states become
+/// known.
+/// - CandidateEdges(s, &edges) appends the edges out of s; the same at every call.
+/// - Target(s, action) is the state an edge leads to.
+/// - IsValidEdge(s, action) decides about an edge; asked only when it is the most promising one.
+/// The heuristic h is a lower bound of the cost to the goal, 0 at the goal, and consistent: h(s) <=
+/// cost + h(t) for every valid edge from s to t.
 template <typename Graph>
 concept SearchGraph = requires(Graph graph, StateId state, std::vector<CandidateEdge>* edges,
-                               const CandidateEdge& edge) {
+                               std::uint16_t action) {
   graph.CandidateEdges(state, edges);
-  { graph.IsValidEdge(state, edge) } -> std::convertible_to<bool>;
-  { graph.Heuristic(state) } -> std::convertible_to<double>;
+  { graph.Target(state, action) } -> std::same_as<StateId>;
+  { graph.IsValidEdge(state, action) } -> std::same_as<bool>;
 };
 
 /// A state of a path and the edge that led to it.
@@ -51,13 +49,21 @@ enum class ImproveOutcome {
 
 /// ARA*: weighted A* that is run again with smaller and smaller epsilon, keeping the costs found so
 /// far (Likhachev, Gordon, Thrun, "ARA*: Anytime A* with provable bounds on sub-optimality", NIPS
-/// 2003). In one iteration no state is expanded twice: a state whose cost falls after its expansion
-/// waits in INCONS for the next one.
+/// 2003). In one iteration no state is expanded twice: an edge that would lower the cost of a state
+/// after its expansion waits in INCONS for the next.
 ///
-/// Beyond the paper, states that cannot lie on a better path than the one found (g + h >= g(goal))
-/// are dropped, as Hansen and Zhou do ("Anytime heuristic search", JAIR 2007); the bound stays
-/// valid, since each of them stands for paths of at least g(goal). The goal itself is never
-/// expanded: an iteration ends when its cost is no greater than the smallest key in OPEN.
+/// Edges are evaluated lazily (as Cohen, Phillips and Likhachev do in "Planning single-arm
+/// manipulations with n-arm robots", RSS 2014): OPEN holds candidate edges, keyed by what their
+/// target's cost and heuristic would be, and an edge's validity is asked for only when it comes out
+/// first. The states expanded, and their order, are those of an eager ARA*, which asks about every
+/// edge of every expanded state: a state comes out with the least cost of all its valid edges in
+/// OPEN. What a state has once got by expansion is consistent, so INCONS, too, holds edges.
+///
+/// Edges that cannot lie on a better path than the one found (g + h >= g(goal)) are dropped, as
+/// Hansen and Zhou do
+/// ("Anytime heuristic search", JAIR 2007); the bound stays valid, since each stands for paths of
+/// at least g(goal). The goal is never expanded: an iteration ends when its cost is no greater than
+/// the smallest key in OPEN.
 template <SearchGraph Graph>
 class AraStar {
  public:
@@ -67,23 +73,21 @@ class AraStar {
   AraStar(Graph* graph, StateId start, StateId goal) : graph_(graph), start_(start), goal_(goal) {
     Touch(goal);
     Touch(start).g = 0;
-    incons_.push_back(start);
   }
 
   /// Searches until the goal's cost is proven to be at most `epsilon` (>= 1) times the optimum. A
-  /// new value of epsilon begins a new iteration. `should_stop` is asked before every expansion.
+  /// new value of epsilon begins a new iteration. `should_stop` is asked before every evaluation of
+  /// an edge.
   template <std::predicate StopFunction>
   ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop) {
     if (epsilon != epsilon_) BeginIteration(epsilon);
     ImproveOutcome outcome = ImproveOutcome::kConverged;
-    while (!open_.empty() && open_.top().key < goal_cost()) {
+    while (!open_.empty() && open_.top_key() < goal_cost()) {
       if (should_stop()) {
         outcome = ImproveOutcome::kStopped;
         break;
       }
-      const StateId state = open_.Pop();
-      const Node& node = nodes_[state];
-      if (node.g + node.h < goal_cost()) Expand(state);
+      Evaluate(open_.Pop());
     }
     if (goal_cost() == kInfinity) {
       return outcome == ImproveOutcome::kStopped ? outcome : ImproveOutcome::kExhausted;
@@ -120,83 +124,69 @@ class AraStar {
   std::int64_t num_edges_generated() const { return num_edges_generated_; }
   int num_iterations() const { return static_cast<int>(iteration_); }
   std::size_t bytes() const {
-    return nodes_.bytes() + open_.bytes() + incons_.capacity() * sizeof(StateId);
+    return nodes_.bytes() + open_.bytes() + incons_.capacity() * sizeof(EdgeHeap::Entry);
   }
 
  private:
   struct Node {
     double g = kInfinity;
-    double h = 0;
     StateId parent = 0;
     std::uint32_t closed_in = 0;  // iteration that expanded it last
     std::uint16_t action = 0;     // of the edge from parent
-    bool in_incons = false;
   };
 
   Node& Touch(StateId state) {
-    while (nodes_.size() <= state) {
-      const auto id = static_cast<StateId>(nodes_.size());
-      nodes_.Append()->h = graph_->Heuristic(id);
-    }
+    while (nodes_.size() <= state) nodes_.Append();
     return nodes_[state];
   }
 
-  double Key(const Node& node) const { return node.g + epsilon_ * node.h; }
+  bool CanImproveGoal(const EdgeHeap::Entry& edge) const { return edge.g + edge.h < goal_cost(); }
 
   void BeginIteration(double epsilon) {
     epsilon_ = epsilon;
     ++iteration_;
-    std::vector<StateHeap::Entry> entries;
-    entries.reserve(open_.size() + incons_.size());
-    const auto add = [&](StateId state) {
-      const Node& node = nodes_[state];
-      if (node.g + node.h >= goal_cost()) return;
-      entries.push_back({Key(node), static_cast<float>(node.h), state});
-    };
-    for (const StateHeap::Entry& entry : open_.entries()) add(entry.state);
-    for (const StateId state : incons_) {
-      nodes_[state].in_incons = false;
-      add(state);
-    }
+    open_.Rebuild(epsilon, incons_,
+                  [this](const EdgeHeap::Entry& edge) { return CanImproveGoal(edge); });
     incons_.clear();
-    open_.Assign(std::move(entries));
+    if (iteration_ == 1 && start_ != goal_) Expand(start_);
+  }
+
+  void Evaluate(const EdgeHeap::Entry& edge) {
+    if (!CanImproveGoal(edge)) return;
+    const StateId state = graph_->Target(edge.source, edge.action);
+    Node& target = Touch(state);
+    if (edge.g >= target.g) return;
+    if (target.closed_in == iteration_) {
+      incons_.push_back(edge);
+      return;
+    }
+    if (!graph_->IsValidEdge(edge.source, edge.action)) return;
+    target.g = edge.g;
+    target.parent = edge.source;
+    target.action = edge.action;
+    if (state != goal_) Expand(state);
   }
 
   void Expand(StateId state) {
     ++num_expansions_;
-    Node& source = nodes_[state];
-    source.closed_in = iteration_;
+    Node& node = nodes_[state];
+    node.closed_in = iteration_;
     edges_.clear();
     graph_->CandidateEdges(state, &edges_);
     num_edges_generated_ += static_cast<std::int64_t>(edges_.size());
     for (const CandidateEdge& edge : edges_) {
-      Node& target = Touch(edge.target);
-      const double g = source.g + edge.cost;
-      if (g >= target.g || g + target.h >= goal_cost()) continue;
-      if (!graph_->IsValidEdge(state, edge)) continue;
-      target.g = g;
-      target.parent = state;
-      target.action = edge.action;
-      if (edge.target == goal_) continue;
-      if (target.closed_in != iteration_) {
-        open_.Set(edge.target, Key(target), static_cast<float>(target.h));
-      } else if (!target.in_incons) {
-        target.in_incons = true;
-        incons_.push_back(edge.target);
-      }
+      const EdgeHeap::Entry entry{node.g + edge.cost, edge.target_heuristic, state, edge.action};
+      if (CanImproveGoal(entry)) open_.Push(entry);
     }
   }
 
-  // Smallest g + h of the states whose improvement is not propagated yet: every path better than
-  // the goal's cost leads through one of them.
+  // Smallest g + h of the edges that have not been followed: every path better than the goal's cost
+  // takes one.
   double SmallestOpenCost() const {
     double smallest = goal_cost();
-    const auto consider = [&](StateId state) {
-      const Node& node = nodes_[state];
-      smallest = std::min(smallest, node.g + node.h);
-    };
-    for (const StateHeap::Entry& entry : open_.entries()) consider(entry.state);
-    for (const StateId state : incons_) consider(state);
+    for (const EdgeHeap::Entry& edge : open_.entries())
+      smallest = std::min(smallest, edge.g + edge.h);
+    for (const EdgeHeap::Entry& edge : incons_) smallest = std::min(smallest, edge.g + edge.h);
     return smallest;
   }
   void RaiseLowerBound(double cost) { lower_bound_ = std::max(lower_bound_, cost); }
@@ -205,8 +195,8 @@ class AraStar {
   StateId start_;
   StateId goal_;
   ChunkedArray<Node> nodes_;
-  StateHeap open_;
-  std::vector<StateId> incons_;
+  EdgeHeap open_;
+  std::vector<EdgeHeap::Entry> incons_;
   std::vector<CandidateEdge> edges_;  // scratch of Expand
   double epsilon_ = 0;
   std::uint32_t iteration_ = 0;

@@ -95,15 +95,16 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
 }
 
 double ManipulationGraph::SquaredDistance(const std::vector<std::vector<double>>& terms,
-                                          StateId state) const {
-  const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(state - 1);
+                                          std::span<const Lattice::Coordinate> coordinates) {
   double sum = 0;
   for (std::size_t j = 0; j < coordinates.size(); ++j) sum += terms[j][coordinates[j]];
   return sum;
 }
 
 double ManipulationGraph::Heuristic(StateId state) const {
-  return state == kGoal ? 0 : unit_ * std::sqrt(SquaredDistance(goal_terms_, state));
+  return state == kGoal
+             ? 0
+             : unit_ * std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
 }
 
 void ManipulationGraph::ConfigurationOf(StateId state, std::span<double> q) const {
@@ -119,56 +120,70 @@ void ManipulationGraph::SelectSource(StateId state) {
   ConfigurationOf(state, from_);
 }
 
+// Sets target_ to where the move leads; false if that is outside the limits.
+bool ManipulationGraph::MoveFrom(StateId source, const Move& move) {
+  const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(source - 1);
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    if (!lattice_.Move(static_cast<int>(j), coordinates[j], move.cells[j], &target_[j])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
-  SelectSource(state);
-  // The goal first: once it is reached, moves that lead nowhere better need no check.
-  candidates->push_back({kGoal, Heuristic(state), kToNearestGoal});
+  candidates->push_back({Heuristic(state), 0, kToNearestGoal});
   if (goal_distance_.has_extent()) {
+    SelectSource(state);
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
-    candidates->push_back({kGoal, unit_ * distance, kToNominalGoal});
+    candidates->push_back({unit_ * distance, 0, kToNominalGoal});
   }
 
   bool use_long = true;
   bool use_short = true;
   if (moves_depend_on_place_) {
+    const std::span<const Lattice::Coordinate> here = points_.Coordinates(state - 1);
     const double distance = std::sqrt(
-        std::min(SquaredDistance(goal_terms_, state), SquaredDistance(start_terms_, state)));
+        std::min(SquaredDistance(goal_terms_, here), SquaredDistance(start_terms_, here)));
     use_long = distance >= options_.long_moves_beyond;
     use_short = distance <= options_.short_moves_within;
   }
-  const std::span<const Lattice::Coordinate> source = points_.Coordinates(state - 1);
   for (std::size_t m = 0; m < moves_.size(); ++m) {
     const Move& move = moves_[m];
-    if (!(move.is_long ? use_long : use_short)) continue;
-    bool inside = true;
-    for (std::size_t j = 0; j < source.size() && inside; ++j) {
-      inside = lattice_.Move(static_cast<int>(j), source[j], move.cells[j], &target_[j]);
-    }
-    if (!inside) continue;
-    candidates->push_back(
-        {points_.FindOrAdd(target_) + 1, move.cost, static_cast<std::uint16_t>(kFirstMove + m)});
+    if (!(move.is_long ? use_long : use_short) || !MoveFrom(state, move)) continue;
+    candidates->push_back({move.cost, unit_ * std::sqrt(SquaredDistance(goal_terms_, target_)),
+                           static_cast<std::uint16_t>(kFirstMove + m)});
   }
 }
 
-bool ManipulationGraph::IsValidEdge(StateId source, const CandidateEdge& edge) {
-  SelectSource(source);
-  if (!options_.remember_edges) return Check(edge);
+StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
+  if (action < kFirstMove) return kGoal;
+  MoveFrom(source, moves_[action - kFirstMove]);
+  return points_.FindOrAdd(target_) + 1;
+}
+
+bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
+  if (!options_.remember_edges) return Check(source, action);
   int shift = 0;
-  std::uint64_t* word = KnowledgeWord(source, edge.action, &shift);
+  std::uint64_t* word = KnowledgeWord(source, action, &shift);
   const auto known = static_cast<Knowledge>(*word >> shift & 3);
   if (known != Knowledge::kUnknown) return known == Knowledge::kFree;
-  const bool valid = Check(edge);
+  const bool valid = Check(source, action);
   *word |= static_cast<std::uint64_t>(valid ? Knowledge::kFree : Knowledge::kBlocked) << shift;
   return valid;
 }
 
-bool ManipulationGraph::Check(const CandidateEdge& edge) {
-  if (edge.target == kGoal) {
+bool ManipulationGraph::Check(StateId source, std::uint16_t action) {
+  SelectSource(source);
+  if (action < kFirstMove) {
     ++num_goal_connections_tried_;
-    GoalConfiguration(edge.action, from_, to_);
+    GoalConfiguration(action, from_, to_);
   } else {
-    ConfigurationOf(edge.target, to_);
+    MoveFrom(source, moves_[action - kFirstMove]);
+    for (std::size_t j = 0; j < to_.size(); ++j) {
+      to_[j] = lattice_.Value(static_cast<int>(j), target_[j]);
+    }
   }
   return edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
 }

@@ -55,7 +55,9 @@ class ManipulationGraph {
                     ManipulationGraphOptions options);
 
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
-  bool IsValidEdge(StateId source, const CandidateEdge& edge);
+  StateId Target(StateId source, std::uint16_t action);
+  bool IsValidEdge(StateId source, std::uint16_t action);
+  /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
 
   const Lattice& lattice() const { return lattice_; }
@@ -82,11 +84,13 @@ class ManipulationGraph {
   };
 
   void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
-  double SquaredDistance(const std::vector<std::vector<double>>& terms, StateId state) const;
+  static double SquaredDistance(const std::vector<std::vector<double>>& terms,
+                                std::span<const Lattice::Coordinate> coordinates);
   void GoalConfiguration(std::uint16_t action, std::span<const double> from,
                          std::span<double> to) const;
   void SelectSource(StateId state);
-  bool Check(const CandidateEdge& edge);
+  bool MoveFrom(StateId source, const Move& move);
+  bool Check(StateId source, std::uint16_t action);
   std::uint64_t* KnowledgeWord(StateId state, std::uint16_t action, int* shift);
 
   EdgeChecker* edges_;

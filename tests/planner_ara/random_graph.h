@@ -24,7 +24,6 @@ struct ExplicitGraph {
   int num_validity_checks = 0;
 
   explicit ExplicitGraph(std::size_t num_states) : edges(num_states), heuristic(num_states, 0) {}
-  int size() const { return static_cast<int>(edges.size()); }
   void Add(StateId from, StateId to, double cost, bool valid = true) {
     edges[from].push_back({to, cost, valid});
   }
@@ -32,15 +31,17 @@ struct ExplicitGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
     expanded.push_back(state);
     for (std::size_t i = 0; i < edges[state].size(); ++i) {
-      candidates->push_back(
-          {edges[state][i].target, edges[state][i].cost, static_cast<std::uint16_t>(i)});
+      const Edge& edge = edges[state][i];
+      candidates->push_back({edge.cost, heuristic[edge.target], static_cast<std::uint16_t>(i)});
     }
   }
-  bool IsValidEdge(StateId source, const CandidateEdge& edge) {
-    ++num_validity_checks;
-    return edges[source][edge.action].valid;
+  StateId Target(StateId source, std::uint16_t action) const {
+    return edges[source][action].target;
   }
-  double Heuristic(StateId state) const { return heuristic[state]; }
+  bool IsValidEdge(StateId source, std::uint16_t action) {
+    ++num_validity_checks;
+    return edges[source][action].valid;
+  }
 };
 
 /// Costs from `source` to every state over valid edges (along them, or against them), by relaxing
@@ -67,7 +68,7 @@ inline std::vector<double> TrueCosts(const ExplicitGraph& graph, StateId source,
 
 /// A random graph with a random consistent heuristic for `goal`: uneven, so that weighted searches
 /// meet states in the wrong order.
-inline ExplicitGraph RandomGraph(unsigned seed, StateId goal) {
+inline ExplicitGraph RandomGraph(unsigned seed, StateId goal, bool with_free_edges = true) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   const int num_states = 5 + static_cast<int>(random() % 60);
@@ -76,7 +77,8 @@ inline ExplicitGraph RandomGraph(unsigned seed, StateId goal) {
   for (int i = 0; i < num_edges; ++i) {
     const auto from = static_cast<StateId>(random() % static_cast<unsigned>(num_states));
     const auto to = static_cast<StateId>(random() % static_cast<unsigned>(num_states));
-    graph.Add(from, to, unit(random) < 0.05 ? 0 : 10 * unit(random), unit(random) < 0.8);
+    const bool is_free = with_free_edges && unit(random) < 0.05;
+    graph.Add(from, to, is_free ? 0 : 10 * unit(random), unit(random) < 0.8);
   }
   const std::vector<double> to_goal = TrueCosts(graph, goal, /*against=*/true);
   for (std::size_t s = 0; s < graph.edges.size(); ++s) {

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace planbench {
+
+/// Dense identifier of a search state, counted from 0.
+using StateId = std::uint32_t;
+
+/// A 4-ary min-heap of candidate edges by g + epsilon h, where g is the cost of the edge's target
+/// by way of its source and h the heuristic of the target. Keys are not stored, so that a new
+/// epsilon only needs the order restored. Equal keys go by smaller h, then newer source, then
+/// smaller action: the order never depends on history.
+class EdgeHeap {
+ public:
+  struct Entry {
+    double g = 0;
+    double h = 0;
+    StateId source = 0;
+    std::uint16_t action = 0;
+  };
+
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+  const Entry& top() const { return entries_.front(); }
+  double top_key() const { return Key(top()); }
+  std::span<const Entry> entries() const { return entries_; }
+
+  void Push(const Entry& entry) {
+    entries_.push_back(entry);
+    std::size_t position = entries_.size() - 1;
+    while (position > 0) {
+      const std::size_t parent = (position - 1) / kArity;
+      if (!Before(entry, entries_[parent])) break;
+      entries_[position] = entries_[parent];
+      position = parent;
+    }
+    entries_[position] = entry;
+  }
+
+  Entry Pop() {
+    const Entry first = entries_.front();
+    const Entry last = entries_.back();
+    entries_.pop_back();
+    if (!entries_.empty()) SiftDown(0, last);
+    return first;
+  }
+
+  /// Sets epsilon, takes in `more`, keeps only entries that `keep` accepts, and orders the rest;
+  /// linear time.
+  template <typename Predicate>
+  void Rebuild(double epsilon, std::span<const Entry> more, Predicate keep) {
+    epsilon_ = epsilon;
+    entries_.insert(entries_.end(), more.begin(), more.end());
+    std::erase_if(entries_, [&](const Entry& entry) { return !keep(entry); });
+    for (std::size_t i = entries_.size(); i-- > 0;) SiftDown(i, Entry(entries_[i]));
+  }
+
+  std::size_t bytes() const { return entries_.capacity() * sizeof(Entry); }
+
+ private:
+  static constexpr std::size_t kArity = 4;
+
+  double Key(const Entry& entry) const { return entry.g + epsilon_ * entry.h; }
+  bool Before(const Entry& a, const Entry& b) const {
+    const double key_a = Key(a);
+    const double key_b = Key(b);
+    if (key_a != key_b) return key_a < key_b;
+    if (a.h != b.h) return a.h < b.h;
+    if (a.source != b.source) return a.source > b.source;
+    return a.action < b.action;
+  }
+  void SiftDown(std::size_t position, const Entry entry) {
+    for (;;) {
+      const std::size_t first = position * kArity + 1;
+      if (first >= entries_.size()) break;
+      const std::size_t last = first + kArity < entries_.size() ? first + kArity : entries_.size();
+      std::size_t best = first;
+      for (std::size_t child = first + 1; child < last; ++child) {
+        if (Before(entries_[child], entries_[best])) best = child;
+      }
+      if (!Before(entries_[best], entry)) break;
+      entries_[position] = entries_[best];
+      position = best;
+    }
+    entries_[position] = entry;
+  }
+
+  double epsilon_ = 1;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace planbench
