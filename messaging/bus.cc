@@ -123,6 +123,7 @@ struct Subscription::State {
   }
 };
 
+Subscription::Subscription() = default;
 Subscription::Subscription(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Subscription::Subscription(Subscription&&) noexcept = default;
 Subscription& Subscription::operator=(Subscription&&) noexcept = default;

@@ -22,7 +22,7 @@ std::string ResolveLcmUrl(const std::string& flag);
 /// must not be destroyed from within the handler, nor outlive the bus.
 class Subscription {
  public:
-  Subscription() = default;
+  Subscription();
   Subscription(Subscription&&) noexcept;
   Subscription& operator=(Subscription&&) noexcept;
   ~Subscription();

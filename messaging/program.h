@@ -23,6 +23,8 @@ class Program {
   CLI::App& app() { return app_; }
   /// The URL to use, after Run has parsed the flags.
   std::string lcm_url() const;
+  /// True if --lcm-url was given on the command line.
+  bool lcm_url_given() const { return !lcm_url_flag_.empty(); }
 
   /// Parses the flags and calls `work`, which returns the exit code. InputError ends with 2, any other exception
   /// with 1, each after one line on stderr that begins with the program's name.

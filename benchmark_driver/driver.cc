@@ -1,0 +1,228 @@
+#include "benchmark_driver/driver.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <exception>
+#include <fstream>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "common/error.h"
+#include "messaging/node_announcer.h"
+
+namespace planbench {
+namespace {
+
+std::string CpuName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::string NewRunId() {
+  std::random_device random;
+  return fmt::format("{:%Y%m%dT%H%M%SZ}-{:04x}", fmt::gmtime(std::time(nullptr)),
+                     random() & 0xffffU);
+}
+
+Driver::Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> settings,
+               std::string run_id, std::vector<RunRecordMessage> earlier)
+    : bus_(bus),
+      options_(std::move(options)),
+      settings_(std::move(settings)),
+      run_id_(std::move(run_id)),
+      start_utime_(NowUtime()),
+      registry_(bus),
+      recorder_(bus, &registry_),
+      records_(std::move(earlier)) {}
+
+void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
+  const auto deadline = std::chrono::steady_clock::now() +
+                        std::chrono::duration<double>(options_.discovery_timeout_s);
+  while (true) {
+    watch();
+    std::string missing;
+    const auto miss = [&](const std::string& what) {
+      missing += (missing.empty() ? "" : ", ") + what;
+    };
+    if (registry_.Live(NodeKind::kSceneServer).empty() || !registry_.ProblemSets()) {
+      miss("a scene server");
+    }
+    for (const std::string& planner : options_.planners) {
+      if (!registry_.Find(planner, NodeKind::kPlanner)) miss("a planner named '" + planner + "'");
+    }
+    if (need_logger && registry_.Live(NodeKind::kLogger).empty()) miss("a logger");
+    if (missing.empty()) break;
+    if (std::chrono::steady_clock::now() >= deadline) {
+      std::string heard;
+      for (const NodeStatusMessage& node : registry_.Live()) {
+        if (node.kind == NodeKind::kDriver) continue;
+        heard += (heard.empty() ? "" : ", ") + node.name + " (" +
+                 std::string(NodeKindName(node.kind)) + ")";
+      }
+      throw InputError(fmt::format("not on the bus within {} s: {}; heard: {}",
+                                   options_.discovery_timeout_s, missing,
+                                   heard.empty() ? "nobody" : heard));
+    }
+    registry_.Discover("driver");
+    registry_.WaitUntil([] { return false; }, std::chrono::milliseconds(200));
+  }
+  served_ = *registry_.ProblemSets();
+  CheckPlanners(served_);
+  if (!need_logger && registry_.Live(NodeKind::kLogger).empty()) {
+    spdlog::error("no logger is live: NOTHING WILL BE RECORDED");
+  }
+
+  schedule_ = MakeSchedule(options_, served_, run_id_);
+  num_scheduled_ = static_cast<int>(schedule_.size());
+  std::set<std::string> done;
+  for (const RunRecordMessage& record : records_) done.insert(record.request_id);
+  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.count(run.request_id) != 0; });
+
+  RunConditions conditions;
+  conditions.run_id = run_id_;
+  conditions.robot_id = served_.robot_id;
+  conditions.time_limit_s = options_.time_limit_s;
+  conditions.collision_model = options_.collision_model;
+  conditions.edge_resolution_m = options_.edge_resolution_m;
+  conditions.referee_step_m = options_.referee_step_m;
+  conditions.anytime = options_.anytime;
+  conditions.simplify = options_.simplify;
+  conditions.clearance = options_.clearance;
+  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, std::move(conditions));
+}
+
+void Driver::CheckPlanners(const ProblemSetsMessage& served) const {
+  for (const std::string& name : options_.planners) {
+    const auto planner = registry_.Find(name, NodeKind::kPlanner);
+    if (!planner) throw InputError("the planner '" + name + "' has left the bus");
+    if (planner->robot_id != served.robot_id) {
+      throw InputError(fmt::format(
+          "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
+          name, planner->robot_name, planner->robot_id, served.robot_name, served.robot_id));
+    }
+    const std::string model(CollisionModelName(options_.collision_model));
+    const auto& models = planner->collision_models;
+    if (std::find(models.begin(), models.end(), model) == models.end()) {
+      throw InputError(fmt::format("--collision-model: the planner '{}' does not offer '{}'", name,
+                                   model));
+    }
+    if (!planner->can_backward && options_.directions.back() == Direction::kBackward) {
+      throw InputError("--directions: the planner '" + name + "' cannot search backward");
+    }
+    if (!planner->can_anytime && options_.anytime) {
+      throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
+    }
+  }
+}
+
+SessionMessage Driver::Session(bool finished) const {
+  const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
+  SessionMessage session;
+  session.run_id = run_id_;
+  session.start_utime = start_utime_;
+  session.finished = finished;
+  session.total_time_s = static_cast<double>(NowUtime() - start_utime_) * 1e-6;
+  session.num_runs = num_scheduled_;
+  session.version = self.version;
+  session.commit = self.commit;
+  session.host = self.host;
+  session.cpu = CpuName();
+  session.time_limit_s = options_.time_limit_s;
+  session.seed = options_.seed;
+  session.robot_name = served_.robot_name;
+  session.robot_id = served_.robot_id;
+  session.settings = settings_;
+  for (const NodeStatusMessage& node : registry_.Live()) {
+    if (node.kind != NodeKind::kPlanner ||
+        std::find(options_.planners.begin(), options_.planners.end(), node.name) !=
+            options_.planners.end()) {
+      session.nodes.push_back(node);
+    }
+  }
+  return session;
+}
+
+void Driver::RunLane(const std::vector<ScheduledRun>& lane,
+                     const std::function<bool()>& interrupted) {
+  std::map<std::string, std::unique_ptr<PlannerClient>> clients;
+  for (const ScheduledRun& run : lane) {
+    std::unique_ptr<PlannerClient>& client = clients[run.planner];
+    if (!client) client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
+    std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
+    if (!record) return;
+    if (const auto planner = registry_.Find(run.planner, NodeKind::kPlanner)) {
+      record->algorithm = planner->algorithm;
+      record->planner_class = planner->planner_class;
+      record->settings = planner->settings;
+    }
+    recorder_.Record(*record);
+    const std::scoped_lock lock(mutex_);
+    progress_->Add(*record);
+    records_.push_back(*std::move(record));
+  }
+}
+
+bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
+  progress_ = std::make_unique<ProgressBar>(num_scheduled_);
+  for (const RunRecordMessage& record : records_) progress_->AddEarlier(record);
+  recorder_.Record(Session(false));
+
+  std::vector<std::vector<ScheduledRun>> lanes;
+  if (options_.parallel) {
+    for (const std::string& planner : options_.planners) {
+      std::vector<ScheduledRun>& lane = lanes.emplace_back();
+      for (const ScheduledRun& run : schedule_) {
+        if (run.planner == planner) lane.push_back(run);
+      }
+    }
+  } else {
+    lanes.push_back(schedule_);
+  }
+
+  std::atomic<bool> stop = false;
+  std::atomic<int> num_working = static_cast<int>(lanes.size());
+  std::exception_ptr failure;
+  std::vector<std::thread> threads;
+  for (const std::vector<ScheduledRun>& lane : lanes) {
+    threads.emplace_back([&, &lane = lane] {
+      try {
+        RunLane(lane, [&] { return stop.load(); });
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        if (!failure) failure = std::current_exception();
+        stop = true;
+      }
+      --num_working;
+    });
+  }
+  while (num_working > 0) {
+    try {
+      watch();
+    } catch (...) {
+      const std::scoped_lock lock(mutex_);
+      if (!failure) failure = std::current_exception();
+      stop = true;
+    }
+    if (interrupted()) stop = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  for (std::thread& thread : threads) thread.join();
+  progress_.reset();
+  recorder_.Record(Session(!stop));
+  if (failure) std::rethrow_exception(failure);
+  return !stop && recorder_.num_unrecorded() == 0;
+}
+
+}  // namespace planbench

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "benchmark_driver/driver_options.h"
+#include "benchmark_driver/progress_bar.h"
+#include "benchmark_driver/recorder.h"
+#include "benchmark_driver/run_executor.h"
+#include "benchmark_driver/schedule.h"
+#include "messaging/bus.h"
+#include "messaging/node_registry.h"
+
+namespace planbench {
+
+/// A benchmark session against live processes: finds them, makes the runs, has them recorded.
+class Driver {
+ public:
+  /// `settings`: flags, for the record. `earlier`: records of the session that is resumed; empty for a new one.
+  Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> settings,
+         std::string run_id, std::vector<RunRecordMessage> earlier);
+
+  /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit together, makes the
+  /// schedule. `watch` is called while waiting and may throw. Throws InputError naming what is missing or does not
+  /// fit.
+  void Discover(bool need_logger, const std::function<void()>& watch);
+  /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and recorded.
+  bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
+
+  /// All records so far, those of the resumed session included.
+  const std::vector<RunRecordMessage>& records() const { return records_; }
+
+ private:
+  void CheckPlanners(const ProblemSetsMessage& served) const;
+  SessionMessage Session(bool finished) const;
+  void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
+
+  Bus* bus_;
+  DriverOptions options_;
+  std::map<std::string, std::string> settings_;
+  std::string run_id_;
+  std::int64_t start_utime_;
+  NodeRegistry registry_;
+  Recorder recorder_;
+  ProblemSetsMessage served_;
+  std::vector<ScheduledRun> schedule_;  // what is left to do
+  int num_scheduled_ = 0;               // with what was done earlier
+  std::unique_ptr<RunExecutor> executor_;
+
+  std::mutex mutex_;
+  std::vector<RunRecordMessage> records_;
+  std::unique_ptr<ProgressBar> progress_;
+};
+
+/// A new run id: UTC date and time and a random suffix, "20261122T153000Z-4f2a".
+std::string NewRunId();
+
+}  // namespace planbench

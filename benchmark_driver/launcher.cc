@@ -1,0 +1,110 @@
+#include "benchmark_driver/launcher.h"
+
+#include <map>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+constexpr char kSceneServer[] = "scene_server";
+constexpr char kLogger[] = "logger";
+
+const std::map<std::string, std::string>& OwnPlanners() {
+  static const std::map<std::string, std::string> programs = {{"ara", "planner_ara"},
+                                                              {"rrtc", "planner_rrtc"}};
+  return programs;
+}
+
+std::string Program(const std::string& name) {
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::filesystem::path program = here / name;
+  if (!std::filesystem::exists(program)) {
+    throw InputError("the program " + program.string() + " is missing; build all of planbench");
+  }
+  return program.string();
+}
+
+}  // namespace
+
+void RequireKnownPlanners(const DriverOptions& options) {
+  std::string known;
+  for (const auto& [name, program] : OwnPlanners()) known += (known.empty() ? "" : ", ") + name;
+  for (const std::string& planner : options.planners) {
+    if (OwnPlanners().count(planner) == 0 && options.planner_commands.count(planner) == 0) {
+      throw InputError("--planners: unknown planner '" + planner + "'; known are: " + known +
+                       "; others are started by --planner-command " + planner + "=COMMAND");
+    }
+  }
+  const auto require_chosen = [&](const std::string& name, const char* flag) {
+    if (std::find(options.planners.begin(), options.planners.end(), name) ==
+        options.planners.end()) {
+      throw InputError(std::string(flag) + ": '" + name + "' is not among --planners");
+    }
+  };
+  for (const auto& [name, command] : options.planner_commands) {
+    require_chosen(name, "--planner-command");
+  }
+  for (const auto& [name, setting] : options.planner_settings) {
+    require_chosen(name, "--set");
+    if (options.planner_commands.count(name) != 0) {
+      throw InputError("--set: '" + name + "' is started by its own command; give settings there");
+    }
+  }
+}
+
+void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& session_folder,
+                     const std::string& lcm_url, Supervisor* supervisor) {
+  const std::filesystem::path logs = session_folder / "logs";
+  std::error_code error;
+  std::filesystem::create_directories(logs, error);
+  if (error) throw InputError(logs.string() + ": cannot be created: " + error.message());
+
+  const auto start = [&](const std::string& name, std::vector<std::string> arguments) {
+    supervisor->Start(
+        {name, std::move(arguments), {{"LCM_DEFAULT_URL", lcm_url}}, logs / (name + ".log")});
+  };
+  const auto with_packages = [&](std::vector<std::string> arguments) {
+    for (const std::string& package : options.package_paths) {
+      arguments.insert(arguments.end(), {"--package-path", package});
+    }
+    return arguments;
+  };
+
+  std::vector<std::string> logger = {Program("logger"), "--out", session_folder.string()};
+  if (!options.resume.empty()) logger.push_back("--resume");
+  start(kLogger, std::move(logger));
+
+  std::vector<std::string> server =
+      with_packages({Program("scene_server"), "--robot", options.robot.string()});
+  for (const std::filesystem::path& folder : options.problems) {
+    server.insert(server.end(), {"--problems", folder.string()});
+  }
+  if (!options.referee_robot.empty()) {
+    server.insert(server.end(), {"--referee-robot", options.referee_robot.string()});
+  }
+  start(kSceneServer, std::move(server));
+
+  for (const std::string& planner : options.planners) {
+    if (const auto command = options.planner_commands.find(planner);
+        command != options.planner_commands.end()) {
+      start(planner, {"/bin/sh", "-c", "exec " + command->second});
+      continue;
+    }
+    std::vector<std::string> arguments =
+        with_packages({Program(OwnPlanners().at(planner)), "--robot", options.robot.string(),
+                       "--name", planner});
+    for (const auto& [name, setting] : options.planner_settings) {
+      if (name == planner) arguments.insert(arguments.end(), {"--set", setting});
+    }
+    start(planner, std::move(arguments));
+  }
+}
+
+void StopProcesses(const DriverOptions& options, Supervisor* supervisor) {
+  std::vector<std::string> order = options.planners;
+  order.insert(order.end(), {kSceneServer, kLogger});
+  supervisor->StopAll(order);
+}
+
+}  // namespace planbench

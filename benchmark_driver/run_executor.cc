@@ -1,0 +1,148 @@
+#include "benchmark_driver/run_executor.h"
+
+#include <spdlog/spdlog.h>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::chrono::milliseconds kProblemRetry{500};
+// A check with clearance takes tens of milliseconds; a repeated request is not judged twice.
+constexpr std::chrono::milliseconds kPathCheckRetry{1000};
+constexpr std::chrono::seconds kServerPatience{10};
+
+}  // namespace
+
+RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions)
+    : registry_(registry),
+      conditions_(std::move(conditions)),
+      problems_(bus, channel::kProblemRequest, channel::kProblem),
+      path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply) {}
+
+template <typename Request, typename Reply>
+std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
+                                            const Request& request,
+                                            std::chrono::milliseconds retry_period,
+                                            const std::function<bool()>& interrupted) {
+  while (!interrupted()) {
+    if (auto reply = client->Call(request, retry_period, kServerPatience, interrupted)) {
+      return reply;
+    }
+    if (interrupted()) break;
+    spdlog::warn("waiting for the scene server's answer to {} ({})", request.request_id,
+                 registry_->Live(NodeKind::kSceneServer).empty() ? "no scene server is live"
+                                                                 : "it is live, but silent");
+  }
+  return std::nullopt;
+}
+
+std::optional<ProblemMessage> RunExecutor::FetchProblem(
+    const ScheduledRun& run, const std::function<bool()>& interrupted) {
+  ProblemRequestMessage request;
+  request.request_id = run.request_id;
+  request.problem_set = run.problem_set;
+  request.problem_index = run.problem_index;
+  std::optional<ProblemMessage> problem =
+      AskServer(&problems_, request, kProblemRetry, interrupted);
+  if (problem && !problem->ok) throw InputError(problem->message);
+  return problem;
+}
+
+std::optional<PathCheckReplyMessage> RunExecutor::Judge(
+    const std::string& check_id, const Path& path, const RunRecordMessage& record,
+    const ScheduledRun& run, const std::function<bool()>& interrupted) {
+  PathCheckRequestMessage request;
+  request.request_id = check_id;
+  request.scene_id = record.request.scene_id;
+  request.group = record.request.group;
+  request.start = record.request.start;
+  request.goal = record.request.goal;
+  request.joint_names = record.result.joint_names;
+  request.path = path;
+  request.collision_model = conditions_.collision_model;
+  request.step_m = conditions_.referee_step_m;
+  request.with_clearance = conditions_.clearance;
+  std::optional<PathCheckReplyMessage> reply =
+      AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
+  if (!reply || reply->ok) return reply;
+  // A scene server that was restarted meanwhile does not know the scene: asking for the problem loads it again.
+  if (!FetchProblem(run, interrupted)) return std::nullopt;
+  request.request_id += "/again";
+  return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
+}
+
+std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
+                                                     PlannerClient* planner,
+                                                     const std::function<bool()>& interrupted) {
+  // Asked for anew for every run: it also hands the scene to planners that have just come up.
+  const std::optional<ProblemMessage> problem = FetchProblem(run, interrupted);
+  if (!problem) return std::nullopt;
+
+  RunRecordMessage record;
+  record.run_id = conditions_.run_id;
+  record.request_id = run.request_id;
+  record.planner = run.planner;
+  record.problem_set = run.problem_set;
+  record.problem_index = run.problem_index;
+  record.trial = run.trial;
+  record.request.run_id = conditions_.run_id;
+  record.request.request_id = run.request_id;
+  record.request.scene_id = problem->scene_id;
+  record.request.robot_id = conditions_.robot_id;
+  record.request.group = problem->group;
+  record.request.start = problem->start;
+  record.request.goal = problem->goal;
+  record.request.direction = run.direction;
+  record.request.time_limit_s = conditions_.time_limit_s;
+  record.request.seed = run.seed;
+  record.request.collision_model = conditions_.collision_model;
+  record.request.edge_resolution_m = conditions_.edge_resolution_m;
+  record.request.anytime = conditions_.anytime;
+  record.request.simplify = conditions_.simplify;
+  record.start_utime = NowUtime();
+
+  const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);
+  switch (answer.outcome) {
+    case PlannerClient::Outcome::kInterrupted:
+      return std::nullopt;
+    case PlannerClient::Outcome::kRefused:
+      record.status = PlanStatus::kInvalidRequest;
+      record.message = "refused: " + answer.message;
+      return record;
+    case PlannerClient::Outcome::kNoAnswer:
+      record.status = PlanStatus::kNoAnswer;
+      record.roundtrip_time_s = answer.roundtrip_time_s;
+      record.message = answer.message;
+      spdlog::error("{}: no answer: {}", run.request_id, answer.message);
+      return record;
+    case PlannerClient::Outcome::kResult:
+      break;
+  }
+  record.roundtrip_time_s = answer.roundtrip_time_s;
+  record.result = answer.result;
+  record.status = answer.result.result.status;
+  record.message = answer.result.result.message;
+  if (record.status != PlanStatus::kSolved) return record;
+
+  const auto check = Judge(run.request_id, record.result.result.path, record, run, interrupted);
+  if (!check) return std::nullopt;
+  record.path_check = *check;
+  if (!check->ok || !check->verdict || !check->verdict->valid) {
+    record.status = PlanStatus::kInvalidPath;
+    record.message = !check->ok         ? "the referee could not judge: " + check->message
+                     : !check->verdict ? "the referee gave no verdict"
+                                       : check->verdict->reason;
+    spdlog::warn("{}: invalid path: {}", run.request_id, record.message);
+  }
+  if (!record.result.result.simplified_path.empty()) {
+    const auto simplified_check =
+        Judge(run.request_id + "/simplified", record.result.result.simplified_path, record, run,
+              interrupted);
+    if (!simplified_check) return std::nullopt;
+    record.simplified_check = *simplified_check;
+  }
+  return record;
+}
+
+}  // namespace planbench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "benchmark_driver/planner_client.h"
+#include "benchmark_driver/schedule.h"
+#include "messaging/rpc.h"
+
+namespace planbench {
+
+/// What every run of a session has in common.
+struct RunConditions {
+  std::string run_id;
+  std::string robot_id;
+  double time_limit_s = 60;
+  CollisionModel collision_model = CollisionModel::kSpheres;
+  double edge_resolution_m = 0;
+  double referee_step_m = 0.01;
+  bool anytime = false;
+  bool simplify = true;
+  bool clearance = true;
+};
+
+/// Makes one run: fetches the problem, has the planner solve it, has the scene server judge the paths. Thread-safe
+/// for different planners.
+class RunExecutor {
+ public:
+  RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions);
+
+  /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no such problem.
+  std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
+                                          const std::function<bool()>& interrupted);
+
+ private:
+  std::optional<ProblemMessage> FetchProblem(const ScheduledRun& run,
+                                             const std::function<bool()>& interrupted);
+  std::optional<PathCheckReplyMessage> Judge(const std::string& check_id, const Path& path,
+                                             const RunRecordMessage& record,
+                                             const ScheduledRun& run,
+                                             const std::function<bool()>& interrupted);
+  template <typename Request, typename Reply>
+  std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
+                                 std::chrono::milliseconds retry_period,
+                                 const std::function<bool()>& interrupted);
+
+  NodeRegistry* registry_;
+  RunConditions conditions_;
+  RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
+  RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,113 @@
+#include "benchmark_driver/run_session.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include "benchmark_driver/driver.h"
+#include "benchmark_driver/launcher.h"
+#include "benchmark_driver/session_folder.h"
+#include "benchmark_driver/supervisor.h"
+#include "benchmark_driver/tables.h"
+#include "common/error.h"
+#include "messaging/node_announcer.h"
+#include "messaging/program.h"
+
+namespace planbench {
+namespace {
+
+/// Throws InputError if a planbench process is live on the bus: a launched session wants it for itself.
+void RequireEmptyBus(Bus* bus) {
+  NodeRegistry registry(bus);
+  registry.Discover("driver");
+  std::string heard;
+  registry.WaitUntil(
+      [&] {
+        for (const NodeStatusMessage& node : registry.Live()) {
+          heard = fmt::format("{} '{}' (host {}, pid {})", NodeKindName(node.kind), node.name,
+                              node.host, node.pid);
+        }
+        return !heard.empty();
+      },
+      std::chrono::milliseconds(700));
+  if (!heard.empty()) {
+    throw InputError("another session is on " + bus->url() + ": the " + heard +
+                     " is live; choose another port with --lcm-url, or leave it to --launch");
+  }
+}
+
+}  // namespace
+
+int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> settings,
+               const std::string& lcm_url, bool lcm_url_given,
+               const std::function<bool()>& interrupted) {
+  DriverOptions options = given_options;
+  std::string run_id = NewRunId();
+  std::vector<RunRecordMessage> earlier;
+  if (!options.resume.empty()) {
+    RecordedSession recorded = ReadRecords(EventLogOf(options.resume));
+    if (recorded.sessions.empty()) {
+      throw InputError("--resume: " + options.resume.string() + " holds no session");
+    }
+    run_id = recorded.sessions.back().run_id;
+    earlier = std::move(recorded.runs);
+    std::erase_if(earlier, [&](const RunRecordMessage& run) { return run.run_id != run_id; });
+  }
+
+  std::string url = lcm_url;
+  std::filesystem::path session_folder;
+  if (options.launch) {
+    RequireKnownPlanners(options);
+    if (!lcm_url_given) {
+      url = fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort());
+    }
+    session_folder = !options.resume.empty() ? options.resume
+                     : !options.out.empty()
+                         ? options.out
+                         : std::filesystem::path("sessions") / run_id;
+    session_folder = std::filesystem::absolute(session_folder).lexically_normal();
+  }
+
+  Bus bus(url);
+  // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
+  std::unique_ptr<Supervisor> supervisor;
+  bus.Start();
+  if (options.launch) {
+    if (lcm_url_given) RequireEmptyBus(&bus);
+    spdlog::info("session folder {}, bus {}", session_folder.string(), url);
+    supervisor = std::make_unique<Supervisor>();
+    LaunchProcesses(options, session_folder, url, supervisor.get());
+    // Loading meshes, or a busy machine, may take its time; a child that fails is heard of at once.
+    options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
+  }
+
+  const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
+  NodeAnnouncer announcer(&bus, [&] { return self; });
+  const auto watch = [&] {
+    announcer.ThrowIfDisplaced();
+    if (supervisor) supervisor->ThrowIfHopeless();
+    if (interrupted()) throw std::runtime_error("interrupted");
+  };
+  Driver driver(&bus, options, std::move(settings), run_id, std::move(earlier));
+  driver.Discover(options.launch, watch);
+  const bool complete = driver.Run(interrupted, [&] {
+    announcer.ThrowIfDisplaced();
+    if (supervisor) supervisor->ThrowIfHopeless();
+  });
+
+  const std::string tables = FormatTables(driver.records());
+  if (supervisor) {
+    StopProcesses(options, supervisor.get());
+    std::ofstream(session_folder / "tables.txt") << tables;
+    fmt::print("Session folder: {}\n", session_folder.string());
+  }
+  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
+  fmt::print("\n{}", tables);
+  std::fflush(stdout);
+  return complete ? kExitOk : kExitFailed;
+}
+
+}  // namespace planbench

@@ -1,0 +1,216 @@
+#include "benchmark_driver/supervisor.h"
+
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::chrono::milliseconds kRestartDelay{200};
+
+std::string LastLine(const std::filesystem::path& log) {
+  std::ifstream file(log);
+  std::string last;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last.empty() ? "(it said nothing)" : last;
+}
+
+std::string DescribeEnd(int status) {
+  if (WIFSIGNALED(status)) {
+    return std::string("by signal ") + std::to_string(WTERMSIG(status)) + " (" +
+           strsignal(WTERMSIG(status)) + ")";
+  }
+  return "with exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+Supervisor::Supervisor() : thread_([this] { Supervise(); }) {}
+
+Supervisor::~Supervisor() {
+  StopAll({});
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+  }
+  thread_.join();
+}
+
+void Supervisor::Start(ChildSpec spec) {
+  const std::scoped_lock lock(mutex_);
+  Child child;
+  child.spec = std::move(spec);
+  child.restart_at = Clock::now();
+  children_.push_back(std::move(child));
+}
+
+int Supervisor::num_restarts() const {
+  const std::scoped_lock lock(mutex_);
+  return num_restarts_;
+}
+
+void Supervisor::ThrowIfHopeless() const {
+  const std::scoped_lock lock(mutex_);
+  if (!bad_input_.empty()) throw InputError(bad_input_);
+  if (!hopeless_.empty()) throw std::runtime_error(hopeless_);
+}
+
+void Supervisor::Supervise() {
+  while (true) {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (stopping_) return;
+      for (Child& child : children_) {
+        if (child.pid > 0) Reap(&child);
+        if (child.pid < 0 && child.wanted && Clock::now() >= child.restart_at) Spawn(&child);
+      }
+    }
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+void Supervisor::Reap(Child* child) {
+  int status = 0;
+  if (waitpid(child->pid, &status, WNOHANG) != child->pid) return;
+  child->pid = -1;
+  if (!child->wanted) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
+    child->wanted = false;
+    bad_input_ = LastLine(child->spec.log);
+    return;
+  }
+  const auto now = Clock::now();
+  child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
+  if (child->quick_deaths >= kMaxQuickDeaths) {
+    child->wanted = false;
+    hopeless_ = child->spec.name + " ended " + DescribeEnd(status) +
+                " again and again; its last words in " + child->spec.log.string() + ": " +
+                LastLine(child->spec.log);
+    return;
+  }
+  spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
+  ++num_restarts_;
+  child->restart_at = now + kRestartDelay;
+}
+
+void Supervisor::Spawn(Child* child) {
+  std::vector<char*> arguments;
+  for (std::string& argument : child->spec.arguments) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
+  // All that allocates is done before fork: other threads may hold the allocator's lock.
+  std::vector<std::string> environment_text;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    if (child->spec.environment.count(text.substr(0, text.find('='))) == 0) {
+      environment_text.push_back(text);
+    }
+  }
+  for (const auto& [key, value] : child->spec.environment) {
+    environment_text.push_back(key + "=" + value);
+  }
+  std::vector<char*> environment;
+  for (std::string& entry : environment_text) environment.push_back(entry.data());
+  environment.push_back(nullptr);
+  const std::string log = child->spec.log.string();
+  const pid_t parent = getpid();
+
+  const pid_t pid = fork();
+  if (pid == 0) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(1);  // the parent died before the line above
+    signal(SIGPIPE, SIG_DFL);
+    const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    const int input = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (output >= 0) {
+      dup2(output, STDOUT_FILENO);
+      dup2(output, STDERR_FILENO);
+    }
+    if (input >= 0) dup2(input, STDIN_FILENO);
+    execve(arguments[0], arguments.data(), environment.data());
+    dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
+    _exit(2);
+  }
+  if (pid < 0) {
+    spdlog::error("cannot start {}: {}", child->spec.name, strerror(errno));
+    child->restart_at = Clock::now() + std::chrono::seconds(1);
+    return;
+  }
+  child->pid = pid;
+  child->started = Clock::now();
+}
+
+void Supervisor::StopAll(const std::vector<std::string>& order,
+                         std::chrono::milliseconds patience) {
+  std::vector<std::string> names = order;
+  {
+    const std::scoped_lock lock(mutex_);
+    for (Child& child : children_) {
+      child.wanted = false;
+      if (std::find(names.begin(), names.end(), child.spec.name) == names.end()) {
+        names.push_back(child.spec.name);
+      }
+    }
+  }
+  for (const std::string& name : names) {
+    const auto begin = Clock::now();
+    int signal_to_send = SIGTERM;
+    while (true) {
+      {
+        const std::scoped_lock lock(mutex_);
+        const auto child = std::find_if(children_.begin(), children_.end(), [&](const Child& c) {
+          return c.spec.name == name;
+        });
+        if (child == children_.end() || child->pid < 0) break;
+        if (signal_to_send == SIGTERM && Clock::now() - begin > patience) {
+          spdlog::error("{} does not end; killing it", name);
+          signal_to_send = SIGKILL;
+          kill(child->pid, SIGKILL);
+        } else if (Clock::now() - begin < kPoll) {
+          kill(child->pid, SIGTERM);
+        }
+      }
+      std::this_thread::sleep_for(kPoll);
+    }
+  }
+}
+
+int FreeUdpPort() {
+  std::random_device random;
+  std::uniform_int_distribution<int> any_port(20000, 32000);  // below Linux's ephemeral range
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const int port = any_port(random);
+    const int socket_fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (socket_fd < 0) break;
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_ANY);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    // Without SO_REUSEADDR this fails if anybody, LCM included, has the port.
+    const bool free =
+        bind(socket_fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+    close(socket_fd);
+    if (free) return port;
+  }
+  throw std::runtime_error("no free UDP port found");
+}
+
+}  // namespace planbench

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace planbench {
+
+/// A child process to keep running.
+struct ChildSpec {
+  std::string name;
+  std::vector<std::string> arguments;  ///< arguments[0]: the program's path.
+  std::map<std::string, std::string> environment;  ///< Added to ours.
+  std::filesystem::path log;  ///< Takes its stdout and stderr, appended.
+};
+
+/// Starts child processes, restarts those that die, and stops all in the end. Children do not get the terminal's
+/// Ctrl-C (each is a process group of its own), and are ended by the kernel if this process dies.
+class Supervisor {
+ public:
+  Supervisor();
+  /// Stops what still runs.
+  ~Supervisor();
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  void Start(ChildSpec spec);
+  /// Asks the children to end (SIGTERM) in the given order, each waited for up to `patience`, then killed. Others
+  /// follow in any order.
+  void StopAll(const std::vector<std::string>& order,
+               std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// Throws InputError with its last words if a child ended with exit code 2 (bad input: a restart would not help), or
+  /// std::runtime_error if one died kMaxQuickDeaths times in a row within kQuick of its start.
+  void ThrowIfHopeless() const;
+  /// Restarts made so far.
+  int num_restarts() const;
+
+  static constexpr int kMaxQuickDeaths = 5;
+  static constexpr std::chrono::seconds kQuick{5};
+
+ private:
+  struct Child {
+    ChildSpec spec;
+    pid_t pid = -1;  // -1: not running
+    bool wanted = true;
+    int quick_deaths = 0;
+    std::chrono::steady_clock::time_point started;
+    std::chrono::steady_clock::time_point restart_at;
+  };
+  void Supervise();
+  void Reap(Child* child);
+  void Spawn(Child* child);
+
+  mutable std::mutex mutex_;
+  std::vector<Child> children_;
+  bool stopping_ = false;
+  int num_restarts_ = 0;
+  std::string bad_input_;
+  std::string hopeless_;
+  std::thread thread_;  // starts every child: the kernel's death signal is tied to the starting thread
+};
+
+/// A free UDP port, chosen at random among those that nobody has bound.
+int FreeUdpPort();
+
+}  // namespace planbench

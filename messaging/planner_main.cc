@@ -1,0 +1,65 @@
+#include "messaging/planner_main.h"
+
+#include <spdlog/spdlog.h>
+
+#include "common/error.h"
+#include "messaging/planner_node.h"
+#include "messaging/program.h"
+
+namespace planbench {
+namespace {
+
+YamlNode LoadSettings(const Robot& robot, const std::string& planner, const std::string& config,
+                      const std::vector<std::string>& overrides) {
+  std::string file = config;
+  if (file.empty()) {
+    const auto named = robot.planner_settings.find(planner);
+    if (named == robot.planner_settings.end()) {
+      throw InputError((robot.folder / "robot.yaml").string() + ": planners: names no settings for '" +
+                       planner + "'; add them there or give --config");
+    }
+    file = named->second.string();
+  }
+  YamlNode settings = YamlNode::LoadFile(file);
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw InputError("--set " + text + ": expected KEY=VALUE");
+    }
+    const std::string key = text.substr(0, equals);
+    settings.Override(key, text.substr(equals + 1), "--set " + key);
+  }
+  return settings;
+}
+
+}  // namespace
+
+int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
+                const PlannerFactory& factory) {
+  Program program("planner_" + planner, description);
+  std::string robot_folder;
+  std::string name = planner;
+  std::string config;
+  std::vector<std::string> overrides;
+  std::vector<std::string> package_paths;
+  program.app().add_option("--robot", robot_folder, "robot folder")->required();
+  program.app().add_option("--name", name, "name on the bus")->capture_default_str();
+  program.app().add_option("--config", config, "settings file; default: the robot folder's");
+  program.app()
+      .add_option("--set", overrides, "KEY=VALUE: overrides a setting; repeatable")
+      ->allow_extra_args(false);
+  AddPackagePathFlag(&program.app(), &package_paths);
+  return program.Run(argc, argv, [&] {
+    const Robot robot = LoadRobot(robot_folder, ParsePackagePaths(package_paths));
+    std::unique_ptr<Planner> solver =
+        factory(robot, LoadSettings(robot, planner, config, overrides));
+    Bus bus(program.lcm_url());
+    PlannerNode node(&bus, name, std::move(solver));
+    bus.Start();
+    spdlog::info("planner '{}' is live on {}", name, bus.url());
+    node.Run(StopRequested);
+    return kExitOk;
+  });
+}
+
+}  // namespace planbench

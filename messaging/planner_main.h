@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "common/yaml.h"
+#include "planning/planner.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// Builds a planner from a robot and settings; throws InputError.
+using PlannerFactory =
+    std::function<std::unique_ptr<Planner>(const Robot& robot, const YamlNode& settings)>;
+
+/// The main() of a planner process: --robot, --name, --config, --set, --package-path and what every program has. The
+/// settings come from --config, else from the file that the robot folder names for `planner`, and --set overrides
+/// single keys.
+int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
+                const PlannerFactory& factory);
+
+}  // namespace planbench

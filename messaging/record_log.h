@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// What a session's LCM event log holds of results.
+struct RecordedSession {
+  std::vector<SessionMessage> sessions;  ///< In order.
+  std::vector<RunRecordMessage> runs;    ///< In order, one for each request_id.
+};
+
+/// Reads the RUN_RECORD and SESSION messages of an LCM event log. A torn last event (of a logger that was killed) is
+/// no error. Throws InputError if the file cannot be read or its records are of another version.
+RecordedSession ReadRecords(const std::filesystem::path& event_log);
+
+}  // namespace planbench
