@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "messaging/channels.h"
 #include "messaging/node_registry.h"
 #include "tests/scene_server/tiny_world.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
@@ -193,30 +195,43 @@ TEST_F(SceneServerNodeTest, AnnouncesItsSetsAgainAndAgainWhileItRuns) {
   runner.join();
 }
 
-TEST(TwoSceneServers, TheLaterGivesWay) {
-  const std::string url = fmt::format("udpm://239.255.76.67:{}?ttl=0", 20000 + getpid() % 20000);
-  TinyWorld world;
-  std::unique_ptr<Bus> first_bus;
-  try {
-    first_bus = std::make_unique<Bus>(url);
-  } catch (const InputError& error) {
-    GTEST_SKIP() << error.what();
+/// Two servers on one bus, started one after the other.
+class TwoSceneServers : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string url = fmt::format("udpm://239.255.76.67:{}?ttl=0", 20000 + getpid() % 20000);
+    try {
+      first_bus_ = std::make_unique<Bus>(url);
+    } catch (const InputError& error) {
+      GTEST_SKIP() << error.what();
+    }
+    second_bus_ = std::make_unique<Bus>(url);
+    first_bus_->Start();
+    second_bus_->Start();
   }
-  Bus second_bus(url);
-  first_bus->Start();
-  second_bus.Start();
-  SceneServerNode first(first_bus.get(), "scene_server", &world.service());
-  std::this_thread::sleep_for(milliseconds(2));  // start times are compared
-  SceneServerNode second(&second_bus, "scene_server", &world.service());
-  const auto deadline = std::chrono::steady_clock::now() + kTimeout;
-  try {
-    second.Run([&] { return std::chrono::steady_clock::now() > deadline; });
-    FAIL() << "the second server was not refused";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("scene_server"));
+
+  void ExpectSecondIsRefused(const std::string& second_name, const std::vector<std::string>& why) {
+    SceneServerNode first(first_bus_.get(), "scene_server", &world_.service());
+    std::this_thread::sleep_for(milliseconds(2));  // start times are compared
+    SceneServerNode second(second_bus_.get(), second_name, &world_.service());
+    const auto deadline = std::chrono::steady_clock::now() + kTimeout;
+    ExpectInputError(
+        [&] { second.Run([&] { return std::chrono::steady_clock::now() > deadline; }); }, why);
+    int asked = 0;
+    EXPECT_NO_THROW(first.Run([&] { return ++asked > 3; }));
   }
-  int asked = 0;
-  EXPECT_NO_THROW(first.Run([&] { return ++asked > 3; }));
+
+  TinyWorld world_;
+  std::unique_ptr<Bus> first_bus_;
+  std::unique_ptr<Bus> second_bus_;
+};
+
+TEST_F(TwoSceneServers, TheLaterOfOneNameGivesWay) {
+  ExpectSecondIsRefused("scene_server", {"'scene_server'"});
+}
+
+TEST_F(TwoSceneServers, TheLaterByAnotherNameGivesWay) {
+  ExpectSecondIsRefused("other_server", {"another scene server, 'scene_server'"});
 }
 
 }  // namespace
