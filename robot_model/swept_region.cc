@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 // maximum itself (S-lemma; Boyd and Vandenberghe, Convex Optimization, B.1). g is convex.
 double MaxDistanceToEllipse(const Eigen::Vector2d& w, double r, double s) {
   const double distance = w.norm();
-  if (r <= 0) return distance;
+  if (r < 1e-12) return distance + r;  // Too small to square; the bound loses nothing by it.
   const double r2 = r * r;
   const double s2 = s * s;
   const double wx2 = w.x() * w.x();

@@ -42,8 +42,8 @@ class SweptRegion {
   std::vector<Eigen::Vector3d> half_travels_;
 };
 
-/// Upper bound, tight to rounding, of |w + r e| over all e of the ellipse with semi-axes 1 and s <=
-/// 1 along x and y.
+/// Upper bound, tight to rounding, of |w + r e| over all points e of the ellipse with semi-axes 1
+/// along x and s <= 1 along y.
 double MaxDistanceToEllipse(const Eigen::Vector2d& w, double r, double s);
 
 }  // namespace planbench
