@@ -1,0 +1,120 @@
+#include "logger/event_log.h"
+
+#include <gtest/gtest.h>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "common/error.h"
+#include "temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+struct Event {
+  std::int64_t number;
+  std::int64_t utime;
+  std::string channel;
+  std::string data;
+  bool operator==(const Event&) const = default;
+};
+
+void PrintTo(const Event& event, std::ostream* out) {
+  *out << event.number << ' ' << event.utime << ' ' << event.channel << ' ' << event.data;
+}
+
+std::vector<Event> ReadEvents(const std::filesystem::path& file) {
+  lcm::LogFile log(file, "r");
+  std::vector<Event> events;
+  while (const lcm::LogEvent* event = log.readNextEvent()) {
+    events.push_back({event->eventnum, event->timestamp, event->channel,
+                      std::string(static_cast<const char*>(event->data),
+                                  static_cast<std::size_t>(event->datalen))});
+  }
+  return events;
+}
+
+ReceivedMessage Message(const std::string& channel, const std::string& data, std::int64_t utime) {
+  return {channel, {data.begin(), data.end()}, utime};
+}
+
+TEST(EventLog, IsReadByLcm) {
+  const TemporaryFolder folder;
+  {
+    EventLog log(folder / "a.lcmlog", EventLog::Mode::kNew);
+    log.Write(Message("FIRST", "one", 10));
+    log.Write(Message("SECOND", "", 20));
+    log.Flush();
+    EXPECT_EQ(ReadEvents(folder / "a.lcmlog").size(), 2);  // before it is closed
+    log.Write(Message("THIRD", "three", 30));
+  }
+  const std::vector<Event> expected = {
+      {0, 10, "FIRST", "one"}, {1, 20, "SECOND", ""}, {2, 30, "THIRD", "three"}};
+  EXPECT_EQ(ReadEvents(folder / "a.lcmlog"), expected);
+}
+
+TEST(EventLog, NumbersGoOnWhenAppending) {
+  const TemporaryFolder folder;
+  for (int part = 0; part < 3; ++part) {
+    EventLog log(folder / "a.lcmlog", EventLog::Mode::kAppend);
+    log.Write(Message("A", "a", part));
+    log.Write(Message("B", "b", part));
+  }
+  const std::vector<Event> events = ReadEvents(folder / "a.lcmlog");
+  ASSERT_EQ(events.size(), 6);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(events[static_cast<std::size_t>(i)].number, i);
+}
+
+TEST(EventLog, CutsOffATornLastEvent) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  {
+    EventLog log(file, EventLog::Mode::kNew);
+    log.Write(Message("A", "whole", 1));
+    log.Write(Message("B", "this event will be torn", 2));
+  }
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 5);
+  {
+    EventLog log(file, EventLog::Mode::kAppend);
+    log.Write(Message("C", "after", 3));
+  }
+  const std::vector<Event> expected = {{0, 1, "A", "whole"}, {1, 3, "C", "after"}};
+  EXPECT_EQ(ReadEvents(file), expected);
+}
+
+TEST(EventLog, NeverOverwrites) {
+  const TemporaryFolder folder;
+  WriteText(folder / "a.lcmlog", "precious");
+  EXPECT_THROW(EventLog(folder / "a.lcmlog", EventLog::Mode::kNew), InputError);
+  EXPECT_EQ(ReadText(folder / "a.lcmlog"), "precious");
+}
+
+TEST(EventLog, RefusesAFolderThatIsNotThere) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(EventLog(folder / "none" / "a.lcmlog", EventLog::Mode::kNew), InputError);
+}
+
+TEST(EventLog, SaysWhenTheDiskIsFull) {
+  // Every write to this device fails with ENOSPC.
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  {
+    EventLog log(file, EventLog::Mode::kNew);
+    log.Write(Message("A", "a", 1));
+    log.Flush();
+  }
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink("/dev/full", file);
+  EventLog log(file, EventLog::Mode::kAppend);
+  try {
+    log.Write(Message("B", "b", 2));
+    log.Flush();
+    FAIL() << "the full disk went unnoticed";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("a.lcmlog"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No space left"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace planbench

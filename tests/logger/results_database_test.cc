@@ -1,0 +1,334 @@
+#include "logger/results_database.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "sample_messages.h"
+#include "temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using Outcome = ResultsDatabase::Outcome;
+
+const SqliteValue kNull;
+
+SqliteValue Int(std::int64_t value) { return value; }
+
+class ResultsDatabaseTest : public testing::Test {
+ protected:
+  ResultsDatabaseTest() : file_(folder_ / "results.sqlite"), database_(file_) {}
+
+  SqliteValue Query(const std::string& sql) {
+    return SqliteConnection(file_, SqliteConnection::Mode::kReadOnly).QueryValue(sql);
+  }
+  SqliteValue Run(const std::string& column, const std::string& request_id = "request-1") {
+    return Query("SELECT " + column + " FROM runs WHERE request_id = '" + request_id + "'");
+  }
+  SqliteValue Count(const std::string& table) { return Query("SELECT count(*) FROM " + table); }
+
+  TemporaryFolder folder_;
+  std::filesystem::path file_;
+  ResultsDatabase database_;
+};
+
+TEST_F(ResultsDatabaseTest, KeepsEveryFieldOfARun) {
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
+  const std::vector<std::pair<std::string, SqliteValue>> expected = {
+      {"time", 0.25},
+      {"memory", 123.5},
+      {"solved", Int(1)},
+      {"status", Int(0)},
+      {"message", kNull},
+      {"direction", "backward"},
+      {"problem_set", "shelf"},
+      {"problem_index", Int(7)},
+      {"trial", Int(2)},
+      {"seed", "9223372036854775809"},
+      {"request_id", "request-1"},
+      {"run_id", "session-1"},
+      {"scene_id", "scene-hash"},
+      {"start_time", "2024-05-06T07:08:10.000001Z"},
+      {"collision_model", "voxels"},
+      {"edge_resolution", 0.05},
+      {"time_limit", 30.0},
+      {"anytime", Int(1)},
+      {"roundtrip_time", 0.875},
+      {"total_time", 0.75},
+      {"setup_time", 0.01},
+      {"collision_time", 0.02},
+      {"guidance_time", 0.03},
+      {"search_time", 0.04},
+      {"simplification_time", 0.05},
+      {"path_length", 1.25},
+      {"path_length_simplified", 1.0},
+      {"tip_travel", 0.5},
+      {"tip_travel_simplified", 0.375},
+      {"smoothness", 0.125},
+      {"smoothness_simplified", 0.0625},
+      {"clearance", 0.02},
+      {"clearance_simplified", 0.01},
+      {"clearance_mean", 0.04},
+      {"clearance_mean_simplified", 0.03},
+      {"num_waypoints", Int(3)},
+      {"num_waypoints_simplified", Int(2)},
+      {"referee_valid", Int(1)},
+      {"referee_reason", kNull},
+      {"referee_engine", "fcl"},
+      {"referee_step", 0.001},
+      {"simplified_valid", Int(1)},
+      {"simplified_reason", kNull},
+      {"mesh_valid", Int(0)},
+      {"mesh_reason", "elbow hits board at segment 1"},
+      {"mesh_valid_simplified", Int(1)},
+      {"mesh_reason_simplified", kNull},
+      {"epsilon", 1.5},
+      {"cost", 2500.0},
+      {"edges_checked", Int(11)},
+      {"configurations_checked", Int(22)},
+      {"iterations", Int(33)},
+      {"expansions", Int(44)},
+      {"states", Int(55)},
+      // OMPL's names
+      {"solution_length", 1.25},
+      {"solution_clearance", 0.02},
+      {"solution_smoothness", 0.125},
+      {"solution_segments", Int(2)},
+      {"correct_solution", Int(1)},
+      {"simplified_solution_length", 1.0},
+      {"simplified_solution_segments", Int(1)},
+  };
+  for (const auto& [column, value] : expected) EXPECT_EQ(Run(column), value) << column;
+}
+
+TEST_F(ResultsDatabaseTest, KeepsPathsProgressAndCounters) {
+  database_.Store(SampleRecord());
+  EXPECT_EQ(Query("SELECT count(*) FROM paths WHERE kind = 'raw'"), Int(6));
+  EXPECT_EQ(Query("SELECT count(*) FROM paths WHERE kind = 'simplified'"), Int(4));
+  EXPECT_EQ(Query("SELECT position FROM paths WHERE kind = 'raw' AND waypoint = 1 "
+                  "AND joint = 'pan'"),
+            SqliteValue(0.9));
+  EXPECT_EQ(Query("SELECT position FROM paths WHERE kind = 'simplified' AND waypoint = 1 "
+                  "AND joint = 'lift'"),
+            SqliteValue(0.3));
+  EXPECT_EQ(Count("progress"), Int(2));
+  EXPECT_EQ(Query("SELECT epsilon FROM progress WHERE time = 0.25"), SqliteValue(5.0));
+  EXPECT_EQ(Query("SELECT cost FROM progress WHERE time = 0.5"), SqliteValue(2500.0));
+  EXPECT_EQ(Query("SELECT best_cost FROM progress WHERE time = 0.5"), SqliteValue(2500.0));
+  EXPECT_EQ(Query("SELECT expansions FROM progress WHERE time = 0.5"), Int(900));
+  EXPECT_EQ(Count("counters"), Int(6));
+  EXPECT_EQ(Query("SELECT value FROM counters WHERE name = 'goal_tries'"), SqliteValue(66.5));
+}
+
+TEST_F(ResultsDatabaseTest, OfTwoImprovementsAtOneTimeTheLaterStands) {
+  RunRecordMessage record = SampleRecord();
+  record.result.result.progress = {{0.25, 5, 4000, 100}, {0.25, 0, 3000, 200}};
+  database_.Store(record);
+  EXPECT_EQ(Count("progress"), Int(1));
+  EXPECT_EQ(Query("SELECT cost FROM progress"), SqliteValue(3000.0));
+  EXPECT_EQ(Query("SELECT epsilon FROM progress"), kNull);  // no bound
+}
+
+TEST_F(ResultsDatabaseTest, ARunWithoutAnswerHasNoTimes) {
+  database_.Store(UnansweredRecord());
+  for (const char* column :
+       {"time", "total_time", "setup_time", "simplification_time", "memory", "roundtrip_time",
+        "path_length", "clearance", "referee_valid", "referee_reason", "mesh_valid",
+        "simplified_valid", "cost", "epsilon", "edges_checked", "num_waypoints"}) {
+    EXPECT_EQ(Run(column, "request-2"), kNull) << column;
+  }
+  EXPECT_EQ(Run("solved", "request-2"), Int(0));
+  EXPECT_EQ(Run("status", "request-2"), Int(static_cast<int>(PlanStatus::kNoAnswer)));
+  EXPECT_EQ(Run("message", "request-2"), SqliteValue("rrtc fell silent"));
+  EXPECT_EQ(Run("time_limit", "request-2"), SqliteValue(30.0));
+  EXPECT_EQ(Count("paths"), Int(0));
+}
+
+TEST_F(ResultsDatabaseTest, ARejectedPathIsNoSuccessButKept) {
+  RunRecordMessage record = SampleRecord();
+  record.status = PlanStatus::kInvalidPath;
+  record.path_check.verdict->valid = false;
+  record.path_check.verdict->reason = "gripper hits can";
+  database_.Store(record);
+  EXPECT_EQ(Run("solved"), Int(0));
+  EXPECT_EQ(Run("referee_valid"), Int(0));
+  EXPECT_EQ(Run("referee_reason"), SqliteValue("gripper hits can"));
+  EXPECT_EQ(Run("clearance"), kNull);
+  EXPECT_EQ(Run("time"), SqliteValue(0.25));
+  EXPECT_EQ(Query("SELECT count(*) FROM paths WHERE kind = 'raw'"), Int(6));
+}
+
+TEST_F(ResultsDatabaseTest, WhatWasNotJudgedIsNull) {
+  RunRecordMessage record = SampleRecord();
+  record.path_check = {};
+  record.path_check.message = "no scene";
+  record.simplified_check.mesh_verdict.reset();
+  database_.Store(record);
+  EXPECT_EQ(Run("referee_valid"), kNull);
+  EXPECT_EQ(Run("referee_reason"), SqliteValue("no scene"));
+  EXPECT_EQ(Run("path_length"), kNull);
+  EXPECT_EQ(Run("mesh_valid_simplified"), kNull);
+}
+
+TEST_F(ResultsDatabaseTest, ClearanceIsNullIfInfiniteOrNotAskedFor) {
+  RunRecordMessage record = SampleRecord();
+  record.path_check.verdict->clearance_min_m = std::numeric_limits<double>::infinity();
+  record.simplified_check.verdict->clearance_min_m = 0;
+  record.simplified_check.verdict->clearance_mean_m = 0;
+  database_.Store(record);
+  EXPECT_EQ(Run("clearance"), kNull);
+  EXPECT_EQ(Run("clearance_simplified"), kNull);
+}
+
+TEST_F(ResultsDatabaseTest, ARepeatedRecordIsStoredOnce) {
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
+  const std::string before = DumpDatabase(file_);
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kAlreadyStored);
+  EXPECT_EQ(DumpDatabase(file_), before);
+  RunRecordMessage other_session = SampleRecord();
+  other_session.run_id = "session-2";
+  EXPECT_EQ(database_.Store(other_session), Outcome::kStored);
+}
+
+TEST_F(ResultsDatabaseTest, ARecordThatContradictsItselfLeavesNoTrace) {
+  const std::string before = DumpDatabase(file_);
+  RunRecordMessage record = SampleRecord();
+  record.result.result.path[1].push_back(0.5);
+  EXPECT_THROW(database_.Store(record), InputError);
+  record = SampleRecord();
+  record.result.joint_names = {"pan", "pan"};
+  EXPECT_THROW(database_.Store(record), SqliteError);
+  EXPECT_EQ(DumpDatabase(file_), before);
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
+}
+
+TEST_F(ResultsDatabaseTest, PlannersAreToldApartByNameAndSettings) {
+  RunRecordMessage record = SampleRecord("a");
+  database_.Store(record);
+  record = SampleRecord("b");
+  database_.Store(record);
+  EXPECT_EQ(Count("plannerConfigs"), Int(1));
+  EXPECT_EQ(Query("SELECT settings FROM plannerConfigs"),
+            SqliteValue("algorithm = ARA*\nplanner_class = search-and-sample\n"
+                        "epsilon = 5\nimprove = true\n"));
+  record = SampleRecord("c");
+  record.settings["improve"] = "false";
+  database_.Store(record);
+  record = SampleRecord("d");
+  record.planner = "ara2";
+  database_.Store(record);
+  record = SampleRecord("e");
+  record.request.parameters = {};
+  database_.Store(record);
+  EXPECT_EQ(Count("plannerConfigs"), Int(4));
+  EXPECT_EQ(Query("SELECT name FROM plannerConfigs p JOIN runs r ON r.plannerid = p.id "
+                  "WHERE request_id = 'd'"),
+            SqliteValue("ara2"));
+}
+
+TEST_F(ResultsDatabaseTest, OneExperimentForEachSessionAndSet) {
+  database_.Store(SampleSession());
+  database_.Store(SampleRecord("a"));
+  database_.Store(UnansweredRecord("b"));
+  RunRecordMessage other_set = SampleRecord("c");
+  other_set.problem_set = "table";
+  database_.Store(other_set);
+  RunRecordMessage other_session = SampleRecord("d");
+  other_session.run_id = "session-2";
+  database_.Store(other_session);
+  EXPECT_EQ(Count("experiments"), Int(3));
+  EXPECT_EQ(Query("SELECT count(DISTINCT experimentid) FROM runs WHERE request_id IN ('a','b')"),
+            Int(1));
+  EXPECT_EQ(Query("SELECT group_concat(name) FROM experiments"), SqliteValue("shelf,table,shelf"));
+}
+
+TEST_F(ResultsDatabaseTest, ExperimentsCarryTheFactsOfTheirSession) {
+  database_.Store(SampleSession());
+  database_.Store(SampleRecord("a"));
+  database_.Store(SampleRecord("b"));
+  database_.Store(UnansweredRecord("c"));
+  EXPECT_EQ(Query("SELECT totaltime FROM experiments"), kNull);
+  database_.Store(FinishedSession());
+  const std::vector<std::pair<std::string, SqliteValue>> expected = {
+      {"name", "shelf"},
+      {"totaltime", 321.5},
+      {"timelimit", 60.0},
+      {"memorylimit", 0.0},
+      {"runcount", Int(2)},  // of the planner with the most
+      {"version", "planbench 0.1.0+abc123"},
+      {"hostname", "bench-host"},
+      {"cpuinfo", "Fast CPU"},
+      {"date", "2024-05-06T07:08:09.123456Z"},
+      {"seed", "18446744073709551615"},
+      {"setup", "run_id = session-1\nrobot = fetch (f00d)\nplanners = ara,rrtc\nsets = shelf\n"},
+  };
+  for (const auto& [column, value] : expected) {
+    EXPECT_EQ(Query("SELECT " + column + " FROM experiments"), value) << column;
+  }
+}
+
+TEST_F(ResultsDatabaseTest, ASessionHeardAfterItsRunsStillDescribesThem) {
+  database_.Store(SampleRecord());
+  EXPECT_EQ(Query("SELECT timelimit FROM experiments"), SqliteValue(30.0));
+  EXPECT_EQ(Query("SELECT hostname FROM experiments"), kNull);
+  database_.Store(FinishedSession());
+  EXPECT_EQ(Query("SELECT timelimit FROM experiments"), SqliteValue(60.0));
+  EXPECT_EQ(Query("SELECT hostname FROM experiments"), SqliteValue("bench-host"));
+}
+
+TEST_F(ResultsDatabaseTest, ALateRepetitionOfASessionsBeginChangesNothing) {
+  database_.Store(FinishedSession());
+  const std::string before = DumpDatabase(file_);
+  database_.Store(SampleSession());
+  EXPECT_EQ(DumpDatabase(file_), before);
+}
+
+TEST_F(ResultsDatabaseTest, ListsSessionsOldestFirst) {
+  SessionMessage later = SampleSession();
+  later.run_id = "session-0";
+  later.start_utime += 1;
+  database_.Store(later);
+  database_.Store(SampleSession());
+  const std::vector<std::string> sessions = database_.Sessions();
+  ASSERT_EQ(sessions.size(), 2);
+  EXPECT_NE(sessions[0].find("\"session-1\""), std::string::npos);
+  EXPECT_NE(sessions[1].find("\"session-0\""), std::string::npos);
+}
+
+TEST_F(ResultsDatabaseTest, OpenedAgainItKeepsWhatItHas) {
+  const auto file = folder_ / "again.sqlite";
+  {
+    ResultsDatabase database(file);
+    database.Store(SampleSession());
+    database.Store(SampleRecord("a"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(file.string() + "-wal"));  // one plain file
+  ResultsDatabase database(file);
+  EXPECT_EQ(database.Store(SampleRecord("a")), Outcome::kAlreadyStored);
+  EXPECT_EQ(database.Store(SampleRecord("b")), Outcome::kStored);
+  SqliteConnection reader(file, SqliteConnection::Mode::kReadOnly);
+  EXPECT_EQ(reader.QueryValue("SELECT count(*) FROM runs"), Int(2));
+  EXPECT_EQ(reader.QueryValue("SELECT count(*) FROM experiments"), Int(1));
+}
+
+TEST_F(ResultsDatabaseTest, EqualMessagesGiveEqualDatabases) {
+  std::string dumps[2];
+  for (std::string& dump : dumps) {
+    const auto file = folder_ / ("equal" + std::to_string(&dump - dumps) + ".sqlite");
+    {
+      ResultsDatabase database(file);
+      database.Store(SampleSession());
+      database.Store(SampleRecord("a"));
+      database.Store(UnansweredRecord("b"));
+      database.Store(SampleRecord("a"));
+      database.Store(FinishedSession());
+    }
+    dump = DumpDatabase(file);
+  }
+  EXPECT_EQ(dumps[0], dumps[1]);
+  EXPECT_NE(dumps[0].find("request_id"), 0);
+  EXPECT_GT(dumps[0].size(), 1000);
+}
+
+}  // namespace
+}  // namespace planbench
