@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/expect_input_error.h"
+#include "support/expect_input_error.h"
 
 namespace planbench {
 namespace {

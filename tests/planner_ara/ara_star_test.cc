@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/planner_ara/random_graph.h"
+#include "planner_ara/random_graph.h"
 
 namespace planbench {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/support/expect_input_error.h"
+#include "support/expect_input_error.h"
 
 namespace planbench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/expect_input_error.h"
-#include "tests/support/shared_data.h"
+#include "support/expect_input_error.h"
+#include "support/shared_data.h"
 
 namespace planbench {
 namespace {

@@ -1,0 +1,204 @@
+#include "planner_ara/ara_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "contract/planner_contract.h"
+#include "scene/moveit_yaml.h"
+#include "support/expect_input_error.h"
+#include "support/shared_data.h"
+
+namespace planbench {
+namespace {
+
+const std::string kPlanarSettings = "primitives: " PLANBENCH_SOURCE_DIR
+                                    "/tests/planner_ara/data/planar3.mprim\n"
+                                    "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n"
+                                    "epsilon_initial: 10\n";
+
+std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
+  if (robot.name == "fetch") {
+    return MakeAraPlanner(robot, YamlNode::LoadFile(robot.planner_settings.at("ara").string()));
+  }
+  return MakeAraPlanner(robot, YamlNode::Parse(kPlanarSettings, "ara.yaml"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ara, PlannerContract,
+                         testing::Values(PlannerFactory{"ara", MakeForContract}));
+
+class AraPlannerTest : public testing::Test {
+ protected:
+  std::unique_ptr<Planner> Make(const std::string& settings) const {
+    return MakeAraPlanner(robot_, YamlNode::Parse(settings, "ara.yaml"));
+  }
+  PlanRequest PastThePost() const { return MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0}); }
+  PlanRequest ThroughTheWalls() const { return MakeRequest(robot_, {1.57, 0, 0}, {-1.57, 0, 0}); }
+
+  const Robot robot_ = LoadPlanarRobot();
+};
+
+TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
+  ExpectInputError([&] { Make(kPlanarSettings + "speed: 3"); }, {"ara.yaml:4", "speed"});
+  ExpectInputError([&] { Make("discretization: {shoulder: 0.2}"); }, {"ara.yaml", "primitives"});
+  ExpectInputError([&] { Make(kPlanarSettings + "joint_weights: {knee: 2}"); },
+                   {"ara.yaml:4", "knee", "no joint"});
+  ExpectInputError(
+      [&] {
+        Make("primitives: " PLANBENCH_SOURCE_DIR
+             "/tests/planner_ara/data/planar3.mprim\n"
+             "discretization: {shoulder: 0.2, elbow: 0.2}\n");
+      },
+      {"ara.yaml", "wrist"});
+  ExpectInputError(
+      [&] {
+        Make(
+            "primitives: nowhere.mprim\n"
+            "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n");
+      },
+      {robot_.folder.string(), "nowhere.mprim", "cannot be opened"});
+  ExpectInputError(
+      [&] {
+        Make("primitives: " PLANBENCH_SOURCE_DIR
+             "/robots/fetch/fetch.mprim\n"
+             "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n");
+      },
+      {"fetch.mprim:1", "8 columns", "3 joints"});
+}
+
+TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
+  const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
+  struct Case {
+    std::string key;
+    std::string text;
+    std::string message;
+  };
+  for (const Case& test :
+       {Case{"epsilon_initial", "0.5", "at least 1"},
+        Case{"epsilon_final", "11", "epsilon_final 11"}, Case{"cost", "cheap", "cheap"},
+        Case{"discretization", "{elbow: -1}", "discretization.elbow"},
+        Case{"discretization", "{elbow: 1e-9}", "cells"},
+        Case{"memory_limit_mb", "[1]", "memory_limit_mb"}}) {
+    PlanRequest request = PastThePost();
+    request.parameters[test.key] = test.text;
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kInvalidRequest) << test.key;
+    EXPECT_NE(result.message.find(test.message), std::string::npos) << result.message;
+  }
+}
+
+TEST_F(AraPlannerTest, ParametersServeTheirRequestOnly) {
+  const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
+  PlanRequest request = PastThePost();
+  const PlanResult before = planner->Plan(request, PostsScene(), nullptr);
+  request.parameters = {{"discretization", "{shoulder: 0.05}"}, {"epsilon_initial", "1"}};
+  const PlanResult finer = planner->Plan(request, PostsScene(), nullptr);
+  request.parameters.clear();
+  const PlanResult after = planner->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(finer.status, PlanStatus::kSolved) << finer.message;
+  EXPECT_NEAR(finer.epsilon, 1, 1e-12);
+  EXPECT_NE(finer.path, before.path);
+  EXPECT_EQ(after.path, before.path);
+  EXPECT_EQ(after.counters, before.counters);
+}
+
+TEST_F(AraPlannerTest, ProvesThatTheLatticeHoldsNoPath) {
+  PlanRequest request = ThroughTheWalls();
+  request.parameters["discretization"] = "{shoulder: 0.4, elbow: 0.4, wrist: 0.4}";
+  const PlanResult result = Make(kPlanarSettings)->Plan(request, WallsScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.message;
+  EXPECT_FALSE(result.message.empty());
+  EXPECT_GT(result.counters.at("expansions"), 100);
+  EXPECT_GE(result.counters.at("states"), result.counters.at("expansions"));
+  EXPECT_EQ(result.counters.at("goal_connections_tried"), result.counters.at("expansions"));
+}
+
+TEST_F(AraPlannerTest, StopsAtItsMemoryLimit) {
+  PlanRequest request = ThroughTheWalls();
+  request.parameters = {{"discretization", "{shoulder: 0.01, elbow: 0.01, wrist: 0.01}"},
+                        {"memory_limit_mb", "2"}};
+  const PlanResult result = Make(kPlanarSettings)->Plan(request, WallsScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kMemoryLimit);
+  EXPECT_NE(result.message.find("memory_limit_mb"), std::string::npos) << result.message;
+}
+
+TEST_F(AraPlannerTest, AnytimeSearchEndsAtItsFinalEpsilonWithAProof) {
+  PlanRequest request = PastThePost();
+  request.anytime = true;
+  request.time_limit_s = 600;
+  request.parameters["discretization"] = "{shoulder: 0.3, elbow: 0.3, wrist: 0.3}";
+  const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
+  const PlanResult best = planner->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(best.status, PlanStatus::kSolved) << best.message;
+  EXPECT_EQ(best.epsilon, 1);
+  EXPECT_GT(best.progress.size(), 1U);
+  EXPECT_EQ(best.progress.back().epsilon, 1);
+  EXPECT_EQ(best.progress.back().cost, best.cost);
+  EXPECT_NEAR(PathLength(robot_.groups.front().space, best.path), best.cost, 1e-9);
+  for (const PlanProgress& progress : best.progress) {
+    EXPECT_LE(progress.cost, progress.epsilon * best.cost + 1e-9);
+  }
+
+  // The first solution of the same search, when no better one is asked for.
+  request.anytime = false;
+  const PlanResult first = planner->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(first.status, PlanStatus::kSolved);
+  EXPECT_EQ(first.cost, best.progress.front().cost);
+  EXPECT_EQ(first.epsilon, best.progress.front().epsilon);
+  EXPECT_EQ(first.progress.size(), 1U);
+  EXPECT_GT(first.cost, best.cost);
+
+  request.anytime = true;
+  request.parameters["epsilon_final"] = "1.5";
+  const PlanResult good_enough = planner->Plan(request, PostsScene(), nullptr);
+  EXPECT_LE(good_enough.epsilon, 1.5);
+  EXPECT_LT(good_enough.counters.at("expansions"), best.counters.at("expansions"));
+}
+
+TEST_F(AraPlannerTest, UniformCostsCountMoves) {
+  PlanRequest request = PastThePost();
+  request.parameters = {{"cost", "uniform"}, {"use_long_primitives", "false"}};
+  const PlanResult result = Make(kPlanarSettings)->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  // All moves cost 1 but the last, the motion to the goal, which costs its length in moves.
+  const double last =
+      robot_.groups.front().space.Distance(result.path[result.path.size() - 2], result.path.back());
+  const double cell = 2 * 3.14159265358979 / 31;  // the shoulder's, the longest
+  EXPECT_NEAR(result.cost, static_cast<double>(result.path.size() - 2) + last / cell, 1e-6);
+}
+
+TEST_F(AraPlannerTest, DescribesItself) {
+  const PlannerDescription description = Make(kPlanarSettings)->Describe();
+  EXPECT_EQ(description.algorithm, "ARA*");
+  EXPECT_EQ(description.planner_class, PlannerClass::kSampleThenSearch);
+  EXPECT_TRUE(description.backward);
+  EXPECT_TRUE(description.anytime);
+  EXPECT_EQ(description.collision_models, AvailableCollisionModels());
+  EXPECT_EQ(description.settings.at("epsilon_initial"), "10");
+  EXPECT_EQ(description.settings.at("discretization"), "{elbow: 0.2, shoulder: 0.2, wrist: 0.2}");
+}
+
+TEST_F(AraPlannerTest, SolvesPublishedProblems) {
+  PLANBENCH_NEED_SHARED_DATA("problems/table_pick_fetch");
+  const Robot fetch = LoadFetch();
+  const std::unique_ptr<Planner> planner = MakeForContract(fetch);
+  const ProblemSet set = ListProblemSet(SharedData("problems/table_pick_fetch"));
+  for (const int index : {11, 41, 71}) {
+    const ProblemFiles* files = set.Find(index);
+    ASSERT_NE(files, nullptr);
+    const Problem problem = ReadProblem(files->scene, files->request, fetch.resources);
+    PlanRequest request;
+    request.group = problem.group;
+    request.start = problem.start;
+    request.goal = problem.goal;
+    request.direction = Direction::kBackward;
+    request.time_limit_s = 120;
+    const PlanResult result = planner->Plan(request, problem.scene, nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << index << ": " << result.message;
+    EXPECT_GE(result.epsilon, 1);
+    EXPECT_LE(result.epsilon, 20);
+  }
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,249 @@
+#include "planner_ara/manipulation_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <queue>
+#include <utility>
+
+#include "collision/collision_checker.h"
+#include "support/expect_input_error.h"
+#include "support/planning_problems.h"
+
+namespace planbench {
+namespace {
+
+const Configuration kLeft = {0.6, 0, 0};
+const Configuration kRight = {-0.6, 0, 0};
+const MotionPrimitives kSingleCells{{}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+GoalBox Point(const Configuration& q) { return {q, q, q}; }
+GoalBox BoxAround(const Configuration& q, double tolerance) {
+  GoalBox box = Point(q);
+  for (double& value : box.lower) value -= tolerance;
+  for (double& value : box.upper) value += tolerance;
+  return box;
+}
+
+// The planar arm between its two posts.
+class ManipulationGraphTest : public testing::Test {
+ protected:
+  ManipulationGraphTest() {
+    checker_->SetScene(PostsScene(), std::vector<double>(4, 0.0));
+    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m);
+  }
+
+  static ManipulationGraphOptions Options(double cell = 0.3) {
+    ManipulationGraphOptions options;
+    options.discretization.assign(3, cell);
+    options.weights.assign(3, 1.0);
+    options.primitives = kSingleCells;
+    return options;
+  }
+  ManipulationGraph Graph(const GoalBox& goal, ManipulationGraphOptions options) {
+    return ManipulationGraph(edges_.get(), kLeft, goal, std::move(options));
+  }
+  static std::vector<CandidateEdge> EdgesOf(ManipulationGraph* graph, StateId state) {
+    std::vector<CandidateEdge> edges;
+    graph->CandidateEdges(state, &edges);
+    return edges;
+  }
+  // Follows edges breadth first, valid or not, until `num` states are known.
+  static void Spread(ManipulationGraph* graph, StateId num) {
+    for (StateId s = ManipulationGraph::kStart; s <= num && s <= graph->num_states(); ++s) {
+      for (const CandidateEdge& edge : EdgesOf(graph, s)) graph->Target(s, edge.action);
+    }
+  }
+
+  const Robot robot_ = LoadPlanarRobot();
+  const JointSpace& space_ = robot_.groups.front().space;
+  std::unique_ptr<CollisionChecker> checker_ =
+      MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
+  std::unique_ptr<EdgeChecker> edges_;
+};
+
+TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
+  ManipulationGraph graph = Graph(Point(kRight), Options());
+  Spread(&graph, 300);
+  ASSERT_GT(graph.num_states(), 300);
+  int num_valid = 0;
+  for (StateId s = 1; s < 300; ++s) {
+    Configuration from(3);
+    graph.ConfigurationOf(s, from);
+    for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+      const StateId t = graph.Target(s, edge.action);
+      Configuration to = kRight;
+      if (t != ManipulationGraph::kGoal) {
+        graph.ConfigurationOf(t, to);
+        int num_moved = 0;
+        for (int j = 0; j < 3; ++j) {
+          const auto i = static_cast<std::size_t>(j);
+          const double motion = std::abs(space_.Difference(j, from[i], to[i]));
+          if (motion > 1e-9) {
+            ++num_moved;
+            EXPECT_NEAR(motion, graph.lattice().step(j), 1e-9);
+          }
+        }
+        EXPECT_EQ(num_moved, 1);
+        EXPECT_EQ(graph.Target(s, edge.action), t);
+      }
+      EXPECT_NEAR(edge.cost, space_.Distance(from, to), 1e-9);
+      EXPECT_EQ(edge.target_heuristic, graph.Heuristic(t));
+      const bool valid = graph.IsValidEdge(s, edge.action);
+      num_valid += valid ? 1 : 0;
+      if (space_.WithinLimits(from) && edges_->IsValidState(from)) {
+        EXPECT_EQ(valid, edges_->IsValidEdge(from, to));
+      }
+    }
+  }
+  EXPECT_GT(num_valid, 100);
+  EXPECT_GT(graph.num_goal_connections_tried(), 0);
+}
+
+TEST_F(ManipulationGraphTest, HeuristicIsConsistent) {
+  for (const MoveCost cost : {MoveCost::kDistance, MoveCost::kUniform}) {
+    for (const double tolerance : {0.0, 0.25}) {
+      ManipulationGraphOptions options = Options();
+      options.cost = cost;
+      options.weights = {2, 0.5, 1};
+      options.primitives.long_moves = {{2, 0, 0}, {3, -1, 2}};
+      ManipulationGraph graph = Graph(BoxAround(kRight, tolerance), options);
+      Spread(&graph, 2000);
+      EXPECT_EQ(graph.Heuristic(ManipulationGraph::kGoal), 0);
+      for (StateId s = 1; s < 2000; ++s) {
+        for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+          EXPECT_LE(graph.Heuristic(s), edge.cost + edge.target_heuristic + 1e-12);
+          if (cost == MoveCost::kUniform && graph.Target(s, edge.action) != 0) {
+            EXPECT_EQ(edge.cost, 1);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
+  for (const MoveCost cost : {MoveCost::kDistance, MoveCost::kUniform}) {
+    ManipulationGraphOptions options = Options();
+    options.cost = cost;
+
+    // Dijkstra over every lattice point that can be reached.
+    ManipulationGraph all = Graph(Point(kRight), options);
+    std::vector<double> costs(2, std::numeric_limits<double>::infinity());
+    costs[ManipulationGraph::kStart] = 0;
+    std::priority_queue<std::pair<double, StateId>> queue;
+    queue.push({0, ManipulationGraph::kStart});
+    while (!queue.empty()) {
+      const auto [negative, s] = queue.top();
+      queue.pop();
+      if (-negative > costs[s] || s == ManipulationGraph::kGoal) continue;
+      for (const CandidateEdge& edge : EdgesOf(&all, s)) {
+        const StateId t = all.Target(s, edge.action);
+        if (t >= costs.size()) costs.resize(t + 1, std::numeric_limits<double>::infinity());
+        if (costs[s] + edge.cost >= costs[t] || !all.IsValidEdge(s, edge.action)) continue;
+        costs[t] = costs[s] + edge.cost;
+        queue.push({-costs[t], t});
+      }
+    }
+    const double optimum = costs[ManipulationGraph::kGoal];
+    ASSERT_TRUE(std::isfinite(optimum));
+    EXPECT_GT(optimum, all.Heuristic(ManipulationGraph::kStart) * 1.01);  // there is a way round
+
+    ManipulationGraph graph = Graph(Point(kRight), options);
+    AraStar<ManipulationGraph> search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal);
+    for (const double epsilon : {10.0, 2.0, 1.0}) {
+      ASSERT_EQ(search.ImprovePath(epsilon, [] { return false; }), ImproveOutcome::kConverged);
+      EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
+      EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
+      const Path path = graph.Configurations(search.Path());
+      EXPECT_EQ(path.front(), kLeft);
+      EXPECT_EQ(path.back(), kRight);
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        EXPECT_TRUE(edges_->IsValidEdge(path[i - 1], path[i]));
+      }
+    }
+    EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
+    EXPECT_LT(graph.num_states(), all.num_states());
+  }
+}
+
+TEST_F(ManipulationGraphTest, GoalBoxIsReachedAtItsNearestOrNominalPoint) {
+  const GoalBox box = BoxAround(kRight, 0.2);
+  ManipulationGraph graph = Graph(box, Options());
+  const std::vector<CandidateEdge> edges = EdgesOf(&graph, ManipulationGraph::kStart);
+  ASSERT_GE(edges.size(), 2U);
+  const Path nearest = graph.Configurations(
+      {{ManipulationGraph::kStart, 0}, {ManipulationGraph::kGoal, edges[0].action}});
+  const Path nominal = graph.Configurations(
+      {{ManipulationGraph::kStart, 0}, {ManipulationGraph::kGoal, edges[1].action}});
+  EXPECT_NEAR(nearest.back()[0], -0.4, 1e-12);
+  EXPECT_EQ(nominal.back(), kRight);
+  EXPECT_NEAR(edges[0].cost, 1.0, 1e-12);
+  EXPECT_NEAR(edges[1].cost, 1.2, 1e-12);
+  EXPECT_EQ(graph.Target(ManipulationGraph::kStart, edges[0].action), ManipulationGraph::kGoal);
+  EXPECT_EQ(graph.Target(ManipulationGraph::kStart, edges[1].action), ManipulationGraph::kGoal);
+}
+
+TEST_F(ManipulationGraphTest, RemembersWhatItHasChecked) {
+  ManipulationGraphOptions options = Options();
+  options.remember_edges = true;
+  for (int k = 0; k < 20; ++k) options.primitives.long_moves.push_back({2, k % 3, -1});
+  ManipulationGraph graph = Graph(Point(kRight), options);
+  Spread(&graph, 100);
+  std::vector<bool> first;
+  for (StateId s = 1; s < 100; ++s) {
+    for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+      first.push_back(graph.IsValidEdge(s, edge.action));
+    }
+  }
+  EXPECT_EQ(edges_->counters().edges, static_cast<std::int64_t>(first.size()));
+  std::vector<bool> second;
+  for (StateId s = 1; s < 100; ++s) {
+    for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+      second.push_back(graph.IsValidEdge(s, edge.action));
+    }
+  }
+  EXPECT_EQ(second, first);
+  EXPECT_EQ(edges_->counters().edges, static_cast<std::int64_t>(first.size()));
+}
+
+TEST_F(ManipulationGraphTest, PrimitivesCanBeKeptToTheirPlaces) {
+  ManipulationGraphOptions options = Options();
+  options.primitives.long_moves = {{4, 0, 0}};
+  options.long_moves_beyond = 0.5;
+  options.short_moves_within = 0.5;
+  ManipulationGraph graph = Graph(Point({-2.0, 0, 0}), options);
+  Spread(&graph, 500);
+  const double long_step = 4 * graph.lattice().step(0);
+  int num_near = 0;
+  int num_far = 0;
+  for (StateId s = 1; s < 500; ++s) {
+    Configuration q(3);
+    graph.ConfigurationOf(s, q);
+    const double distance =
+        std::min(space_.Distance(q, kLeft), space_.Distance(q, Configuration{-2.0, 0, 0}));
+    for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+      if (graph.Target(s, edge.action) == ManipulationGraph::kGoal) continue;
+      if (edge.cost > long_step - 1e-9) {
+        EXPECT_GE(distance, 0.5);
+        ++num_far;
+      } else {
+        EXPECT_LE(distance, 0.5);
+        ++num_near;
+      }
+    }
+  }
+  EXPECT_GT(num_near, 0);
+  EXPECT_GT(num_far, 0);
+}
+
+TEST_F(ManipulationGraphTest, RefusesMovesOfHalfATurn) {
+  ManipulationGraphOptions options = Options();
+  options.primitives.long_moves = {{11, 0, 0}};
+  ExpectInputError([&] { Graph(Point(kRight), options); }, {"shoulder", "11", "half a turn"});
+}
+
+}  // namespace
+}  // namespace planbench
