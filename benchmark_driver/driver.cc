@@ -88,15 +88,18 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   num_scheduled_ = static_cast<int>(schedule_.size());
   std::set<std::string> done;
   for (const RunRecordMessage& record : records_) done.insert(record.request_id);
-  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.count(run.request_id) != 0; });
+  std::erase_if(schedule_,
+                [&](const ScheduledRun& run) { return done.count(run.request_id) != 0; });
 
   RunConditions conditions;
   conditions.run_id = run_id_;
   conditions.robot_id = served_.robot_id;
   conditions.time_limit_s = options_.time_limit_s;
   conditions.collision_model = options_.collision_model;
-  conditions.edge_resolution_m = options_.edge_resolution_m;
-  conditions.referee_step_m = options_.referee_step_m;
+  conditions.edge_resolution_m =
+      options_.edge_resolution_m > 0 ? options_.edge_resolution_m : served_.edge_resolution_m;
+  conditions.referee_step_m =
+      options_.referee_step_m > 0 ? options_.referee_step_m : conditions.edge_resolution_m / 2;
   conditions.anytime = options_.anytime;
   conditions.simplify = options_.simplify;
   conditions.clearance = options_.clearance;
@@ -115,8 +118,8 @@ void Driver::CheckPlanners(const ProblemSetsMessage& served) const {
     const std::string model(CollisionModelName(options_.collision_model));
     const auto& models = planner->collision_models;
     if (std::find(models.begin(), models.end(), model) == models.end()) {
-      throw InputError(fmt::format("--collision-model: the planner '{}' does not offer '{}'", name,
-                                   model));
+      throw InputError(
+          fmt::format("--collision-model: the planner '{}' does not offer '{}'", name, model));
     }
     if (!planner->can_backward && options_.directions.back() == Direction::kBackward) {
       throw InputError("--directions: the planner '" + name + "' cannot search backward");

@@ -20,15 +20,17 @@ namespace planbench {
 /// A benchmark session against live processes: finds them, makes the runs, has them recorded.
 class Driver {
  public:
-  /// `settings`: flags, for the record. `earlier`: records of the session that is resumed; empty for a new one.
+  /// `settings`: flags, for the record. `earlier`: records of the session that is resumed; empty
+  /// for a new one.
   Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> settings,
          std::string run_id, std::vector<RunRecordMessage> earlier);
 
-  /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit together, makes the
-  /// schedule. `watch` is called while waiting and may throw. Throws InputError naming what is missing or does not
-  /// fit.
+  /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
+  /// together, makes the schedule. `watch` is called while waiting and may throw. Throws InputError
+  /// naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
-  /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and recorded.
+  /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
+  /// recorded.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// All records so far, those of the resumed session included.
@@ -56,7 +58,7 @@ class Driver {
   std::unique_ptr<ProgressBar> progress_;
 };
 
-/// A new run id: UTC date and time and a random suffix, "20261122T153000Z-4f2a".
+/// A new run id: UTC date and time and a random suffix, e.g. "20261122T153000Z-4f2a".
 std::string NewRunId();
 
 }  // namespace planbench

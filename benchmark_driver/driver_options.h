@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision/collision_model.h"
@@ -14,8 +14,8 @@ namespace planbench {
 
 /// What the driver was asked to do.
 struct DriverOptions {
-  std::vector<std::string> sets;      ///< Empty: every set the scene server announces.
-  std::vector<int> problem_indices;   ///< Empty: every problem of a set.
+  std::vector<std::string> sets;     ///< Empty: every set the scene server announces.
+  std::vector<int> problem_indices;  ///< Empty: every problem of a set.
   std::vector<std::string> planners = {"ara", "rrtc"};
   std::vector<Direction> directions = {Direction::kForward, Direction::kBackward};
   double time_limit_s = 60;
@@ -37,33 +37,10 @@ struct DriverOptions {
   std::vector<std::filesystem::path> problems;
   std::filesystem::path referee_robot;
   std::vector<std::string> package_paths;
-  std::filesystem::path out;  ///< Empty: sessions/<run id>.
-  std::map<std::string, std::string> planner_commands;      ///< By planner name.
-  std::vector<std::pair<std::string, std::string>> planner_settings;  ///< Planner name, "key=value".
+  std::filesystem::path out;                            ///< Empty: sessions/<run id>.
+  std::map<std::string, std::string> planner_commands;  ///< By planner name.
+  std::vector<std::pair<std::string, std::string>>
+      planner_settings;  ///< Planner name, "key=value".
 };
-
-/// The flags as text, and what becomes of them.
-class DriverFlags {
- public:
-  void AddTo(CLI::App* app);
-  /// Throws InputError naming the flag.
-  DriverOptions Parse() const;
-  /// Flags and values, for the record.
-  std::map<std::string, std::string> AsSettings(const DriverOptions& options) const;
-
- private:
-  std::string sets_;
-  std::string range_;
-  std::string planners_ = "ara,rrtc";
-  std::string directions_ = "both";
-  std::string collision_model_ = "spheres";
-  std::vector<std::string> problems_;
-  std::vector<std::string> planner_commands_;
-  std::vector<std::string> planner_settings_;
-  DriverOptions options_;
-};
-
-/// "1-20", "3", "1-5,8,10-12" -> indices, ascending, without repetitions; throws InputError.
-std::vector<int> ParseRange(const std::string& text);
 
 }  // namespace planbench

@@ -91,9 +91,8 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
       start(planner, {"/bin/sh", "-c", "exec " + command->second});
       continue;
     }
-    std::vector<std::string> arguments =
-        with_packages({Program(OwnPlanners().at(planner)), "--robot", options.robot.string(),
-                       "--name", planner});
+    std::vector<std::string> arguments = with_packages(
+        {Program(OwnPlanners().at(planner)), "--robot", options.robot.string(), "--name", planner});
     for (const auto& [name, setting] : options.planner_settings) {
       if (name == planner) arguments.insert(arguments.end(), {"--set", setting});
     }

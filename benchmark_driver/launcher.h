@@ -8,7 +8,8 @@
 
 namespace planbench {
 
-/// Checks that every planner has a program: one of planbench's own or a --planner-command. Throws InputError.
+/// Checks that every planner has a program: one of planbench's own or a --planner-command. Throws
+/// InputError.
 void RequireKnownPlanners(const DriverOptions& options);
 
 /// Starts scene server, planners and logger as children on the bus `lcm_url`, with their output in
@@ -16,7 +17,8 @@ void RequireKnownPlanners(const DriverOptions& options);
 void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& session_folder,
                      const std::string& lcm_url, Supervisor* supervisor);
 
-/// Stops them: planners and scene server first, the logger last, so that it stores what was still under way.
+/// Stops them: planners and scene server first, the logger last, so that it stores what was still
+/// under way.
 void StopProcesses(const DriverOptions& options, Supervisor* supervisor);
 
 }  // namespace planbench

@@ -1,4 +1,4 @@
-#include "benchmark_driver/driver_options.h"
+#include "benchmark_driver/driver_flags.h"
 #include "benchmark_driver/run_session.h"
 #include "messaging/program.h"
 

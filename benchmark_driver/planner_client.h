@@ -14,12 +14,12 @@
 
 namespace planbench {
 
-/// Sends requests to one planner and waits for their results, whatever happens to it meanwhile. One request at a
-/// time.
+/// Sends requests to one planner and waits for their results, whatever happens to it meanwhile. One
+/// request at a time.
 class PlannerClient {
  public:
-  /// Silence after which a live planner counts as not answering: no acknowledgement at all, or no result that long
-  /// after the time limit.
+  /// Silence after which a live planner counts as not answering: no acknowledgement at all, or no
+  /// result that long after the time limit.
   static constexpr std::chrono::seconds kAckTimeout{10};
   static constexpr std::chrono::seconds kResultGrace{15};
 
@@ -35,9 +35,9 @@ class PlannerClient {
 
   const std::string& planner() const { return planner_; }
 
-  /// Waits until the planner is live, sends the request until it is acknowledged (or while it is busy), and waits for
-  /// the result, which it acknowledges. A planner that dies, restarts or falls silent meanwhile is a kNoAnswer;
-  /// `interrupted` (asked every 50 ms) cancels the request.
+  /// Waits until the planner is live, sends the request until it is acknowledged (or while it is
+  /// busy), and waits for the result, which it acknowledges. A planner that dies, restarts or falls
+  /// silent meanwhile is a kNoAnswer; `interrupted` (asked every 50 ms) cancels the request.
   Answer Solve(const PlanRequest& request, const std::function<bool()>& interrupted);
 
  private:

@@ -8,8 +8,8 @@
 
 namespace planbench {
 
-/// Progress of a session on stderr, with running success counts: one line that is rewritten on a terminal, else a
-/// line now and then. Not thread-safe.
+/// Progress of a session on stderr, with running success counts: one line that is rewritten on a
+/// terminal, else a line now and then. Not thread-safe.
 class ProgressBar {
  public:
   explicit ProgressBar(int num_runs);
@@ -18,7 +18,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Counts a run of an earlier part of the session: it does not bear on the estimate of the remaining time.
+  /// Counts a run of an earlier part of the session: it does not bear on the estimate of the
+  /// remaining time.
   void AddEarlier(const RunRecordMessage& record);
   void Add(const RunRecordMessage& record);
 

@@ -12,14 +12,14 @@
 
 namespace planbench {
 
-/// Hands sessions and run records to the logger: repeats each until it is acknowledged, and says loudly when nobody
-/// records. Thread-safe.
+/// Hands sessions and run records to the logger: repeats each until it is acknowledged, and says
+/// loudly when nobody records. Thread-safe.
 class Recorder {
  public:
   Recorder(Bus* bus, NodeRegistry* registry);
 
-  /// Returns once the logger has stored it, or refused it, or while no logger is live, or after kPatience of silence.
-  /// The last three count as not recorded.
+  /// Returns once the logger has stored it, or refused it, or while no logger is live, or after
+  /// kPatience of silence. The last three count as not recorded.
   static constexpr std::chrono::seconds kPatience{30};
   void Record(const RunRecordMessage& record);
   void Record(const SessionMessage& session);

@@ -37,8 +37,8 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
   return std::nullopt;
 }
 
-std::optional<ProblemMessage> RunExecutor::FetchProblem(
-    const ScheduledRun& run, const std::function<bool()>& interrupted) {
+std::optional<ProblemMessage> RunExecutor::FetchProblem(const ScheduledRun& run,
+                                                        const std::function<bool()>& interrupted) {
   ProblemRequestMessage request;
   request.request_id = run.request_id;
   request.problem_set = run.problem_set;
@@ -49,9 +49,11 @@ std::optional<ProblemMessage> RunExecutor::FetchProblem(
   return problem;
 }
 
-std::optional<PathCheckReplyMessage> RunExecutor::Judge(
-    const std::string& check_id, const Path& path, const RunRecordMessage& record,
-    const ScheduledRun& run, const std::function<bool()>& interrupted) {
+std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check_id,
+                                                        const Path& path,
+                                                        const RunRecordMessage& record,
+                                                        const ScheduledRun& run,
+                                                        const std::function<bool()>& interrupted) {
   PathCheckRequestMessage request;
   request.request_id = check_id;
   request.scene_id = record.request.scene_id;
@@ -66,7 +68,8 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(
   std::optional<PathCheckReplyMessage> reply =
       AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
   if (!reply || reply->ok) return reply;
-  // A scene server that was restarted meanwhile does not know the scene: asking for the problem loads it again.
+  // A scene server that was restarted meanwhile does not know the scene: asking for the problem
+  // loads it again.
   if (!FetchProblem(run, interrupted)) return std::nullopt;
   request.request_id += "/again";
   return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
@@ -130,7 +133,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.path_check = *check;
   if (!check->ok || !check->verdict || !check->verdict->valid) {
     record.status = PlanStatus::kInvalidPath;
-    record.message = !check->ok         ? "the referee could not judge: " + check->message
+    record.message = !check->ok        ? "the referee could not judge: " + check->message
                      : !check->verdict ? "the referee gave no verdict"
                                        : check->verdict->reason;
     spdlog::warn("{}: invalid path: {}", run.request_id, record.message);

@@ -25,13 +25,14 @@ struct RunConditions {
   bool clearance = true;
 };
 
-/// Makes one run: fetches the problem, has the planner solve it, has the scene server judge the paths. Thread-safe
-/// for different planners.
+/// Makes one run: fetches the problem, has the planner solve it, has the scene server judge the
+/// paths. Thread-safe for different planners.
 class RunExecutor {
  public:
   RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions);
 
-  /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no such problem.
+  /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no
+  /// such problem.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
                                           const std::function<bool()>& interrupted);
 

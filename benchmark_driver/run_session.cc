@@ -13,13 +13,14 @@
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "messaging/node_announcer.h"
-#include "messaging/program.h"
 
 namespace planbench {
 namespace {
 
-/// Throws InputError if a planbench process is live on the bus: a launched session wants it for itself.
+/// Throws InputError if a planbench process is live on the bus: a launched session wants it for
+/// itself.
 void RequireEmptyBus(Bus* bus) {
   NodeRegistry registry(bus);
   registry.Discover("driver");
@@ -65,9 +66,8 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
       url = fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort());
     }
     session_folder = !options.resume.empty() ? options.resume
-                     : !options.out.empty()
-                         ? options.out
-                         : std::filesystem::path("sessions") / run_id;
+                     : !options.out.empty()  ? options.out
+                                             : std::filesystem::path("sessions") / run_id;
     session_folder = std::filesystem::absolute(session_folder).lexically_normal();
   }
 

@@ -8,8 +8,8 @@
 
 namespace planbench {
 
-/// Runs a whole session as the flags ask: launches the processes if asked, drives, prints the tables, stops everything.
-/// Returns the exit code; throws InputError.
+/// Runs a whole session as the flags ask: launches the processes if asked, drives, prints the
+/// tables, stops everything. Returns the exit code; throws InputError.
 int RunSession(const DriverOptions& options, std::map<std::string, std::string> settings,
                const std::string& lcm_url, bool lcm_url_given,
                const std::function<bool()>& interrupted);

@@ -46,12 +46,13 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
                             std::back_inserter(indices));
     }
     if (indices.empty()) {
-      throw InputError(set->indices.empty()
-                           ? fmt::format("the problem set '{}' is empty", set->name)
-                           : fmt::format("--problems-range selects no problem of '{}', which has {} "
-                                         "from {} to {}",
-                                         set->name, set->indices.size(), set->indices.front(),
-                                         set->indices.back()));
+      throw InputError(
+          set->indices.empty()
+              ? fmt::format("the problem set '{}' is empty", set->name)
+              : fmt::format("--problems-range selects no problem of '{}', which has {} "
+                            "from {} to {}",
+                            set->name, set->indices.size(), set->indices.front(),
+                            set->indices.back()));
     }
     for (const int index : indices) {
       for (const std::string& planner : options.planners) {

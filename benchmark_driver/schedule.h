@@ -19,11 +19,11 @@ struct ScheduledRun {
   std::string request_id;  ///< <run_id>/<set>/<index>/<planner>/<direction>/<trial>
 };
 
-/// Every run of a session, in order: problem by problem, so that all planners meet a problem under like conditions
-/// of the machine; on each, planner by planner, trial by trial, direction by direction. Throws InputError for a set
-/// that is not served (naming those that are) or a range that selects no problem of a set.
+/// Every run of a session, in order: problem by problem, so that all planners meet a problem under
+/// like conditions of the machine; on each, planner by planner, trial by trial, direction by
+/// direction. Throws InputError for a set that is not served (naming those that are) or a range
+/// that selects no problem of a set.
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
-                                       const ProblemSetsMessage& served,
-                                       const std::string& run_id);
+                                       const ProblemSetsMessage& served, const std::string& run_id);
 
 }  // namespace planbench

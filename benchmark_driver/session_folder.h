@@ -8,7 +8,8 @@
 
 namespace planbench {
 
-/// The event log of a session folder: its only .lcmlog. Throws InputError if there is none, or several.
+/// The event log of a session folder: its only .lcmlog. Throws InputError if there is none, or
+/// several.
 std::filesystem::path EventLogOf(const std::filesystem::path& session_folder);
 
 }  // namespace planbench

@@ -19,8 +19,8 @@ Summary Summarize(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   Summary summary;
   summary.count = static_cast<int>(values.size());
-  summary.mean = std::accumulate(values.begin(), values.end(), 0.0) /
-                 static_cast<double>(values.size());
+  summary.mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   summary.median = Quantile(values, 0.5);
   summary.lower_quartile = Quantile(values, 0.25);
   summary.upper_quartile = Quantile(values, 0.75);

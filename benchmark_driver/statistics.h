@@ -14,8 +14,8 @@ struct Summary {
   double percentile_95 = 0;
 };
 
-/// Quantile q in [0, 1] of ascending values, by linear interpolation between order statistics (Hyndman and Fan's type
-/// 7, the default of NumPy and R); NaN if there are none.
+/// Quantile q in [0, 1] of ascending values, by linear interpolation between order statistics
+/// (Hyndman and Fan's type 7, the default of NumPy and R); NaN if there are none.
 double Quantile(const std::vector<double>& ascending, double q);
 
 /// NaN in every field but count if the sample is empty.

@@ -176,9 +176,8 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
     while (true) {
       {
         const std::scoped_lock lock(mutex_);
-        const auto child = std::find_if(children_.begin(), children_.end(), [&](const Child& c) {
-          return c.spec.name == name;
-        });
+        const auto child = std::find_if(children_.begin(), children_.end(),
+                                        [&](const Child& c) { return c.spec.name == name; });
         if (child == children_.end() || child->pid < 0) break;
         if (signal_to_send == SIGTERM && Clock::now() - begin > patience) {
           spdlog::error("{} does not end; killing it", name);

@@ -15,13 +15,14 @@ namespace planbench {
 /// A child process to keep running.
 struct ChildSpec {
   std::string name;
-  std::vector<std::string> arguments;  ///< arguments[0]: the program's path.
+  std::vector<std::string> arguments;              ///< arguments[0]: the program's path.
   std::map<std::string, std::string> environment;  ///< Added to ours.
-  std::filesystem::path log;  ///< Takes its stdout and stderr, appended.
+  std::filesystem::path log;                       ///< Takes its stdout and stderr, appended.
 };
 
-/// Starts child processes, restarts those that die, and stops all in the end. Children do not get the terminal's
-/// Ctrl-C (each is a process group of its own), and are ended by the kernel if this process dies.
+/// Starts child processes, restarts those that die, and stops all in the end. Children do not get
+/// the terminal's Ctrl-C (each is a process group of its own), and are ended by the kernel if this
+/// process dies.
 class Supervisor {
  public:
   Supervisor();
@@ -31,12 +32,13 @@ class Supervisor {
   Supervisor& operator=(const Supervisor&) = delete;
 
   void Start(ChildSpec spec);
-  /// Asks the children to end (SIGTERM) in the given order, each waited for up to `patience`, then killed. Others
-  /// follow in any order.
+  /// Asks the children to end (SIGTERM) in the given order, each waited for up to `patience`, then
+  /// killed. Others follow in any order.
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
-  /// Throws InputError with its last words if a child ended with exit code 2 (bad input: a restart would not help), or
-  /// std::runtime_error if one died kMaxQuickDeaths times in a row within kQuick of its start.
+  /// Throws InputError with its last words if a child ended with exit code 2 (bad input: a restart
+  /// would not help), or std::runtime_error if one died kMaxQuickDeaths times in a row within
+  /// kQuick of its start.
   void ThrowIfHopeless() const;
   /// Restarts made so far.
   int num_restarts() const;
@@ -63,7 +65,8 @@ class Supervisor {
   int num_restarts_ = 0;
   std::string bad_input_;
   std::string hopeless_;
-  std::thread thread_;  // starts every child: the kernel's death signal is tied to the starting thread
+  std::thread
+      thread_;  // starts every child: the kernel's death signal is tied to the starting thread
 };
 
 /// A free UDP port, chosen at random among those that nobody has bound.

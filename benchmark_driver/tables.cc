@@ -50,8 +50,9 @@ std::string Count(bool present, int count) { return present ? fmt::format("{}", 
 std::string Milliseconds(double seconds) {
   if (std::isnan(seconds)) return "-";
   const double ms = seconds * 1e3;
-  return ms < 10 ? fmt::format("{:.3f}", ms)
-                 : ms < 1000 ? fmt::format("{:.1f}", ms) : fmt::format("{:.0f}", ms);
+  return ms < 10     ? fmt::format("{:.3f}", ms)
+         : ms < 1000 ? fmt::format("{:.1f}", ms)
+                     : fmt::format("{:.0f}", ms);
 }
 
 std::string Number(double value, int decimals) {
@@ -114,20 +115,23 @@ std::string SuccessTable(const std::map<GroupKey, Group>& groups) {
     }
     table.Add({key.first, key.second, fmt::format("{}", group.attempts.size()),
                Count(group.has_forward, forward), Count(group.has_backward, backward),
-               fmt::format("{}", failure), fmt::format("{}", unsolvable),
-               fmt::format("{}", other), Count(group.has_backward, alone)});
+               fmt::format("{}", failure), fmt::format("{}", unsolvable), fmt::format("{}", other),
+               Count(group.has_backward, alone)});
   }
   return table.Format(
-      "  forward: solved start to goal. backward: solved goal to start where forward was not. failure: "
-      "neither, by time,\n  memory or an exhausted search. unsolvable: start or goal invalid. other: path "
-      "rejected by the referee, no answer,\n  request refused, cancelled. backward alone: all solved goal to "
+      "  forward: solved start to goal. backward: solved goal to start where forward was not. "
+      "failure: "
+      "neither, by time,\n  memory or an exhausted search. unsolvable: start or goal invalid. "
+      "other: path "
+      "rejected by the referee, no answer,\n  request refused, cancelled. backward alone: all "
+      "solved goal to "
       "start.\n");
 }
 
 std::string TimeTable(const std::map<GroupKey, Group>& groups) {
-  TextTable table("Planning time of the solved, ms",
-                  {"set", "planner", "direction", "solved", "median", "mean", "25 %", "75 %", "95 %"},
-                  3);
+  TextTable table(
+      "Planning time of the solved, ms",
+      {"set", "planner", "direction", "solved", "median", "mean", "25 %", "75 %", "95 %"}, 3);
   for (const auto& [key, group] : groups) {
     std::vector<double> forward, backward, either;
     for (const auto& [problem, attempts] : group.attempts) {
@@ -149,7 +153,8 @@ std::string TimeTable(const std::map<GroupKey, Group>& groups) {
     if (group.has_forward && group.has_backward) add("either", std::move(either));
   }
   return table.Format(
-      "  From request and scene at hand to the first solution; simplification and the bus excluded. either: "
+      "  From request and scene at hand to the first solution; simplification and the bus "
+      "excluded. either: "
       "forward, then\n  backward if forward failed, with the time of the failed attempt.\n");
 }
 
@@ -160,8 +165,8 @@ double CounterOr0(const RunRecordMessage& record, const std::string& name) {
 
 std::string EffortTable(const std::map<GroupKey, Group>& groups) {
   TextTable table("Effort and quality over the solved runs, medians",
-                  {"set", "planner", "bus ms", "simplify ms", "checking %", "edges", "configurations",
-                   "length", "simplified", "tip m", "clearance mm"},
+                  {"set", "planner", "bus ms", "simplify ms", "checking %", "edges",
+                   "configurations", "length", "simplified", "tip m", "clearance mm"},
                   2);
   for (const auto& [key, group] : groups) {
     std::vector<double> bus, simplify, checking, edges, configurations, length, simplified, tip,
@@ -194,7 +199,8 @@ std::string EffortTable(const std::map<GroupKey, Group>& groups) {
                Number(median(clearance), 1)});
   }
   return table.Format(
-      "  bus: driver's round trip less the planner's own time. checking: share of collision checking in the "
+      "  bus: driver's round trip less the planner's own time. checking: share of collision "
+      "checking in the "
       "search. length:\n  joint space, L2, rad and m. clearance: least along the raw path.\n");
 }
 
@@ -220,7 +226,9 @@ std::string MeshTable(const std::map<GroupKey, Group>& groups) {
                fmt::format("{}", simplified_judged), fmt::format("{}", simplified_valid)});
   }
   if (!any) return "";
-  return table.Format("  Runs solved with the planners' own collision model, by what the mesh robot says of them.\n");
+  return table.Format(
+      "  Runs solved with the planners' own collision model, by what the mesh robot says of "
+      "them.\n");
 }
 
 }  // namespace

@@ -63,9 +63,8 @@ lcm_t* Connect(const std::string& url) {
   const std::string said = capture.Restore();
   if (lcm != nullptr) return lcm;
   if (said.find("multicast route") != std::string::npos) {
-    throw InputError(
-        "LCM needs a multicast route and this machine has none for " + url +
-        "; as root: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo");
+    throw InputError("LCM needs a multicast route and this machine has none for " + url +
+                     "; as root: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo");
   }
   throw InputError("cannot connect to LCM at '" + url + "': " + FirstLine(said));
 }
@@ -88,7 +87,7 @@ std::string ResolveLcmUrl(const std::string& flag) {
   if (!flag.empty()) return flag;
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment
-                                                                   : kDefaultLcmUrl;
+                                                                  : kDefaultLcmUrl;
 }
 
 struct Subscription::State {
@@ -104,7 +103,8 @@ struct Subscription::State {
       const std::scoped_lock lock(running);
       live = false;
     }
-    // Takes LCM's own lock, which the bus thread holds while it dispatches: not to be nested in `running`.
+    // Takes LCM's own lock, which the bus thread holds while it dispatches: not to be nested in
+    // `running`.
     lcm_unsubscribe(lcm, subscription);
   }
 
@@ -113,8 +113,7 @@ struct Subscription::State {
     const std::scoped_lock lock(state->running);
     if (!state->live) return;
     try {
-      state->handler(channel,
-                     {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
+      state->handler(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
                      buffer->recv_utime);
     } catch (const std::exception& error) {
       // What a handler throws must not pass through LCM: it would be unusable afterwards.

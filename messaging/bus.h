@@ -11,15 +11,15 @@
 
 namespace planbench {
 
-/// The default LCM URL. Its receive buffer keeps large messages from being dropped (lcmtypes/README.md).
-inline constexpr char kDefaultLcmUrl[] =
-    "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+/// The default LCM URL. Its receive buffer keeps large messages from being dropped
+/// (lcmtypes/README.md).
+inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 /// `flag` if not empty, else $LCM_DEFAULT_URL if set, else kDefaultLcmUrl.
 std::string ResolveLcmUrl(const std::string& flag);
 
-/// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler to end, so it
-/// must not be destroyed from within the handler, nor outlive the bus.
+/// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler
+/// to end, so it must not be destroyed from within the handler, nor outlive the bus.
 class Subscription {
  public:
   Subscription();
@@ -34,15 +34,16 @@ class Subscription {
   std::unique_ptr<State> state_;
 };
 
-/// The only owner of an LCM connection. Handlers run on the bus thread, one at a time, from Start() on; what they
-/// throw is logged with the channel's name and goes no further. Publishing is thread-safe.
+/// The only owner of an LCM connection. Handlers run on the bus thread, one at a time, from Start()
+/// on; what they throw is logged with the channel's name and goes no further. Publishing is
+/// thread-safe.
 class Bus {
  public:
   /// Messages a subscription can hold while its handler is busy.
   static constexpr int kDefaultQueueCapacity = 1024;
 
-  /// Connects; throws InputError in one line if the URL is bad or there is no multicast route. Warns if the
-  /// kernel caps the receive buffer that the URL asks for.
+  /// Connects; throws InputError in one line if the URL is bad or there is no multicast route.
+  /// Warns if the kernel caps the receive buffer that the URL asks for.
   explicit Bus(const std::string& url);
   /// Stops the bus thread.
   ~Bus();
@@ -58,8 +59,8 @@ class Bus {
   void Publish(const std::string& channel, const Message& message) {
     PublishBytes(channel, Encode(message));
   }
-  /// `on_bad_message`, if given, gets messages that could not be decoded, so that a server can refuse them; without
-  /// it they are logged.
+  /// `on_bad_message`, if given, gets messages that could not be decoded, so that a server can
+  /// refuse them; without it they are logged.
   template <typename Message>
   [[nodiscard]] Subscription Subscribe(
       const std::string& channel, std::function<void(const Message&)> handler,
@@ -80,8 +81,9 @@ class Bus {
   }
 
   void PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes);
-  /// `channel` may be a regular expression, e.g. ".*". The handler gets the channel, the bytes (valid during the
-  /// call) and the time of receipt (us since the Unix epoch). queue_capacity 0 is unbounded.
+  /// `channel` may be a regular expression, e.g. ".*". The handler gets the channel, the bytes
+  /// (valid during the call) and the time of receipt (us since the Unix epoch). queue_capacity 0 is
+  /// unbounded.
   using BytesHandler = std::function<void(const std::string& channel,
                                           std::span<const std::uint8_t> bytes, std::int64_t utime)>;
   [[nodiscard]] Subscription SubscribeBytes(const std::string& channel, BytesHandler handler,

@@ -24,7 +24,8 @@ inline constexpr char kRunRecord[] = "RUN_RECORD";
 inline constexpr char kRunRecordAck[] = "RUN_RECORD_ACK";
 }  // namespace channel
 
-/// The channels of one planner: the prefix, '_', and the planner's name in upper case with '-' as '_'.
+/// The channels of one planner: the prefix, '_', and the planner's name in upper case with '-' as
+/// '_'.
 struct PlannerChannels {
   std::string request;     ///< PLAN_REQUEST_<PLANNER>
   std::string ack;         ///< PLAN_ACK_<PLANNER>

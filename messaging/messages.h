@@ -54,6 +54,7 @@ struct ProblemSetsMessage {
   std::string server;
   std::string robot_name;
   std::string robot_id;
+  double edge_resolution_m = 0;  ///< The robot's default, > 0.
   bool has_meshes = false;
   std::vector<ProblemSetSummary> sets;
 };

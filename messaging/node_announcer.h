@@ -14,12 +14,12 @@ namespace planbench {
 /// Who this process is: host, pid, version, commit and start time filled in, the rest as given.
 NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind);
 
-/// Announces this process on NODE_STATUS at 2 Hz and whenever asked on DISCOVER, and watches for another process of
-/// the same name: of two, the older stays.
+/// Announces this process on NODE_STATUS at 2 Hz and whenever asked on DISCOVER, and watches for
+/// another process of the same name: of two, the older stays.
 class NodeAnnouncer {
  public:
-  /// `status` is called on the announcer's threads; it must be thread-safe. `also`, if given, is called after every
-  /// DISCOVER (to announce more).
+  /// `status` is called on the announcer's threads; it must be thread-safe. `also`, if given, is
+  /// called after every DISCOVER (to announce more).
   NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status,
                 std::function<void()> also = nullptr);
   ~NodeAnnouncer();

@@ -36,8 +36,7 @@ std::vector<NodeStatusMessage> NodeRegistry::Live(NodeKind kind) const {
   return live;
 }
 
-std::optional<NodeStatusMessage> NodeRegistry::Find(const std::string& name,
-                                                    NodeKind kind) const {
+std::optional<NodeStatusMessage> NodeRegistry::Find(const std::string& name, NodeKind kind) const {
   for (NodeStatusMessage& status : Live(kind)) {
     if (status.name == name) return std::move(status);
   }

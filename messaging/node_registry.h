@@ -14,7 +14,8 @@
 
 namespace planbench {
 
-/// Which nodes are live, by what they announce. A node unheard of for kLostAfter is gone. Thread-safe.
+/// Which nodes are live, by what they announce. A node unheard of for kLostAfter is gone.
+/// Thread-safe.
 class NodeRegistry {
  public:
   static constexpr std::chrono::milliseconds kLostAfter{3000};
@@ -30,7 +31,8 @@ class NodeRegistry {
 
   /// Asks every node to announce itself.
   void Discover(const std::string& sender);
-  /// Waits until `condition` holds (asked at every announcement and every 100 ms); false after `timeout`.
+  /// Waits until `condition` holds (asked at every announcement and every 100 ms); false after
+  /// `timeout`.
   bool WaitUntil(const std::function<bool()>& condition, std::chrono::milliseconds timeout);
 
  private:

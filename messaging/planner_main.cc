@@ -15,8 +15,9 @@ YamlNode LoadSettings(const Robot& robot, const std::string& planner, const std:
   if (file.empty()) {
     const auto named = robot.planner_settings.find(planner);
     if (named == robot.planner_settings.end()) {
-      throw InputError((robot.folder / "robot.yaml").string() + ": planners: names no settings for '" +
-                       planner + "'; add them there or give --config");
+      throw InputError((robot.folder / "robot.yaml").string() +
+                       ": planners: names no settings for '" + planner +
+                       "'; add them there or give --config");
     }
     file = named->second.string();
   }

@@ -14,9 +14,9 @@ namespace planbench {
 using PlannerFactory =
     std::function<std::unique_ptr<Planner>(const Robot& robot, const YamlNode& settings)>;
 
-/// The main() of a planner process: --robot, --name, --config, --set, --package-path and what every program has. The
-/// settings come from --config, else from the file that the robot folder names for `planner`, and --set overrides
-/// single keys.
+/// The main() of a planner process: --robot, --name, --config, --set, --package-path and what every
+/// program has. The settings come from --config, else from the file that the robot folder names for
+/// `planner`, and --set overrides single keys.
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory);
 

@@ -182,9 +182,8 @@ void PlannerNode::OnResultAck(const AckMessage& message) {
 void PlannerNode::Solve() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] {
-      return stopping_ || (job_ && (job_->scene || job_->control.cancelled));
-    });
+    changed_.wait(
+        lock, [this] { return stopping_ || (job_ && (job_->scene || job_->control.cancelled)); });
     if (!job_) return;  // stopping
     if (!job_->scene) {
       PlanResult result;
@@ -202,9 +201,8 @@ void PlannerNode::Solve() {
     lock.unlock();
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
     lock.lock();
-    spdlog::info("{}: {} in {:.3f} ms{}{}", job.request.request_id,
-                 PlanStatusName(result.status), result.planning_time_s * 1e3,
-                 result.message.empty() ? "" : ": ", result.message);
+    spdlog::info("{}: {} in {:.3f} ms{}{}", job.request.request_id, PlanStatusName(result.status),
+                 result.planning_time_s * 1e3, result.message.empty() ? "" : ": ", result.message);
     Finish(std::move(result));
   }
 }
@@ -247,13 +245,13 @@ void PlannerNode::Tick() {
   if (now - job_->accepted > kSceneTimeout) {
     PlanResult result;
     result.status = PlanStatus::kInvalidRequest;
-    result.message = "the scene " + job_->request.scene_id + " was not to be had on " +
-                     channel::kScene;
+    result.message =
+        "the scene " + job_->request.scene_id + " was not to be had on " + channel::kScene;
     Finish(std::move(result));
   } else if (now >= job_->next_scene_request) {
-    bus_->Publish(channel::kSceneRequest,
-                  SceneRequestMessage{name_ + "/" + job_->request.request_id,
-                                      job_->request.scene_id});
+    bus_->Publish(
+        channel::kSceneRequest,
+        SceneRequestMessage{name_ + "/" + job_->request.request_id, job_->request.scene_id});
     job_->next_scene_request = now + kSceneRequestPeriod;
   }
 }

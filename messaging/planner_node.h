@@ -18,10 +18,10 @@
 
 namespace planbench {
 
-/// A planner as a process on the bus: takes requests one at a time, acknowledges them at once (accepted, busy,
-/// refused and why), fetches scenes it lacks, solves on a thread of its own so that heartbeats and cancellation
-/// work meanwhile, and repeats the result until it is acknowledged. A repeated request is answered from the
-/// cache.
+/// A planner as a process on the bus: takes requests one at a time, acknowledges them at once
+/// (accepted, busy, refused and why), fetches scenes it lacks, solves on a thread of its own so
+/// that heartbeats and cancellation work meanwhile, and repeats the result until it is
+/// acknowledged. A repeated request is answered from the cache.
 class PlannerNode {
  public:
   /// Results and scenes kept.
@@ -37,7 +37,8 @@ class PlannerNode {
   /// Cancels what is being solved and leaves.
   ~PlannerNode();
 
-  /// Runs until `stop` (asked every 50 ms) says so; throws InputError if an older process has the name.
+  /// Runs until `stop` (asked every 50 ms) says so; throws InputError if an older process has the
+  /// name.
   void Run(const std::function<bool()>& stop);
 
  private:

@@ -1,21 +1,19 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <map>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "common/exit_codes.h"
+
 namespace planbench {
 
-/// Exit codes of every program.
-inline constexpr int kExitOk = 0;
-inline constexpr int kExitFailed = 1;    ///< Ran, but something failed.
-inline constexpr int kExitBadInput = 2;  ///< Bad use or bad input.
-
-/// What every main() has in common: --help, --version, --lcm-url, log set-up, signals, and errors as one line and an
-/// exit code. Usage: construct, add flags to `app()`, return Run(argc, argv, work).
+/// What every main() has in common: --help, --version, --lcm-url, log set-up, signals, and errors
+/// as one line and an exit code. Usage: construct, add flags to `app()`, return Run(argc, argv,
+/// work).
 class Program {
  public:
   Program(const std::string& name, const std::string& description);
@@ -26,8 +24,8 @@ class Program {
   /// True if --lcm-url was given on the command line.
   bool lcm_url_given() const { return !lcm_url_flag_.empty(); }
 
-  /// Parses the flags and calls `work`, which returns the exit code. InputError ends with 2, any other exception
-  /// with 1, each after one line on stderr that begins with the program's name.
+  /// Parses the flags and calls `work`, which returns the exit code. InputError ends with 2, any
+  /// other exception with 1, each after one line on stderr that begins with the program's name.
   int Run(int argc, char** argv, const std::function<int()>& work);
 
  private:

@@ -13,8 +13,9 @@ struct RecordedSession {
   std::vector<RunRecordMessage> runs;    ///< In order, one for each request_id.
 };
 
-/// Reads the RUN_RECORD and SESSION messages of an LCM event log. A torn last event (of a logger that was killed) is
-/// no error. Throws InputError if the file cannot be read or its records are of another version.
+/// Reads the RUN_RECORD and SESSION messages of an LCM event log. A torn last event (of a logger
+/// that was killed) is no error. Throws InputError if the file cannot be read or its records are of
+/// another version.
 RecordedSession ReadRecords(const std::filesystem::path& event_log);
 
 }  // namespace planbench

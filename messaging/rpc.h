@@ -17,19 +17,20 @@
 
 namespace planbench {
 
-/// Client half of request and reply by request_id: repeats the request until the reply arrives, so that a lost
-/// datagram costs a moment and nothing else. Thread-safe; calls from several threads may be under way at once.
+/// Client half of request and reply by request_id: repeats the request until the reply arrives, so
+/// that a lost datagram costs a moment and nothing else. Thread-safe; calls from several threads
+/// may be under way at once.
 template <typename Request, typename Reply>
 class RpcClient {
  public:
   RpcClient(Bus* bus, std::string request_channel, const std::string& reply_channel)
       : bus_(bus),
         request_channel_(std::move(request_channel)),
-        subscription_(bus->Subscribe<Reply>(reply_channel,
-                                            [this](const Reply& reply) { OnReply(reply); })) {}
+        subscription_(
+            bus->Subscribe<Reply>(reply_channel, [this](const Reply& reply) { OnReply(reply); })) {}
 
-  /// Publishes the request every `retry_period` until the reply with its request_id arrives. Nothing if `timeout`
-  /// passes, or `give_up` (asked every 50 ms) says so.
+  /// Publishes the request every `retry_period` until the reply with its request_id arrives.
+  /// Nothing if `timeout` passes, or `give_up` (asked every 50 ms) says so.
   std::optional<Reply> Call(const Request& request, std::chrono::milliseconds retry_period,
                             std::chrono::milliseconds timeout,
                             const std::function<bool()>& give_up = nullptr) {
@@ -46,8 +47,8 @@ class RpcClient {
         lock.lock();
         next_send = Clock::now() + retry_period;
       }
-      changed_.wait_until(lock, std::min({next_send, deadline,
-                                          Clock::now() + std::chrono::milliseconds(50)}));
+      changed_.wait_until(
+          lock, std::min({next_send, deadline, Clock::now() + std::chrono::milliseconds(50)}));
       const auto found = replies_.find(request.request_id);
       if (found != replies_.end()) {
         reply = std::move(found->second);
@@ -83,16 +84,17 @@ class RpcClient {
   Subscription subscription_;  // last: no reply may arrive before the rest stands
 };
 
-/// Server half: answers each request on a thread of its own, in order, one at a time. A request that is repeated
-/// while it waits or is being answered is not queued again; one answered lately is answered from the cache.
+/// Server half: answers each request on a thread of its own, in order, one at a time. A request
+/// that is repeated while it waits or is being answered is not queued again; one answered lately is
+/// answered from the cache.
 template <typename Request, typename Reply>
 class RpcServer {
  public:
   /// Answers kept for repeated requests.
   static constexpr std::size_t kCacheSize = 64;
 
-  /// `answer` must set nothing but the content: request_id is copied by the server. What it throws as InputError
-  /// becomes a reply with ok = false and the message.
+  /// `answer` must set nothing but the content: request_id is copied by the server. What it throws
+  /// as InputError becomes a reply with ok = false and the message.
   RpcServer(Bus* bus, const std::string& request_channel, std::string reply_channel,
             std::function<Reply(const Request&)> answer)
       : bus_(bus),

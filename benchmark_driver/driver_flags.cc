@@ -1,8 +1,9 @@
-#include "benchmark_driver/driver_options.h"
+#include "benchmark_driver/driver_flags.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -70,8 +71,7 @@ void DriverFlags::AddTo(CLI::App* app) {
   app->add_option("--problems-range", range_, "problem indices, e.g. 1-20 or 1-5,8; default: all");
   app->add_option("--planners", planners_, "planners by name, comma-separated")
       ->capture_default_str();
-  app->add_option("--directions", directions_, "forward, backward or both")
-      ->capture_default_str();
+  app->add_option("--directions", directions_, "forward, backward or both")->capture_default_str();
   app->add_option("--time", options_.time_limit_s, "time limit of a request, s")
       ->capture_default_str();
   app->add_option("--trials", options_.trials, "runs of each problem, seeds counting up")
@@ -79,8 +79,9 @@ void DriverFlags::AddTo(CLI::App* app) {
   app->add_option("--seed", options_.seed, "seed of the first trial")->capture_default_str();
   app->add_option("--collision-model", collision_model_, "spheres, voxels or meshes")
       ->capture_default_str();
-  app->add_option("--edge-resolution", options_.edge_resolution_m,
-                  "largest motion of any point between samples of an edge, m; default: the robot's");
+  app->add_option(
+      "--edge-resolution", options_.edge_resolution_m,
+      "largest motion of any point between samples of an edge, m; default: the robot's");
   app->add_option("--referee-step", options_.referee_step_m,
                   "the same for the referee; default: half the edge resolution");
   app->add_flag("--anytime", options_.anytime,
@@ -110,8 +111,8 @@ void DriverFlags::AddTo(CLI::App* app) {
   with_launch(app->add_option("--package-path", options_.package_paths,
                               "NAME=DIR: folder that package://NAME/ stands for; repeatable")
                   ->allow_extra_args(false));
-  with_launch(app->add_option("--out", options_.out,
-                              "session folder; default: sessions/<date and time>"));
+  with_launch(
+      app->add_option("--out", options_.out, "session folder; default: sessions/<date and time>"));
   with_launch(app->add_option("--planner-command", planner_commands_,
                               "NAME=COMMAND: how to start a planner that is not planbench's own; "
                               "the bus is in its LCM_DEFAULT_URL; repeatable")
