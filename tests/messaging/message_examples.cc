@@ -99,7 +99,7 @@ NodeStatusMessage Example() {
 
 template <>
 ProblemSetsMessage Example() {
-  return {"scene-server", "arm", "0123", true, {{"shelf", {1, 2, 100}}, {"box", {}}}};
+  return {"scene-server", "arm", "0123", 0.02, true, {{"shelf", {1, 2, 100}}, {"box", {}}}};
 }
 
 template <>

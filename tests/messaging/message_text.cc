@@ -138,8 +138,8 @@ class Writer {
     All(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
   void Add(const ProblemSetsMessage& message) {
-    const auto& [a, b, c, d, e] = message;
-    All(a, b, c, d, e);
+    const auto& [a, b, c, d, e, f] = message;
+    All(a, b, c, d, e, f);
   }
   void Add(const ProblemRequestMessage& message) {
     const auto& [a, b, c] = message;
