@@ -1,4 +1,4 @@
-#include "contract/collision_checker_contract.h"
+#include "tests/contract/collision_checker_contract.h"
 
 namespace planbench {
 namespace {

@@ -3,7 +3,7 @@
 // What every collision engine must do, as a GoogleTest suite. To put an engine under it, in one
 // test source:
 //
-//   #include "contract/collision_checker_contract.h"
+//   #include "tests/contract/collision_checker_contract.h"
 //   INSTANTIATE_TEST_SUITE_P(MyEngine, CollisionCheckerContract, testing::Values(CollisionEngine{
 //       "my_engine", [](const Robot& robot, const PlanningGroup& group) { return ...; }}));
 //
@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -25,9 +26,9 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
-#include "contract/collision_oracle.h"
-#include "contract/collision_test_worlds.h"
-#include "support/expect_input_error.h"
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 
@@ -163,6 +164,35 @@ TEST_P(CollisionCheckerContract, VerdictsAndDistancesAgreeWithTheOracle) {
   // The test is worth something only if both verdicts occur often.
   EXPECT_GT(num_free, num_judged / 10);
   EXPECT_LT(num_free, num_judged * 9 / 10);
+}
+
+TEST_P(CollisionCheckerContract, SelfCollisionsOfTheFetchAgreeWithTheOracle) {
+  const Robot fetch = LoadRobot(PLANBENCH_SOURCE_DIR "/robots/fetch");
+  const auto checker = Make(fetch);
+  const auto base = fetch.model.DefaultPositions();
+  // Neighbours further than a joint apart overlap always; what overlaps with the arm straight ahead
+  // is allowed here.
+  Scene scene;
+  const std::vector<double> zero(fetch.groups.front().joints.size(), 0.0);
+  for (const OraclePair& pair : OraclePairs(fetch, checker->group(), scene, base, zero)) {
+    if (pair.distance_m <= 0) scene.allowed_collisions.SetEntry(pair.body_a, pair.body_b, true);
+  }
+  checker->SetScene(scene, base);
+  constexpr int kNum = 200;
+  const auto qs = Configurations(checker->space(), kNum, 13);
+  int num_free = 0;
+  for (int i = 0; i < kNum; ++i) {
+    const auto q = Row(qs, checker->space().size(), i);
+    const double clearance = OracleClearance(OraclePairs(fetch, checker->group(), scene, base, q));
+    if (std::abs(clearance) <= tolerance()) continue;
+    const bool free = checker->IsFree(q);
+    num_free += free ? 1 : 0;
+    EXPECT_EQ(free, clearance > 0);
+    EXPECT_NEAR(std::max(checker->FindClosest(q).distance_m, 0.0), std::max(clearance, 0.0),
+                tolerance());
+  }
+  EXPECT_GT(num_free, kNum / 10);
+  EXPECT_LT(num_free, kNum * 19 / 20);
 }
 
 TEST_P(CollisionCheckerContract, NamesTheClosestPair) {

@@ -1,4 +1,4 @@
-#include "contract/collision_oracle.h"
+#include "tests/contract/collision_oracle.h"
 
 #include <algorithm>
 #include <cmath>

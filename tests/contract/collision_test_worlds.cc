@@ -1,8 +1,8 @@
-#include "contract/collision_test_worlds.h"
+#include "tests/contract/collision_test_worlds.h"
 
 #include <random>
 
-#include "contract/collision_oracle.h"
+#include "tests/contract/collision_oracle.h"
 
 namespace planbench {
 namespace {

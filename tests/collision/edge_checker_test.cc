@@ -1,0 +1,227 @@
+#include "collision/edge_checker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+/// Collides wherever a predicate says so, and keeps what it was asked.
+class ScriptedChecker : public CollisionChecker {
+ public:
+  using Predicate = std::function<bool(std::span<const double>)>;
+
+  ScriptedChecker(const Robot& robot, int batch_size)
+      : CollisionChecker(robot, robot.groups.front(), CollisionModel::kSpheres),
+        batch_size_(batch_size) {
+    SetScene({}, robot.model.DefaultPositions());
+  }
+  std::string_view EngineName() const override { return "scripted"; }
+  int BatchSize() const override { return batch_size_; }
+
+  Predicate collides = [](std::span<const double>) { return false; };
+  std::vector<std::vector<double>> asked;
+
+ protected:
+  MotionBound DoSetScene(const Scene&, std::span<const double> base_positions) override {
+    std::vector<LinkBall> balls;
+    for (const LinkSphere& s : robot().spheres) balls.push_back({s.link, s.p_LS, s.radius});
+    return MotionBound(robot().model, group(), base_positions, balls);
+  }
+  bool DoIsFree(std::span<const double> q) override {
+    asked.emplace_back(q.begin(), q.end());
+    return !collides(q);
+  }
+  std::optional<Contact> DoFindContact(std::span<const double>) override { return std::nullopt; }
+  ClosestPair DoFindClosest(std::span<const double>) override { return {}; }
+
+ private:
+  int batch_size_;
+};
+
+/// A rod of 1 m turning freely about z, a sphere of 0.1 m at its end; and a slide that carries it,
+/// 0 to 1 m.
+Robot MakePendulum() {
+  Robot robot;
+  robot.name = "pendulum";
+  robot.model = RobotModel::FromUrdf(R"(<robot name="pendulum">
+    <link name="base"/> <link name="cart"/> <link name="rod"/>
+    <joint name="slide" type="prismatic"> <parent link="base"/> <child link="cart"/>
+      <axis xyz="1 0 0"/> <limit lower="0" upper="1" velocity="1" effort="1"/> </joint>
+    <joint name="turn" type="continuous"> <parent link="cart"/> <child link="rod"/>
+      <axis xyz="0 0 1"/> <limit velocity="1" effort="1"/> </joint>
+  </robot>)",
+                                     "pendulum.urdf");
+  robot.groups = {robot.model.MakeGroup("all", {"slide", "turn"}, "rod")};
+  robot.spheres = {{robot.model.FindLink("rod"), Eigen::Vector3d(0.9, 0, 0), 0.1}};
+  return robot;
+}
+
+TEST(EdgeCheckerTest, RefusesResolutionsThatAreNotLengths) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  for (double resolution : {0.0, -0.1, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    ExpectInputError([&] { EdgeChecker(&checker, resolution); }, {"edge resolution"});
+  }
+  EdgeChecker tiny(&checker, 1e-300);
+  const std::vector<double> from = {0, 0};
+  const std::vector<double> to = {1, 0};
+  ExpectInputError([&] { tiny.IsValidEdge(from, to); }, {"edge resolution"});
+}
+
+TEST(EdgeCheckerTest, DividesEdgesByTheMotionBound) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  const EdgeChecker edges(&checker, 0.05);
+  const std::vector<double> origin = {0, 0};
+  EXPECT_EQ(edges.NumIntervals(origin, origin), 1);
+  EXPECT_EQ(edges.NumIntervals(origin, std::vector<double>{0.04, 0}), 1);
+  EXPECT_EQ(edges.NumIntervals(origin, std::vector<double>{0.51, 0}), 11);
+  EXPECT_EQ(edges.NumIntervals(origin, std::vector<double>{0.26, -0.23}), 10);
+}
+
+TEST(EdgeCheckerTest, NoPointMovesFurtherThanTheResolutionBetweenSamples) {
+  const Robot arm = MakeTestArm();
+  ScriptedChecker checker(arm, 1);
+  const double resolution = 0.02;
+  const EdgeChecker edges(&checker, resolution);
+  const auto& space = checker.space();
+  const auto base = arm.model.DefaultPositions();
+  std::mt19937_64 generator(1);
+  for (int i = 0; i < 20; ++i) {
+    const auto from = RandomConfiguration(space, &generator);
+    const auto to = RandomConfiguration(space, &generator);
+    const int intervals = edges.NumIntervals(from, to);
+    std::vector<Eigen::Isometry3d> before;
+    for (int k = 0; k <= intervals; ++k) {
+      std::vector<double> q(from.size());
+      space.Interpolate(from, to, static_cast<double>(k) / intervals, q);
+      const auto poses = ComputeLinkPoses(arm.model, WithGroupAt(arm, checker.group(), base, q));
+      for (const LinkSphere& sphere : arm.spheres) {
+        if (before.empty()) break;
+        const auto link = static_cast<std::size_t>(sphere.link);
+        // Both the centre and the far side, which turns with the link.
+        for (const Eigen::Vector3d& offset :
+             {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
+              Eigen::Vector3d(0, 0, -1)}) {
+          const Eigen::Vector3d p = sphere.p_LS + sphere.radius * offset;
+          EXPECT_LE((poses[link] * p - before[link] * p).norm(), resolution + 1e-12);
+        }
+      }
+      before = poses;
+    }
+  }
+}
+
+TEST(EdgeCheckerTest, ContinuousJointsGoTheShortWay) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.05);
+  const std::vector<double> from = {0.5, 3.0};
+  const std::vector<double> to = {0.5, -3.0};
+  EXPECT_EQ(edges.NumIntervals(from, to), 6);  // 0.283 rad x 1 m
+  checker.collides = [](std::span<const double> q) { return std::abs(q[1]) < 2.9; };
+  EXPECT_TRUE(edges.IsValidEdge(from, to));
+  checker.collides = [](std::span<const double> q) { return std::abs(q[1]) > 3.1; };
+  EXPECT_FALSE(edges.IsValidEdge(from, to));
+}
+
+TEST(EdgeCheckerTest, HoldsBothEndsToTheLimits) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.05);
+  const std::vector<double> inside = {0.9, 0};
+  const std::vector<double> outside = {1.1, 0};
+  EXPECT_TRUE(edges.IsValidState(inside));
+  EXPECT_FALSE(edges.IsValidState(outside));
+  EXPECT_TRUE(edges.IsValidState(std::vector<double>{1.0, 100.0}));
+  EXPECT_FALSE(edges.IsValidState(std::vector<double>{std::nan(""), 0}));
+  EXPECT_FALSE(edges.IsValidEdge(inside, outside));
+  EXPECT_FALSE(edges.IsValidEdge(outside, inside));
+  EXPECT_FALSE(edges.IsValidEdge(outside, inside, true));
+}
+
+TEST(EdgeCheckerTest, FindsACollisionAtAnySample) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0.1, 0.2};
+  const std::vector<double> to = {0.7, -1.1};
+  for (int batch : {1, 8}) {
+    ScriptedChecker checker(robot, batch);
+    EdgeChecker edges(&checker, 0.05);
+    EXPECT_TRUE(edges.IsValidEdge(from, to));
+    const auto samples = checker.asked;
+    ASSERT_EQ(static_cast<int>(samples.size()), edges.NumIntervals(from, to) + 1);
+    for (const auto& blocked : samples) {
+      checker.collides = [&](std::span<const double> q) {
+        return std::equal(q.begin(), q.end(), blocked.begin());
+      };
+      EXPECT_FALSE(edges.IsValidEdge(from, to));
+      EXPECT_EQ(edges.IsValidEdge(from, to, true), blocked == from);
+    }
+  }
+}
+
+TEST(EdgeCheckerTest, SamplesTheSameConfigurationsWhateverTheBatch) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0.1, 0.2};
+  const std::vector<double> to = {0.7, -1.1};
+  std::vector<std::vector<double>> one_by_one;
+  for (int batch : {1, 3, 8, 1000}) {
+    ScriptedChecker checker(robot, batch);
+    EdgeChecker edges(&checker, 0.03);
+    EXPECT_TRUE(edges.IsValidEdge(from, to));
+    auto asked = checker.asked;
+    std::sort(asked.begin(), asked.end());
+    EXPECT_EQ(std::adjacent_find(asked.begin(), asked.end()), asked.end()) << "sampled twice";
+    if (batch == 1) one_by_one = asked;
+    EXPECT_EQ(asked, one_by_one);
+    EXPECT_TRUE(std::binary_search(asked.begin(), asked.end(), from));
+    EXPECT_TRUE(std::binary_search(asked.begin(), asked.end(), to));
+  }
+}
+
+TEST(EdgeCheckerTest, SpreadsItsSamples) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.125);
+  EXPECT_TRUE(edges.IsValidEdge(std::vector<double>{0, 0}, std::vector<double>{1, 0}));
+  std::vector<double> slides;
+  for (const auto& q : checker.asked) slides.push_back(q[0]);
+  EXPECT_THAT(slides, testing::ElementsAre(1, 0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875));
+}
+
+TEST(EdgeCheckerTest, Counts) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.125);
+  const std::vector<double> from = {0, 0};
+  const std::vector<double> to = {1, 0};
+  EXPECT_TRUE(edges.IsValidState(from));
+  EXPECT_FALSE(edges.IsValidState(std::vector<double>{2, 0}));
+  EXPECT_EQ(edges.counters().states, 2);
+  EXPECT_EQ(edges.counters().configurations, 1);
+  EXPECT_TRUE(edges.IsValidEdge(from, to));
+  EXPECT_TRUE(edges.IsValidEdge(from, to, true));
+  EXPECT_EQ(edges.counters().edges, 2);
+  EXPECT_EQ(edges.counters().configurations, 1 + 9 + 8);
+  checker.collides = [](std::span<const double> q) { return q[0] == 0.25; };
+  EXPECT_FALSE(edges.IsValidEdge(from, to));
+  EXPECT_EQ(edges.counters().configurations, 1 + 9 + 8 + 4);
+  EXPECT_GE(edges.counters().seconds, 0);
+  EXPECT_EQ(checker.num_checks(), edges.counters().configurations);
+}
+
+}  // namespace
+}  // namespace planbench

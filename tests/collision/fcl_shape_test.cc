@@ -1,0 +1,151 @@
+#include "collision/fcl_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "tests/contract/collision_oracle.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Mesh Cuboid(const Eigen::Vector3d& size) {
+  Mesh mesh;
+  mesh.triangles = BoxMesh(size);
+  return mesh;
+}
+
+Pose Shift(double x, double y, double z) {
+  Pose pose;
+  pose.translation << x, y, z;
+  return pose;
+}
+
+const std::vector<Shape>& AllShapes() {
+  static const std::vector<Shape> kShapes = {
+      Box{{0.4, 0.6, 1.0}}, Sphere{0.5},    Cylinder{0.3, 0.8},     Cylinder{1.0, 0.01},
+      Cone{0.4, 0.9},       Cone{0.5, 0.1}, Cuboid({0.4, 0.6, 1.0})};
+  return kShapes;
+}
+
+TEST(FclShapeTest, BallsAgreeWithTheOracle) {
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> coordinate(-1.2, 1.2);
+  std::uniform_real_distribution<double> size(0, 0.3);
+  for (const Shape& shape : AllShapes()) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape fcl_shape(shape, "test");
+    for (int i = 0; i < 2000; ++i) {
+      const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
+      const double radius = size(generator);
+      const double expected = OracleDistance(shape, p) - radius;
+      EXPECT_NEAR(fcl_shape.BallDistance(p, radius), expected, 1e-9) << p.transpose();
+      if (std::abs(expected) > 1e-12) {
+        EXPECT_EQ(fcl_shape.TouchesBall(p, radius), expected < 0) << p.transpose();
+      }
+      // Boxes and bounding spheres enclose.
+      if (expected + radius > 0) continue;
+      EXPECT_TRUE(((p - fcl_shape.box_center()).cwiseAbs().array() <=
+                   fcl_shape.box_half_size().array() + 1e-12)
+                      .all());
+      EXPECT_LE((p - fcl_shape.bounding_sphere().center).norm(),
+                fcl_shape.bounding_sphere().radius + 1e-12);
+    }
+  }
+}
+
+TEST(FclShapeTest, EveryPairOfShapesMeetsAndParts) {
+  for (const Shape& a : AllShapes()) {
+    for (const Shape& b : AllShapes()) {
+      SCOPED_TRACE(ShapeTypeName(a) + " and " + ShapeTypeName(b));
+      const FclShape first(a, "a");
+      const FclShape second(b, "b");
+      // Along x both are convex and symmetric, so they meet at the sum of their half widths at
+      // mid-height, or later.
+      const double width = first.box_half_size().x() + second.box_half_size().x();
+      EXPECT_TRUE(first.Touches(second, Shift(0.001, 0.002, 0.003)));
+      EXPECT_LE(first.Distance(second, Shift(0.001, 0.002, 0.003), kInfinity), 0);
+      EXPECT_FALSE(first.Touches(second, Shift(width + 0.01, 0, 0)));
+      const double distance = first.Distance(second, Shift(width + 0.2, 0, 0), kInfinity);
+      EXPECT_GE(distance, 0.2 - 1e-5);
+      EXPECT_NEAR(second.Distance(first, Shift(-width - 0.2, 0, 0), kInfinity), distance, 1e-5);
+      EXPECT_NEAR(first.Distance(second, Shift(width + 0.2, 0, 0), 0.1), 0.1, 0);
+    }
+  }
+}
+
+TEST(FclShapeTest, ConesPointUp) {
+  const FclShape cone(Cone{0.5, 1.0}, "cone");
+  const std::vector<Shape> probes = {Box{{0.02, 0.02, 0.02}}, Cylinder{0.01, 0.02},
+                                     Cuboid({0.02, 0.02, 0.02})};
+  for (const Shape& shape : probes) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape probe(shape, "probe");
+    EXPECT_TRUE(cone.Touches(probe, Shift(0.4, 0, -0.45)));
+    EXPECT_FALSE(cone.Touches(probe, Shift(0.4, 0, 0.45)));
+    EXPECT_TRUE(cone.Touches(probe, Shift(0, 0, 0.48)));
+    EXPECT_NEAR(cone.Distance(probe, Shift(0, 0, 0.71), kInfinity), 0.2, 1e-5);
+    EXPECT_NEAR(cone.Distance(probe, Shift(0, 0, -0.71), kInfinity), 0.2, 1e-5);
+  }
+}
+
+TEST(FclShapeTest, AMeshOfABoxIsTheBox) {
+  const Eigen::Vector3d size(0.4, 0.6, 1.0);
+  const FclShape box(Box{size}, "box");
+  const FclShape mesh(Cuboid(size), "mesh");
+  std::mt19937_64 generator(8);
+  int num_touching = 0;
+  for (const Shape& shape : AllShapes()) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape other(shape, "other");
+    for (int i = 0; i < 200; ++i) {
+      const Pose pose = Pose::From(RandomPose(&generator, 1.0));
+      const double distance = box.Distance(other, pose, kInfinity);
+      if (distance > 0 && distance < 1e-4) continue;
+      EXPECT_EQ(box.Touches(other, pose), mesh.Touches(other, pose));
+      num_touching += box.Touches(other, pose) ? 1 : 0;
+      EXPECT_NEAR(std::max(mesh.Distance(other, pose, kInfinity), 0.0), std::max(distance, 0.0),
+                  1e-4);
+    }
+  }
+  EXPECT_GT(num_touching, 100);
+}
+
+TEST(FclShapeTest, WhatIsInsideAClosedMeshTouchesIt) {
+  const FclShape room(Cuboid({4, 4, 4}), "room");
+  for (const Shape& shape : AllShapes()) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape inside(shape, "inside");
+    const Pose pose = Shift(0.3, 0.2, 0.1);
+    EXPECT_TRUE(room.Touches(inside, pose));
+    EXPECT_TRUE(inside.Touches(room, pose.Inverse()));
+    EXPECT_LE(room.Distance(inside, pose, kInfinity), 0);
+    EXPECT_LE(inside.Distance(room, pose.Inverse(), kInfinity), 0);
+  }
+}
+
+TEST(FclShapeTest, RefusesWhatIsNoShape) {
+  ExpectInputError([] { FclShape(Box{{1, -1, 1}}, "crate"); }, {"crate", "box", "-1"});
+  ExpectInputError([] { FclShape(Sphere{std::nan("")}, "ball"); }, {"ball", "sphere"});
+  ExpectInputError([] { FclShape(Cylinder{kInfinity, 1}, "pipe"); }, {"pipe", "cylinder"});
+  ExpectInputError([] { FclShape(Cone{1, -2}, "hat"); }, {"hat", "cone", "-2"});
+  Mesh named;
+  named.resource = "package://robot/hand.stl";
+  ExpectInputError([&] { FclShape(named, "hand"); }, {"hand", named.resource, "no triangles"});
+  Mesh broken = Cuboid({1, 1, 1});
+  broken.triangles.triangles[3][1] = 8;
+  ExpectInputError([&] { FclShape(broken, "vase"); }, {"vase", "vertex 8"});
+  broken = Cuboid({1, 1, 1});
+  broken.triangles.vertices[2].y() = kInfinity;
+  ExpectInputError([&] { FclShape(broken, "vase"); }, {"vase", "not finite"});
+}
+
+}  // namespace
+}  // namespace planbench

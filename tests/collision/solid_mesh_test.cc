@@ -1,0 +1,97 @@
+#include "collision/solid_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "tests/contract/collision_oracle.h"
+
+namespace planbench {
+namespace {
+
+/// Joins meshes; each vertex is repeated for every triangle, as in an STL file.
+TriangleMesh Join(const std::vector<std::pair<TriangleMesh, Eigen::Vector3d>>& meshes) {
+  TriangleMesh all;
+  for (const auto& [mesh, offset] : meshes) {
+    for (const auto& triangle : mesh.triangles) {
+      const auto first = static_cast<std::uint32_t>(all.vertices.size());
+      for (std::uint32_t index : triangle) all.vertices.push_back(mesh.vertices[index] + offset);
+      all.triangles.push_back({first, first + 1, first + 2});
+    }
+  }
+  return all;
+}
+
+TriangleMesh Inverted(TriangleMesh mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  return mesh;
+}
+
+TriangleMesh Cube(double size) { return BoxMesh(Eigen::Vector3d::Constant(size)); }
+const Eigen::Vector3d kHere = Eigen::Vector3d::Zero();
+
+TEST(SolidMeshTest, TellsInsideFromOutside) {
+  const Eigen::Vector3d size(1, 2, 3);
+  const SolidMesh solid(Join({{BoxMesh(size), kHere}}));
+  EXPECT_TRUE(solid.has_inside());
+  EXPECT_EQ(solid.component_points().size(), 1u);
+  std::mt19937_64 generator(6);
+  std::uniform_real_distribution<double> coordinate(-2, 2);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
+    EXPECT_EQ(solid.Contains(p), ((p.cwiseAbs() - size / 2).array() < 0).all()) << p.transpose();
+  }
+}
+
+TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
+  // An octahedron: the ray along z meets its tip, its edges and, from the side, its rim.
+  TriangleMesh mesh;
+  mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                    {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  const SolidMesh solid(mesh);
+  for (double x = -1.5; x <= 1.5; x += 0.125) {
+    for (double y = -1.5; y <= 1.5; y += 0.125) {
+      for (double z = -1.5625; z <= 1.5; z += 0.125) {
+        const double off_surface = std::abs(x) + std::abs(y) + std::abs(z) - 1;
+        if (std::abs(off_surface) < 1e-9) continue;
+        EXPECT_EQ(solid.Contains({x, y, z}), off_surface < 0) << x << " " << y << " " << z;
+      }
+    }
+  }
+}
+
+TEST(SolidMeshTest, OverlappingSolidsJoinAndInvertedOnesAreCavities) {
+  const SolidMesh joined(Join({{Cube(2), kHere}, {Cube(2), Eigen::Vector3d(1, 0.1, 0.2)}}));
+  EXPECT_EQ(joined.component_points().size(), 2u);
+  EXPECT_TRUE(joined.Contains({0.5, 0.3, 0.3}));
+  EXPECT_TRUE(joined.Contains({1.5, 0.3, 0.3}));
+  const SolidMesh hollow(Join({{Cube(2), kHere}, {Inverted(Cube(1)), kHere}}));
+  EXPECT_TRUE(hollow.Contains({0.75, 0.1, 0.2}));
+  EXPECT_FALSE(hollow.Contains({0.25, 0.1, 0.2}));
+  EXPECT_TRUE(SolidMesh(Inverted(Cube(2))).Contains({0.25, 0.1, 0.2}));
+}
+
+TEST(SolidMeshTest, InconsistentOrientationIsCountedByParity) {
+  TriangleMesh mesh = Cube(2);
+  std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
+  EXPECT_TRUE(SolidMesh(mesh).Contains({0.25, 0.1, 0.2}));
+  EXPECT_FALSE(SolidMesh(mesh).Contains({0.25, 0.1, 1.2}));
+}
+
+TEST(SolidMeshTest, OpenSurfacesHaveNoInside) {
+  TriangleMesh open = Cube(2);
+  open.triangles.pop_back();
+  EXPECT_FALSE(SolidMesh(open).has_inside());
+  EXPECT_FALSE(SolidMesh(open).Contains({0.25, 0.1, 0.2}));
+  // An open component beside a closed one takes nothing from it.
+  const SolidMesh both(Join({{open, kHere}, {Cube(2), Eigen::Vector3d(5, 0, 0)}}));
+  EXPECT_FALSE(both.Contains({0.25, 0.1, 0.2}));
+  EXPECT_TRUE(both.Contains({5.25, 0.1, 0.2}));
+}
+
+}  // namespace
+}  // namespace planbench
