@@ -45,7 +45,15 @@ EdgeChecker::EdgeChecker(CollisionChecker* checker, double edge_resolution_m)
   block_.resize(static_cast<std::size_t>(checker_->BatchSize() * space().size()));
 }
 
+void EdgeChecker::RequireSize(std::span<const double> q) const {
+  if (static_cast<int>(q.size()) != space().size()) {
+    throw InputError(fmt::format("edge checker: a configuration of {} values given for {} joints",
+                                 q.size(), space().size()));
+  }
+}
+
 bool EdgeChecker::IsValidState(std::span<const double> q) {
+  RequireSize(q);
   const Stopwatch stopwatch(&counters_.seconds);
   ++counters_.states;
   if (!space().WithinLimits(q)) return false;
@@ -55,6 +63,8 @@ bool EdgeChecker::IsValidState(std::span<const double> q) {
 
 bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const double> to,
                               bool from_is_free) {
+  RequireSize(from);
+  RequireSize(to);
   const Stopwatch stopwatch(&counters_.seconds);
   ++counters_.edges;
   if (!space().WithinLimits(from) || !space().WithinLimits(to)) return false;
@@ -92,6 +102,8 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
 }
 
 int EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {
+  RequireSize(from);
+  RequireSize(to);
   const double intervals =
       std::ceil(checker_->motion_bound().Between(space(), from, to) / edge_resolution_m_);
   if (!(intervals < std::numeric_limits<int>::max() / 2)) {

@@ -14,6 +14,9 @@ namespace planbench {
 /// `edge_resolution_m` between neighbouring samples by the motion bound; both ends are samples. It
 /// is valid if both ends are within limits and all samples are free.
 ///
+/// Configurations of the wrong size throw InputError; joint positions that are not finite are
+/// outside the limits.
+///
 /// Not thread-safe: one instance a thread.
 class EdgeChecker {
  public:
@@ -42,6 +45,8 @@ class EdgeChecker {
   const Counters& counters() const { return counters_; }
 
  private:
+  void RequireSize(std::span<const double> q) const;
+
   CollisionChecker* checker_;
   double edge_resolution_m_;
   Counters counters_;

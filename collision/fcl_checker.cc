@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -24,9 +25,15 @@ auto& At(Container& container, Index index) {
 
 inline bool BallMissesBox(const Eigen::Vector3d& center, double radius,
                           const Eigen::Vector3d& box_center, const Eigen::Vector3d& box_half_size) {
-  const Eigen::Vector3d outside = ((center - box_center).cwiseAbs() - box_half_size).cwiseMax(0.0);
+  // Most pairs are told apart along one axis.
   const double reach = radius + kRoundingMargin;
-  return outside.squaredNorm() > reach * reach;
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double outside = std::abs(center[axis] - box_center[axis]) - box_half_size[axis];
+    if (outside > reach) return true;
+    if (outside > 0) squared += outside * outside;
+  }
+  return squared > reach * reach;
 }
 
 /// Signed distance of a point from a box: a lower bound of its signed distance from whatever is in

@@ -153,6 +153,18 @@ TEST(EdgeCheckerTest, HoldsBothEndsToTheLimits) {
   EXPECT_FALSE(edges.IsValidEdge(outside, inside, true));
 }
 
+TEST(EdgeCheckerTest, RefusesConfigurationsOfTheWrongSize) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.05);
+  const std::vector<double> right = {0, 0};
+  const std::vector<double> wrong = {0, 0, 0};
+  ExpectInputError([&] { edges.IsValidState(wrong); }, {"3 values", "2 joints"});
+  ExpectInputError([&] { edges.IsValidEdge(right, wrong); }, {"3 values"});
+  ExpectInputError([&] { edges.IsValidEdge(wrong, right); }, {"3 values"});
+  ExpectInputError([&] { edges.NumIntervals(right, {}); }, {"0 values"});
+}
+
 TEST(EdgeCheckerTest, FindsACollisionAtAnySample) {
   const Robot robot = MakePendulum();
   const std::vector<double> from = {0.1, 0.2};
