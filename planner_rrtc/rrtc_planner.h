@@ -21,7 +21,7 @@ class RrtConnectPlanner : public Planner {
   /// outlive the planner.
   RrtConnectPlanner(const Robot& robot, const YamlNode& settings);
 
-  static constexpr double kDefaultRange = 2.0;
+  static constexpr double kDefaultRange = 1.0;
 
   PlannerDescription Describe() const override;
 

@@ -13,7 +13,7 @@ namespace {
 YamlNode Settings(const std::string& text) { return YamlNode::Parse(text, "rrtc.yaml"); }
 
 std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
-  return MakeRrtcPlanner(robot, Settings("range: 2.0"));
+  return MakeRrtcPlanner(robot, Settings("range: 1.0"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rrtc, PlannerContract,
@@ -41,7 +41,7 @@ TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
 }
 
 TEST_F(RrtcPlannerTest, NoSettingsMeanTheDefault) {
-  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings(""))->Describe().settings.at("range"), "2");
+  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings(""))->Describe().settings.at("range"), "1");
 }
 
 TEST_F(RrtcPlannerTest, Describes) {
