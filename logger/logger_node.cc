@@ -3,14 +3,23 @@
 #include <spdlog/spdlog.h>
 
 namespace planbench {
+namespace {
+
+NodeStatusMessage Describe(const LoggerOptions& options) {
+  NodeStatusMessage status = MakeNodeStatus(options.name, NodeKind::kLogger);
+  status.settings["out"] = SessionFolder::AbsolutePath(options.out).string();
+  return status;
+}
+
+}  // namespace
 
 LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
-    : queue_(options.queue_bytes),
-      recorder_(
-          options.out, options.resume, options.name,
-          [bus](const std::string& channel, const AckMessage& ack) { bus->Publish(channel, ack); }),
-      status_(MakeNodeStatus(options.name, NodeKind::kLogger)) {
-  status_.settings["out"] = recorder_.folder().path().string();
+    : status_(Describe(options)),
+      queue_(options.queue_bytes),
+      recorder_(options.out, options.resume, options.name,
+                [bus](const std::string& channel, const AckMessage& ack) {
+                  bus->Publish(channel, ack);
+                }) {
   writer_ = std::thread([this] { Write(); });
   constexpr int kUnbounded = 0;
   try {
@@ -30,8 +39,9 @@ LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
 LoggerNode::~LoggerNode() { Stop(); }
 
 bool LoggerNode::Run(const std::function<bool()>& stop) {
+  // Another logger of this name is no reason to leave: it writes elsewhere (the folder is locked),
+  // and in the replay of a recording just made it is the one that made it.
   while (!stop() && !failed_) {
-    announcer_->ThrowIfDisplaced();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   Stop();

@@ -31,7 +31,7 @@ struct LoggerOptions {
 /// thread of its own records them.
 class LoggerNode {
  public:
-  /// Goes live. Throws InputError if the folder cannot be used.
+  /// Goes live. Throws InputError if the name is none or the folder cannot be used.
   LoggerNode(Bus* bus, const LoggerOptions& options);
   /// Records what was received so far and closes the files.
   ~LoggerNode();
@@ -40,8 +40,7 @@ class LoggerNode {
 
   /// Runs until `stop` (asked every 50 ms) says so, then records what was received so far. True if
   /// everything that came was recorded: nothing dropped, no run record refused. Throws
-  /// std::runtime_error if the folder cannot be written, InputError if an older process has the
-  /// name.
+  /// std::runtime_error if the folder cannot be written.
   bool Run(const std::function<bool()>& stop);
 
   std::int64_t num_dropped() const { return queue_.num_dropped(); }
@@ -52,13 +51,13 @@ class LoggerNode {
   void Write();
   void Stop();
 
+  const NodeStatusMessage status_;
   MessageQueue queue_;
   SessionRecorder recorder_;
   std::chrono::steady_clock::time_point last_complaint_;  // bus thread only
   std::atomic<bool> failed_ = false;
   std::exception_ptr failure_;  // the writer's; to be read after failed_ or the join
   std::thread writer_;
-  NodeStatusMessage status_;
   Subscription everything_;
   std::unique_ptr<NodeAnnouncer> announcer_;
 };

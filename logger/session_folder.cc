@@ -13,19 +13,15 @@
 #include "logger/lcm_type_files.h"
 
 namespace planbench {
-namespace {
 
 namespace fs = std::filesystem;
 
-fs::path WithoutTrailingSlash(const fs::path& folder) {
+fs::path SessionFolder::AbsolutePath(const fs::path& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
   return path.has_filename() ? path : path.parent_path();
 }
 
-}  // namespace
-
-SessionFolder::SessionFolder(const fs::path& folder, bool resume)
-    : path_(WithoutTrailingSlash(folder)) {
+SessionFolder::SessionFolder(const fs::path& folder, bool resume) : path_(AbsolutePath(folder)) {
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) {

@@ -16,6 +16,9 @@ class SessionFolder {
   SessionFolder(const SessionFolder&) = delete;
   SessionFolder& operator=(const SessionFolder&) = delete;
 
+  /// `folder` from the root on, without a slash at its end.
+  static std::filesystem::path AbsolutePath(const std::filesystem::path& folder);
+
   /// Absolute.
   const std::filesystem::path& path() const { return path_; }
   /// <session>.lcmlog, the session being the folder's name.

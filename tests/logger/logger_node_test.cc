@@ -236,6 +236,7 @@ TEST(LoggerNode, RefusesABadNameOrFolder) {
   const TemporaryFolder temporary;
   Bus bus("memq://");
   EXPECT_THROW(LoggerNode(&bus, {.out = temporary / "s", .name = "bad name"}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(temporary / "s"));
   const LoggerNode first(&bus, {.out = temporary / "t"});
   EXPECT_THROW(LoggerNode(&bus, {.out = temporary / "t", .name = "second"}), InputError);
 }
