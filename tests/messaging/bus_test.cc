@@ -1,0 +1,265 @@
+#include "messaging/bus.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "support/expect_input_error.h"
+#include "support/message_collector.h"
+#include "support/private_bus.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+
+void PublishNumber(Bus* bus, const std::string& channel, int number) {
+  bus->Publish(channel, DiscoverMessage{std::to_string(number)});
+}
+
+TEST(BusTest, HandlersMayThrow) {
+  Bus bus("memq://");
+  const Subscription standard = bus.Subscribe<DiscoverMessage>(
+      "CHANNEL", [](const DiscoverMessage&) { throw std::runtime_error("first"); });
+  const Subscription other =
+      bus.Subscribe<DiscoverMessage>("CHANNEL", [](const DiscoverMessage&) { throw 1; });
+  MessageCollector<DiscoverMessage> collector(&bus, "CHANNEL");
+  bus.Start();
+  for (int i = 0; i < 3; ++i) PublishNumber(&bus, "CHANNEL", i);
+  const auto received = collector.WaitFor(3);
+  ASSERT_EQ(received.size(), 3u);
+  EXPECT_EQ(received[2].sender, "2");
+}
+
+TEST(BusTest, UndecodableMessagesGoToTheirHandlerOrAreDropped) {
+  Bus bus("memq://");
+  std::promise<std::string> refused;
+  const Subscription with_refusal = bus.Subscribe<ProblemRequestMessage>(
+      "CHANNEL", [](const ProblemRequestMessage&) { FAIL() << "not to be decoded"; },
+      [&](const MessageError& error) {
+        refused.set_value(error.request_id() + ": " + error.what());
+      });
+  const Subscription without = bus.Subscribe<ProblemRequestMessage>(
+      "CHANNEL", [](const ProblemRequestMessage&) { FAIL() << "not to be decoded"; });
+  MessageCollector<DiscoverMessage> alive(&bus, "ALIVE");
+  bus.Start();
+  bus.Publish("CHANNEL", ProblemRequestMessage{"the id", "set", -1});
+  PublishNumber(&bus, "ALIVE", 1);
+  EXPECT_EQ(alive.WaitFor(1).size(), 1u);
+  const std::string said = refused.get_future().get();
+  EXPECT_THAT(said, HasSubstr("the id: "));
+  EXPECT_THAT(said, HasSubstr("CHANNEL"));
+  EXPECT_THAT(said, HasSubstr("problem_index"));
+}
+
+TEST(BusTest, BadUrlIsAnInputErrorOfOneLine) {
+  ExpectInputError([] { Bus("carrierpigeon://loft"); }, {"carrierpigeon://loft"});
+  ExpectInputError([] { Bus("nothing like a URL"); }, {"nothing like a URL"});
+  ExpectInputError([] { Bus("udpm://not-an-address"); }, {"udpm://not-an-address"});
+}
+
+/// What `Bus` throws in a network without routes; nothing if this process may not make one.
+std::optional<std::string> ErrorWithoutRoutes() {
+  int channel[2];
+  if (pipe(channel) != 0) throw std::runtime_error("pipe failed");
+  const pid_t pid = fork();
+  if (pid < 0) throw std::runtime_error("fork failed");
+  if (pid == 0) {
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) _exit(77);
+    std::string said = "nothing was thrown";
+    try {
+      Bus bus("udpm://239.255.76.67:7667?ttl=0");
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+    _exit(write(channel[1], said.data(), said.size()) == static_cast<ssize_t>(said.size()) ? 0 : 1);
+  }
+  close(channel[1]);
+  std::string said;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = read(channel[0], buffer, sizeof(buffer))) > 0;) {
+    said.append(buffer, static_cast<std::size_t>(n));
+  }
+  close(channel[0]);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) return std::nullopt;
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  return said;
+}
+
+TEST(BusTest, WithoutMulticastRouteSaysHowToMendIt) {
+  const std::optional<std::string> said = ErrorWithoutRoutes();
+  if (!said) GTEST_SKIP() << "this process may not make a network of its own";
+  EXPECT_THAT(*said, HasSubstr("multicast route"));
+  EXPECT_THAT(*said, HasSubstr("ip route add"));
+  EXPECT_EQ(said->find('\n'), std::string::npos) << *said;
+}
+
+TEST(BusTest, LargeMessageArrivesWhole) {
+  const std::string url = PrivateUdpUrl();
+  Bus sender(url);
+  Bus receiver(url);
+  MessageCollector<DiscoverMessage> collector(&receiver, "LARGE");
+  receiver.Start();
+  std::string text(1'000'000, ' ');
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>('a' + i % 23);
+  // Where the kernel caps the receive buffer some are lost: that is what the repetitions of every
+  // request are for.
+  ASSERT_TRUE(WaitUntil([&] {
+    sender.Publish("LARGE", DiscoverMessage{text});
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return !collector.messages().empty();
+  }));
+  EXPECT_TRUE(collector.messages().front().sender == text);
+}
+
+/// Publishes in lockstep with a lasting subscription, while others on the same channel come and go.
+void SubscriptionsComeAndGo(Bus* bus) {
+  constexpr int kMessages = 500;
+  std::atomic<int> num_received = 0;
+  const Subscription lasting =
+      bus->Subscribe<DiscoverMessage>("CHANNEL", [&](const DiscoverMessage&) { ++num_received; });
+  bus->Start();
+  std::atomic<bool> done = false;
+  std::thread publisher([&] {
+    for (int i = 0; i < kMessages; ++i) {
+      PublishNumber(bus, "CHANNEL", i);
+      if (!WaitUntil([&] { return num_received > i; })) break;
+    }
+    done = true;
+  });
+  int num_rounds = 0;
+  int num_late_calls = 0;
+  while (!done) {
+    // On the heap: a call after the end of the subscription is then seen by the sanitizers too.
+    auto ended = std::make_unique<std::atomic<bool>>(false);
+    std::vector<Subscription> passing;
+    for (int i = 0; i < 4; ++i) {
+      passing.push_back(bus->Subscribe<DiscoverMessage>(
+          i % 2 == 0 ? "CHANNEL" : "CHAN.*",
+          [&num_late_calls, flag = ended.get()](const DiscoverMessage&) {
+            if (*flag) ++num_late_calls;
+          }));
+    }
+    passing[1] = Subscription();
+    passing[0] = std::move(passing[3]);
+    passing.clear();
+    *ended = true;
+    ++num_rounds;
+  }
+  publisher.join();
+  EXPECT_EQ(num_received, kMessages);
+  EXPECT_EQ(num_late_calls, 0);
+  EXPECT_GT(num_rounds, 0);
+}
+
+TEST(BusTest, SubscriptionsComeAndGoWhileMessagesFlow) {
+  Bus bus("memq://");
+  SubscriptionsComeAndGo(&bus);
+}
+
+TEST(BusTest, SubscriptionsComeAndGoWhileMessagesFlowOnTheNetwork) {
+  Bus bus(PrivateUdpUrl());
+  SubscriptionsComeAndGo(&bus);
+}
+
+TEST(BusTest, EndOfSubscriptionWaitsForTheRunningHandler) {
+  Bus bus("memq://");
+  std::promise<void> entered;
+  std::promise<void> release;
+  std::atomic<bool> finished = false;
+  auto subscription = std::make_unique<Subscription>(
+      bus.Subscribe<DiscoverMessage>("CHANNEL", [&](const DiscoverMessage&) {
+        entered.set_value();
+        release.get_future().wait();
+        finished = true;
+      }));
+  bus.Start();
+  PublishNumber(&bus, "CHANNEL", 1);
+  entered.get_future().wait();
+  std::thread releaser([&] { release.set_value(); });
+  subscription.reset();
+  EXPECT_TRUE(finished);
+  releaser.join();
+}
+
+TEST(BusTest, EndedSubscriptionLetsGoOfWhatItsHandlerHeld) {
+  Bus bus("memq://");
+  const auto held = std::make_shared<int>(0);
+  Subscription subscription =
+      bus.Subscribe<DiscoverMessage>("CHANNEL", [held](const DiscoverMessage&) {});
+  EXPECT_EQ(held.use_count(), 2);
+  subscription = Subscription();
+  EXPECT_EQ(held.use_count(), 1);
+}
+
+TEST(BusTest, MessagesWaitWhileTheHandlerIsBusy) {
+  Bus bus("memq://");
+  std::promise<void> release;
+  const std::shared_future<void> released = release.get_future().share();
+  std::atomic<int> num_received = 0;
+  const Subscription unbounded = bus.Subscribe<DiscoverMessage>(
+      "CHANNEL",
+      [&](const DiscoverMessage&) {
+        released.wait();
+        ++num_received;
+      },
+      nullptr, /*queue_capacity=*/0);
+  bus.Start();
+  constexpr int kMessages = 3 * Bus::kDefaultQueueCapacity;
+  for (int i = 0; i < kMessages; ++i) PublishNumber(&bus, "CHANNEL", i);
+  release.set_value();
+  EXPECT_TRUE(WaitUntil([&] { return num_received == kMessages; })) << num_received;
+}
+
+TEST(BusTest, GoesOnAfterSignals) {
+  struct sigaction action = {};
+  struct sigaction before = {};
+  action.sa_handler = [](int) {};
+  sigaction(SIGUSR1, &action, &before);
+  {
+    Bus bus(PrivateUdpUrl());
+    MessageCollector<DiscoverMessage> collector(&bus, "CHANNEL");
+    bus.Start();
+    for (int i = 0; i < 20; ++i) {
+      for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+        const int id = std::stoi(task.path().filename());
+        if (id != getpid()) syscall(SYS_tgkill, getpid(), id, SIGUSR1);
+      }
+      PublishNumber(&bus, "CHANNEL", i);
+      ASSERT_EQ(collector.WaitFor(static_cast<std::size_t>(i) + 1).size(),
+                static_cast<std::size_t>(i) + 1);
+    }
+  }
+  sigaction(SIGUSR1, &before, nullptr);
+}
+
+TEST(BusTest, UrlComesFromFlagElseEnvironmentElseDefault) {
+  const char* set = std::getenv("LCM_DEFAULT_URL");
+  const std::optional<std::string> before = set ? std::optional<std::string>(set) : std::nullopt;
+  unsetenv("LCM_DEFAULT_URL");
+  EXPECT_EQ(ResolveLcmUrl(""), kDefaultLcmUrl);
+  setenv("LCM_DEFAULT_URL", "", 1);
+  EXPECT_EQ(ResolveLcmUrl(""), kDefaultLcmUrl);
+  setenv("LCM_DEFAULT_URL", "memq://", 1);
+  EXPECT_EQ(ResolveLcmUrl(""), "memq://");
+  EXPECT_EQ(ResolveLcmUrl("udpm://"), "udpm://");
+  before ? setenv("LCM_DEFAULT_URL", before->c_str(), 1) : unsetenv("LCM_DEFAULT_URL");
+}
+
+}  // namespace
+}  // namespace planbench

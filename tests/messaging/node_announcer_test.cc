@@ -1,0 +1,151 @@
+#include "messaging/node_announcer.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "messaging/channels.h"
+#include "support/expect_input_error.h"
+#include "support/message_collector.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::int64_t kMinuteUs = 60'000'000;
+
+class NodeAnnouncerTest : public testing::Test {
+ protected:
+  NodeAnnouncerTest() { bus_.Start(); }
+
+  /// Waits until the bus thread has been through all that was published so far.
+  void Settle() {
+    MessageCollector<ProblemRequestMessage> barrier(&bus_, "BARRIER");
+    bus_.Publish("BARRIER", ProblemRequestMessage{"barrier", "set", 0});
+    ASSERT_EQ(barrier.WaitFor(1).size(), 1u);
+  }
+  void Hear(const NodeStatusMessage& status) {
+    bus_.Publish(channel::kNodeStatus, status);
+    Settle();
+  }
+  /// Another process of the node's name, begun `age_us` before it.
+  NodeStatusMessage Other(std::int64_t age_us) const {
+    NodeStatusMessage other = self_;
+    other.pid = self_.pid + 1;
+    other.start_utime = self_.start_utime - age_us;
+    other.utime = NowUtime();
+    return other;
+  }
+
+  Bus bus_{"memq://"};
+  const NodeStatusMessage self_ = MakeNodeStatus("ara", NodeKind::kPlanner);
+};
+
+TEST_F(NodeAnnouncerTest, StatusSaysWhoThisProcessIs) {
+  EXPECT_EQ(self_.name, "ara");
+  EXPECT_EQ(self_.kind, NodeKind::kPlanner);
+  EXPECT_EQ(self_.pid, getpid());
+  EXPECT_FALSE(self_.host.empty());
+  EXPECT_FALSE(self_.version.empty());
+  EXPECT_FALSE(self_.commit.empty());
+  EXPECT_NEAR(static_cast<double>(self_.start_utime), static_cast<double>(NowUtime()), 60e6);
+  ExpectInputError([] { MakeNodeStatus("no name", NodeKind::kLogger); }, {"no name"});
+}
+
+TEST_F(NodeAnnouncerTest, AnnouncesUnaskedAndAgainAndAgain) {
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  const auto heard = statuses.WaitFor(4);  // one or two come of the announcer's own question
+  ASSERT_GE(heard.size(), 4u);
+  EXPECT_EQ(heard[3].name, "ara");
+  EXPECT_GE(heard[3].utime, self_.start_utime);
+}
+
+TEST_F(NodeAnnouncerTest, AnswersDiscover) {
+  std::atomic<int> num_also = 0;
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, [&] { ++num_also; });
+  Settle();
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  const int before = num_also;
+  for (int i = 0; i < 5; ++i) bus_.Publish(channel::kDiscover, DiscoverMessage{"test"});
+  EXPECT_GE(statuses.WaitFor(5).size(), 5u);
+  EXPECT_TRUE(WaitUntil([&] { return num_also == before + 5; })) << num_also;
+}
+
+TEST_F(NodeAnnouncerTest, AnnouncesTheStatusOfTheMoment) {
+  std::atomic<bool> busy = false;
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  NodeAnnouncer announcer(&bus_, [&] {
+    NodeStatusMessage status = self_;
+    status.busy = busy;
+    return status;
+  });
+  ASSERT_FALSE(statuses.WaitFor(1).empty());
+  EXPECT_FALSE(statuses.messages()[0].busy);
+  busy = true;
+  announcer.Announce();
+  EXPECT_TRUE(statuses.WaitForOne([](const NodeStatusMessage& status) { return status.busy; }));
+}
+
+TEST_F(NodeAnnouncerTest, OfTwoOfANameTheOlderStays) {
+  NodeStatusMessage newer = self_;
+  newer.start_utime = self_.start_utime + 1;
+  const NodeAnnouncer old_one(&bus_, [&] { return self_; });
+  const NodeAnnouncer new_one(&bus_, [&] { return newer; });
+  ASSERT_TRUE(WaitUntil([&] {
+    try {
+      new_one.ThrowIfDisplaced();
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  }));
+  ExpectInputError([&] { new_one.ThrowIfDisplaced(); },
+                   {"another session is on this LCM port", "the planner 'ara' is live already",
+                    "pid " + std::to_string(getpid()), "--name", "--lcm-url"});
+  Settle();
+  EXPECT_NO_THROW(old_one.ThrowIfDisplaced());
+}
+
+TEST_F(NodeAnnouncerTest, NamesCountWhateverTheKind) {
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  NodeStatusMessage other = Other(kMinuteUs);
+  other.kind = NodeKind::kLogger;
+  Hear(other);
+  ExpectInputError([&] { announcer.ThrowIfDisplaced(); }, {"the logger 'ara'"});
+}
+
+TEST_F(NodeAnnouncerTest, OthersDisplaceNobody) {
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  NodeStatusMessage namesake = Other(kMinuteUs);
+  namesake.name = "rrtc";
+  Hear(namesake);
+  Hear(Other(-1));  // newer
+  Hear(self_);      // itself
+  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
+}
+
+TEST_F(NodeAnnouncerTest, ProcessesOfTheSameMomentAgreeOnWhoStays) {
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  NodeStatusMessage other = Other(0);
+  Hear(other);  // pid above ours
+  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
+  other.pid = self_.pid - 1;
+  Hear(other);
+  EXPECT_THROW(announcer.ThrowIfDisplaced(), InputError);
+}
+
+TEST_F(NodeAnnouncerTest, AReplayDisplacesNobody) {
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  NodeStatusMessage recorded = Other(kMinuteUs);
+  recorded.utime = NowUtime() - kMinuteUs;
+  Hear(recorded);
+  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
+  recorded.utime = NowUtime();
+  Hear(recorded);
+  EXPECT_THROW(announcer.ThrowIfDisplaced(), InputError);
+}
+
+}  // namespace
+}  // namespace planbench

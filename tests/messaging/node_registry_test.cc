@@ -1,0 +1,109 @@
+#include "messaging/node_registry.h"
+
+#include <gtest/gtest.h>
+
+#include "messaging/channels.h"
+#include "support/message_collector.h"
+
+namespace planbench {
+namespace {
+
+using std::chrono::milliseconds;
+
+NodeStatusMessage Status(const std::string& name, NodeKind kind) {
+  NodeStatusMessage status;
+  status.name = name;
+  status.kind = kind;
+  status.start_utime = 1;
+  status.host = "host";
+  status.pid = 1;
+  return status;
+}
+
+class NodeRegistryTest : public testing::Test {
+ protected:
+  NodeRegistryTest() { bus_.Start(); }
+
+  void Hear(const NodeStatusMessage& status) { bus_.Publish(channel::kNodeStatus, status); }
+  bool Await(const std::function<bool()>& condition) {
+    return registry_.WaitUntil(condition, kTestPatience);
+  }
+
+  Bus bus_{"memq://"};
+  NodeRegistry registry_{&bus_};
+};
+
+TEST_F(NodeRegistryTest, KnowsNobodyAtFirst) {
+  EXPECT_TRUE(registry_.Live().empty());
+  EXPECT_FALSE(registry_.ProblemSets());
+}
+
+TEST_F(NodeRegistryTest, FindsByNameAndKind) {
+  Hear(Status("ara", NodeKind::kPlanner));
+  Hear(Status("rrtc", NodeKind::kPlanner));
+  Hear(Status("logger", NodeKind::kLogger));
+  ASSERT_TRUE(Await([&] { return registry_.Live().size() == 3; }));
+  EXPECT_EQ(registry_.Live(NodeKind::kPlanner).size(), 2u);
+  EXPECT_EQ(registry_.Live(NodeKind::kLogger).size(), 1u);
+  EXPECT_TRUE(registry_.Live(NodeKind::kSceneServer).empty());
+  EXPECT_TRUE(registry_.Find("ara", NodeKind::kPlanner));
+  EXPECT_FALSE(registry_.Find("ara", NodeKind::kLogger));
+  EXPECT_FALSE(registry_.Find("prm", NodeKind::kPlanner));
+}
+
+TEST_F(NodeRegistryTest, KeepsTheLatestStatus) {
+  NodeStatusMessage status = Status("ara", NodeKind::kPlanner);
+  Hear(status);
+  status.busy = true;
+  status.request_id = "request";
+  Hear(status);
+  ASSERT_TRUE(Await([&] {
+    const auto found = registry_.Find("ara", NodeKind::kPlanner);
+    return found && found->busy;
+  }));
+  EXPECT_EQ(registry_.Find("ara", NodeKind::kPlanner)->request_id, "request");
+  EXPECT_EQ(registry_.Live().size(), 1u);
+}
+
+TEST_F(NodeRegistryTest, WhoFallsSilentIsGoneAndMayComeBack) {
+  const auto begin = std::chrono::steady_clock::now();
+  Hear(Status("ara", NodeKind::kPlanner));
+  ASSERT_TRUE(Await([&] { return !registry_.Live().empty(); }));
+  ASSERT_TRUE(Await([&] { return registry_.Live().empty(); }));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, NodeRegistry::kLostAfter);
+  EXPECT_FALSE(registry_.Find("ara", NodeKind::kPlanner));
+  Hear(Status("ara", NodeKind::kPlanner));
+  EXPECT_TRUE(Await([&] { return registry_.Find("ara", NodeKind::kPlanner).has_value(); }));
+}
+
+TEST_F(NodeRegistryTest, KeepsTheLatestProblemSets) {
+  ProblemSetsMessage sets;
+  sets.server = "server";
+  sets.robot_name = "robot";
+  sets.robot_id = "id";
+  sets.edge_resolution_m = 0.02;
+  bus_.Publish(channel::kProblemSets, sets);
+  sets.sets.push_back({"cans", {1, 2}});
+  bus_.Publish(channel::kProblemSets, sets);
+  ASSERT_TRUE(
+      Await([&] { return registry_.ProblemSets() && !registry_.ProblemSets()->sets.empty(); }));
+  EXPECT_EQ(registry_.ProblemSets()->sets[0].indices, (std::vector<int>{1, 2}));
+}
+
+TEST_F(NodeRegistryTest, DiscoverAsksEverybody) {
+  MessageCollector<DiscoverMessage> questions(&bus_, channel::kDiscover);
+  registry_.Discover("driver");
+  const auto heard = questions.WaitFor(1);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].sender, "driver");
+}
+
+TEST_F(NodeRegistryTest, WaitingEndsWithTheTimeout) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(registry_.WaitUntil([] { return false; }, milliseconds(150)));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, milliseconds(150));
+  EXPECT_TRUE(registry_.WaitUntil([] { return true; }, milliseconds(0)));
+}
+
+}  // namespace
+}  // namespace planbench

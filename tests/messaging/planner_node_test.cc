@@ -1,0 +1,411 @@
+#include "messaging/planner_node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "support/expect_input_error.h"
+#include "support/message_collector.h"
+#include "support/planning_problems.h"
+#include "support/scripted_planner.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+using Verdict = PlanAckMessage::Verdict;
+
+const Robot& PlanarRobot() {
+  static const Robot robot = LoadPlanarRobot();
+  return robot;
+}
+
+/// A planner node and everything it talks to, on a bus within this process.
+class PlannerNodeTest : public testing::Test {
+ protected:
+  PlannerNodeTest() { bus_.Start(); }
+  ~PlannerNodeTest() override { StopNode(); }
+
+  void StartNode(PlannerDescription description = ScriptedPlanner::Able()) {
+    node_ = std::make_unique<PlannerNode>(
+        &bus_, "arm",
+        std::make_unique<ScriptedPlanner>(
+            PlanarRobot(), [this](SearchQuery& query) { return Search(query); },
+            std::move(description)));
+    runner_ = std::thread([this] { node_->Run([this] { return stop_.load(); }); });
+  }
+  void StopNode() {
+    stop_ = true;
+    if (runner_.joinable()) runner_.join();
+    node_.reset();
+  }
+  void StartSceneServer() {
+    scene_server_ = bus_.Subscribe<SceneRequestMessage>(
+        channel::kSceneRequest, [this](const SceneRequestMessage& request) {
+          bus_.Publish(channel::kScene,
+                       SceneMessage{request.request_id, request.scene_id, true, "", scene_});
+        });
+  }
+
+  SearchResult Search(SearchQuery& query) {
+    ++num_searches_;
+    while (hold_ && !query.ShouldStop()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (query.Cancelled()) {
+      SearchResult cancelled;
+      cancelled.status = PlanStatus::kCancelled;
+      cancelled.message = "cancelled";
+      return cancelled;
+    }
+    if (query.anytime()) query.ReportSolution(3, 17, 5);
+    return StraightLine(query);
+  }
+
+  PlanRequest Request(const std::string& id) const {
+    PlanRequest request = MakeRequest(PlanarRobot(), {0.6, 0, 0}, {-0.6, 0, 0});
+    request.run_id = "run";
+    request.request_id = id;
+    request.scene_id = SceneId(scene_);
+    request.robot_id = PlanarRobot().content_id;
+    request.time_limit_s = 3600;
+    return request;
+  }
+  void Send(const PlanRequest& request) { bus_.Publish(channels_.request, request); }
+  void Cancel(const std::string& id) { bus_.Publish(channels_.cancel, PlanCancelMessage{id}); }
+  void AcknowledgeResult(const std::string& id) {
+    bus_.Publish(channels_.result_ack, AckMessage{id, "test", true, ""});
+  }
+  /// Sends a request and returns its first acknowledgement.
+  PlanAckMessage SendForAck(const PlanRequest& request) {
+    MessageCollector<PlanAckMessage> acks(&bus_, channels_.ack);
+    Send(request);
+    const auto of_it = [&](const PlanAckMessage& ack) {
+      return ack.request_id == request.request_id;
+    };
+    EXPECT_TRUE(acks.WaitForOne(of_it)) << "no acknowledgement";
+    for (const PlanAckMessage& ack : acks.messages()) {
+      if (of_it(ack)) return ack;
+    }
+    return {};
+  }
+  /// The result of a request, which is awaited.
+  PlanResultMessage ResultOf(const std::string& id, PlanStatus status = PlanStatus::kSolved) {
+    const auto of_it = [&](const PlanResultMessage& result) {
+      return result.request_id == id && result.result.status == status;
+    };
+    EXPECT_TRUE(results_.WaitForOne(of_it)) << "no result of " << id;
+    for (const PlanResultMessage& result : results_.messages()) {
+      if (of_it(result)) return result;
+    }
+    return {};
+  }
+  std::size_t NumResultsOf(const std::string& id) {
+    return results_.Count([&](const PlanResultMessage& r) { return r.request_id == id; });
+  }
+  bool WaitForResultsOf(const std::string& id, std::size_t count) {
+    return WaitUntil([&] { return NumResultsOf(id) >= count; });
+  }
+
+  Bus bus_{"memq://"};
+  const PlannerChannels channels_{"arm"};
+  const Scene scene_ = EmptyPlanarScene();
+  std::atomic<int> num_searches_ = 0;
+  std::atomic<bool> hold_ = false;
+  MessageCollector<PlanResultMessage> results_{&bus_, channels_.result};
+  MessageCollector<SceneRequestMessage> scene_requests_{&bus_, channel::kSceneRequest};
+
+ private:
+  std::atomic<bool> stop_ = false;
+  Subscription scene_server_;
+  std::unique_ptr<PlannerNode> node_;
+  std::thread runner_;
+};
+
+TEST_F(PlannerNodeTest, AnnouncesWhatItIsAndCan) {
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  StartNode();
+  const auto heard = statuses.WaitFor(1);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard[0].name, "arm");
+  EXPECT_EQ(heard[0].kind, NodeKind::kPlanner);
+  EXPECT_EQ(heard[0].robot_name, "planar3");
+  EXPECT_EQ(heard[0].robot_id, PlanarRobot().content_id);
+  EXPECT_EQ(heard[0].algorithm, "scripted");
+  EXPECT_EQ(heard[0].planner_class, "sample-then-search");
+  EXPECT_TRUE(heard[0].can_backward);
+  EXPECT_TRUE(heard[0].can_anytime);
+  EXPECT_EQ(heard[0].collision_models, std::vector<std::string>{"spheres"});
+  EXPECT_EQ(heard[0].settings, (std::map<std::string, std::string>{{"key", "value"}}));
+  EXPECT_FALSE(heard[0].busy);
+}
+
+TEST_F(PlannerNodeTest, AcceptsSolvesAndSendsTheResult) {
+  StartNode();
+  StartSceneServer();
+  const PlanAckMessage ack = SendForAck(Request("a"));
+  EXPECT_EQ(ack.planner, "arm");
+  EXPECT_EQ(ack.verdict, Verdict::kAccepted);
+  const PlanResultMessage result = ResultOf("a");
+  EXPECT_EQ(result.planner, "arm");
+  EXPECT_EQ(result.run_id, "run");
+  EXPECT_EQ(result.joint_names, (std::vector<std::string>{"shoulder", "elbow", "wrist"}));
+  EXPECT_EQ(result.result.path, (Path{{0.6, 0, 0}, {-0.6, 0, 0}}));
+}
+
+TEST_F(PlannerNodeTest, AsksForASceneItLacksAndOnlyThen) {
+  StartNode();
+  const PlanRequest request = Request("a");
+  Send(request);
+  const auto asked = scene_requests_.WaitFor(2);  // repeated until it comes
+  ASSERT_GE(asked.size(), 2u);
+  EXPECT_EQ(asked[0].scene_id, request.scene_id);
+  EXPECT_FALSE(asked[0].request_id.empty());
+  EXPECT_EQ(num_searches_, 0);
+
+  // A scene that nobody has, and another one: neither serves.
+  bus_.Publish(channel::kScene, SceneMessage{"x", request.scene_id, false, "no such scene", {}});
+  bus_.Publish(channel::kScene, SceneMessage{"x", SceneId(PostsScene()), true, "", PostsScene()});
+  EXPECT_GE(scene_requests_.WaitFor(3).size(), 3u);
+  EXPECT_EQ(num_searches_, 0);
+
+  bus_.Publish(channel::kScene, SceneMessage{"x", request.scene_id, true, "", scene_});
+  ResultOf("a");
+  const std::size_t num_asked = scene_requests_.messages().size();
+  Send(Request("b"));
+  ResultOf("b");
+  PlanRequest among_posts = Request("c");
+  among_posts.scene_id = SceneId(PostsScene());
+  Send(among_posts);
+  ResultOf("c");
+  EXPECT_EQ(scene_requests_.messages().size(), num_asked);
+}
+
+TEST_F(PlannerNodeTest, IsBusyWithOneRequestAtATime) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  const PlanAckMessage ack = SendForAck(Request("b"));
+  EXPECT_EQ(ack.verdict, Verdict::kBusy);
+  EXPECT_THAT(ack.message, HasSubstr("a"));
+  hold_ = false;
+  ResultOf("a");
+  EXPECT_EQ(SendForAck(Request("b")).verdict, Verdict::kAccepted);
+  ResultOf("b");
+}
+
+TEST_F(PlannerNodeTest, HeartbeatsGoOnWhileItSolves) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  EXPECT_TRUE(WaitUntil([&] {
+    return statuses.Count([](const NodeStatusMessage& status) {
+      return status.busy && status.request_id == "a";
+    }) >= 2;
+  }));
+  hold_ = false;
+  ResultOf("a");
+  const std::size_t before = statuses.messages().size();
+  statuses.WaitFor(before + 2);
+  EXPECT_FALSE(statuses.messages().back().busy);
+  EXPECT_TRUE(statuses.messages().back().request_id.empty());
+}
+
+TEST_F(PlannerNodeTest, RefusesWhatItCannotDoAndSaysWhy) {
+  PlannerDescription modest = ScriptedPlanner::Able();
+  modest.backward = false;
+  modest.anytime = false;
+  StartNode(modest);
+  const auto expect_refusal = [&](const PlanRequest& request, const std::string& why) {
+    const PlanAckMessage ack = SendForAck(request);
+    EXPECT_EQ(ack.verdict, Verdict::kRefused) << request.request_id;
+    EXPECT_THAT(ack.message, HasSubstr(why));
+  };
+  PlanRequest request = Request("other robot");
+  request.robot_id = "another";
+  expect_refusal(request, "another");
+  request = Request("meshes");
+  request.collision_model = CollisionModel::kMeshes;
+  expect_refusal(request, "'meshes'");
+  request = Request("backward");
+  request.direction = Direction::kBackward;
+  expect_refusal(request, "backward");
+  request = Request("anytime");
+  request.anytime = true;
+  expect_refusal(request, "anytime");
+
+  request = Request("any robot");
+  request.robot_id.clear();
+  EXPECT_EQ(SendForAck(request).verdict, Verdict::kAccepted);
+}
+
+TEST_F(PlannerNodeTest, RefusesAMalformedRequestByItsId) {
+  StartNode();
+  PlanRequest request = Request("a");
+  request.time_limit_s = std::numeric_limits<double>::quiet_NaN();
+  const PlanAckMessage ack = SendForAck(request);
+  EXPECT_EQ(ack.verdict, Verdict::kRefused);
+  EXPECT_THAT(ack.message, HasSubstr(channels_.request));
+  EXPECT_THAT(ack.message, HasSubstr("time_limit_s"));
+}
+
+TEST_F(PlannerNodeTest, DropsARequestWithoutIdAndGoesOn) {
+  StartNode();
+  StartSceneServer();
+  MessageCollector<PlanAckMessage> acks(&bus_, channels_.ack);
+  Send(Request(""));
+  bus_.PublishBytes(channels_.request, std::vector<std::uint8_t>{1, 2, 3});
+  Send(Request("a"));
+  ResultOf("a");
+  EXPECT_EQ(acks.messages().size(), 1u);
+}
+
+TEST_F(PlannerNodeTest, RequestThatCannotBeResolvedIsAResult) {
+  StartNode();
+  StartSceneServer();
+  PlanRequest request = Request("a");
+  request.group = "tail";
+  Send(request);
+  EXPECT_THAT(ResultOf("a", PlanStatus::kInvalidRequest).result.message, HasSubstr("tail"));
+}
+
+TEST_F(PlannerNodeTest, RepeatedRequestIsNoSecondSolve) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);  // while it is solved
+  hold_ = false;
+  ResultOf("a");
+  AcknowledgeResult("a");
+  const std::size_t before = NumResultsOf("a");
+  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);  // and after
+  EXPECT_TRUE(WaitForResultsOf("a", before + 1));
+  EXPECT_EQ(num_searches_, 1);
+}
+
+TEST_F(PlannerNodeTest, ResultIsRepeatedUntilItIsAcknowledged) {
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitForResultsOf("a", 3));
+  AcknowledgeResult("a");
+  // Acknowledged at once, this one is never repeated, while a third one is three times. (The
+  // period doubles; repetitions of all results are sent in one go, the first request's first.)
+  Send(Request("b"));
+  ResultOf("b");
+  AcknowledgeResult("b");
+  Send(Request("c"));
+  ResultOf("c");
+  const std::size_t num_a = NumResultsOf("a");
+  const std::size_t num_b = NumResultsOf("b");
+  ASSERT_TRUE(WaitForResultsOf("c", 4));  // 1.4 s; "a" would be due after 0.8 s
+  EXPECT_EQ(NumResultsOf("a"), num_a);
+  EXPECT_EQ(NumResultsOf("b"), num_b);
+}
+
+TEST_F(PlannerNodeTest, ProgressIsPublished) {
+  MessageCollector<PlanProgressMessage> progress(&bus_, channels_.progress);
+  StartNode();
+  StartSceneServer();
+  PlanRequest request = Request("a");
+  request.anytime = true;
+  Send(request);
+  const auto heard = progress.WaitFor(1);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].planner, "arm");
+  EXPECT_EQ(heard[0].request_id, "a");
+  EXPECT_EQ(heard[0].progress.epsilon, 3);
+  EXPECT_EQ(heard[0].progress.cost, 17);
+  EXPECT_EQ(heard[0].progress.expansions, 5);
+  EXPECT_EQ(ResultOf("a").result.progress.size(), 1u);
+}
+
+TEST_F(PlannerNodeTest, CancelEndsTheSearch) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  Cancel("another");
+  EXPECT_EQ(SendForAck(Request("b")).verdict, Verdict::kBusy);
+  Cancel("a");
+  EXPECT_TRUE(ResultOf("a", PlanStatus::kCancelled).result.path.empty());
+}
+
+TEST_F(PlannerNodeTest, CancelEndsTheWaitForTheScene) {
+  StartNode();
+  Send(Request("a"));
+  ASSERT_FALSE(scene_requests_.WaitFor(1).empty());
+  Cancel("a");
+  EXPECT_THAT(ResultOf("a", PlanStatus::kCancelled).result.message, HasSubstr("scene"));
+  EXPECT_EQ(num_searches_, 0);
+}
+
+TEST_F(PlannerNodeTest, CancelledRequestIsSolvedWhenItComesAgain) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  Cancel("a");
+  ResultOf("a", PlanStatus::kCancelled);
+  hold_ = false;
+  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);
+  EXPECT_EQ(ResultOf("a").result.path.size(), 2u);
+  EXPECT_EQ(num_searches_, 2);
+}
+
+TEST_F(PlannerNodeTest, EndsWhileSolving) {
+  hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  StopNode();
+  ResultOf("a", PlanStatus::kCancelled);
+}
+
+TEST_F(PlannerNodeTest, EndsWhileWaitingForTheScene) {
+  StartNode();
+  Send(Request("a"));
+  ASSERT_FALSE(scene_requests_.WaitFor(1).empty());
+  StopNode();
+  ResultOf("a", PlanStatus::kCancelled);
+}
+
+TEST_F(PlannerNodeTest, GivesWayToAnOlderProcessOfItsName) {
+  NodeStatusMessage older = MakeNodeStatus("arm", NodeKind::kPlanner);
+  older.utime = older.start_utime;
+  older.start_utime -= 1'000'000;
+  PlannerNode node(&bus_, "arm",
+                   std::make_unique<ScriptedPlanner>(
+                       PlanarRobot(), [](SearchQuery& query) { return StraightLine(query); }));
+  bus_.Publish(channel::kNodeStatus, older);
+  const auto deadline = std::chrono::steady_clock::now() + kTestPatience;
+  ExpectInputError([&] { node.Run([&] { return std::chrono::steady_clock::now() >= deadline; }); },
+                   {"'arm' is live already"});
+}
+
+TEST_F(PlannerNodeTest, NameMustFitAChannel) {
+  ExpectInputError(
+      [&] {
+        PlannerNode(&bus_, "an arm",
+                    std::make_unique<ScriptedPlanner>(
+                        PlanarRobot(), [](SearchQuery& query) { return StraightLine(query); }));
+      },
+      {"an arm"});
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,138 @@
+#include "messaging/program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+
+#include <stdexcept>
+
+#include "common/error.h"
+#include "messaging/bus.h"
+#include "support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ProgramTest : public testing::Test {
+ protected:
+  // The program's log is made of the standard error of the moment, which is captured.
+  ProgramTest() : before_(spdlog::default_logger()) {}
+  ~ProgramTest() override {
+    spdlog::drop("tester");
+    spdlog::set_default_logger(before_);
+  }
+
+  int Run(std::vector<std::string> arguments, const std::function<int()>& work) {
+    arguments.insert(arguments.begin(), "tester");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int code = program_.Run(static_cast<int>(argv.size()), argv.data(), work);
+    out_ = testing::internal::GetCapturedStdout();
+    err_ = testing::internal::GetCapturedStderr();
+    return code;
+  }
+
+  Program program_{"tester", "Tests programs."};
+  std::string out_;
+  std::string err_;
+
+ private:
+  std::shared_ptr<spdlog::logger> before_;
+};
+
+int MustNotWork() {
+  ADD_FAILURE() << "must not come to work";
+  return 0;
+}
+
+TEST_F(ProgramTest, ReturnsWhatTheWorkReturns) {
+  int number = 0;
+  program_.app().add_option("--number", number);
+  EXPECT_EQ(Run({"--number", "5"}, [&] { return number; }), 5);
+  EXPECT_EQ(err_, "");
+}
+
+TEST_F(ProgramTest, BadInputEndsWith2AndOneLine) {
+  EXPECT_EQ(Run({}, []() -> int { throw InputError("robot.yaml:3: no"); }), kExitBadInput);
+  EXPECT_EQ(err_, "tester: robot.yaml:3: no\n");
+}
+
+TEST_F(ProgramTest, OtherFailuresEndWith1AndOneLine) {
+  EXPECT_EQ(Run({}, []() -> int { throw std::runtime_error("disk full"); }), kExitFailed);
+  EXPECT_EQ(err_, "tester: failed: disk full\n");
+}
+
+TEST_F(ProgramTest, BadFlagsEndWith2AndOneLine) {
+  EXPECT_EQ(Run({"--nonsense"}, MustNotWork), kExitBadInput);
+  EXPECT_THAT(err_, StartsWith("tester: "));
+  EXPECT_THAT(err_, HasSubstr("--nonsense"));
+  EXPECT_THAT(err_, EndsWith("(see tester --help)\n"));
+}
+
+TEST_F(ProgramTest, MissingRequiredFlagIsNamed) {
+  std::string robot;
+  program_.app().add_option("--robot", robot)->required();
+  EXPECT_EQ(Run({}, MustNotWork), kExitBadInput);
+  EXPECT_THAT(err_, HasSubstr("--robot"));
+}
+
+TEST_F(ProgramTest, HelpNamesTheFlagsOfAllPrograms) {
+  EXPECT_EQ(Run({"--help"}, MustNotWork), kExitOk);
+  EXPECT_THAT(out_, HasSubstr("Tests programs."));
+  for (const char* flag : {"--help", "--version", "--lcm-url"}) EXPECT_THAT(out_, HasSubstr(flag));
+  EXPECT_EQ(err_, "");
+}
+
+TEST_F(ProgramTest, VersionIsTold) {
+  EXPECT_EQ(Run({"--version"}, MustNotWork), kExitOk);
+  EXPECT_THAT(out_, StartsWith("tester "));
+}
+
+TEST_F(ProgramTest, LcmUrlIsTheFlagsIfGiven) {
+  EXPECT_EQ(Run({"--lcm-url", "memq://"},
+                [&] {
+                  EXPECT_EQ(program_.lcm_url(), "memq://");
+                  EXPECT_TRUE(program_.lcm_url_given());
+                  return 0;
+                }),
+            0);
+}
+
+TEST_F(ProgramTest, LcmUrlIsTheDefaultIfNot) {
+  Run({}, [&] {
+    EXPECT_EQ(program_.lcm_url(), ResolveLcmUrl(""));
+    EXPECT_FALSE(program_.lcm_url_given());
+    return 0;
+  });
+}
+
+TEST_F(ProgramTest, TerminationIsARequestToStop) {
+  Run({}, [] {
+    EXPECT_FALSE(StopRequested());
+    raise(SIGTERM);
+    EXPECT_TRUE(StopRequested());
+    return 0;
+  });
+}
+
+TEST_F(ProgramTest, PackagePathsMayBeGivenSeveralTimes) {
+  std::vector<std::string> arguments;
+  AddPackagePathFlag(&program_.app(), &arguments);
+  Run({"--package-path", "fetch=/a", "--package-path", "other=/b/c"}, [&] {
+    const auto packages = ParsePackagePaths(arguments);
+    EXPECT_EQ(packages.size(), 2u);
+    EXPECT_EQ(packages.at("other"), "/b/c");
+    return 0;
+  });
+  ExpectInputError([] { ParsePackagePaths({"fetch"}); }, {"fetch"});
+}
+
+}  // namespace
+}  // namespace planbench

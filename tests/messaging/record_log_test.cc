@@ -1,0 +1,111 @@
+#include "messaging/record_log.h"
+
+#include <gtest/gtest.h>
+#include <lcm/eventlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "support/expect_input_error.h"
+#include "support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+SessionMessage Session(const std::string& run_id) {
+  SessionMessage session;
+  session.run_id = run_id;
+  return session;
+}
+
+RunRecordMessage Run(const std::string& request_id, double roundtrip_time_s = 1) {
+  RunRecordMessage run;
+  run.run_id = "run";
+  run.request_id = request_id;
+  run.planner = "arm";
+  run.roundtrip_time_s = roundtrip_time_s;
+  return run;
+}
+
+class RecordLogTest : public testing::Test {
+ protected:
+  void Add(const std::string& channel, std::vector<std::uint8_t> bytes) {
+    lcm_eventlog_event_t event = {};
+    event.timestamp = ++time_;
+    event.channellen = static_cast<int>(channel.size());
+    event.channel = const_cast<char*>(channel.c_str());
+    event.datalen = static_cast<int>(bytes.size());
+    event.data = bytes.data();
+    ASSERT_EQ(lcm_eventlog_write_event(log_.get(), &event), 0);
+  }
+  RecordedSession Read() {
+    log_.reset();
+    return ReadRecords(file_);
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "session.lcmlog";
+  std::int64_t time_ = 0;
+  std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log_{
+      lcm_eventlog_create(file_.c_str(), "w"), lcm_eventlog_destroy};
+};
+
+TEST_F(RecordLogTest, ReadsSessionsAndRunsInOrder) {
+  Add(channel::kSession, Encode(Session("run")));
+  Add(channel::kRunRecord, Encode(Run("b")));
+  Add("UNRELATED", {1, 2, 3});
+  Add(channel::kRunRecord, Encode(Run("a")));
+  Add(channel::kSession, Encode(Session("later run")));
+  const RecordedSession recorded = Read();
+  ASSERT_EQ(recorded.sessions.size(), 2u);
+  EXPECT_EQ(recorded.sessions[0].run_id, "run");
+  EXPECT_EQ(recorded.sessions[1].run_id, "later run");
+  ASSERT_EQ(recorded.runs.size(), 2u);
+  EXPECT_EQ(recorded.runs[0].request_id, "b");
+  EXPECT_EQ(recorded.runs[1].request_id, "a");
+}
+
+TEST_F(RecordLogTest, RepeatedRecordsCountOnce) {
+  Add(channel::kRunRecord, Encode(Run("a", 1)));
+  Add(channel::kRunRecord, Encode(Run("a", 2)));
+  const RecordedSession recorded = Read();
+  ASSERT_EQ(recorded.runs.size(), 1u);
+  EXPECT_EQ(recorded.runs[0].roundtrip_time_s, 1);
+}
+
+TEST_F(RecordLogTest, TornLastEventIsNoError) {
+  Add(channel::kRunRecord, Encode(Run("a")));
+  Add(channel::kRunRecord, Encode(Run("b")));
+  log_.reset();
+  const auto size = std::filesystem::file_size(file_);
+  for (const std::uintmax_t torn : {1u, 20u, 100u}) {
+    std::filesystem::resize_file(file_, size - torn);
+    const RecordedSession recorded = ReadRecords(file_);
+    ASSERT_EQ(recorded.runs.size(), 1u) << torn;
+    EXPECT_EQ(recorded.runs[0].request_id, "a");
+  }
+}
+
+TEST_F(RecordLogTest, EmptyLogHoldsNothing) {
+  const RecordedSession recorded = Read();
+  EXPECT_TRUE(recorded.sessions.empty());
+  EXPECT_TRUE(recorded.runs.empty());
+}
+
+TEST_F(RecordLogTest, RecordOfAnotherVersionNamesFileAndChannel) {
+  std::vector<std::uint8_t> bytes = Encode(Run("a"));
+  bytes[0] = static_cast<std::uint8_t>(bytes[0] + 1);  // the type's fingerprint
+  Add(channel::kRunRecord, bytes);
+  ExpectInputError([&] { Read(); }, {file_.string(), channel::kRunRecord});
+}
+
+TEST_F(RecordLogTest, MissingFileIsNamed) {
+  const std::string missing = (folder_.path() / "missing.lcmlog").string();
+  ExpectInputError([&] { ReadRecords(missing); }, {missing});
+}
+
+}  // namespace
+}  // namespace planbench
