@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/pipeline/pipeline_fixture.h"
+
+namespace planbench {
+namespace {
+
+class BadUse : public PipelineTest {};
+
+TEST_F(BadUse, UnknownPlanner) {
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--planners", "ara,prm"}),
+                 "unknown planner 'prm'; known are: ara, rrtc");
+  StartSceneServer();
+  StartPlanner("rrtc");
+  ExpectBadInput(
+      Start({Program("benchmark_driver"), "--planners", "rrtc,prm", "--discovery-timeout", "3"}),
+      "a planner named 'prm'");
+}
+
+TEST_F(BadUse, MissingProblemFolder) {
+  ExpectBadInput(
+      Start({Program("scene_server"), "--robot", RobotFolder(), "--problems", "/nowhere"}),
+      "/nowhere");
+  ExpectBadInput(Start({Program("benchmark_driver"), "--launch", "--robot", RobotFolder(),
+                        "--problems", "/nowhere", "--out", (folder() / "s").string()}),
+                 "/nowhere");
+  EXPECT_TRUE(LeftRunning().empty());
+}
+
+TEST_F(BadUse, MissingOrBrokenRobot) {
+  ExpectBadInput(Start({Program("planner_ara"), "--robot", "/nowhere"}), "/nowhere");
+  ExpectBadInput(StartPlanner("rrtc", {"--set", "rang=1"}), "--set rang");
+  ExpectBadInput(StartPlanner("ara", {"--config", "/nowhere.yaml"}), "/nowhere.yaml");
+}
+
+TEST_F(BadUse, PlannerWithAnotherRobot) {
+  const auto other = folder() / "other_fetch";
+  std::filesystem::copy(RobotFolder(), other);
+  {
+    std::ofstream spheres(other / "spheres.yaml", std::ios::app);
+    spheres << "\n# not the same description\n";
+  }
+  StartSceneServer();
+  Start({Program("planner_rrtc"), "--robot", other.string()});
+  ChildProcess* driver = StartDriver({"--planners", "rrtc"});
+  EXPECT_EQ(driver->Wait(), 2);
+  EXPECT_NE(driver->Errors().find("'rrtc' has another robot than the scene server"),
+            std::string::npos)
+      << driver->Errors();
+}
+
+TEST_F(BadUse, ProblemsForAnotherRobot) {
+  const auto problems = folder() / "problems";
+  std::filesystem::create_directory(problems);
+  std::filesystem::copy(ProblemFolder() + "/scene0001.yaml", problems / "scene0001.yaml");
+  std::ifstream original(ProblemFolder() + "/request0001.yaml");
+  std::string text{std::istreambuf_iterator<char>(original), {}};
+  for (std::size_t at = 0; (at = text.find("elbow_flex_joint", at)) != std::string::npos;) {
+    text.replace(at, 16, "other_elbow_joint");
+  }
+  std::ofstream(problems / "request0001.yaml") << text;
+  ExpectBadInput(
+      Start({Program("scene_server"), "--robot", RobotFolder(), "--problems", problems.string()}),
+      "other_elbow_joint");
+}
+
+TEST_F(BadUse, SecondLoggerOnTheSameFolder) {
+  const auto session = folder() / "session";
+  ChildProcess* first = StartLogger(session);
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") == 0; }));
+  ExpectBadInput(Start({Program("logger"), "--out", session.string(), "--name", "logger2"}),
+                 session.string());
+  ExpectEndsCleanly(first);
+}
+
+TEST_F(BadUse, PortInUseByAnotherSession) {
+  ChildProcess* first = StartSceneServer();
+  ASSERT_TRUE(WaitUntil(
+      [&] { return first->Errors().find("serving") != std::string::npos || !first->Running(); }));
+  // A second server must find the first one on its own, whenever that is announced.
+  ChildProcess* second = StartSceneServer();
+  EXPECT_EQ(second->Wait(), 2);
+  EXPECT_NE(second->Errors().find("is live already"), std::string::npos) << second->Errors();
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--lcm-url", url()}),
+                 "another session is on");
+  ExpectEndsCleanly(first);
+}
+
+TEST_F(BadUse, NoMulticastRoute) {
+  if (std::system("unshare -n true 2>/dev/null") != 0) {
+    GTEST_SKIP() << "needs the right to make a network namespace";
+  }
+  for (const char* program : {"planner_rrtc", "planner_ara"}) {
+    ExpectBadInput(Start({"unshare", "-n", Program(program), "--robot", RobotFolder()}),
+                   "multicast route");
+  }
+  ExpectBadInput(Start({"unshare", "-n", Program("scene_server"), "--robot", RobotFolder(),
+                        "--problems", ProblemFolder()}),
+                 "multicast route");
+  ExpectBadInput(Start({"unshare", "-n", Program("benchmark_driver")}), "multicast route");
+  ExpectBadInput(Start({"unshare", "-n", Program("logger"), "--out", (folder() / "s").string()}),
+                 "multicast route");
+}
+
+TEST_F(BadUse, BadFlags) {
+  ExpectBadInput(StartDriver({"--time", "-1"}), "--time");
+  ExpectBadInput(StartDriver({"--directions", "sideways"}), "--directions");
+  ExpectBadInput(StartDriver({"--problems-range", "5-1"}), "--problems-range");
+  ExpectBadInput(StartDriver({"--no-such-flag"}), "--no-such-flag");
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--collision-model", "clay"}), "clay");
+  ExpectBadInput(StartLaunchedDriver(folder() / "s2", {"--sets", "no_set"}), "shelf_demo");
+}
+
+TEST_F(BadUse, HelpAndVersion) {
+  for (const char* program :
+       {"scene_server", "planner_ara", "planner_rrtc", "benchmark_driver", "logger"}) {
+    ChildProcess* help = Start({Program(program), "--help"});
+    EXPECT_EQ(help->Wait(), 0);
+    EXPECT_NE(help->Output().find("--lcm-url"), std::string::npos) << help->Output();
+    ChildProcess* version = Start({Program(program), "--version"});
+    EXPECT_EQ(version->Wait(), 0);
+    EXPECT_NE(version->Output().find(program), std::string::npos) << version->Output();
+  }
+}
+
+}  // namespace
+}  // namespace planbench

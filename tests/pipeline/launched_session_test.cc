@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "messaging/record_log.h"
+#include "tests/pipeline/pipeline_fixture.h"
+
+namespace planbench {
+namespace {
+
+class LaunchedSession : public PipelineTest {};
+
+TEST_F(LaunchedSession, SolvesRecordsAndTabulates) {
+  const auto session = folder() / "session";
+  ChildProcess* driver =
+      StartLaunchedDriver(session, {"--problems-range", "1-3", "--time", "30", "--seed", "7"});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_TRUE(LeftRunning().empty());
+
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 3 * 2 * 2);
+  EXPECT_EQ(Query(session, "SELECT count(DISTINCT seed) FROM runs"), 1);
+  // RRT-Connect solves these; ARA* at least from one side.
+  EXPECT_EQ(Query(session,
+                  "SELECT count(DISTINCT problem_index) FROM runs JOIN plannerConfigs p ON "
+                  "p.id = plannerid WHERE solved AND p.name = 'rrtc'"),
+            3);
+  EXPECT_EQ(Query(session,
+                  "SELECT count(DISTINCT problem_index) FROM runs JOIN plannerConfigs p ON "
+                  "p.id = plannerid WHERE solved AND p.name = 'ara'"),
+            3);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved AND referee_valid IS NOT 1"), 0);
+  EXPECT_EQ(Query(session,
+                  "SELECT count(*) FROM runs WHERE solved AND id NOT IN "
+                  "(SELECT runid FROM paths WHERE kind = 'raw')"),
+            0);
+  // Nothing was lost on the way: each path stands with as many positions as it has.
+  EXPECT_EQ(
+      Query(session,
+            "SELECT count(*) FROM runs WHERE num_waypoints * 8 != (SELECT count(*) FROM paths "
+            "WHERE runid = runs.id AND kind = 'raw')"),
+      0);
+
+  const std::string output = driver->Output();
+  EXPECT_NE(output.find("Planning time of the solved"), std::string::npos) << output;
+  EXPECT_NE(output.find("shelf_demo"), std::string::npos) << output;
+  std::ifstream tables_file(session / "tables.txt");
+  const std::string tables{std::istreambuf_iterator<char>(tables_file), {}};
+  ASSERT_FALSE(tables.empty());
+  EXPECT_EQ(output.substr(output.size() - tables.size()), tables) << "the tables come last";
+
+  const auto run_json = nlohmann::json::parse(std::ifstream(session / "run.json"));
+  EXPECT_NE(run_json.dump().find("\"seed\""), std::string::npos) << run_json.dump(1);
+  EXPECT_EQ(ReadRecords(session / "session.lcmlog").runs.size(), 12U);
+  EXPECT_TRUE(std::filesystem::exists(session / "lcmtypes" / "lcmt_run_record.lcm"));
+}
+
+TEST_F(LaunchedSession, PlannersWorkAtOnceWithParallel) {
+  const auto session = folder() / "session";
+  ChildProcess* driver = StartLaunchedDriver(session, {"--problems-range", "1,4", "--time", "30",
+                                                       "--parallel", "--directions", "backward"});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 4);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved"), 4);
+}
+
+TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
+  const auto session = folder() / "session";
+  const std::vector<std::string> flags = {"--problems-range", "1-2", "--time",     "30",
+                                          "--trials",         "6",   "--planners", "rrtc"};
+  ChildProcess* driver = StartLaunchedDriver(session, flags);
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 3; }))
+      << driver->Errors();
+  driver->Signal(SIGINT);
+  // With much luck it was through before the signal came.
+  const auto code = driver->Wait();
+  ASSERT_TRUE(code == 1 || code == 0) << driver->Errors();
+  EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
+  const long long before = Query(session, "SELECT count(*) FROM runs");
+  EXPECT_GE(before, 3);
+
+  std::vector<std::string> resume = {Program("benchmark_driver"),
+                                     "--launch",
+                                     "--robot",
+                                     RobotFolder(),
+                                     "--problems",
+                                     ProblemFolder(),
+                                     "--resume",
+                                     session.string()};
+  resume.insert(resume.end(), flags.begin(), flags.end());
+  ChildProcess* resumed = Start(resume);
+  ASSERT_EQ(resumed->Wait(), 0) << resumed->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 24);
+  EXPECT_EQ(Query(session, "SELECT count(DISTINCT request_id) FROM runs"), 24);
+  EXPECT_EQ(Query(session, "SELECT count(DISTINCT run_id) FROM runs"), 1);
+  EXPECT_EQ(ReadRecords(session / "session.lcmlog").runs.size(), 24U);
+}
+
+TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
+  const auto session = folder() / "session";
+  // A time limit that an invalid range cannot shorten: tiny steps make RRT-Connect work for long.
+  ChildProcess* driver = StartLaunchedDriver(
+      session, {"--problems-range", "1-2", "--time", "3", "--planners", "rrtc", "--set",
+                "rrtc.range=0.0001", "--directions", "forward", "--trials", "2"});
+  const auto planner_pid = [&]() -> int {
+    for (const int pid : LeftRunning()) {
+      std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+      const std::string command{std::istreambuf_iterator<char>(file), {}};
+      if (command.rfind(Program("planner_rrtc"), 0) == 0) return pid;
+    }
+    return -1;
+  };
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
+      << driver->Errors();
+  const int victim = planner_pid();
+  ASSERT_GT(victim, 0);
+  kill(victim, SIGKILL);
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 4);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE status = 7"), 1) << driver->Errors();
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "benchmark_driver/supervisor.h"
+#include "tests/pipeline/pipeline_fixture.h"
+
+namespace planbench {
+namespace {
+
+class Replay : public PipelineTest {};
+
+TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
+  const auto live = folder() / "live";
+  const auto replayed = folder() / "replayed";
+  const auto log = folder() / "plain.lcmlog";
+
+  ChildProcess* recorder = Start({"lcm-logger", "--quiet", "--lcm-url", url(), log.string()});
+  ChildProcess* logger = StartLogger(live);
+  ChildProcess* server = StartSceneServer();
+  ChildProcess* ara = StartPlanner("ara");
+  ChildProcess* rrtc = StartPlanner("rrtc");
+  ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(log); }));
+  ChildProcess* driver = StartDriver({"--problems-range", "2-3", "--time", "20"});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  for (ChildProcess* process : {server, ara, rrtc, logger}) ExpectEndsCleanly(process);
+  recorder->Signal(SIGTERM);
+  ASSERT_TRUE(recorder->Wait().has_value());
+
+  const std::string replay_url =
+      fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort());
+  ChildProcess* second_logger =
+      Start({Program("logger"), "--out", replayed.string(), "--lcm-url", replay_url});
+  ASSERT_TRUE(WaitUntil([&] { return Query(replayed, "SELECT count(*) FROM runs") == 0; }))
+      << second_logger->Errors();
+  ChildProcess* player =
+      Start({"lcm-logplayer", "--lcm-url=" + replay_url, "--speed=20", log.string()});
+  ASSERT_EQ(player->Wait(), 0) << player->Errors();
+  ASSERT_TRUE(WaitUntil([&] { return Query(replayed, "SELECT count(*) FROM runs") == 8; }))
+      << second_logger->Errors();
+  ExpectEndsCleanly(second_logger);
+
+  const auto expect_same = [&](const std::string& sql, int columns) {
+    const auto rows = Rows(live, sql, columns);
+    EXPECT_FALSE(rows.empty()) << sql;
+    EXPECT_EQ(rows, Rows(replayed, sql, columns)) << sql;
+  };
+  expect_same(
+      "SELECT request_id, run_id, problem_set, problem_index, direction, seed, status, solved, "
+      "time, "
+      "roundtrip_time, path_length, path_length_simplified, clearance, referee_valid, memory, "
+      "message "
+      "FROM runs ORDER BY id",
+      16);
+  expect_same(
+      "SELECT runs.request_id, kind, waypoint, joint, position FROM paths JOIN runs ON runs.id = "
+      "runid "
+      "ORDER BY 1, 2, 3, 4",
+      5);
+  expect_same(
+      "SELECT name, timelimit, runcount, hostname, date, setup FROM experiments ORDER BY id", 6);
+  expect_same("SELECT name, settings FROM plannerConfigs ORDER BY id", 2);
+}
+
+}  // namespace
+}  // namespace planbench
