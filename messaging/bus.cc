@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -51,6 +53,23 @@ class StderrCapture {
   int saved_;
 };
 
+/// Threads started while this lives get no signals: they are for the main thread, and would cut
+/// short what LCM's threads wait in.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 std::string FirstLine(const std::string& text) {
   const std::size_t begin = text.find_first_not_of("\n ");
   if (begin == std::string::npos) return "no reason given";
@@ -91,51 +110,85 @@ std::string ResolveLcmUrl(const std::string& flag) {
 }
 
 struct Subscription::State {
-  lcm_t* lcm = nullptr;
   lcm_subscription_t* subscription = nullptr;
+  Retired* retired = nullptr;
   Bus::BytesHandler handler;
   // Held while the handler runs, so that the subscription cannot go away under it.
   std::mutex running;
   bool live = true;
 
-  ~State() {
-    {
-      const std::scoped_lock lock(running);
-      live = false;
-    }
-    // Takes LCM's own lock, which the bus thread holds while it dispatches: not to be nested in
-    // `running`.
-    lcm_unsubscribe(lcm, subscription);
-  }
-
   static void Dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
     auto* state = static_cast<State*>(user);
     const std::scoped_lock lock(state->running);
     if (!state->live) return;
+    // What a handler throws must not pass through LCM: it would be unusable afterwards.
     try {
       state->handler(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
                      buffer->recv_utime);
     } catch (const std::exception& error) {
-      // What a handler throws must not pass through LCM: it would be unusable afterwards.
       spdlog::error("message on {} dropped: {}", channel, error.what());
+    } catch (...) {
+      spdlog::error("message on {} dropped: its handler threw something", channel);
     }
+  }
+};
+
+/// Subscriptions that have ended but that LCM still knows. LCM goes through its list of handlers
+/// without holding its lock, so that taking one off the list from another thread, be it of the same
+/// channel or not yet called, makes it skip others or read past the end. The bus thread takes them
+/// off, between messages.
+struct Subscription::Retired {
+  std::mutex mutex;
+  std::vector<std::unique_ptr<State>> states;
+
+  void Add(std::unique_ptr<State> state) {
+    const std::scoped_lock lock(mutex);
+    states.push_back(std::move(state));
+  }
+  void Unsubscribe(lcm_t* lcm) {
+    std::vector<std::unique_ptr<State>> ended;
+    {
+      const std::scoped_lock lock(mutex);
+      ended.swap(states);
+    }
+    for (const std::unique_ptr<State>& state : ended) lcm_unsubscribe(lcm, state->subscription);
   }
 };
 
 Subscription::Subscription() = default;
 Subscription::Subscription(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Subscription::Subscription(Subscription&&) noexcept = default;
-Subscription& Subscription::operator=(Subscription&&) noexcept = default;
-Subscription::~Subscription() = default;
+Subscription& Subscription::operator=(Subscription&& other) noexcept {
+  if (this != &other) {
+    Release();
+    state_ = std::move(other.state_);
+  }
+  return *this;
+}
+Subscription::~Subscription() { Release(); }
+
+void Subscription::Release() {
+  if (!state_) return;
+  {
+    const std::scoped_lock lock(state_->running);
+    state_->live = false;
+    state_->handler = nullptr;  // with all it captured
+  }
+  Retired* retired = state_->retired;
+  retired->Add(std::move(state_));
+}
 
 struct Bus::Impl {
   lcm_t* lcm = nullptr;
+  Subscription::Retired retired;
   std::atomic<bool> stopping = false;
   std::thread thread;
 
   void Receive() {
     while (!stopping) {
-      if (lcm_handle_timeout(lcm, 50) < 0) {
+      retired.Unsubscribe(lcm);
+      errno = 0;
+      if (lcm_handle_timeout(lcm, 50) < 0 && errno != EINTR) {
         spdlog::critical("LCM cannot receive any more; this process is deaf");
         return;
       }
@@ -155,6 +208,7 @@ Bus::~Bus() {
 }
 
 void Bus::Start() {
+  const SignalsBlocked blocked;
   if (!impl_->thread.joinable()) impl_->thread = std::thread([this] { impl_->Receive(); });
 }
 
@@ -168,10 +222,13 @@ void Bus::PublishBytes(const std::string& channel, std::span<const std::uint8_t>
 Subscription Bus::SubscribeBytes(const std::string& channel, BytesHandler handler,
                                  int queue_capacity) {
   auto state = std::make_unique<Subscription::State>();
-  state->lcm = impl_->lcm;
+  state->retired = &impl_->retired;
   state->handler = std::move(handler);
-  state->subscription =
-      lcm_subscribe(impl_->lcm, channel.c_str(), &Subscription::State::Dispatch, state.get());
+  {
+    const SignalsBlocked blocked;  // the first subscription starts a thread of LCM's
+    state->subscription =
+        lcm_subscribe(impl_->lcm, channel.c_str(), &Subscription::State::Dispatch, state.get());
+  }
   if (state->subscription == nullptr) {
     throw InputError("cannot subscribe to '" + channel + "' at " + url_);
   }

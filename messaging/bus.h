@@ -19,7 +19,8 @@ inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_b
 std::string ResolveLcmUrl(const std::string& flag);
 
 /// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler
-/// to end, so it must not be destroyed from within the handler, nor outlive the bus.
+/// to end, after which there is none: it must not be destroyed from within the handler, nor outlive
+/// the bus.
 class Subscription {
  public:
   Subscription();
@@ -30,7 +31,9 @@ class Subscription {
  private:
   friend class Bus;
   struct State;
+  struct Retired;
   explicit Subscription(std::unique_ptr<State> state);
+  void Release();
   std::unique_ptr<State> state_;
 };
 
