@@ -45,6 +45,13 @@ NodeAnnouncer::NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status
       status_(std::move(status)),
       also_(std::move(also)),
       self_(status_()),
+      discover_(bus->Subscribe<DiscoverMessage>(channel::kDiscover,
+                                                [this](const DiscoverMessage&) {
+                                                  Announce();
+                                                  if (also_) also_();
+                                                })),
+      statuses_(bus->Subscribe<NodeStatusMessage>(
+          channel::kNodeStatus, [this](const NodeStatusMessage& other) { OnStatus(other); })),
       beat_([this] {
         std::unique_lock lock(mutex_);
         while (!stopping_) {
@@ -53,14 +60,7 @@ NodeAnnouncer::NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status
           lock.lock();
           changed_.wait_for(lock, kPeriod, [this] { return stopping_; });
         }
-      }),
-      discover_(bus->Subscribe<DiscoverMessage>(channel::kDiscover,
-                                                [this](const DiscoverMessage&) {
-                                                  Announce();
-                                                  if (also_) also_();
-                                                })),
-      statuses_(bus->Subscribe<NodeStatusMessage>(
-          channel::kNodeStatus, [this](const NodeStatusMessage& other) { OnStatus(other); })) {
+      }) {
   // Brings an older process of this name to light at once.
   bus_->Publish(channel::kDiscover, DiscoverMessage{self_.name});
 }

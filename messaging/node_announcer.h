@@ -40,9 +40,9 @@ class NodeAnnouncer {
   std::condition_variable changed_;
   bool stopping_ = false;
   std::string displaced_by_;
-  std::thread beat_;
   Subscription discover_;
   Subscription statuses_;
+  std::thread beat_;  // last: it may not be left running if the rest cannot be made
 };
 
 }  // namespace planbench

@@ -34,7 +34,6 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   }
   status_.settings = description_.settings;
 
-  solver_ = std::thread([this] { Solve(); });
   requests_ = bus->Subscribe<PlanRequest>(
       channels_.request, [this](const PlanRequest& request) { OnRequest(request); },
       [this](const MessageError& error) { OnBadRequest(error); });
@@ -45,6 +44,8 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   result_acks_ = bus->Subscribe<AckMessage>(
       channels_.result_ack, [this](const AckMessage& message) { OnResultAck(message); });
   announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return Status(); });
+  // Last: it may not be left running if the rest cannot be made.
+  solver_ = std::thread([this] { Solve(); });
 }
 
 PlannerNode::~PlannerNode() {
@@ -59,13 +60,13 @@ PlannerNode::~PlannerNode() {
 }
 
 void PlannerNode::Run(const std::function<bool()>& stop) {
-  std::unique_lock lock(mutex_);
   while (!stop()) {
-    Tick();
-    lock.unlock();
+    {
+      const std::scoped_lock lock(mutex_);
+      Tick();
+    }
     announcer_->ThrowIfDisplaced();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    lock.lock();
   }
 }
 
@@ -105,6 +106,12 @@ void PlannerNode::Acknowledge(const std::string& request_id, PlanAckMessage::Ver
 void PlannerNode::OnRequest(const PlanRequest& request) {
   using Verdict = PlanAckMessage::Verdict;
   std::unique_lock lock(mutex_);
+  // One that was cancelled was not answered: a session that was interrupted asks again when it is
+  // resumed.
+  outcomes_.remove_if([&](const Outcome& outcome) {
+    return outcome.message.request_id == request.request_id &&
+           outcome.message.result.status == PlanStatus::kCancelled;
+  });
   for (const Outcome& outcome : outcomes_) {
     if (outcome.message.request_id == request.request_id) {
       Acknowledge(request.request_id, Verdict::kAccepted, "");
@@ -112,7 +119,7 @@ void PlannerNode::OnRequest(const PlanRequest& request) {
       return;
     }
   }
-  if (job_ && job_->request.request_id == request.request_id) {
+  if (job_ && job_->request.request_id == request.request_id && !job_->control.cancelled) {
     Acknowledge(request.request_id, Verdict::kAccepted, "");
     return;
   }

@@ -21,7 +21,8 @@ namespace planbench {
 /// A planner as a process on the bus: takes requests one at a time, acknowledges them at once
 /// (accepted, busy, refused and why), fetches scenes it lacks, solves on a thread of its own so
 /// that heartbeats and cancellation work meanwhile, and repeats the result until it is
-/// acknowledged. A repeated request is answered from the cache.
+/// acknowledged. A repeated request is answered from the cache, unless it was cancelled: then it is
+/// solved.
 class PlannerNode {
  public:
   /// Results and scenes kept.
@@ -84,12 +85,12 @@ class PlannerNode {
   std::list<Outcome> outcomes_;
   std::list<std::pair<std::string, std::shared_ptr<const Scene>>> scenes_;
 
-  std::thread solver_;
   std::unique_ptr<NodeAnnouncer> announcer_;
   Subscription requests_;
   Subscription scene_messages_;
   Subscription cancels_;
   Subscription result_acks_;
+  std::thread solver_;
 };
 
 }  // namespace planbench

@@ -26,11 +26,15 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log) {
     const std::string channel(event->channel, static_cast<std::size_t>(event->channellen));
     const std::span bytes(static_cast<const std::uint8_t*>(event->data),
                           static_cast<std::size_t>(event->datalen));
-    if (channel == channel::kSession) {
-      recorded.sessions.push_back(Decode<SessionMessage>(bytes, channel));
-    } else if (channel == channel::kRunRecord) {
-      auto run = Decode<RunRecordMessage>(bytes, channel);
-      if (seen.insert(run.request_id).second) recorded.runs.push_back(std::move(run));
+    try {
+      if (channel == channel::kSession) {
+        recorded.sessions.push_back(Decode<SessionMessage>(bytes, channel));
+      } else if (channel == channel::kRunRecord) {
+        auto run = Decode<RunRecordMessage>(bytes, channel);
+        if (seen.insert(run.request_id).second) recorded.runs.push_back(std::move(run));
+      }
+    } catch (const MessageError& error) {
+      throw InputError(event_log.string() + ": " + error.what());
     }
   }
   return recorded;

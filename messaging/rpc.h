@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -47,8 +48,10 @@ class RpcClient {
         lock.lock();
         next_send = Clock::now() + retry_period;
       }
-      changed_.wait_until(
-          lock, std::min({next_send, deadline, Clock::now() + std::chrono::milliseconds(50)}));
+      if (replies_.count(request.request_id) == 0) {
+        changed_.wait_until(
+            lock, std::min({next_send, deadline, Clock::now() + std::chrono::milliseconds(50)}));
+      }
       const auto found = replies_.find(request.request_id);
       if (found != replies_.end()) {
         reply = std::move(found->second);
@@ -100,10 +103,10 @@ class RpcServer {
       : bus_(bus),
         reply_channel_(std::move(reply_channel)),
         answer_(std::move(answer)),
-        worker_([this] { Work(); }),
         subscription_(bus->Subscribe<Request>(
             request_channel, [this](const Request& request) { OnRequest(request); },
-            [this](const MessageError& error) { OnBadRequest(error); })) {}
+            [this](const MessageError& error) { OnBadRequest(error); })),
+        worker_([this] { Work(); }) {}
 
   ~RpcServer() {
     subscription_ = Subscription();
@@ -154,10 +157,11 @@ class RpcServer {
       try {
         reply = answer_(request);
         reply.request_id = request.request_id;
-      } catch (const InputError& error) {
+        bus_->Publish(reply_channel_, reply);
+      } catch (const InputError& error) {  // the answer's or, for want of a wire form, Encode's
         reply = Refusal(request.request_id, error.what());
+        bus_->Publish(reply_channel_, reply);
       }
-      bus_->Publish(reply_channel_, reply);
       lock.lock();
       pending_.erase(request.request_id);
       cache_.emplace_back(request.request_id, std::move(reply));
@@ -174,8 +178,8 @@ class RpcServer {
   std::deque<Request> queue_;
   std::set<std::string> pending_;
   std::list<std::pair<std::string, Reply>> cache_;
-  std::thread worker_;
   Subscription subscription_;
+  std::thread worker_;  // last: it may not be left running if the rest cannot be made
 };
 
 }  // namespace planbench
