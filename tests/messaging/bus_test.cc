@@ -17,9 +17,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "support/expect_input_error.h"
-#include "support/message_collector.h"
-#include "support/private_bus.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/message_collector.h"
+#include "tests/support/private_bus.h"
 
 namespace planbench {
 namespace {

@@ -6,8 +6,8 @@
 #include <atomic>
 
 #include "messaging/channels.h"
-#include "support/expect_input_error.h"
-#include "support/message_collector.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/message_collector.h"
 
 namespace planbench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "messaging/channels.h"
-#include "support/message_collector.h"
+#include "tests/support/message_collector.h"
 
 namespace planbench {
 namespace {

@@ -8,10 +8,10 @@
 #include <memory>
 #include <thread>
 
-#include "support/expect_input_error.h"
-#include "support/message_collector.h"
-#include "support/planning_problems.h"
-#include "support/scripted_planner.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/message_collector.h"
+#include "tests/support/planning_problems.h"
+#include "tests/support/scripted_planner.h"
 
 namespace planbench {
 namespace {

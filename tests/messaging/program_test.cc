@@ -9,7 +9,7 @@
 
 #include "common/error.h"
 #include "messaging/bus.h"
-#include "support/expect_input_error.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {

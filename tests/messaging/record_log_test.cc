@@ -9,8 +9,8 @@
 
 #include "messaging/channels.h"
 #include "messaging/codec.h"
-#include "support/expect_input_error.h"
-#include "support/temporary_folder.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -21,7 +21,7 @@ SessionMessage Session(const std::string& run_id) {
   return session;
 }
 
-RunRecordMessage Run(const std::string& request_id, double roundtrip_time_s = 1) {
+RunRecordMessage Record(const std::string& request_id, double roundtrip_time_s = 1) {
   RunRecordMessage run;
   run.run_id = "run";
   run.request_id = request_id;
@@ -55,9 +55,9 @@ class RecordLogTest : public testing::Test {
 
 TEST_F(RecordLogTest, ReadsSessionsAndRunsInOrder) {
   Add(channel::kSession, Encode(Session("run")));
-  Add(channel::kRunRecord, Encode(Run("b")));
+  Add(channel::kRunRecord, Encode(Record("b")));
   Add("UNRELATED", {1, 2, 3});
-  Add(channel::kRunRecord, Encode(Run("a")));
+  Add(channel::kRunRecord, Encode(Record("a")));
   Add(channel::kSession, Encode(Session("later run")));
   const RecordedSession recorded = Read();
   ASSERT_EQ(recorded.sessions.size(), 2u);
@@ -69,16 +69,16 @@ TEST_F(RecordLogTest, ReadsSessionsAndRunsInOrder) {
 }
 
 TEST_F(RecordLogTest, RepeatedRecordsCountOnce) {
-  Add(channel::kRunRecord, Encode(Run("a", 1)));
-  Add(channel::kRunRecord, Encode(Run("a", 2)));
+  Add(channel::kRunRecord, Encode(Record("a", 1)));
+  Add(channel::kRunRecord, Encode(Record("a", 2)));
   const RecordedSession recorded = Read();
   ASSERT_EQ(recorded.runs.size(), 1u);
   EXPECT_EQ(recorded.runs[0].roundtrip_time_s, 1);
 }
 
 TEST_F(RecordLogTest, TornLastEventIsNoError) {
-  Add(channel::kRunRecord, Encode(Run("a")));
-  Add(channel::kRunRecord, Encode(Run("b")));
+  Add(channel::kRunRecord, Encode(Record("a")));
+  Add(channel::kRunRecord, Encode(Record("b")));
   log_.reset();
   const auto size = std::filesystem::file_size(file_);
   for (const std::uintmax_t torn : {1u, 20u, 100u}) {
@@ -96,7 +96,7 @@ TEST_F(RecordLogTest, EmptyLogHoldsNothing) {
 }
 
 TEST_F(RecordLogTest, RecordOfAnotherVersionNamesFileAndChannel) {
-  std::vector<std::uint8_t> bytes = Encode(Run("a"));
+  std::vector<std::uint8_t> bytes = Encode(Record("a"));
   bytes[0] = static_cast<std::uint8_t>(bytes[0] + 1);  // the type's fingerprint
   Add(channel::kRunRecord, bytes);
   ExpectInputError([&] { Read(); }, {file_.string(), channel::kRunRecord});

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "messaging/channels.h"
-#include "support/message_collector.h"
+#include "tests/support/message_collector.h"
 
 namespace planbench {
 namespace {
