@@ -10,8 +10,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -88,8 +90,16 @@ void Supervisor::Supervise() {
 }
 
 void Supervisor::Reap(Child* child) {
+  siginfo_t end = {};
+  if (waitid(P_PID, static_cast<id_t>(child->pid), &end, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      end.si_pid != child->pid) {
+    return;
+  }
+  // Before its id can be given to another: what is left of its group, say the program that a shell
+  // script runs.
+  kill(-child->pid, SIGKILL);
   int status = 0;
-  if (waitpid(child->pid, &status, WNOHANG) != child->pid) return;
+  waitpid(child->pid, &status, 0);
   child->pid = -1;
   if (!child->wanted) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
@@ -132,12 +142,20 @@ void Supervisor::Spawn(Child* child) {
   const std::string log = child->spec.log.string();
   const pid_t parent = getpid();
 
+  // Until the child has put its signal handling in order it must not take a signal: it would run
+  // our handler, and the signal that was to end it would be lost.
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
   const pid_t pid = fork();
   if (pid == 0) {
     setpgid(0, 0);
+    for (const int handled : {SIGINT, SIGTERM, SIGPIPE}) signal(handled, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(1);  // the parent died before the line above
-    signal(SIGPIPE, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    if (getppid() != parent) _exit(1);  // the parent died before the death signal was set
+    close_range(3, ~0U, 0);             // our connection to the bus among others
     const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     const int input = open("/dev/null", O_RDONLY | O_CLOEXEC);
     if (output >= 0) {
@@ -149,13 +167,22 @@ void Supervisor::Spawn(Child* child) {
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(2);
   }
+  const int fork_error = errno;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (pid < 0) {
-    spdlog::error("cannot start {}: {}", child->spec.name, strerror(errno));
+    spdlog::error("cannot start {}: {}", child->spec.name, strerror(fork_error));
     child->restart_at = Clock::now() + std::chrono::seconds(1);
     return;
   }
+  setpgid(pid, pid);  // here too: it must be done before anybody signals the group
   child->pid = pid;
   child->started = Clock::now();
+}
+
+Supervisor::Child* Supervisor::Find(const std::string& name) {
+  const auto child = std::find_if(children_.begin(), children_.end(),
+                                  [&](const Child& c) { return c.spec.name == name; });
+  return child == children_.end() ? nullptr : &*child;
 }
 
 void Supervisor::StopAll(const std::vector<std::string>& order,
@@ -163,28 +190,28 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
   std::vector<std::string> names = order;
   {
     const std::scoped_lock lock(mutex_);
-    for (Child& child : children_) {
-      child.wanted = false;
-      if (std::find(names.begin(), names.end(), child.spec.name) == names.end()) {
-        names.push_back(child.spec.name);
+    for (auto child = children_.rbegin(); child != children_.rend(); ++child) {
+      child->wanted = false;
+      if (std::find(names.begin(), names.end(), child->spec.name) == names.end()) {
+        names.push_back(child->spec.name);
       }
     }
   }
   for (const std::string& name : names) {
-    const auto begin = Clock::now();
-    int signal_to_send = SIGTERM;
+    std::optional<Clock::time_point> asked;
+    bool killed = false;
     while (true) {
       {
         const std::scoped_lock lock(mutex_);
-        const auto child = std::find_if(children_.begin(), children_.end(),
-                                        [&](const Child& c) { return c.spec.name == name; });
-        if (child == children_.end() || child->pid < 0) break;
-        if (signal_to_send == SIGTERM && Clock::now() - begin > patience) {
+        const Child* child = Find(name);
+        if (child == nullptr || child->pid < 0) break;
+        if (!asked) {
+          kill(-child->pid, SIGTERM);
+          asked = Clock::now();
+        } else if (!killed && Clock::now() - *asked > patience) {
           spdlog::error("{} does not end; killing it", name);
-          signal_to_send = SIGKILL;
-          kill(child->pid, SIGKILL);
-        } else if (Clock::now() - begin < kPoll) {
-          kill(child->pid, SIGTERM);
+          kill(-child->pid, SIGKILL);
+          killed = true;
         }
       }
       std::this_thread::sleep_for(kPoll);

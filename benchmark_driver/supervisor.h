@@ -22,7 +22,7 @@ struct ChildSpec {
 
 /// Starts child processes, restarts those that die, and stops all in the end. Children do not get
 /// the terminal's Ctrl-C (each is a process group of its own), and are ended by the kernel if this
-/// process dies.
+/// process dies. What a child has started itself is ended with it, if it stayed in its group.
 class Supervisor {
  public:
   Supervisor();
@@ -33,7 +33,7 @@ class Supervisor {
 
   void Start(ChildSpec spec);
   /// Asks the children to end (SIGTERM) in the given order, each waited for up to `patience`, then
-  /// killed. Others follow in any order.
+  /// killed. Others follow, the last started first.
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// Throws InputError with its last words if a child ended with exit code 2 (bad input: a restart
@@ -55,6 +55,7 @@ class Supervisor {
     std::chrono::steady_clock::time_point started;
     std::chrono::steady_clock::time_point restart_at;
   };
+  Child* Find(const std::string& name);
   void Supervise();
   void Reap(Child* child);
   void Spawn(Child* child);
