@@ -85,11 +85,12 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   }
 
   schedule_ = MakeSchedule(options_, served_, run_id_);
-  num_scheduled_ = static_cast<int>(schedule_.size());
   std::set<std::string> done;
   for (const RunRecordMessage& record : records_) done.insert(record.request_id);
   std::erase_if(schedule_,
                 [&](const ScheduledRun& run) { return done.count(run.request_id) != 0; });
+  // A resumed session may be given other sets or problems than before.
+  num_runs_ = static_cast<int>(records_.size() + schedule_.size());
 
   RunConditions conditions;
   conditions.run_id = run_id_;
@@ -106,7 +107,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, std::move(conditions));
 }
 
-void Driver::CheckPlanners(const ProblemSetsMessage& served) const {
+void Driver::CheckPlanners(const ProblemSetsMessage& served) {
   for (const std::string& name : options_.planners) {
     const auto planner = registry_.Find(name, NodeKind::kPlanner);
     if (!planner) throw InputError("the planner '" + name + "' has left the bus");
@@ -127,6 +128,7 @@ void Driver::CheckPlanners(const ProblemSetsMessage& served) const {
     if (!planner->can_anytime && options_.anytime) {
       throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
     }
+    planners_[name] = *planner;
   }
 }
 
@@ -137,7 +139,7 @@ SessionMessage Driver::Session(bool finished) const {
   session.start_utime = start_utime_;
   session.finished = finished;
   session.total_time_s = static_cast<double>(NowUtime() - start_utime_) * 1e-6;
-  session.num_runs = num_scheduled_;
+  session.num_runs = num_runs_;
   session.version = self.version;
   session.commit = self.commit;
   session.host = self.host;
@@ -165,10 +167,14 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
     if (!client) client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
     std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
     if (!record) return;
-    if (const auto planner = registry_.Find(run.planner, NodeKind::kPlanner)) {
-      record->algorithm = planner->algorithm;
-      record->planner_class = planner->planner_class;
-      record->settings = planner->settings;
+    {
+      // One that died is described as it was when last heard.
+      const std::scoped_lock lock(mutex_);
+      NodeStatusMessage& planner = planners_.at(run.planner);
+      planner = registry_.Find(run.planner, NodeKind::kPlanner).value_or(planner);
+      record->algorithm = planner.algorithm;
+      record->planner_class = planner.planner_class;
+      record->settings = planner.settings;
     }
     recorder_.Record(*record);
     const std::scoped_lock lock(mutex_);
@@ -178,7 +184,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ = std::make_unique<ProgressBar>(num_scheduled_);
+  progress_ = std::make_unique<ProgressBar>(num_runs_);
   for (const RunRecordMessage& record : records_) progress_->AddEarlier(record);
   recorder_.Record(Session(false));
 

@@ -37,7 +37,7 @@ class Driver {
   const std::vector<RunRecordMessage>& records() const { return records_; }
 
  private:
-  void CheckPlanners(const ProblemSetsMessage& served) const;
+  void CheckPlanners(const ProblemSetsMessage& served);
   SessionMessage Session(bool finished) const;
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
 
@@ -50,10 +50,11 @@ class Driver {
   Recorder recorder_;
   ProblemSetsMessage served_;
   std::vector<ScheduledRun> schedule_;  // what is left to do
-  int num_scheduled_ = 0;               // with what was done earlier
+  int num_runs_ = 0;                    // of the session, those done earlier included
   std::unique_ptr<RunExecutor> executor_;
 
   std::mutex mutex_;
+  std::map<std::string, NodeStatusMessage> planners_;  // as last heard, by name
   std::vector<RunRecordMessage> records_;
   std::unique_ptr<ProgressBar> progress_;
 };

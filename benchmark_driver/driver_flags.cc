@@ -128,7 +128,14 @@ DriverOptions DriverFlags::Parse() const {
   options.problem_indices = ParseRange(range_);
   options.planners = SplitList(planners_, "--planners");
   if (options.planners.empty()) throw InputError("--planners: at least one is needed");
-  for (const std::string& planner : options.planners) RequireNodeName(planner);
+  std::map<std::string, std::string> by_channel;
+  for (const std::string& planner : options.planners) {
+    const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
+    if (!is_new) {
+      throw InputError("--planners: '" + same->second + "' and '" + planner +
+                       "' would share their channels (" + same->first + ")");
+    }
+  }
   if (directions_ == "both") {
     options.directions = {Direction::kForward, Direction::kBackward};
   } else if (const auto direction = ParseDirection(directions_)) {
@@ -148,6 +155,11 @@ DriverOptions DriverFlags::Parse() const {
     }
   };
   require_positive(options.time_limit_s, "--time");
+  constexpr double kLongest = 1e6;  // 11 days, and far from what a clock can count
+  if (options.time_limit_s > kLongest) {
+    throw InputError(
+        fmt::format("--time {}: must be at most {} s", options.time_limit_s, kLongest));
+  }
   require_positive(options.trials, "--trials");
   require_positive(options.discovery_timeout_s, "--discovery-timeout");
   if (options.edge_resolution_m != 0) {
@@ -155,7 +167,10 @@ DriverOptions DriverFlags::Parse() const {
   }
   if (options.referee_step_m != 0) require_positive(options.referee_step_m, "--referee-step");
   for (const std::string& command : planner_commands_) {
-    options.planner_commands.insert(SplitAssignment(command, "--planner-command"));
+    const auto [name, line] = SplitAssignment(command, "--planner-command");
+    if (!options.planner_commands.emplace(name, line).second) {
+      throw InputError("--planner-command: '" + name + "' is given twice");
+    }
   }
   for (const std::string& setting : planner_settings_) {
     const std::size_t dot = setting.find('.');

@@ -1,5 +1,6 @@
 #include "benchmark_driver/launcher.h"
 
+#include <algorithm>
 #include <map>
 
 #include "common/error.h"

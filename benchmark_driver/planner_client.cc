@@ -73,6 +73,11 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   const auto limit = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(request.time_limit_s));
   while (true) {
+    // A request that was cancelled when this session was interrupted before is solved when it comes
+    // again; the result that its planner may still repeat is of the former time.
+    if (result_ && !accepted && !ack_ && result_->result.status == PlanStatus::kCancelled) {
+      result_.reset();
+    }
     if (result_) {
       answer.outcome = Outcome::kResult;
       answer.result = *std::move(result_);

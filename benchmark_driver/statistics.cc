@@ -12,7 +12,10 @@ double Quantile(const std::vector<double>& ascending, double q) {
   const double position = q * static_cast<double>(ascending.size() - 1);
   const auto below = static_cast<std::size_t>(position);
   const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  return std::lerp(ascending[below], ascending[above], position - static_cast<double>(below));
+  const double share = position - static_cast<double>(below);
+  // Between infinite values (clearances in an empty scene) there is nothing to interpolate.
+  if (share == 0 || ascending[below] == ascending[above]) return ascending[below];
+  return std::lerp(ascending[below], ascending[above], share);
 }
 
 Summary Summarize(std::vector<double> values) {

@@ -185,7 +185,8 @@ std::string EffortTable(const std::map<GroupKey, Group>& groups) {
       if (const auto& verdict = record->path_check.verdict) {
         length.push_back(verdict->length);
         tip.push_back(verdict->tip_travel_m);
-        clearance.push_back(verdict->clearance_min_m * 1e3);
+        // A valid path's is 0 all along only if it was not measured.
+        if (verdict->clearance_mean_m > 0) clearance.push_back(verdict->clearance_min_m * 1e3);
       }
       if (const auto& verdict = record->simplified_check.verdict) {
         simplified.push_back(verdict->length);
