@@ -1,0 +1,198 @@
+#include "benchmark_driver/driver_flags.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
+
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+/// Options of a command line. Throws what CLI11 and DriverFlags throw.
+DriverOptions ParseFlags(std::vector<std::string> arguments,
+                         std::map<std::string, std::string>* settings = nullptr) {
+  CLI::App app;
+  DriverFlags flags;
+  flags.AddTo(&app);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  app.parse(std::move(arguments));
+  DriverOptions options = flags.Parse();
+  if (settings != nullptr) *settings = flags.AsSettings(options);
+  return options;
+}
+
+void ExpectRefused(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& parts) {
+  ExpectInputError([&] { ParseFlags(arguments); }, parts);
+}
+
+const std::vector<std::string> kLaunch = {"--launch", "--robot", "r", "--problems", "p"};
+
+std::vector<std::string> Launch(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = kLaunch;
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(ParseRangeTest, ReadsNumbersAndRanges) {
+  EXPECT_EQ(ParseRange(""), std::vector<int>{});
+  EXPECT_EQ(ParseRange("3"), std::vector<int>{3});
+  EXPECT_EQ(ParseRange("0"), std::vector<int>{0});
+  EXPECT_EQ(ParseRange("1-4"), (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(ParseRange("5-5"), std::vector<int>{5});
+  EXPECT_EQ(ParseRange("10-12,1-2,8"), (std::vector<int>{1, 2, 8, 10, 11, 12}));
+  EXPECT_EQ(ParseRange("1-3,2-4"), (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(ParseRange("1-100").size(), 100u);
+}
+
+TEST(ParseRangeTest, RefusesWhatIsNoRange) {
+  for (const char* text : {"a", "1-", "-1", "-", "1-2-3", "4-1", "1,,2", "1,", ",1", " 1", "1.5",
+                           "+1", "99999999999", "0-2000000000"}) {
+    ExpectInputError([&] { ParseRange(text); }, {"--problems-range", text});
+  }
+}
+
+TEST(DriverFlagsTest, DefaultsAreTheStudys) {
+  const DriverOptions options = ParseFlags({});
+  EXPECT_TRUE(options.sets.empty());
+  EXPECT_TRUE(options.problem_indices.empty());
+  EXPECT_EQ(options.planners, (std::vector<std::string>{"ara", "rrtc"}));
+  EXPECT_EQ(options.directions,
+            (std::vector<Direction>{Direction::kForward, Direction::kBackward}));
+  EXPECT_EQ(options.time_limit_s, 60);
+  EXPECT_EQ(options.trials, 1);
+  EXPECT_EQ(options.seed, 1u);
+  EXPECT_EQ(options.collision_model, CollisionModel::kSpheres);
+  EXPECT_FALSE(options.anytime);
+  EXPECT_TRUE(options.simplify);
+  EXPECT_TRUE(options.clearance);
+  EXPECT_FALSE(options.parallel);
+  EXPECT_FALSE(options.launch);
+}
+
+TEST(DriverFlagsTest, ReadsEveryFlag) {
+  std::map<std::string, std::string> settings;
+  const DriverOptions options = ParseFlags(Launch({"--sets",
+                                                   "a,b",
+                                                   "--problems-range",
+                                                   "1-2",
+                                                   "--planners",
+                                                   "x,y",
+                                                   "--directions",
+                                                   "backward",
+                                                   "--time",
+                                                   "2.5",
+                                                   "--trials",
+                                                   "3",
+                                                   "--seed",
+                                                   "18446744073709551615",
+                                                   "--collision-model",
+                                                   "meshes",
+                                                   "--edge-resolution",
+                                                   "0.05",
+                                                   "--referee-step",
+                                                   "0.01",
+                                                   "--anytime",
+                                                   "--no-simplify",
+                                                   "--no-clearance",
+                                                   "--parallel",
+                                                   "--discovery-timeout",
+                                                   "7",
+                                                   "--problems",
+                                                   "q",
+                                                   "--referee-robot",
+                                                   "m",
+                                                   "--package-path",
+                                                   "f=/a",
+                                                   "--package-path",
+                                                   "g=/b",
+                                                   "--out",
+                                                   "o",
+                                                   "--planner-command",
+                                                   "y=./y --fast=1",
+                                                   "--set",
+                                                   "x.step=3",
+                                                   "--set",
+                                                   "x.name=a=b"}),
+                                           &settings);
+  EXPECT_EQ(options.sets, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(options.problem_indices, (std::vector<int>{1, 2}));
+  EXPECT_EQ(options.planners, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(options.directions, std::vector<Direction>{Direction::kBackward});
+  EXPECT_EQ(options.time_limit_s, 2.5);
+  EXPECT_EQ(options.trials, 3);
+  EXPECT_EQ(options.seed, 18446744073709551615u);
+  EXPECT_EQ(options.collision_model, CollisionModel::kMeshes);
+  EXPECT_EQ(options.edge_resolution_m, 0.05);
+  EXPECT_EQ(options.referee_step_m, 0.01);
+  EXPECT_TRUE(options.anytime);
+  EXPECT_FALSE(options.simplify);
+  EXPECT_FALSE(options.clearance);
+  EXPECT_TRUE(options.parallel);
+  EXPECT_EQ(options.discovery_timeout_s, 7);
+  EXPECT_EQ(options.robot, "r");
+  EXPECT_EQ(options.problems, (std::vector<std::filesystem::path>{"p", "q"}));
+  EXPECT_EQ(options.referee_robot, "m");
+  EXPECT_EQ(options.package_paths, (std::vector<std::string>{"f=/a", "g=/b"}));
+  EXPECT_EQ(options.out, "o");
+  EXPECT_EQ(options.planner_commands, (std::map<std::string, std::string>{{"y", "./y --fast=1"}}));
+  ASSERT_EQ(options.planner_settings.size(), 2u);
+  EXPECT_EQ(options.planner_settings[0], (std::pair<std::string, std::string>{"x", "step=3"}));
+  EXPECT_EQ(options.planner_settings[1], (std::pair<std::string, std::string>{"x", "name=a=b"}));
+
+  EXPECT_EQ(settings.at("time_limit_s"), "2.5");
+  EXPECT_EQ(settings.at("problems_range"), "1-2");
+  EXPECT_EQ(settings.at("problems"), "p,q");
+  EXPECT_EQ(settings.at("planner_settings"), "x.step=3,x.name=a=b");
+  EXPECT_EQ(settings.at("anytime"), "true");
+  EXPECT_EQ(settings.at("simplify"), "false");
+}
+
+TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {
+  ExpectRefused({"--directions", "sideways"}, {"--directions", "sideways"});
+  ExpectRefused({"--collision-model", "lidar"}, {"--collision-model", "lidar"});
+  ExpectRefused({"--time", "0"}, {"--time"});
+  ExpectRefused({"--time", "-1"}, {"--time"});
+  ExpectRefused({"--time", "nan"}, {"--time"});
+  ExpectRefused({"--time", "inf"}, {"--time"});
+  ExpectRefused({"--time", "1e12"}, {"--time"});
+  ExpectRefused({"--trials", "0"}, {"--trials"});
+  ExpectRefused({"--edge-resolution", "-0.1"}, {"--edge-resolution"});
+  ExpectRefused({"--referee-step", "nan"}, {"--referee-step"});
+  ExpectRefused({"--discovery-timeout", "0"}, {"--discovery-timeout"});
+  ExpectRefused({"--planners", ""}, {"--planners"});
+  ExpectRefused({"--planners", "a,a"}, {"--planners", "'a'"});
+  ExpectRefused({"--planners", "a b"}, {"a b"});
+  ExpectRefused({"--planners", "ara-2,Ara_2"}, {"'ara-2'", "'Ara_2'", "PLAN_REQUEST_ARA_2"});
+  ExpectRefused({"--sets", "a,,b"}, {"--sets", "empty"});
+  ExpectRefused({"--problems-range", "x"}, {"--problems-range"});
+}
+
+TEST(DriverFlagsTest, RefusesBadLaunchFlags) {
+  ExpectRefused({"--launch", "--problems", "p"}, {"--robot"});
+  ExpectRefused({"--launch", "--robot", "r"}, {"--problems"});
+  ExpectRefused(Launch({"--resume", "s", "--out", "o"}), {"--resume", "--out"});
+  ExpectRefused(Launch({"--planner-command", "./y"}), {"--planner-command", "./y"});
+  ExpectRefused(Launch({"--planner-command", "y="}), {"--planner-command", "y="});
+  ExpectRefused(Launch({"--planner-command", "y=1", "--planner-command", "y=2"}),
+                {"--planner-command", "'y'"});
+  ExpectRefused(Launch({"--set", "x=1"}), {"--set", "x=1"});
+  ExpectRefused(Launch({"--set", ".k=1"}), {"--set", ".k=1"});
+  ExpectRefused(Launch({"--set", "x.k"}), {"--set", "x.k"});
+}
+
+TEST(DriverFlagsTest, LaunchFlagsNeedLaunch) {
+  EXPECT_THROW(ParseFlags({"--robot", "r"}), CLI::ParseError);
+  EXPECT_THROW(ParseFlags({"--out", "o"}), CLI::ParseError);
+}
+
+TEST(DriverFlagsTest, NumbersMustBeNumbers) {
+  EXPECT_THROW(ParseFlags({"--seed", "-1"}), CLI::ParseError);
+  EXPECT_THROW(ParseFlags({"--trials", "many"}), CLI::ParseError);
+}
+
+}  // namespace
+}  // namespace planbench

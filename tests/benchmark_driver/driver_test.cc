@@ -1,0 +1,213 @@
+#include "benchmark_driver/driver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <stdexcept>
+
+#include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+void Idle() {}
+bool Never() { return false; }
+
+class DriverTest : public testing::Test {
+ protected:
+  DriverTest() { bus_.Start(); }
+
+  static DriverOptions Options() {
+    DriverOptions options;
+    options.planners = {"arm"};
+    options.problem_indices = {1, 2};
+    options.discovery_timeout_s = 60;
+    return options;
+  }
+  void ExpectNotDiscovered(const DriverOptions& options, const std::vector<std::string>& parts) {
+    Driver driver(&bus_, options, {}, "run", {});
+    ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
+  }
+
+  /// Has the planner announce itself as it now is, and waits until that is what is heard.
+  void Reannounce(FakePlanner* planner) {
+    NodeRegistry registry(&bus_);
+    planner->Restart();
+    ASSERT_TRUE(registry.WaitUntil(
+        [&] {
+          const auto heard = registry.Find("arm", NodeKind::kPlanner);
+          return heard && heard->start_utime == planner->status.start_utime;
+        },
+        kTestPatience));
+  }
+
+  Bus bus_{"memq://"};
+};
+
+TEST_F(DriverTest, MakesAndRecordsEveryRun) {
+  const FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), {{"key", "value"}}, "run", {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  ASSERT_EQ(driver.records().size(), 4u);
+  const RunRecordMessage& first = driver.records()[0];
+  EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
+  EXPECT_EQ(first.status, PlanStatus::kSolved);
+  EXPECT_EQ(first.algorithm, "Fake*");
+  EXPECT_EQ(first.settings.at("step"), "5");
+  EXPECT_EQ(first.request.edge_resolution_m, 0.02);  // the robot's
+
+  EXPECT_EQ(logger.records().messages().size(), 4u);
+  const auto sessions = logger.sessions().messages();
+  ASSERT_EQ(sessions.size(), 2u);
+  EXPECT_FALSE(sessions[0].finished);
+  EXPECT_TRUE(sessions[1].finished);
+  EXPECT_EQ(sessions[0].run_id, "run");
+  EXPECT_EQ(sessions[0].num_runs, 4);
+  EXPECT_EQ(sessions[0].robot_id, kFakeRobotId);
+  EXPECT_EQ(sessions[0].settings.at("key"), "value");
+  EXPECT_EQ(sessions[0].nodes.size(), 3u);
+}
+
+TEST_F(DriverTest, PlannersMayWorkAtOnce) {
+  const FakePlanner arm(&bus_, "arm");
+  const FakePlanner leg(&bus_, "leg");
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.planners = {"arm", "leg"};
+  options.parallel = true;
+  Driver driver(&bus_, options, {}, "run", {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.records().size(), 8u);
+  EXPECT_EQ(logger.records().messages().size(), 8u);
+}
+
+TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
+  const FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  Driver driver(&bus_, Options(), {}, "run", {});
+  driver.Discover(false, Idle);
+  EXPECT_FALSE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.records().size(), 4u);
+}
+
+TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  std::vector<RunRecordMessage> earlier(2);
+  earlier[0].request_id = "run/cans/1/arm/forward/1";
+  earlier[1].request_id = "run/cans/3/arm/forward/1";  // no longer asked for
+  for (RunRecordMessage& record : earlier) {
+    record.run_id = "run";
+    record.planner = "arm";
+    record.problem_set = "cans";
+  }
+  DriverOptions options = Options();
+  options.problem_indices = {1};
+  Driver driver(&bus_, options, {}, "run", earlier);
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  const auto requests = planner.requests().messages();
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_EQ(requests[0].request_id, "run/cans/1/arm/backward/1");
+  EXPECT_EQ(driver.records().size(), 3u);
+  EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+}
+
+TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (request.direction == Direction::kForward) planner.Solve(request);
+  });
+  Driver driver(&bus_, Options(), {}, "run", {});
+  driver.Discover(true, Idle);
+  EXPECT_FALSE(driver.Run([&] { return planner.requests().messages().size() >= 2; }, Idle));
+  EXPECT_EQ(driver.records().size(), 1u);
+  EXPECT_FALSE(logger.sessions().messages().back().finished);
+}
+
+TEST_F(DriverTest, WatchEndsTheSession) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  planner.OnRequest([](const PlanRequest&) {});
+  Driver driver(&bus_, Options(), {}, "run", {});
+  driver.Discover(true, Idle);
+  EXPECT_THROW(driver.Run(Never,
+                          [&] {
+                            if (!planner.requests().messages().empty()) {
+                              throw std::runtime_error("a child died");
+                            }
+                          }),
+               std::runtime_error);
+  EXPECT_FALSE(logger.sessions().messages().back().finished);
+}
+
+TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.problem_indices = {1};
+  options.directions = {Direction::kForward};
+  Driver driver(&bus_, options, {}, "run", {});
+  driver.Discover(true, Idle);
+  planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  ASSERT_EQ(driver.records().size(), 1u);
+  EXPECT_EQ(driver.records()[0].status, PlanStatus::kNoAnswer);
+  EXPECT_EQ(driver.records()[0].algorithm, "Fake*");
+  EXPECT_EQ(driver.records()[0].settings.at("step"), "5");
+}
+
+TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {
+  const FakePlanner planner(&bus_);
+  DriverOptions options = Options();
+  options.planners = {"arm", "leg"};
+  options.discovery_timeout_s = 0.5;
+  Driver driver(&bus_, options, {}, "run", {});
+  // Heard before, so that its being there does not depend on the half second.
+  NodeRegistry registry(&bus_);
+  ASSERT_TRUE(registry.WaitUntil([&] { return !registry.Live().empty(); }, kTestPatience));
+  ExpectInputError(
+      [&] { driver.Discover(true, Idle); },
+      {"0.5 s", "a scene server", "a planner named 'leg'", "a logger", "heard: arm (planner)"});
+}
+
+TEST_F(DriverTest, PlannersMustFitTheSession) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  DriverOptions options = Options();
+  options.collision_model = CollisionModel::kMeshes;
+  ExpectNotDiscovered(options, {"--collision-model", "'arm'", "'meshes'"});
+  options = Options();
+  options.anytime = true;
+  ExpectNotDiscovered(options, {"--anytime", "'arm'"});
+  options = Options();
+  options.sets = {"boxes"};
+  ExpectNotDiscovered(options, {"'boxes'", "cans"});
+
+  planner.status.can_backward = false;
+  Reannounce(&planner);
+  ExpectNotDiscovered(Options(), {"--directions", "'arm'"});
+  planner.status.robot_id = "robot-2";
+  Reannounce(&planner);
+  ExpectNotDiscovered(Options(), {"'arm'", "robot-2", kFakeRobotId});
+}
+
+TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {
+  const std::string id = NewRunId();
+  EXPECT_TRUE(std::regex_match(id, std::regex("[0-9]{8}T[0-9]{6}Z-[0-9a-f]{4}"))) << id;
+}
+
+}  // namespace
+}  // namespace planbench

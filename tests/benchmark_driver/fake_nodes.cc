@@ -1,0 +1,143 @@
+#include "tests/benchmark_driver/fake_nodes.h"
+
+#include <utility>
+
+namespace planbench {
+
+Path FakePath() { return {{0, 0}, {1, 0.5}}; }
+
+FakePlanner::FakePlanner(Bus* bus, const std::string& name)
+    : status(MakeNodeStatus(name, NodeKind::kPlanner)),
+      bus_(bus),
+      channels_(name),
+      handler_([this](const PlanRequest& request) { Solve(request); }),
+      requests_(bus, channels_.request),
+      cancels_(bus, channels_.cancel),
+      result_acks_(bus, channels_.result_ack),
+      subscription_(
+          bus->Subscribe<PlanRequest>(channels_.request, [this](const PlanRequest& request) {
+            const std::scoped_lock lock(mutex_);
+            handler_(request);
+          })) {
+  status.robot_name = "robot";
+  status.robot_id = kFakeRobotId;
+  status.algorithm = "Fake*";
+  status.planner_class = "sample-then-search";
+  status.can_backward = true;
+  status.collision_models = {"spheres"};
+  status.settings = {{"step", "5"}};
+  announcer_ = std::make_unique<NodeAnnouncer>(bus_, [now = status] { return now; });
+}
+
+void FakePlanner::OnRequest(std::function<void(const PlanRequest&)> handler) {
+  const std::scoped_lock lock(mutex_);
+  handler_ = std::move(handler);
+}
+
+void FakePlanner::Acknowledge(const PlanRequest& request, PlanAckMessage::Verdict verdict,
+                              const std::string& message) {
+  bus_->Publish(channels_.ack, PlanAckMessage{status.name, request.request_id, verdict, message});
+}
+
+void FakePlanner::SendResult(const std::string& request_id, PlanResult result) {
+  PlanResultMessage message;
+  message.planner = status.name;
+  message.run_id = "run";
+  message.request_id = request_id;
+  if (!result.path.empty()) message.joint_names = {"a", "b"};
+  message.result = std::move(result);
+  bus_->Publish(channels_.result, message);
+}
+
+void FakePlanner::Solve(const PlanRequest& request) {
+  Acknowledge(request, PlanAckMessage::Verdict::kAccepted);
+  SendResult(request.request_id, SolvedResult());
+}
+
+PlanResult FakePlanner::SolvedResult() {
+  PlanResult result;
+  result.status = PlanStatus::kSolved;
+  result.planning_time_s = result.total_time_s = 0.25;
+  result.path = FakePath();
+  return result;
+}
+
+void FakePlanner::Restart() {
+  announcer_.reset();
+  ++status.start_utime;
+  announcer_ = std::make_unique<NodeAnnouncer>(bus_, [now = status] { return now; });
+}
+
+FakeSceneServer::FakeSceneServer(Bus* bus)
+    : judge_([](const PathCheckRequestMessage&) { return Verdict(true); }),
+      problem_requests_(bus, channel::kProblemRequest),
+      path_checks_(bus, channel::kPathCheckRequest),
+      problems_(bus, channel::kProblemRequest, channel::kProblem,
+                [](const ProblemRequestMessage& request) {
+                  if (request.problem_index > 3) throw InputError("no such problem");
+                  ProblemMessage problem;
+                  problem.problem_set = request.problem_set;
+                  problem.problem_index = request.problem_index;
+                  problem.scene_id = "scene-" + std::to_string(request.problem_index);
+                  problem.group = "arm";
+                  problem.start = {{"a", "b"}, {0, 0}};
+                  problem.goal = {{"a", 1, 0, 0}, {"b", 0.5, 0, 0}};
+                  problem.time_limit_s = 60;
+                  return problem;
+                }),
+      judgements_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
+                  [this](const PathCheckRequestMessage& request) {
+                    const std::scoped_lock lock(mutex_);
+                    return judge_(request);
+                  }),
+      announcer_(
+          bus, [status = MakeNodeStatus("scene_server", NodeKind::kSceneServer)] { return status; },
+          [bus] {
+            ProblemSetsMessage sets;
+            sets.server = "scene_server";
+            sets.robot_name = "robot";
+            sets.robot_id = kFakeRobotId;
+            sets.edge_resolution_m = 0.02;
+            sets.sets = {{"cans", {1, 2, 3}}};
+            bus->Publish(channel::kProblemSets, sets);
+          }) {}
+
+void FakeSceneServer::OnPathCheck(
+    std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler) {
+  const std::scoped_lock lock(mutex_);
+  judge_ = std::move(handler);
+}
+
+PathCheckReplyMessage FakeSceneServer::Verdict(bool valid, const std::string& reason) {
+  PathCheckReplyMessage reply;
+  reply.ok = true;
+  reply.engine = "fake";
+  reply.verdict.emplace();
+  reply.verdict->valid = valid;
+  reply.verdict->reason = reason;
+  return reply;
+}
+
+FakeLogger::FakeLogger(Bus* bus)
+    : bus_(bus),
+      records_(bus, channel::kRunRecord),
+      sessions_(bus, channel::kSession),
+      record_subscription_(bus->Subscribe<RunRecordMessage>(channel::kRunRecord,
+                                                            [this](const RunRecordMessage& record) {
+                                                              Answer(channel::kRunRecordAck,
+                                                                     record.request_id);
+                                                            })),
+      session_subscription_(bus->Subscribe<SessionMessage>(
+          channel::kSession,
+          [this](const SessionMessage& session) { Answer(channel::kSessionAck, session.run_id); })),
+      announcer_(bus, [status = MakeNodeStatus("logger", NodeKind::kLogger)] { return status; }) {}
+
+void FakeLogger::Answer(const std::string& channel, const std::string& id) {
+  if (num_to_ignore > 0) {
+    --num_to_ignore;
+    return;
+  }
+  bus_->Publish(channel, AckMessage{id, "logger", !refuse, refuse ? "disk full" : ""});
+}
+
+}  // namespace planbench

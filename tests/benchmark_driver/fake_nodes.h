@@ -1,0 +1,104 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "messaging/bus.h"
+#include "messaging/channels.h"
+#include "messaging/node_announcer.h"
+#include "messaging/rpc.h"
+#include "tests/support/message_collector.h"
+
+namespace planbench {
+
+inline constexpr char kFakeRobotId[] = "robot-1";
+
+/// A path of the fake planner's two joints.
+Path FakePath();
+
+/// A planner as the bus sees it: what it answers is up to the test.
+class FakePlanner {
+ public:
+  explicit FakePlanner(Bus* bus, const std::string& name = "arm");
+
+  /// What to do with a request, on the bus thread. At first: accept it and send SolvedResult.
+  void OnRequest(std::function<void(const PlanRequest&)> handler);
+  void Acknowledge(const PlanRequest& request, PlanAckMessage::Verdict verdict,
+                   const std::string& message = "");
+  void SendResult(const std::string& request_id, PlanResult result);
+  void Solve(const PlanRequest& request);
+  static PlanResult SolvedResult();
+
+  /// Says nothing any more.
+  void FallSilent() { announcer_.reset(); }
+  /// As if the process had been started anew.
+  void Restart();
+
+  MessageCollector<PlanRequest>& requests() { return requests_; }
+  MessageCollector<PlanCancelMessage>& cancels() { return cancels_; }
+  MessageCollector<AckMessage>& result_acks() { return result_acks_; }
+
+  /// What it announces. To be changed before Restart().
+  NodeStatusMessage status;
+
+ private:
+  Bus* bus_;
+  PlannerChannels channels_;
+  std::mutex mutex_;
+  std::function<void(const PlanRequest&)> handler_;
+  MessageCollector<PlanRequest> requests_;
+  MessageCollector<PlanCancelMessage> cancels_;
+  MessageCollector<AckMessage> result_acks_;
+  Subscription subscription_;
+  std::unique_ptr<NodeAnnouncer> announcer_;
+};
+
+/// A scene server of one set, "cans", problems 1 to 3; finds every path valid.
+class FakeSceneServer {
+ public:
+  explicit FakeSceneServer(Bus* bus);
+
+  /// What the referee says instead.
+  void OnPathCheck(std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler);
+  static PathCheckReplyMessage Verdict(bool valid, const std::string& reason = "");
+
+  MessageCollector<ProblemRequestMessage>& problem_requests() { return problem_requests_; }
+  MessageCollector<PathCheckRequestMessage>& path_checks() { return path_checks_; }
+
+ private:
+  std::mutex mutex_;
+  std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> judge_;
+  MessageCollector<ProblemRequestMessage> problem_requests_;
+  MessageCollector<PathCheckRequestMessage> path_checks_;
+  RpcServer<ProblemRequestMessage, ProblemMessage> problems_;
+  RpcServer<PathCheckRequestMessage, PathCheckReplyMessage> judgements_;
+  NodeAnnouncer announcer_;
+};
+
+/// A logger that stores everything it is sent, or does what the test says.
+class FakeLogger {
+ public:
+  explicit FakeLogger(Bus* bus);
+
+  /// Copies of a message that it does not answer, as if they or the answers had been lost.
+  std::atomic<int> num_to_ignore = 0;
+  std::atomic<bool> refuse = false;
+
+  MessageCollector<RunRecordMessage>& records() { return records_; }
+  MessageCollector<SessionMessage>& sessions() { return sessions_; }
+
+ private:
+  void Answer(const std::string& channel, const std::string& id);
+
+  Bus* bus_;
+  MessageCollector<RunRecordMessage> records_;
+  MessageCollector<SessionMessage> sessions_;
+  Subscription record_subscription_;
+  Subscription session_subscription_;
+  NodeAnnouncer announcer_;
+};
+
+}  // namespace planbench

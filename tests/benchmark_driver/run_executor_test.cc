@@ -1,0 +1,228 @@
+#include "benchmark_driver/run_executor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+using AckVerdict = PlanAckMessage::Verdict;
+
+class RunExecutorTest : public testing::Test {
+ protected:
+  RunExecutorTest() { bus_.Start(); }
+
+  static RunConditions Conditions() {
+    RunConditions conditions;
+    conditions.run_id = "run";
+    conditions.robot_id = kFakeRobotId;
+    conditions.time_limit_s = 7;
+    conditions.collision_model = CollisionModel::kVoxels;
+    conditions.edge_resolution_m = 0.03;
+    conditions.referee_step_m = 0.004;
+    conditions.clearance = true;
+    conditions.simplify = false;
+    return conditions;
+  }
+  static ScheduledRun Scheduled(int index = 2) {
+    ScheduledRun run;
+    run.planner = "arm";
+    run.problem_set = "cans";
+    run.problem_index = index;
+    run.direction = Direction::kBackward;
+    run.trial = 3;
+    run.seed = 9;
+    run.request_id = "run/cans/" + std::to_string(index) + "/arm/backward/3";
+    return run;
+  }
+  std::optional<RunRecordMessage> Execute(const ScheduledRun& run = Scheduled()) {
+    return executor_.Execute(run, &client_, [this] { return interrupted_.load(); });
+  }
+  void AnswerWith(const PlanResult& result) {
+    planner_.OnRequest([this, result](const PlanRequest& request) {
+      planner_.Acknowledge(request, AckVerdict::kAccepted);
+      planner_.SendResult(request.request_id, result);
+    });
+  }
+
+  Bus bus_{"memq://"};
+  NodeRegistry registry_{&bus_};
+  FakePlanner planner_{&bus_};
+  PlannerClient client_{&bus_, &registry_, "arm"};
+  RunExecutor executor_{&bus_, &registry_, Conditions()};
+  std::atomic<bool> interrupted_ = false;
+};
+
+TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
+  FakeSceneServer server(&bus_);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
+  EXPECT_EQ(record->run_id, "run");
+  EXPECT_EQ(record->request_id, "run/cans/2/arm/backward/3");
+  EXPECT_EQ(record->planner, "arm");
+  EXPECT_EQ(record->problem_set, "cans");
+  EXPECT_EQ(record->problem_index, 2);
+  EXPECT_EQ(record->trial, 3);
+  EXPECT_GT(record->start_utime, 0);
+  EXPECT_GT(record->roundtrip_time_s, 0);
+  EXPECT_EQ(record->result.result.path, FakePath());
+  EXPECT_TRUE(record->path_check.verdict && record->path_check.verdict->valid);
+  EXPECT_FALSE(record->simplified_check.verdict);
+
+  const auto requests = planner_.requests().messages();
+  ASSERT_EQ(requests.size(), 1u);
+  const PlanRequest& request = requests[0];
+  EXPECT_EQ(request.request_id, "run/cans/2/arm/backward/3");
+  EXPECT_EQ(request.scene_id, "scene-2");
+  EXPECT_EQ(request.robot_id, kFakeRobotId);
+  EXPECT_EQ(request.group, "arm");
+  EXPECT_EQ(request.start.positions, (std::vector<double>{0, 0}));
+  EXPECT_EQ(request.goal.size(), 2u);
+  EXPECT_EQ(request.direction, Direction::kBackward);
+  EXPECT_EQ(request.time_limit_s, 7);  // the driver's, not the problem's
+  EXPECT_EQ(request.seed, 9u);
+  EXPECT_EQ(request.collision_model, CollisionModel::kVoxels);
+  EXPECT_EQ(request.edge_resolution_m, 0.03);
+  EXPECT_FALSE(request.simplify);
+
+  const auto checks = server.path_checks().messages();
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0].scene_id, "scene-2");
+  EXPECT_EQ(checks[0].group, "arm");
+  EXPECT_EQ(checks[0].joint_names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(checks[0].path, FakePath());
+  EXPECT_EQ(checks[0].collision_model, CollisionModel::kVoxels);
+  EXPECT_EQ(checks[0].step_m, 0.004);
+  EXPECT_TRUE(checks[0].with_clearance);
+}
+
+TEST_F(RunExecutorTest, PathThatTheRefereeRejectsIsNoSuccess) {
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([](const PathCheckRequestMessage&) {
+    return FakeSceneServer::Verdict(false, "in collision");
+  });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidPath);
+  EXPECT_EQ(record->message, "in collision");
+  EXPECT_EQ(record->result.result.status, PlanStatus::kSolved);
+}
+
+TEST_F(RunExecutorTest, SimplifiedPathIsJudgedApart) {
+  PlanResult result = FakePlanner::SolvedResult();
+  result.simplified_path = {{0, 0}, {0.1, 0}, {1, 0.5}};
+  AnswerWith(result);
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([](const PathCheckRequestMessage& request) {
+    return FakeSceneServer::Verdict(request.path.size() == 2);
+  });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved);
+  ASSERT_TRUE(record->path_check.verdict && record->simplified_check.verdict);
+  EXPECT_TRUE(record->path_check.verdict->valid);
+  EXPECT_FALSE(record->simplified_check.verdict->valid);
+}
+
+TEST_F(RunExecutorTest, FailureIsNotJudged) {
+  PlanResult result;
+  result.status = PlanStatus::kTimedOut;
+  result.message = "too hard";
+  AnswerWith(result);
+  FakeSceneServer server(&bus_);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
+  EXPECT_EQ(record->message, "too hard");
+  EXPECT_TRUE(server.path_checks().messages().empty());
+}
+
+TEST_F(RunExecutorTest, RefusalIsAnInvalidRequest) {
+  planner_.OnRequest([&](const PlanRequest& request) {
+    planner_.Acknowledge(request, AckVerdict::kRefused, "another robot");
+  });
+  const FakeSceneServer server(&bus_);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidRequest);
+  EXPECT_EQ(record->message, "refused: another robot");
+}
+
+TEST_F(RunExecutorTest, PlannerThatIsRestartedGivesNoAnswer) {
+  planner_.OnRequest([](const PlanRequest&) {});
+  const FakeSceneServer server(&bus_);
+  std::thread restarter([&] {
+    planner_.requests().WaitFor(1);
+    planner_.Restart();
+  });
+  const auto record = Execute();
+  restarter.join();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
+  EXPECT_THAT(record->message, HasSubstr("restarted"));
+  EXPECT_GT(record->roundtrip_time_s, 0);
+}
+
+TEST_F(RunExecutorTest, ProblemThatIsNotServedIsAnInputError) {
+  const FakeSceneServer server(&bus_);
+  ExpectInputError([&] { Execute(Scheduled(4)); }, {"no such problem"});
+}
+
+TEST_F(RunExecutorTest, RefereeThatHasForgottenTheSceneIsToldAgain) {
+  FakeSceneServer server(&bus_);
+  std::atomic<int> num_checks = 0;
+  server.OnPathCheck([&](const PathCheckRequestMessage&) {
+    if (++num_checks == 1) throw InputError("unknown scene");
+    return FakeSceneServer::Verdict(true);
+  });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved);
+  EXPECT_EQ(server.problem_requests().messages().size(), 2u);
+}
+
+TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
+    throw InputError("no engine");
+  });
+  auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidPath);
+  EXPECT_THAT(record->message, HasSubstr("no engine"));
+
+  server.OnPathCheck([](const PathCheckRequestMessage&) {
+    PathCheckReplyMessage reply;
+    reply.ok = true;
+    return reply;
+  });
+  record = Execute(Scheduled(1));
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidPath);
+  EXPECT_THAT(record->message, HasSubstr("no verdict"));
+}
+
+TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {
+  interrupted_ = true;
+  EXPECT_FALSE(Execute());  // no scene server either
+
+  interrupted_ = false;
+  FakeSceneServer server(&bus_);
+  planner_.OnRequest([&](const PlanRequest& request) {
+    planner_.Acknowledge(request, AckVerdict::kAccepted);
+    interrupted_ = true;
+  });
+  EXPECT_FALSE(Execute());
+  EXPECT_EQ(planner_.cancels().WaitFor(1).size(), 1u);
+}
+
+}  // namespace
+}  // namespace planbench

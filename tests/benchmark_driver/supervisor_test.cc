@@ -1,0 +1,255 @@
+#include "benchmark_driver/supervisor.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/support/expect_input_error.h"
+#include "tests/support/message_collector.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+/// True for a process that exists and has not ended (one that nobody has waited for yet has).
+bool IsRunning(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t name_end = text.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] != 'Z' &&
+         text[name_end + 2] != 'X';
+}
+
+class SupervisorTest : public testing::Test {
+ protected:
+  /// A child that runs a shell script, its log named after it; $OUT is a file of the test's.
+  ChildSpec Script(const std::string& name, const std::string& script) const {
+    return {name, {"/bin/sh", "-c", script}, {{"OUT", out_.string()}}, Log(name)};
+  }
+  std::filesystem::path Log(const std::string& name) const {
+    return folder_.path() / (name + ".log");
+  }
+  static std::vector<std::string> Lines(const std::filesystem::path& file) {
+    std::vector<std::string> lines;
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+  /// Lines of $OUT, once there are that many.
+  std::vector<std::string> AwaitOutput(std::size_t count) const {
+    EXPECT_TRUE(WaitUntil([&] { return Lines(out_).size() >= count; }));
+    return Lines(out_);
+  }
+  static bool Hopeless(const Supervisor& supervisor) {
+    try {
+      supervisor.ThrowIfHopeless();
+      return false;
+    } catch (const std::runtime_error&) {
+      return true;
+    }
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path out_ = folder_.path() / "out";
+};
+
+TEST_F(SupervisorTest, GivesChildrenTheirEnvironmentAndLog) {
+  folder_.Write("child.log", "of an earlier time\n");
+  setenv("PLANBENCH_TEST_OURS", "ours", 1);
+  setenv("PLANBENCH_TEST_BOTH", "ours", 1);
+  ChildSpec child = Script("child",
+                           "echo \"$PLANBENCH_TEST_OURS $PLANBENCH_TEST_BOTH\"\n"
+                           "echo complaint >&2\n"
+                           "read line || echo no input\n"
+                           "echo done >> $OUT\n"
+                           "exec sleep 1000");
+  child.environment["PLANBENCH_TEST_BOTH"] = "its own";
+  Supervisor supervisor;
+  supervisor.Start(child);
+  AwaitOutput(1);
+  unsetenv("PLANBENCH_TEST_OURS");
+  unsetenv("PLANBENCH_TEST_BOTH");
+  EXPECT_EQ(Lines(Log("child")), (std::vector<std::string>{"of an earlier time", "ours its own",
+                                                           "complaint", "no input"}));
+}
+
+TEST_F(SupervisorTest, ChildrenHoldNoneOfOurFiles) {
+  const int held = open(folder_.Write("held", "").c_str(), O_RDONLY);
+  ASSERT_GE(held, 0);
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "ls -l /proc/$$/fd | grep -c /held >> $OUT; exec sleep 1000"));
+  EXPECT_EQ(AwaitOutput(1).at(0), "0");
+  close(held);
+}
+
+TEST_F(SupervisorTest, RestartsWhatDies) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "echo $$ >> $OUT\n"
+                          "[ $(wc -l < $OUT) -ge 3 ] || exit 1\n"
+                          "exec sleep 1000"));
+  AwaitOutput(3);
+  EXPECT_EQ(supervisor.num_restarts(), 2);
+  EXPECT_FALSE(Hopeless(supervisor));
+}
+
+TEST_F(SupervisorTest, RestartsWhatIsKilled) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  const pid_t first = std::stoi(AwaitOutput(1).at(0));
+  kill(first, SIGKILL);
+  const pid_t second = std::stoi(AwaitOutput(2).at(1));
+  EXPECT_NE(first, second);
+  EXPECT_EQ(supervisor.num_restarts(), 1);
+}
+
+TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "sleep 1000 & echo \"$$ $!\" >> $OUT; wait"));
+  std::istringstream ids(AwaitOutput(1).at(0));
+  pid_t child = 0;
+  pid_t grandchild = 0;
+  ids >> child >> grandchild;
+  EXPECT_TRUE(IsRunning(grandchild));
+  kill(child, SIGKILL);
+  EXPECT_TRUE(WaitUntil([&] { return !IsRunning(grandchild); }));
+  AwaitOutput(2);
+}
+
+TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "echo run >> $OUT; echo starting; echo 'child: robot.yaml:3: no' >&2\n"
+                          "exit 2"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  ExpectInputError([&] { supervisor.ThrowIfHopeless(); }, {"child: robot.yaml:3: no"});
+  EXPECT_EQ(supervisor.num_restarts(), 0);
+  EXPECT_EQ(Lines(out_).size(), 1u);
+}
+
+TEST_F(SupervisorTest, ProgramThatCannotBeStartedIsBadInput) {
+  Supervisor supervisor;
+  supervisor.Start({"child", {"/no/such/program"}, {}, Log("child")});
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  ExpectInputError([&] { supervisor.ThrowIfHopeless(); },
+                   {"/no/such/program", "cannot be started"});
+}
+
+TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "echo run >> $OUT; echo 'out of luck'; exit 3"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  try {
+    supervisor.ThrowIfHopeless();
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("child ended with exit code 3"));
+    EXPECT_THAT(error.what(), HasSubstr("out of luck"));
+    EXPECT_THAT(error.what(), HasSubstr(Log("child").string()));
+  }
+  EXPECT_EQ(Lines(out_).size(), static_cast<std::size_t>(Supervisor::kMaxQuickDeaths));
+}
+
+TEST_F(SupervisorTest, StopsInTheOrderAskedTheRestLastStartedFirst) {
+  const std::string script =
+      "trap 'echo $0 stopped >> $OUT; exit 0' TERM\n"
+      "echo $0 ready >> $OUT\n"
+      "while :; do sleep 0.01; done";
+  Supervisor supervisor;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    ChildSpec child = Script(name, script);
+    child.arguments.push_back(name);  // $0
+    supervisor.Start(child);
+  }
+  AwaitOutput(4);
+  supervisor.StopAll({"c", "a"});
+  std::vector<std::string> lines = Lines(out_);
+  lines.erase(lines.begin(), lines.begin() + 4);
+  EXPECT_EQ(lines, (std::vector<std::string>{"c stopped", "a stopped", "d stopped", "b stopped"}));
+  EXPECT_EQ(supervisor.num_restarts(), 0);
+}
+
+TEST_F(SupervisorTest, KillsWhatDoesNotEnd) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "trap '' TERM; echo $$ >> $OUT; while :; do sleep 0.05; done"));
+  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
+  supervisor.StopAll({}, milliseconds(50));
+  EXPECT_FALSE(IsRunning(pid));
+}
+
+TEST_F(SupervisorTest, LeavesNothingBehind) {
+  std::vector<pid_t> ids;
+  {
+    Supervisor supervisor;
+    for (int i = 0; i < 5; ++i) {
+      supervisor.Start(Script("child" + std::to_string(i),
+                              "sleep 1000 & printf '%s\\n%s\\n' $$ $! >> $OUT; wait"));
+    }
+    for (const std::string& line : AwaitOutput(10)) ids.push_back(std::stoi(line));
+  }
+  for (const pid_t pid : ids) {
+    EXPECT_TRUE(WaitUntil([&] { return !IsRunning(pid); })) << pid;
+  }
+}
+
+TEST_F(SupervisorTest, StopsWhatHasHardlyBegun) {
+  // A child asked to end before it runs its own program ends too: none has to be killed, which
+  // would take ten seconds.
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 20; ++i) {
+    Supervisor supervisor;
+    supervisor.Start(Script("child", "exec sleep 1000"));
+    if (i % 2 == 0) {
+      WaitUntil([&] { return std::filesystem::exists(Log("child")); });
+    }
+    supervisor.StopAll({}, std::chrono::seconds(60));
+    std::filesystem::remove(Log("child"));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+}
+
+TEST_F(SupervisorTest, ChildrenEndWithTheirParent) {
+  const pid_t parent = fork();
+  ASSERT_GE(parent, 0);
+  if (parent == 0) {
+    Supervisor supervisor;
+    supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+    pause();
+    _exit(1);
+  }
+  const pid_t child = std::stoi(AwaitOutput(1).at(0));
+  EXPECT_TRUE(IsRunning(child));
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  EXPECT_TRUE(WaitUntil([&] { return !IsRunning(child); }));
+}
+
+TEST(FreeUdpPortTest, CanBeBound) {
+  const int port = FreeUdpPort();
+  EXPECT_GT(port, 1023);
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  ASSERT_GE(fd, 0);
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_ANY);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  EXPECT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  for (int i = 0; i < 200; ++i) EXPECT_NE(FreeUdpPort(), port);
+  close(fd);
+}
+
+}  // namespace
+}  // namespace planbench
