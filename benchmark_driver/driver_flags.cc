@@ -76,7 +76,9 @@ void DriverFlags::AddTo(CLI::App* app) {
       ->capture_default_str();
   app->add_option("--trials", options_.trials, "runs of each problem, seeds counting up")
       ->capture_default_str();
-  app->add_option("--seed", options_.seed, "seed of the first trial")->capture_default_str();
+  app->add_option("--seed", options_.seed, "seed of the first trial")
+      ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
+      ->capture_default_str();
   app->add_option("--collision-model", collision_model_, "spheres, voxels or meshes")
       ->capture_default_str();
   app->add_option(
@@ -174,12 +176,11 @@ DriverOptions DriverFlags::Parse() const {
   }
   for (const std::string& setting : planner_settings_) {
     const std::size_t dot = setting.find('.');
-    if (dot == std::string::npos || dot == 0) {
+    const std::size_t equals = setting.find('=');
+    if (dot == 0 || equals == std::string::npos || dot >= equals || dot + 1 == equals) {
       throw InputError("--set " + setting + ": expected NAME.KEY=VALUE");
     }
-    const std::string planner = setting.substr(0, dot);
-    SplitAssignment(setting.substr(dot + 1), "--set");
-    options.planner_settings.emplace_back(planner, setting.substr(dot + 1));
+    options.planner_settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
   }
   for (const std::string& folder : problems_) options.problems.emplace_back(folder);
   if (options.launch) {

@@ -27,7 +27,8 @@ PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string
                                              changed_.notify_all();
                                            })),
       results_(bus->Subscribe<PlanResultMessage>(
-          channels_.result, [this](const PlanResultMessage& result) {
+          channels_.result,
+          [this](const PlanResultMessage& result) {
             const Clock::time_point now = Clock::now();
             // Also results of former requests (whose acknowledgement was lost) are to be silenced.
             bus_->Publish(channels_.result_ack, AckMessage{result.request_id, "driver", true, ""});
@@ -35,6 +36,15 @@ PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string
             if (result.request_id != request_id_ || result_) return;
             result_ = result;
             result_received_ = now;
+            changed_.notify_all();
+          },
+          [this](const MessageError& error) {
+            if (error.request_id().empty()) throw error;
+            bus_->Publish(channels_.result_ack,
+                          AckMessage{error.request_id(), "driver", false, error.what()});
+            const std::scoped_lock lock(mutex_);
+            if (error.request_id() != request_id_) return;
+            unusable_result_ = error.what();
             changed_.notify_all();
           })) {}
 
@@ -64,6 +74,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   request_id_ = request.request_id;
   ack_.reset();
   result_.reset();
+  unusable_result_.clear();
   Clock::time_point sent = Clock::now();  // first transmission since the planner was last busy
   bool was_busy = true;
   Clock::time_point next_send = sent;
@@ -82,6 +93,10 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
       answer.outcome = Outcome::kResult;
       answer.result = *std::move(result_);
       answer.roundtrip_time_s = std::chrono::duration<double>(result_received_ - sent).count();
+      break;
+    }
+    if (!unusable_result_.empty()) {
+      answer.message = "the result cannot be used: " + unusable_result_;
       break;
     }
     if (ack_) {

@@ -53,6 +53,7 @@ class PlannerClient {
   std::string request_id_;  // of the request under way
   std::optional<PlanAckMessage> ack_;
   std::optional<PlanResultMessage> result_;
+  std::string unusable_result_;  // why, if one came that could not be read
   std::chrono::steady_clock::time_point result_received_;
   Subscription acks_;
   Subscription results_;

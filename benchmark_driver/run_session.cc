@@ -77,7 +77,6 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   bus.Start();
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
-    spdlog::info("session folder {}, bus {}", session_folder.string(), url);
     supervisor = std::make_unique<Supervisor>();
     LaunchProcesses(options, session_folder, url, supervisor.get());
     // Loading meshes, or a busy machine, may take its time; a child that fails is heard of at once.
@@ -93,6 +92,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   };
   Driver driver(&bus, options, std::move(settings), run_id, std::move(earlier));
   driver.Discover(options.launch, watch);
+  if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {
     announcer.ThrowIfDisplaced();
     if (supervisor) supervisor->ThrowIfHopeless();

@@ -84,7 +84,7 @@ class TextTable {
       if (r == 0) {
         std::size_t total = 1;
         for (const std::size_t width : widths) total += width + 2;
-        text += "  " + std::string(total - 2, '-') + "\n";
+        text += "  " + std::string(total - 3, '-') + "\n";
       }
     }
     return text + notes + "\n";
