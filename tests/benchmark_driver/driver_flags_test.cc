@@ -182,6 +182,8 @@ TEST(DriverFlagsTest, RefusesBadLaunchFlags) {
   ExpectRefused(Launch({"--set", "x=1"}), {"--set", "x=1"});
   ExpectRefused(Launch({"--set", ".k=1"}), {"--set", ".k=1"});
   ExpectRefused(Launch({"--set", "x.k"}), {"--set", "x.k"});
+  ExpectRefused(Launch({"--set", "x=k.1"}), {"--set", "x=k.1"});
+  ExpectRefused(Launch({"--set", "x.=1"}), {"--set", "x.=1"});
 }
 
 TEST(DriverFlagsTest, LaunchFlagsNeedLaunch) {

@@ -262,14 +262,13 @@ TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
 
 TEST(TablesTest, PrintedText) {
   const std::string text = FormatTables(Session());
+  const std::string header =
+      "  set  planner  problems  forward  backward  failure  unsolvable  other  backward alone\n";
+  const std::string rule = "  " + std::string(header.size() - 3, '-') + "\n";
   EXPECT_THAT(
       text,
       HasSubstr(
-          "Success\n"
-          "  set  planner  problems  forward  backward  failure  unsolvable  other  backward "
-          "alone\n"
-          "  "
-          "------------------------------------------------------------------------------------\n"
+          "Success\n" + header + rule +
           "  box  ara             4        1         1        1           1      0               "
           "2\n"
           "  box  rrtc            2        1         -        0           0      1               "
