@@ -89,8 +89,12 @@ class AraPlanner : public Planner {
     } else if (out_of_memory) {
       result.status = PlanStatus::kMemoryLimit;
       result.message = "the search reached memory_limit_mb";
+    } else if (query.Cancelled()) {
+      result.status = PlanStatus::kCancelled;
+      result.message = "cancelled before a path was found";
     } else {
-      result.status = query.Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
+      result.status = PlanStatus::kTimedOut;
+      result.message = "the time limit came before a path was found";
     }
     return result;
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "contract/planner_contract.h"
@@ -176,6 +177,32 @@ TEST_F(AraPlannerTest, DescribesItself) {
   EXPECT_EQ(description.collision_models, AvailableCollisionModels());
   EXPECT_EQ(description.settings.at("epsilon_initial"), "10");
   EXPECT_EQ(description.settings.at("discretization"), "{elbow: 0.2, shoulder: 0.2, wrist: 0.2}");
+}
+
+TEST_F(AraPlannerTest, TheStudysSettingsSolveWithItsOwnMoves) {
+  const Robot fetch = LoadFetch();
+  const std::unique_ptr<Planner> planner =
+      MakeAraPlanner(fetch, YamlNode::LoadFile((fetch.folder / "ara_study.yaml").string()));
+  EXPECT_EQ(planner->Describe().settings.at("cost"), "uniform");
+  PlanRequest request = MakeRequest(fetch, FetchTucked(), FetchOverTable());
+  request.direction = Direction::kBackward;
+  request.simplify = false;
+  const PlanResult result = planner->Plan(request, FetchTableScene(fetch), nullptr);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  // The path runs start to goal: of all its motions only the first, the search's last, is no move
+  // of 8 cells.
+  const JointSpace& space = fetch.groups.front().space;
+  for (std::size_t i = 2; i < result.path.size(); ++i) {
+    int num_moved = 0;
+    for (int j = 0; j < space.size(); ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      const double motion = std::abs(space.Difference(j, result.path[i - 1][k], result.path[i][k]));
+      if (motion < 1e-9) continue;
+      ++num_moved;
+      EXPECT_NEAR(motion, space.joint(j).prismatic ? 0.04 : 8 * 3.14159265358979 / 180, 1e-9);
+    }
+    EXPECT_EQ(num_moved, 1);
+  }
 }
 
 TEST_F(AraPlannerTest, SolvesPublishedProblems) {
