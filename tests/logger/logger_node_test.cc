@@ -11,37 +11,14 @@
 #include "common/error.h"
 #include "messaging/channels.h"
 #include "sample_messages.h"
-#include "temporary_folder.h"
+#include "session_files.h"
+#include "tests/support/message_collector.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// Collects messages of one channel; waits for some.
-template <typename Message>
-class Collector {
- public:
-  Collector(Bus* bus, const std::string& channel)
-      : subscription_(bus->Subscribe<Message>(channel, [this](const Message& message) {
-          const std::scoped_lock lock(mutex_);
-          messages_.push_back(message);
-          changed_.notify_all();
-        })) {}
-
-  /// The messages so far, once there are `count`, or fewer if they do not come within a minute.
-  std::vector<Message> WaitFor(std::size_t count) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, 60s, [&] { return messages_.size() >= count; });
-    return messages_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Message> messages_;
-  Subscription subscription_;
-};
 
 std::multiset<std::string> LoggedChannels(const std::filesystem::path& file) {
   lcm::LogFile log(file, "r");
@@ -61,8 +38,8 @@ TEST(LoggerNode, RecordsWhatIsOnTheBus) {
   const TemporaryFolder temporary;
   Bus bus("memq://");
   LoggerNode logger(&bus, {.out = temporary / "s"});
-  Collector<AckMessage> run_acks(&bus, channel::kRunRecordAck);
-  Collector<AckMessage> session_acks(&bus, channel::kSessionAck);
+  MessageCollector<AckMessage> run_acks(&bus, channel::kRunRecordAck);
+  MessageCollector<AckMessage> session_acks(&bus, channel::kSessionAck);
   bus.Start();
   bus.Publish(channel::kSession, SampleSession());
   bus.Publish(channel::kRunRecord, SampleRecord("a"));
@@ -133,7 +110,7 @@ TEST(LoggerNode, WorksBetweenTwoConnections) {
   LoggerNode logger(logger_bus.get(), {.out = temporary / "s"});
   logger_bus->Start();
   Bus driver(url);
-  Collector<AckMessage> acks(&driver, channel::kRunRecordAck);
+  MessageCollector<AckMessage> acks(&driver, channel::kRunRecordAck);
   driver.Start();
   // A path of thousands of rows, larger than one datagram; repeated, since datagrams may be lost.
   RunRecordMessage record = SampleRecord();
@@ -156,7 +133,7 @@ TEST(LoggerNode, WorksBetweenTwoConnections) {
 TEST(LoggerNode, AnnouncesItselfWithItsFolder) {
   const TemporaryFolder temporary;
   Bus bus("memq://");
-  Collector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
+  MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
   LoggerNode logger(&bus, {.out = temporary / "s", .name = "scribe"});
   bus.Start();
   const std::vector<NodeStatusMessage> heard = statuses.WaitFor(1);
@@ -190,7 +167,7 @@ TEST(LoggerNode, DropsAreCountedAndNoCleanEnd) {
   const TemporaryFolder temporary;
   Bus bus("memq://");
   LoggerNode logger(&bus, {.out = temporary / "s", .queue_bytes = 10'000});
-  Collector<AckMessage> acks(&bus, channel::kRunRecordAck);
+  MessageCollector<AckMessage> acks(&bus, channel::kRunRecordAck);
   bus.Start();
   // Too large for the queue as a whole.
   bus.PublishBytes("LARGE", std::vector<std::uint8_t>(20'000));
@@ -205,7 +182,7 @@ TEST(LoggerNode, ARefusedRecordIsNoCleanEnd) {
   const TemporaryFolder temporary;
   Bus bus("memq://");
   LoggerNode logger(&bus, {.out = temporary / "s"});
-  Collector<AckMessage> acks(&bus, channel::kRunRecordAck);
+  MessageCollector<AckMessage> acks(&bus, channel::kRunRecordAck);
   bus.Start();
   RunRecordMessage record = SampleRecord();
   record.trial = 0;

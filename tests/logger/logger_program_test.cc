@@ -11,7 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "temporary_folder.h"
+#include "session_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {

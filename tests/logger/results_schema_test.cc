@@ -6,7 +6,8 @@
 #include "common/error.h"
 #include "logger/results_database.h"
 #include "logger/run_columns.h"
-#include "temporary_folder.h"
+#include "session_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {

@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include "common/error.h"
-#include "temporary_folder.h"
+#include "session_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {

@@ -12,7 +12,8 @@
 #include "common/error.h"
 #include "messaging/channels.h"
 #include "sample_messages.h"
-#include "temporary_folder.h"
+#include "session_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {

@@ -18,6 +18,7 @@
 #include "messaging/node_registry.h"
 #include "tests/scene_server/tiny_world.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/message_collector.h"
 
 namespace planbench {
 namespace {
@@ -29,31 +30,6 @@ using ::testing::HasSubstr;
 // Generous: what is waited for comes at once, unless it never comes.
 constexpr seconds kTimeout{30};
 constexpr milliseconds kRetry{500};
-
-/// Keeps what comes on a channel.
-template <typename Message>
-class Recorder {
- public:
-  Recorder(Bus* bus, const std::string& channel)
-      : subscription_(bus->Subscribe<Message>(channel, [this](const Message& message) {
-          const std::scoped_lock lock(mutex_);
-          messages_.push_back(message);
-          changed_.notify_all();
-        })) {}
-
-  /// Waits for that many; returns what there is.
-  std::vector<Message> WaitFor(std::size_t count) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kTimeout, [&] { return messages_.size() >= count; });
-    return messages_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Message> messages_;
-  Subscription subscription_;  // last: nothing may arrive before the rest stands
-};
 
 /// A server on a bus within this process.
 class SceneServerNodeTest : public ::testing::Test {
@@ -79,7 +55,7 @@ class SceneServerNodeTest : public ::testing::Test {
 };
 
 TEST_F(SceneServerNodeTest, SendsTheSceneAndThenTheProblem) {
-  Recorder<SceneMessage> scenes(&bus_, channel::kScene);
+  MessageCollector<SceneMessage> scenes(&bus_, channel::kScene);
   const ProblemMessage problem = CallForProblem({"id", "cans", 1});
   ASSERT_TRUE(problem.ok) << problem.message;
   const std::vector<SceneMessage> received = scenes.WaitFor(1);
@@ -95,8 +71,8 @@ TEST_F(SceneServerNodeTest, RefusesAnUnknownProblem) {
 }
 
 TEST_F(SceneServerNodeTest, RepeatedRequestIsAnsweredAgainButWorkedOnOnce) {
-  Recorder<ProblemMessage> problems(&bus_, channel::kProblem);
-  Recorder<SceneMessage> scenes(&bus_, channel::kScene);
+  MessageCollector<ProblemMessage> problems(&bus_, channel::kProblem);
+  MessageCollector<SceneMessage> scenes(&bus_, channel::kScene);
   const ProblemRequestMessage request{"id", "cans", 1};
   CallForProblem(request);
   CallForProblem(request);
@@ -187,7 +163,7 @@ TEST_F(SceneServerNodeTest, AnnouncesItselfAndItsSetsWhenDiscovered) {
 }
 
 TEST_F(SceneServerNodeTest, AnnouncesItsSetsAgainAndAgainWhileItRuns) {
-  Recorder<ProblemSetsMessage> sets(&bus_, channel::kProblemSets);
+  MessageCollector<ProblemSetsMessage> sets(&bus_, channel::kProblemSets);
   std::atomic<bool> stop = false;
   std::thread runner([&] { node_.Run([&] { return stop.load(); }); });
   EXPECT_GE(sets.WaitFor(2).size(), 2u);

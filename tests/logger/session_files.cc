@@ -1,8 +1,6 @@
-#include "temporary_folder.h"
+#include "session_files.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <sstream>
@@ -10,16 +8,6 @@
 #include "logger/sqlite.h"
 
 namespace planbench {
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = testing::TempDir() + "planbench_logger_XXXXXX";
-  path_ = mkdtemp(name.data());
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 std::string ReadText(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
