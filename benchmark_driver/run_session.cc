@@ -15,6 +15,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "messaging/node_announcer.h"
+#include "messaging/record_log.h"
 
 namespace planbench {
 namespace {
@@ -53,6 +54,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (recorded.sessions.empty()) {
       throw InputError("--resume: " + options.resume.string() + " holds no session");
     }
+    RequireSameConditions(recorded.sessions.back(), settings);
     run_id = recorded.sessions.back().run_id;
     earlier = std::move(recorded.runs);
     std::erase_if(earlier, [&](const RunRecordMessage& run) { return run.run_id != run_id; });
