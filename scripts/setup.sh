@@ -56,16 +56,15 @@ prepare() {
   ensure_receive_buffer
 }
 
-# build PRESET [CMAKE OPTION ...]
+# build PRESET TARGET
 build() {
-  local preset=$1 jobs memory_gib
-  shift
+  local preset=$1 target=$2 jobs memory_gib
   # The largest files need about 2 GiB of memory to compile.
   memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
   jobs=$(nproc)
   [ $((memory_gib / 2)) -lt "$jobs" ] && jobs=$((memory_gib / 2))
   [ "$jobs" -lt 1 ] && jobs=1
   say "building the preset '$preset' with $jobs jobs"
-  cmake --preset "$preset" "$@" >/dev/null
-  cmake --build --preset "$preset" -j "$jobs"
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset" --target "$target" -j "$jobs"
 }
