@@ -22,4 +22,22 @@ std::filesystem::path EventLogOf(const std::filesystem::path& session_folder) {
   return log;
 }
 
+void RequireSameConditions(const SessionMessage& earlier,
+                           const std::map<std::string, std::string>& settings) {
+  const auto value_in = [](const std::map<std::string, std::string>& all, const char* key) {
+    const auto found = all.find(key);
+    return found == all.end() ? std::string() : found->second;
+  };
+  for (const char* key :
+       {"time_limit_s", "seed", "collision_model", "edge_resolution_m", "referee_step_m", "anytime",
+        "simplify", "clearance", "planner_settings"}) {
+    const std::string before = value_in(earlier.settings, key);
+    const std::string now = value_in(settings, key);
+    if (before != now) {
+      throw InputError("--resume: the session was begun with " + std::string(key) + " '" + before +
+                       "', which cannot become '" + now + "'");
+    }
+  }
+}
+
 }  // namespace planbench

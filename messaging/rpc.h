@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <list>
@@ -13,6 +14,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "messaging/bus.h"
 
@@ -123,7 +125,7 @@ class RpcServer {
     const std::scoped_lock lock(mutex_);
     for (const auto& [id, reply] : cache_) {
       if (id == request.request_id) {
-        bus_->Publish(reply_channel_, reply);
+        bus_->PublishBytes(reply_channel_, reply);
         return;
       }
     }
@@ -153,19 +155,20 @@ class RpcServer {
       const Request request = std::move(queue_.front());
       queue_.pop_front();
       lock.unlock();
-      Reply reply;
+      std::vector<std::uint8_t> bytes;
       try {
-        reply = answer_(request);
+        Reply reply = answer_(request);
         reply.request_id = request.request_id;
-        bus_->Publish(reply_channel_, reply);
-      } catch (const InputError& error) {  // the answer's or, for want of a wire form, Encode's
-        reply = Refusal(request.request_id, error.what());
-        bus_->Publish(reply_channel_, reply);
+        bytes = Encode(reply);
+      } catch (const InputError& error) {  // the answer's or, if there is no wire form, Encode's
+        bytes = Encode(Refusal(request.request_id, error.what()));
       }
       lock.lock();
       pending_.erase(request.request_id);
-      cache_.emplace_back(request.request_id, std::move(reply));
+      cache_.emplace_back(request.request_id, std::move(bytes));
       if (cache_.size() > kCacheSize) cache_.pop_front();
+      // With the reply in the cache already: a repetition that comes at this moment is answered.
+      bus_->PublishBytes(reply_channel_, cache_.back().second);
     }
   }
 
@@ -177,7 +180,7 @@ class RpcServer {
   bool stopping_ = false;
   std::deque<Request> queue_;
   std::set<std::string> pending_;
-  std::list<std::pair<std::string, Reply>> cache_;
+  std::list<std::pair<std::string, std::vector<std::uint8_t>>> cache_;  // encoded replies by id
   Subscription subscription_;
   std::thread worker_;  // last: it may not be left running if the rest cannot be made
 };

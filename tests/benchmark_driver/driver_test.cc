@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 #include <stdexcept>
 
 #include "tests/benchmark_driver/fake_nodes.h"
@@ -11,6 +12,14 @@
 
 namespace planbench {
 namespace {
+
+/// Ids of all that came; what was repeated counts once.
+template <typename Message>
+std::set<std::string> Ids(MessageCollector<Message>& collector) {
+  std::set<std::string> ids;
+  for (const Message& message : collector.messages()) ids.insert(message.request_id);
+  return ids;
+}
 
 void Idle() {}
 bool Never() { return false; }
@@ -61,11 +70,11 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_EQ(first.settings.at("step"), "5");
   EXPECT_EQ(first.request.edge_resolution_m, 0.02);  // the robot's
 
-  EXPECT_EQ(logger.records().messages().size(), 4u);
+  EXPECT_EQ(Ids(logger.records()).size(), 4u);
   const auto sessions = logger.sessions().messages();
-  ASSERT_EQ(sessions.size(), 2u);
-  EXPECT_FALSE(sessions[0].finished);
-  EXPECT_TRUE(sessions[1].finished);
+  ASSERT_GE(sessions.size(), 2u);
+  EXPECT_FALSE(sessions.front().finished);
+  EXPECT_TRUE(sessions.back().finished);
   EXPECT_EQ(sessions[0].run_id, "run");
   EXPECT_EQ(sessions[0].num_runs, 4);
   EXPECT_EQ(sessions[0].robot_id, kFakeRobotId);
@@ -85,7 +94,7 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.records().size(), 8u);
-  EXPECT_EQ(logger.records().messages().size(), 8u);
+  EXPECT_EQ(Ids(logger.records()).size(), 8u);
 }
 
 TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
@@ -114,9 +123,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   Driver driver(&bus_, options, {}, "run", earlier);
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
-  const auto requests = planner.requests().messages();
-  ASSERT_EQ(requests.size(), 1u);
-  EXPECT_EQ(requests[0].request_id, "run/cans/1/arm/backward/1");
+  EXPECT_EQ(Ids(planner.requests()), std::set<std::string>{"run/cans/1/arm/backward/1"});
   EXPECT_EQ(driver.records().size(), 3u);
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
 }
@@ -130,7 +137,7 @@ TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
   });
   Driver driver(&bus_, Options(), {}, "run", {});
   driver.Discover(true, Idle);
-  EXPECT_FALSE(driver.Run([&] { return planner.requests().messages().size() >= 2; }, Idle));
+  EXPECT_FALSE(driver.Run([&] { return Ids(planner.requests()).size() >= 2; }, Idle));
   EXPECT_EQ(driver.records().size(), 1u);
   EXPECT_FALSE(logger.sessions().messages().back().finished);
 }

@@ -97,16 +97,21 @@ TEST_F(PlannerClientTest, AsksAgainWhileThePlannerIsBusy) {
 
 TEST_F(PlannerClientTest, DoesNotRepeatWhatWasAccepted) {
   FakePlanner planner(&bus_);
+  MessageCollector<PlanAckMessage> acks(&bus_, PlannerChannels("arm").ack);
   planner.OnRequest(
       [&](const PlanRequest& request) { planner.Acknowledge(request, Verdict::kAccepted); });
-  std::atomic<int> num_asked = 0;
-  // Asked every 50 ms: long enough for a second and third request to be sent.
+  std::size_t num_requests = 0;
+  int num_asked = 0;
+  // Asked every 50 ms: from the acknowledgement on long enough for two more requests.
   const PlannerClient::Answer answer = client_.Solve(Request("a"), [&] {
-    if (++num_asked == 25) planner.SendResult("a", FakePlanner::SolvedResult());
+    if (acks.messages().empty()) return false;
+    ++num_asked;
+    if (num_asked == 2) num_requests = planner.requests().messages().size();
+    if (num_asked == 25) planner.SendResult("a", FakePlanner::SolvedResult());
     return false;
   });
   EXPECT_EQ(answer.outcome, Outcome::kResult);
-  EXPECT_EQ(planner.requests().messages().size(), 1u);
+  EXPECT_EQ(planner.requests().messages().size(), num_requests);
 }
 
 TEST_F(PlannerClientTest, RefusalSaysWhy) {
@@ -170,6 +175,20 @@ TEST_F(PlannerClientTest, LateResultOfAFormerRequestIsOnlyAcknowledged) {
   EXPECT_TRUE(AcknowledgedAs(&planner, "former"));
   planner.SendResult("between requests", FakePlanner::SolvedResult());
   EXPECT_TRUE(AcknowledgedAs(&planner, "between requests"));
+}
+
+TEST_F(PlannerClientTest, ResultThatCannotBeReadEndsTheRequest) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    planner.Acknowledge(request, Verdict::kAccepted);
+    PlanResult result = FakePlanner::SolvedResult();
+    result.planning_time_s = -1;
+    planner.SendResult(request.request_id, result);
+  });
+  const PlannerClient::Answer answer = Solve("a");
+  EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
+  EXPECT_THAT(answer.message, HasSubstr("planning_time_s"));
+  EXPECT_TRUE(AcknowledgedAs(&planner, "a"));
 }
 
 TEST_F(PlannerClientTest, CancellationOfAFormerTimeIsNoResult) {

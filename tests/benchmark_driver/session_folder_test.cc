@@ -26,5 +26,23 @@ TEST(EventLogOfTest, MissingFolderLogOrChoiceIsNamed) {
   ExpectInputError([&] { EventLogOf(path); }, {"--resume", path, "several"});
 }
 
+TEST(RequireSameConditionsTest, OnlyWhatIsRunMayChange) {
+  SessionMessage earlier;
+  earlier.settings = {{"time_limit_s", "60"}, {"seed", "1"}, {"trials", "1"}, {"planners", "a"}};
+  auto settings = earlier.settings;
+  EXPECT_NO_THROW(RequireSameConditions(earlier, settings));
+  settings["trials"] = "3";
+  settings["planners"] = "a,b";
+  settings["problems_range"] = "1-5";
+  EXPECT_NO_THROW(RequireSameConditions(earlier, settings));
+  settings["time_limit_s"] = "10";
+  ExpectInputError([&] { RequireSameConditions(earlier, settings); },
+                   {"--resume", "time_limit_s", "'60'", "'10'"});
+  settings = earlier.settings;
+  settings["collision_model"] = "meshes";
+  ExpectInputError([&] { RequireSameConditions(earlier, settings); },
+                   {"collision_model", "''", "'meshes'"});
+}
+
 }  // namespace
 }  // namespace planbench

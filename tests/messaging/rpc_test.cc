@@ -126,7 +126,8 @@ TEST_F(RpcServerTest, MalformedRequestWithoutIdIsDropped) {
   Send({"", "set", 1});
   bus_.PublishBytes(channel::kProblemRequest, std::vector<std::uint8_t>{1, 2, 3});
   EXPECT_TRUE(client_.Call({"id", "set", 1}, kRetry, kTestPatience));
-  EXPECT_EQ(replies_.messages().size(), 1u);
+  for (const ProblemMessage& reply : replies_.messages()) EXPECT_EQ(reply.request_id, "id");
+  EXPECT_EQ(num_answers_, 1);
 }
 
 TEST_F(RpcServerTest, CallsFromSeveralThreadsGetTheirOwnReplies) {
