@@ -67,6 +67,23 @@ void CollisionChecker::CheckAll(std::span<const double> qs, int num,
   DoCheckAll(qs, num, free);
 }
 
+void CollisionChecker::CheckAround(std::span<const double> qs, std::span<const double> half_widths,
+                                   int num, std::span<unsigned char> free) {
+  RequireReady(qs, num);
+  if (half_widths.size() != qs.size() || free.size() != static_cast<std::size_t>(num)) {
+    throw InputError(fmt::format(
+        "collision checker: {} half widths and room for {} verdicts for {} configurations",
+        half_widths.size(), free.size(), num));
+  }
+  for (double width : half_widths) {
+    if (!(width >= 0) || !std::isfinite(width)) {
+      throw InputError(fmt::format("collision checker: half width {} is not a length", width));
+    }
+  }
+  num_checks_ += num;
+  DoCheckAround(qs, half_widths, num, free);
+}
+
 std::optional<Contact> CollisionChecker::FindContact(std::span<const double> q) {
   RequireReady(q, 1);
   ++num_checks_;
@@ -93,6 +110,19 @@ void CollisionChecker::DoCheckAll(std::span<const double> qs, int num,
   for (int i = 0; i < num; ++i) {
     const auto index = static_cast<std::size_t>(i);
     free[index] = DoIsFree(qs.subspan(index * n, n)) ? 1 : 0;
+  }
+}
+
+void CollisionChecker::DoCheckAround(std::span<const double> qs,
+                                     std::span<const double> half_widths, int num,
+                                     std::span<unsigned char> free) {
+  const std::size_t n = group_->joints.size();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
+    double motion = 0;
+    for (std::size_t j = 0; j < n; ++j) motion += half_widths[i * n + j] * motion_bound_.reach()[j];
+    const auto q = qs.subspan(i * n, n);
+    // Both bodies of a pair may move.
+    free[i] = motion == 0 ? DoIsFree(q) : DoFindClosest(q).distance_m > 2 * motion;
   }
 }
 

@@ -66,6 +66,12 @@ class CollisionChecker {
   int FindCollision(std::span<const double> qs, int num);
   /// free[i] = IsFree(configuration i), for `num` configurations (row-major, num x n).
   void CheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// Proves whole boxes of configurations free: free[i] is set only if no configuration q with
+  /// |q_j - qs_ij| <= half_widths_ij for every joint j is in collision, as far as the bounds on the
+  /// motion of the geometry tell (so it may stay unset for a box that is free). Widths: row-major,
+  /// num x n, rad or m, >= 0; with all of them 0 it tells what CheckAll tells.
+  void CheckAround(std::span<const double> qs, std::span<const double> half_widths, int num,
+                   std::span<unsigned char> free);
   /// Number of configurations that FindCollision handles at once; callers that choose how many to
   /// hand over gain by multiples of it.
   virtual int BatchSize() const { return 1; }
@@ -90,6 +96,9 @@ class CollisionChecker {
   virtual bool DoIsFree(std::span<const double> q) = 0;
   virtual int DoFindCollision(std::span<const double> qs, int num);
   virtual void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// The default asks FindClosest.
+  virtual void DoCheckAround(std::span<const double> qs, std::span<const double> half_widths,
+                             int num, std::span<unsigned char> free);
   virtual std::optional<Contact> DoFindContact(std::span<const double> q) = 0;
   virtual ClosestPair DoFindClosest(std::span<const double> q) = 0;
 

@@ -101,6 +101,19 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
   return block_is_free();
 }
 
+void EdgeChecker::CheckEdges(std::span<const double> from, std::span<const double> tos, int num,
+                             std::span<unsigned char> valid, bool from_is_free) {
+  const auto n = static_cast<std::size_t>(space().size());
+  const auto count = static_cast<std::size_t>(num);
+  if (num < 0 || tos.size() != count * n || valid.size() != count) {
+    throw InputError(fmt::format("edge checker: {} values and room for {} verdicts for {} edges",
+                                 tos.size(), valid.size(), num));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    valid[i] = IsValidEdge(from, tos.subspan(i * n, n), from_is_free) ? 1 : 0;
+  }
+}
+
 int EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {
   RequireSize(from);
   RequireSize(to);

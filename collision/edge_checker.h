@@ -22,7 +22,7 @@ class EdgeChecker {
  public:
   struct Counters {
     std::int64_t states = 0;          ///< IsValidState calls.
-    std::int64_t edges = 0;           ///< IsValidEdge calls.
+    std::int64_t edges = 0;           ///< Edges checked.
     std::int64_t configurations = 0;  ///< Configurations checked for both.
     double seconds = 0;               ///< Time spent in both.
   };
@@ -39,6 +39,11 @@ class EdgeChecker {
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);
+  /// valid[i] = IsValidEdge(from, configuration i of `tos`, from_is_free) for `num` edges out of
+  /// one state (`tos`: row-major, num x n), several of which are checked at once where the engine
+  /// can.
+  void CheckEdges(std::span<const double> from, std::span<const double> tos, int num,
+                  std::span<unsigned char> valid, bool from_is_free = false);
   /// Number of even intervals an edge is divided into (samples - 1); at least 1.
   int NumIntervals(std::span<const double> from, std::span<const double> to) const;
 
