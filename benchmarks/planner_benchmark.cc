@@ -1,0 +1,292 @@
+// Runs one planner over problem sets in this process, without the bus: solved, times, effort and
+// where the time went, a table row for each set and direction. Every path is judged at half the
+// edge resolution, as the referee does it.
+//
+//   planner_benchmark --problems DIR [DIR ...] --planner ara|rrtc [--set KEY=VALUE ...]
+//
+// Times are planning times in ms over the solved problems; "time to" is over all problems, those
+// that were not solved counting as infinite; counts are medians over all problems that were
+// searched.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+#include "planner_ara/ara_planner.h"
+#include "planner_rrtc/rrtc_planner.h"
+#include "planning/path_judge.h"
+#include "planning/resolve.h"
+#include "scene/moveit_yaml.h"
+
+namespace planbench {
+namespace {
+
+struct Flags {
+  std::string robot = PLANBENCH_SOURCE_DIR "/robots/fetch";
+  std::vector<std::string> problems;
+  std::string planner = "ara";
+  std::string config;
+  std::vector<std::string> overrides;
+  std::string directions = "forward";
+  std::string model = "spheres";
+  double time_limit_s = 10;
+  double edge_resolution_m = 0;
+  std::uint64_t seed = 1;
+  int first = 1;
+  int last = std::numeric_limits<int>::max();
+  int stride = 1;
+  bool anytime = false;
+  bool simplify = false;
+  bool counters = false;
+  std::string csv;
+};
+
+/// What came of one problem.
+struct Run {
+  int index = 0;
+  PlanResult result;
+  bool referee_valid = false;
+};
+
+double Quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  if (std::isinf(values[above])) return place == std::floor(place) ? values[below] : values[above];
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+YamlNode LoadSettings(const Flags& flags, const Robot& robot) {
+  if (!flags.config.empty()) return YamlNode::LoadFile(flags.config);
+  const auto named = robot.planner_settings.find(flags.planner);
+  if (named != robot.planner_settings.end()) return YamlNode::LoadFile(named->second.string());
+  return YamlNode::Parse("", flags.planner + " settings");
+}
+
+std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
+  YamlNode settings = LoadSettings(flags, robot);
+  for (const std::string& text : flags.overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw InputError("--set " + text + ": expected KEY=VALUE");
+    }
+    const std::string key = text.substr(0, equals);
+    settings.Override(key, text.substr(equals + 1), "--set " + key);
+  }
+  if (flags.planner == "ara") return MakeAraPlanner(robot, settings);
+  if (flags.planner == "rrtc") return MakeRrtcPlanner(robot, settings);
+  throw InputError("--planner: expected ara or rrtc, found '" + flags.planner + "'");
+}
+
+bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene& scene,
+                    const Path& path) {
+  const PlanningGroup& group = robot.Group(request.group);
+  const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, "referee");
+  const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
+  checker->SetScene(scene, query.base_positions);
+  const double resolution_m =
+      request.edge_resolution_m > 0 ? request.edge_resolution_m : robot.edge_resolution_m;
+  return JudgePath(checker.get(), path, query.start, query.goal, resolution_m / 2, false).valid;
+}
+
+std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet& set,
+                        Direction direction, CollisionModel model, Planner* planner) {
+  std::vector<Run> runs;
+  for (const ProblemFiles& files : set.problems) {
+    if (files.index < flags.first || files.index > flags.last) continue;
+    if ((files.index - flags.first) % flags.stride != 0) continue;
+    const Problem problem = ReadProblem(files.scene, files.request, robot.resources);
+    PlanRequest request;
+    request.request_id = fmt::format("{} {}", set.name, files.index);
+    request.group = problem.group;
+    request.start = problem.start;
+    request.goal = problem.goal;
+    request.direction = direction;
+    request.time_limit_s = flags.time_limit_s;
+    request.seed = flags.seed;
+    request.collision_model = model;
+    request.edge_resolution_m = flags.edge_resolution_m;
+    request.anytime = flags.anytime;
+    request.simplify = flags.simplify;
+    Run run{files.index, planner->Plan(request, problem.scene, nullptr), false};
+    if (run.result.status == PlanStatus::kInvalidRequest) throw InputError(run.result.message);
+    if (run.result.status == PlanStatus::kSolved) {
+      run.referee_valid = RefereeAccepts(robot, request, problem.scene, run.result.path);
+    }
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+bool WasSearched(const Run& run) {
+  return run.result.status != PlanStatus::kStartInvalid &&
+         run.result.status != PlanStatus::kGoalInvalid;
+}
+
+void PrintHeader() {
+  fmt::print(
+      "{:24} {:8} {:>4} {:>6} {:>5} {:>5} | {:>8} {:>8} {:>8} {:>8} | {:>8} {:>8} | {:>8} "
+      "{:>9} | {:>5} {:>5} {:>5} {:>5} | {:>6} {:>7}\n",
+      "set", "search", "num", "solved", "bad", "ends", "median", "mean", "95 %", "max", "t to 50%",
+      "t to 95%", "edges", "configs", "setup", "coll", "guide", "rest", "length", "us/cfg");
+}
+
+void PrintRow(const std::string& set, const std::string& direction, const std::vector<Run>& runs,
+              const JointSpace& space, bool with_counters) {
+  std::vector<double> solved_ms, all_ms, edges, configurations, lengths;
+  std::map<std::string, std::vector<double>> counters;
+  PhaseTimes sum;
+  double total_s = 0;
+  double num_configurations = 0;
+  int num_refused = 0;
+  int num_unsolvable = 0;
+  for (const Run& run : runs) {
+    const PlanResult& result = run.result;
+    const bool solved = result.status == PlanStatus::kSolved;
+    all_ms.push_back(solved ? 1e3 * result.planning_time_s
+                            : std::numeric_limits<double>::infinity());
+    if (!WasSearched(run)) {
+      ++num_unsolvable;
+      continue;
+    }
+    if (solved) {
+      solved_ms.push_back(all_ms.back());
+      double length = 0;
+      for (std::size_t i = 1; i < result.path.size(); ++i) {
+        length += space.Distance(result.path[i - 1], result.path[i]);
+      }
+      lengths.push_back(length);
+      if (!run.referee_valid) ++num_refused;
+    }
+    edges.push_back(result.counters.at("edges_checked"));
+    configurations.push_back(result.counters.at("configurations_checked"));
+    for (const auto& [name, value] : result.counters) counters[name].push_back(value);
+    num_configurations += configurations.back();
+    total_s += result.total_time_s;
+    sum.setup_s += result.phases.setup_s;
+    sum.collision_s += result.phases.collision_s;
+    sum.guidance_s += result.phases.guidance_s;
+    sum.search_s += result.phases.search_s;
+  }
+  const auto share = [&](double seconds) { return 100 * seconds / total_s; };
+  fmt::print(
+      "{:24} {:8} {:>4} {:>6} {:>5} {:>5} | {:>8.2f} {:>8.2f} {:>8.2f} {:>8.1f} | {:>8.2f} "
+      "{:>8.2f} | {:>8.0f} {:>9.0f} | {:>4.0f}% {:>4.0f}% {:>4.0f}% {:>4.0f}% | {:>6.2f} "
+      "{:>7.3f}\n",
+      set, direction, runs.size(), solved_ms.size(), num_refused, num_unsolvable,
+      Quantile(solved_ms, 0.5), Mean(solved_ms), Quantile(solved_ms, 0.95), Quantile(solved_ms, 1),
+      Quantile(all_ms, 0.5), Quantile(all_ms, 0.95), Quantile(edges, 0.5),
+      Quantile(configurations, 0.5), share(sum.setup_s), share(sum.collision_s),
+      share(sum.guidance_s), share(sum.search_s), Quantile(lengths, 0.5),
+      1e6 * sum.collision_s / num_configurations);
+  if (with_counters) {
+    for (const auto& [name, values] : counters) {
+      fmt::print("    {:28} median {:.6g}, mean {:.6g}, 95 % {:.6g}\n", name, Quantile(values, 0.5),
+                 Mean(values), Quantile(values, 0.95));
+    }
+  }
+  std::fflush(stdout);
+}
+
+void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& direction,
+              const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    const PlanResult& result = run.result;
+    *csv << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{},{},{:.6g},{:.6g}", set, direction,
+                        run.index, PlanStatusName(result.status), run.referee_valid ? 1 : 0,
+                        1e3 * result.planning_time_s, 1e3 * result.phases.collision_s,
+                        result.path.size(), result.progress.size(), result.epsilon, result.cost);
+    for (const auto& [name, value] : result.counters) *csv << fmt::format(",{}={}", name, value);
+    *csv << "\n";
+  }
+}
+
+int Main(int argc, char** argv) {
+  Flags flags;
+  CLI::App app("One planner over problem sets, without the bus");
+  app.add_option("--problems", flags.problems, "Folders of problem sets")->required();
+  app.add_option("--robot", flags.robot, "Robot folder")->capture_default_str();
+  app.add_option("--planner", flags.planner, "ara or rrtc")->capture_default_str();
+  app.add_option("--config", flags.config, "Settings file; default: the robot folder's");
+  app.add_option("--set", flags.overrides, "KEY=VALUE: overrides a setting; repeatable")
+      ->allow_extra_args(false);
+  app.add_option("--directions", flags.directions, "Which to run")
+      ->check(CLI::IsMember({"forward", "backward", "both"}))
+      ->capture_default_str();
+  app.add_option("--model", flags.model, "Collision model")->capture_default_str();
+  app.add_option("--time", flags.time_limit_s, "Limit of a request, s")->capture_default_str();
+  app.add_option("--edge-resolution", flags.edge_resolution_m, "m; default: the robot's");
+  app.add_option("--seed", flags.seed, "Seed of every request")->capture_default_str();
+  app.add_option("--first", flags.first, "First problem's number")->capture_default_str();
+  app.add_option("--last", flags.last, "Last problem's number");
+  app.add_option("--stride", flags.stride, "Every how many-th problem")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--anytime", flags.anytime, "Improve until the time limit");
+  app.add_flag("--simplify", flags.simplify, "Simplify the paths (not in any figure)");
+  app.add_flag("--counters", flags.counters, "Also print the planner's own counts");
+  app.add_option("--csv", flags.csv, "File for a line a run");
+  CLI11_PARSE(app, argc, argv);
+
+  const std::optional<CollisionModel> model = ParseCollisionModel(flags.model);
+  if (!model) throw InputError("--model: unknown collision model '" + flags.model + "'");
+  const Robot robot = LoadRobot(flags.robot);
+  const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
+  std::ofstream csv;
+  if (!flags.csv.empty()) {
+    csv.open(flags.csv);
+    if (!csv) throw InputError(flags.csv + ": cannot be written");
+    csv << "set,direction,problem,status,referee_valid,planning_ms,collision_ms,waypoints,"
+           "solutions,epsilon,cost,counters\n";
+  }
+  PrintHeader();
+  const JointSpace& space = robot.groups.front().space;
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    const std::string name = direction == Direction::kForward ? "forward" : "backward";
+    if (flags.directions != "both" && flags.directions != name) continue;
+    std::vector<Run> all;
+    for (const std::string& folder : flags.problems) {
+      const ProblemSet set = ListProblemSet(folder);
+      std::vector<Run> runs = RunSet(flags, robot, set, direction, *model, planner.get());
+      if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
+      PrintRow(set.name, name, runs, space, flags.counters);
+      if (csv.is_open()) WriteCsv(&csv, set.name, name, runs);
+      std::move(runs.begin(), runs.end(), std::back_inserter(all));
+    }
+    if (flags.problems.size() > 1) PrintRow("all", name, all, space, flags.counters);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace planbench
+
+int main(int argc, char** argv) {
+  try {
+    return planbench::Main(argc, argv);
+  } catch (const planbench::InputError& error) {
+    std::fprintf(stderr, "planner_benchmark: %s\n", error.what());
+    return 2;
+  }
+}
