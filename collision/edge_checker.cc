@@ -61,6 +61,33 @@ bool EdgeChecker::IsValidState(std::span<const double> q) {
   return checker_->IsFree(q);
 }
 
+void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid) {
+  const auto n = static_cast<std::size_t>(space().size());
+  const auto count = static_cast<std::size_t>(std::max(num, 0));
+  if (num < 0 || qs.size() != count * n || valid.size() != count) {
+    throw InputError(
+        fmt::format("edge checker: {} values and room for {} verdicts given for {} states of {} "
+                    "joints",
+                    qs.size(), valid.size(), num, n));
+  }
+  const Stopwatch stopwatch(&counters_.seconds);
+  counters_.states += num;
+  std::size_t begin = 0;  // of a run of states within limits, which go to the engine together
+  const auto check_run = [&](std::size_t end) {
+    if (end == begin) return;
+    counters_.configurations += static_cast<std::int64_t>(end - begin);
+    checker_->CheckAll(qs.subspan(begin * n, (end - begin) * n), static_cast<int>(end - begin),
+                       valid.subspan(begin, end - begin));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (space().WithinLimits(qs.subspan(i * n, n))) continue;
+    check_run(i);
+    valid[i] = 0;
+    begin = i + 1;
+  }
+  check_run(count);
+}
+
 bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const double> to,
                               bool from_is_free) {
   RequireSize(from);

@@ -21,7 +21,7 @@ namespace planbench {
 class EdgeChecker {
  public:
   struct Counters {
-    std::int64_t states = 0;          ///< IsValidState calls.
+    std::int64_t states = 0;          ///< States checked by themselves.
     std::int64_t edges = 0;           ///< Edges checked.
     std::int64_t configurations = 0;  ///< Configurations checked for both.
     double seconds = 0;               ///< Time spent in both.
@@ -36,6 +36,9 @@ class EdgeChecker {
   double edge_resolution_m() const { return edge_resolution_m_; }
 
   bool IsValidState(std::span<const double> q);
+  /// valid[i] = IsValidState(state i) for `num` states (row-major, num x n), at once where the
+  /// engine can.
+  void CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);

@@ -235,5 +235,21 @@ TEST(EdgeCheckerTest, Counts) {
   EXPECT_EQ(checker.num_checks(), edges.counters().configurations);
 }
 
+TEST(EdgeCheckerTest, ChecksStatesTogetherAsOneByOne) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  EdgeChecker edges(&checker, 0.125);
+  checker.collides = [](std::span<const double> q) { return q[0] == 0.25; };
+  const double nan = std::nan("");
+  const std::vector<double> states = {2, 0, 0.5, 0, 0.25, 0, nan, 0, 1, 0, 0.25, 1, 0.75, 9, -1, 0};
+  std::vector<unsigned char> valid(8, 9);
+  edges.CheckStates(states, 8, valid);
+  EXPECT_THAT(valid, testing::ElementsAre(0, 1, 0, 0, 1, 0, 1, 0));
+  EXPECT_EQ(edges.counters().states, 8);
+  EXPECT_EQ(edges.counters().configurations, 5);
+  edges.CheckStates({}, 0, {});
+  ExpectInputError([&] { edges.CheckStates(states, 7, valid); }, {"16 values", "7 states"});
+}
+
 }  // namespace
 }  // namespace planbench
