@@ -76,6 +76,21 @@ void Check(benchmark::State& state, CollisionChecker& checker,
   state.counters["free"] = static_cast<double>(num_free) / static_cast<double>(state.iterations());
 }
 
+/// Blocks of configurations; one in collision ends a block.
+void CheckBlocks(benchmark::State& state, CollisionChecker& checker,
+                 const std::vector<Configuration>& configurations) {
+  constexpr int kBlock = 16;
+  std::vector<double> rows;
+  for (const Configuration& q : configurations) rows.insert(rows.end(), q.begin(), q.end());
+  const std::size_t block = kBlock * configurations.front().size();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(checker.FindCollision(std::span(rows).subspan(i, block), kBlock));
+    i = i + 2 * block > rows.size() ? 0 : i + block;
+  }
+  state.SetItemsProcessed(state.iterations() * kBlock);
+}
+
 /// Edges from each free configuration towards the next, cut to at most `max_length` (L2, rad and
 /// m).
 void CheckEdges(benchmark::State& state, Workload& work, double max_length) {
@@ -109,6 +124,12 @@ void Register(Workload* work) {
   });
   benchmark::RegisterBenchmark(
       "check/free", [work](benchmark::State& state) { Check(state, *work->checker, work->free); });
+  benchmark::RegisterBenchmark("block/random", [work](benchmark::State& state) {
+    CheckBlocks(state, *work->checker, work->random);
+  });
+  benchmark::RegisterBenchmark("block/free", [work](benchmark::State& state) {
+    CheckBlocks(state, *work->checker, work->free);
+  });
   for (const double length : {0.2, 1.0, 100.0}) {
     benchmark::RegisterBenchmark(
         fmt::format("edge/at_most_{}", length).c_str(),

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/error.h"
 
@@ -84,6 +86,39 @@ void CollisionChecker::CheckAround(std::span<const double> qs, std::span<const d
   DoCheckAround(qs, half_widths, num, free);
 }
 
+SampleVerdicts CollisionChecker::CheckSamples(std::span<const double> start,
+                                              std::span<const double> motions,
+                                              std::span<const MotionSample> samples,
+                                              bool stop_at_first) {
+  RequireReady(start, 1);
+  const std::size_t n = group_->joints.size();
+  RequireReady(motions, static_cast<int>(motions.size() / n));
+  if (samples.size() > 64) {
+    throw InputError(
+        fmt::format("collision checker: {} samples given, at most 64 are taken", samples.size()));
+  }
+  for (const MotionSample& sample : samples) {
+    if (sample.motion < 0 || static_cast<std::size_t>(sample.motion) >= motions.size() / n) {
+      throw InputError(fmt::format("collision checker: a sample of motion {} of {}", sample.motion,
+                                   motions.size() / n));
+    }
+  }
+  num_checks_ += static_cast<std::int64_t>(samples.size());
+  return DoCheckSamples(start, motions, samples, stop_at_first);
+}
+
+void CollisionChecker::FindDistances(std::span<const double> qs, int num, double at_most,
+                                     std::span<double> distances) {
+  RequireReady(qs, num);
+  if (distances.size() != static_cast<std::size_t>(num) || !(at_most > 0)) {
+    throw InputError(
+        fmt::format("collision checker: room for {} distances of {} configurations, at most {} m",
+                    distances.size(), num, at_most));
+  }
+  num_checks_ += num;
+  DoFindDistances(qs, num, at_most, distances);
+}
+
 std::optional<Contact> CollisionChecker::FindContact(std::span<const double> q) {
   RequireReady(q, 1);
   ++num_checks_;
@@ -123,6 +158,43 @@ void CollisionChecker::DoCheckAround(std::span<const double> qs,
     const auto q = qs.subspan(i * n, n);
     // Both bodies of a pair may move.
     free[i] = motion == 0 ? DoIsFree(q) : DoFindClosest(q).distance_m > 2 * motion;
+  }
+}
+
+SampleVerdicts CollisionChecker::DoCheckSamples(std::span<const double> start,
+                                                std::span<const double> motions,
+                                                std::span<const MotionSample> samples,
+                                                bool stop_at_first) {
+  const std::size_t n = group_->joints.size();
+  std::vector<double> q(n);
+  std::vector<double> half_widths(n);
+  SampleVerdicts verdicts;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const MotionSample& sample = samples[k];
+    const auto motion = motions.subspan(static_cast<std::size_t>(sample.motion) * n, n);
+    for (std::size_t j = 0; j < n; ++j) {
+      q[j] = start[j] + sample.position * motion[j];
+      half_widths[j] = sample.half_length * std::abs(motion[j]);
+    }
+    const std::uint64_t bit = std::uint64_t{1} << k;
+    unsigned char free = 1;
+    if (!DoIsFree(q)) {
+      verdicts.certain |= bit;
+      free = 0;
+      if (stop_at_first) return {verdicts.blocked | bit, verdicts.certain};
+    } else if (sample.half_length > 0) {
+      DoCheckAround(q, half_widths, 1, {&free, 1});
+    }
+    if (free == 0) verdicts.blocked |= bit;
+  }
+  return verdicts;
+}
+
+void CollisionChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
+                                       std::span<double> distances) {
+  const std::size_t n = group_->joints.size();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
+    distances[i] = std::min(at_most, DoFindClosest(qs.subspan(i * n, n)).distance_m);
   }
 }
 

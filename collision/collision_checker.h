@@ -29,6 +29,20 @@ struct ClosestPair {
   std::string body_b;
 };
 
+/// A configuration on one of several straight joint motions out of one configuration, or a stretch
+/// of the motion.
+struct MotionSample {
+  int motion;              ///< Index of the motion.
+  double position;         ///< Fraction of the motion, in [0, 1].
+  double half_length = 0;  ///< The stretch position +- half_length; 0 for the configuration alone.
+};
+
+/// Verdicts on up to 64 samples, by bit.
+struct SampleVerdicts {
+  std::uint64_t blocked = 0;  ///< In collision, or not proven free over its whole stretch.
+  std::uint64_t certain = 0;  ///< In collision at its position. A subset of `blocked`.
+};
+
 /// Decides whether configurations of a planning group collide: with the scene's objects, with
 /// attached objects, and with the robot itself, over the pairs that neither the scene's
 /// allowed-collision matrix, nor the robot's allowed_pairs, nor adjacency (two links joined by a
@@ -72,6 +86,18 @@ class CollisionChecker {
   /// num x n, rad or m, >= 0; with all of them 0 it tells what CheckAll tells.
   void CheckAround(std::span<const double> qs, std::span<const double> half_widths, int num,
                    std::span<unsigned char> free);
+  /// Checks samples of straight motions: sample k is the configuration start + position * motion
+  /// (n joints, rad or m; `motions`: signed, row-major, one row a motion), and a stretch about it
+  /// is free only if provably no configuration of it collides. At most 64 samples. With
+  /// `stop_at_first` the engine may return once one certain collision is found; the other verdicts
+  /// are then incomplete.
+  SampleVerdicts CheckSamples(std::span<const double> start, std::span<const double> motions,
+                              std::span<const MotionSample> samples, bool stop_at_first);
+  /// Smaller of `at_most` (m, > 0) and the distance of the nearest pair, for `num` configurations;
+  /// 0 or less in collision. May err downwards, by no more than the engine's tolerance where it is
+  /// positive.
+  void FindDistances(std::span<const double> qs, int num, double at_most,
+                     std::span<double> distances);
   /// Number of configurations that FindCollision handles at once; callers that choose how many to
   /// hand over gain by multiples of it.
   virtual int BatchSize() const { return 1; }
@@ -99,6 +125,13 @@ class CollisionChecker {
   /// The default asks FindClosest.
   virtual void DoCheckAround(std::span<const double> qs, std::span<const double> half_widths,
                              int num, std::span<unsigned char> free);
+  /// The default asks DoIsFree and DoCheckAround.
+  virtual SampleVerdicts DoCheckSamples(std::span<const double> start,
+                                        std::span<const double> motions,
+                                        std::span<const MotionSample> samples, bool stop_at_first);
+  /// The default asks DoFindClosest.
+  virtual void DoFindDistances(std::span<const double> qs, int num, double at_most,
+                               std::span<double> distances);
   virtual std::optional<Contact> DoFindContact(std::span<const double> q) = 0;
   virtual ClosestPair DoFindClosest(std::span<const double> q) = 0;
 
@@ -113,13 +146,19 @@ class CollisionChecker {
   bool has_scene_ = false;
 };
 
-/// The engine for a model; the one place where an engine is chosen. A further engine derives from
-/// CollisionChecker, takes the pairs to check from PairRules (pair_rules.h) and the poses from
-/// RigidBodies (rigid_bodies.h), is instantiated in the contract suite
-/// (tests/contract/collision_checker_contract.h), and is returned from here for the model it
-/// serves, its name standing in AvailableCollisionModels() if the model is new. Throws InputError
-/// if it is not available, or if the robot lacks the geometry (spheres or mesh files).
+/// The fastest engine for a model. A further engine derives from CollisionChecker, takes the pairs
+/// to check from PairRules (pair_rules.h) and the poses from RigidBodies (rigid_bodies.h), is
+/// instantiated in the contract suite (tests/collision/engines_contract_test.cc), and is returned
+/// from here for the model it serves, its name standing in AvailableCollisionModels() if the model
+/// is new. Throws InputError if it is not available, or if the robot lacks the geometry (spheres or
+/// mesh files).
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
+                                                       const PlanningGroup& group,
+                                                       CollisionModel model);
+
+/// The engine that is exact, in double precision, where the model has one: for verdicts on what
+/// others have found. Throws as MakeCollisionChecker does.
+std::unique_ptr<CollisionChecker> MakeReferenceChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model);
 

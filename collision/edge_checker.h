@@ -1,18 +1,34 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "collision/collision_checker.h"
 
 namespace planbench {
 
+/// How an edge is found valid.
+enum class EdgeCheck {
+  kFixed,      ///< At samples a fixed resolution apart; between them it may collide.
+  kCertified,  ///< Proven free all along.
+};
+
+/// "fixed", "certified".
+std::string_view EdgeCheckName(EdgeCheck method);
+std::optional<EdgeCheck> ParseEdgeCheck(std::string_view name);
+
 /// Validity of states and edges, the same for every planner. A state is valid if it is within the
 /// joint limits and free. An edge is the straight joint motion (continuous joints the short way
-/// round), sampled evenly so that no point of the collision geometry moves more than
-/// `edge_resolution_m` between neighbouring samples by the motion bound; both ends are samples. It
-/// is valid if both ends are within limits and all samples are free.
+/// round); it is valid if both ends are within limits and, by method,
+/// - fixed: it is free at samples, spread evenly so that no point of the collision geometry moves
+///   more than `edge_resolution_m` between neighbours by the motion bound; both ends are samples;
+/// - certified: it is proven free from end to end (CollisionChecker::CheckSamples). The edge is cut
+///   into stretches; those that are not proven free as a whole are cut again, down to stretches
+///   over which nothing moves more than kCertifiedDepth, which count as in collision. So an edge
+///   that passes obstacles at less than that may be refused, and none that collides is accepted.
 ///
 /// Configurations of the wrong size throw InputError; joint positions that are not finite are
 /// outside the limits.
@@ -20,20 +36,25 @@ namespace planbench {
 /// Not thread-safe: one instance a thread.
 class EdgeChecker {
  public:
+  /// Certified edges: motion within the last stretches, m.
+  static constexpr double kCertifiedDepth = 0.0005;
+
   struct Counters {
     std::int64_t states = 0;          ///< States checked by themselves.
     std::int64_t edges = 0;           ///< Edges checked.
-    std::int64_t configurations = 0;  ///< Configurations checked for both.
-    double seconds = 0;               ///< Time spent in both.
+    std::int64_t configurations = 0;  ///< Configurations (or stretches) checked for both.
+    double seconds = 0;               ///< Time spent in both, estimated from every eighth call.
   };
 
   /// The checker must outlive this and have its scene set. Throws InputError unless
   /// edge_resolution_m > 0.
-  EdgeChecker(CollisionChecker* checker, double edge_resolution_m);
+  EdgeChecker(CollisionChecker* checker, double edge_resolution_m,
+              EdgeCheck method = EdgeCheck::kFixed);
 
   const JointSpace& space() const { return checker_->space(); }
   CollisionChecker& checker() const { return *checker_; }
   double edge_resolution_m() const { return edge_resolution_m_; }
+  EdgeCheck method() const { return method_; }
 
   bool IsValidState(std::span<const double> q);
   /// valid[i] = IsValidState(state i) for `num` states (row-major, num x n), at once where the
@@ -47,18 +68,38 @@ class EdgeChecker {
   /// can.
   void CheckEdges(std::span<const double> from, std::span<const double> tos, int num,
                   std::span<unsigned char> valid, bool from_is_free = false);
-  /// Number of even intervals an edge is divided into (samples - 1); at least 1.
+  /// Number of even intervals an edge is divided into by the fixed method (samples - 1); at least
+  /// 1.
   int NumIntervals(std::span<const double> from, std::span<const double> to) const;
 
   const Counters& counters() const { return counters_; }
 
  private:
+  /// An edge that is being checked.
+  struct Edge {
+    double motion_m;         ///< By the motion bound.
+    std::int64_t num_parts;  ///< Fixed: intervals.
+    std::int64_t next_part;
+    bool open;  ///< Neither refused nor out of samples.
+  };
+
   void RequireSize(std::span<const double> q) const;
+  int NumIntervals(double motion_m) const;
+  void CheckFixed(std::span<const double> from, std::span<unsigned char> valid, bool from_is_free);
+  void CheckCertified(std::span<const double> from, std::span<unsigned char> valid);
+  SampleVerdicts CheckBlock(std::span<const double> from, bool stop_at_first);
 
   CollisionChecker* checker_;
   double edge_resolution_m_;
+  EdgeCheck method_;
   Counters counters_;
-  std::vector<double> block_;  // scratch: configurations of one batch
+  std::int64_t num_calls_ = 0;
+
+  // Scratch.
+  std::vector<Edge> edges_;
+  std::vector<double> motions_;        ///< By edge: its joints' signed motions.
+  std::vector<MotionSample> block_;    ///< To be checked at once.
+  std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked.
 };
 
 }  // namespace planbench

@@ -51,7 +51,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
   for (int link = 0; link < robot.model.num_links(); ++link) {
     LinkGeometry geometry{link, SphereTree(), {}, {}};
     if (model == CollisionModel::kSpheres) {
-      std::vector<SphereTree::Ball> spheres;
+      std::vector<Ball> spheres;
       for (const LinkSphere& sphere : robot.spheres) {
         if (sphere.link != link) continue;
         spheres.push_back({sphere.p_LS, sphere.radius});
@@ -273,9 +273,8 @@ void FclChecker::ListPairs(const Scene& scene) {
 
 bool FclChecker::OutOfReach(const Geometry& moving, const Geometry& carrier) const {
   if (!rigid_bodies_->Descends(moving.rigid_body, carrier.rigid_body)) return false;
-  const RigidBodies::Ball reach =
-      rigid_bodies_->Reach(carrier.rigid_body, moving.rigid_body,
-                           {moving.X_GS * moving.ball_center, moving.ball_radius});
+  const Ball reach = rigid_bodies_->Reach(carrier.rigid_body, moving.rigid_body,
+                                          {moving.X_GS * moving.ball_center, moving.ball_radius});
   return BallMissesBox(carrier.X_GS.InverseTimes(reach.center), reach.radius, carrier.box_center,
                        carrier.box_half_size);
 }

@@ -31,6 +31,9 @@ class FclChecker : public CollisionChecker {
   FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model);
 
   std::string_view EngineName() const override { return "fcl"; }
+  /// True if bodies collide that do not move relative to each other, so that no configuration of
+  /// the scene set last is free.
+  bool AlwaysCollides() const { return standing_contact_.has_value(); }
 
  protected:
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;

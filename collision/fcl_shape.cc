@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/shape_check.h"
 #include "collision/solid_mesh.h"
 #include "common/error.h"
 
@@ -59,37 +60,6 @@ std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
   return model;
 }
 
-void RequireSizes(const std::string& owner, const Shape& shape,
-                  std::initializer_list<double> sizes) {
-  for (double size : sizes) {
-    if (!std::isfinite(size) || size < 0) {
-      throw InputError(
-          fmt::format("'{}': a {} has the size {} m", owner, ShapeTypeName(shape), size));
-    }
-  }
-}
-
-void RequireTriangles(const std::string& owner, const Mesh& mesh) {
-  const TriangleMesh& m = mesh.triangles;
-  const std::string name = mesh.resource.empty() ? "a mesh" : "mesh " + mesh.resource;
-  if (m.triangles.empty()) {
-    throw InputError(fmt::format("'{}': {} has no triangles", owner, name));
-  }
-  for (const auto& triangle : m.triangles) {
-    for (std::uint32_t index : triangle) {
-      if (index >= m.vertices.size()) {
-        throw InputError(fmt::format("'{}': {} has {} vertices, a triangle names vertex {}", owner,
-                                     name, m.vertices.size(), index));
-      }
-    }
-  }
-  for (const Eigen::Vector3d& vertex : m.vertices) {
-    if (!vertex.allFinite()) {
-      throw InputError(fmt::format("'{}': {} has a vertex that is not finite", owner, name));
-    }
-  }
-}
-
 }  // namespace
 
 struct FclShape::Geometry {
@@ -111,34 +81,30 @@ struct FclShape::Geometry {
 
 FclShape::FclShape(const Shape& shape, const std::string& owner)
     : geometry_(std::make_unique<Geometry>()), bounding_sphere_{Eigen::Vector3d::Zero(), 0} {
+  RequireSolid(shape, owner);
   std::visit(Overloaded{
                  [&](const Box& box) {
-                   RequireSizes(owner, shape, {box.size.x(), box.size.y(), box.size.z()});
                    geometry_->fcl = std::make_unique<fcl::Boxd>(box.size);
                    geometry_->shape = box;
                    box_half_size_ = box.size / 2;
                  },
                  [&](const Sphere& sphere) {
-                   RequireSizes(owner, shape, {sphere.radius});
                    geometry_->fcl = std::make_unique<fcl::Sphered>(sphere.radius);
                    geometry_->shape = sphere;
                    box_half_size_ = Eigen::Vector3d::Constant(sphere.radius);
                  },
                  [&](const Cylinder& cylinder) {
-                   RequireSizes(owner, shape, {cylinder.radius, cylinder.length});
                    geometry_->fcl =
                        std::make_unique<fcl::Cylinderd>(cylinder.radius, cylinder.length);
                    geometry_->shape = cylinder;
                    box_half_size_ << cylinder.radius, cylinder.radius, cylinder.length / 2;
                  },
                  [&](const Cone& cone) {
-                   RequireSizes(owner, shape, {cone.radius, cone.length});
                    geometry_->fcl = std::make_unique<fcl::Coned>(cone.radius, cone.length);
                    geometry_->shape = cone;
                    box_half_size_ << cone.radius, cone.radius, cone.length / 2;
                  },
                  [&](const Mesh& mesh) {
-                   RequireTriangles(owner, mesh);
                    geometry_->fcl = MakeMesh(mesh.triangles);
                    geometry_->shape = SolidMesh(mesh.triangles);
                    Eigen::AlignedBox3d box;

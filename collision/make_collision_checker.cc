@@ -3,11 +3,31 @@
 
 #include "collision/collision_checker.h"
 #include "collision/fcl_checker.h"
+#include "collision/simd_checker.h"
 #include "common/error.h"
 
 namespace planbench {
+namespace {
+
+[[noreturn]] void RefuseModel(CollisionModel model) {
+  std::vector<std::string_view> available;
+  for (CollisionModel each : AvailableCollisionModels()) {
+    available.push_back(CollisionModelName(each));
+  }
+  throw InputError(fmt::format("the {} model is not available; available: {}",
+                               CollisionModelName(model), fmt::join(available, ", ")));
+}
+
+}  // namespace
 
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
+                                                       const PlanningGroup& group,
+                                                       CollisionModel model) {
+  if (model == CollisionModel::kSpheres) return std::make_unique<SimdChecker>(robot, group);
+  return MakeReferenceChecker(robot, group, model);
+}
+
+std::unique_ptr<CollisionChecker> MakeReferenceChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model) {
   switch (model) {
@@ -17,12 +37,7 @@ std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
     case CollisionModel::kVoxels:
       break;
   }
-  std::vector<std::string_view> available;
-  for (CollisionModel each : AvailableCollisionModels()) {
-    available.push_back(CollisionModelName(each));
-  }
-  throw InputError(fmt::format("the {} model is not available; available: {}",
-                               CollisionModelName(model), fmt::join(available, ", ")));
+  RefuseModel(model);
 }
 
 }  // namespace planbench

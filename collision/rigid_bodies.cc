@@ -81,7 +81,7 @@ void RigidBodies::ComputePoses(std::span<const double> q, std::span<Pose> X_WG) 
   }
 }
 
-RigidBodies::Ball RigidBodies::Reach(int ancestor, int body, const Ball& ball) const {
+Ball RigidBodies::Reach(int ancestor, int body, const Ball& ball) const {
   if (body == ancestor) return ball;
   double radius = ball.center.norm() + ball.radius;  // about the frame of `body`
   while (true) {
@@ -91,6 +91,11 @@ RigidBodies::Ball RigidBodies::Reach(int ancestor, int body, const Ball& ball) c
     radius += b.p_GJ.norm();
     body = b.parent;
   }
+}
+
+RigidBodies::Mobility RigidBodies::MobilityOf(int body) const {
+  const Body& b = bodies_[static_cast<std::size_t>(body)];
+  return {b.group_index, b.prismatic, {b.base, b.p_GJ}, b.axis_G};
 }
 
 bool RigidBodies::WithinTravel(std::span<const double> q) const {

@@ -26,6 +26,11 @@ struct Pose {
   Eigen::Isometry3d ToIsometry() const;
 };
 
+struct Ball {
+  Eigen::Vector3d center;  ///< m
+  double radius;           ///< m
+};
+
 /// A robot as one planning group moves it, all other joints held: links that keep their relative
 /// pose form one rigid body, so that a robot of 25 links is moved by one transform per group joint.
 /// Body 0 is what does not move, its frame is the robot's base frame; each group joint carries one
@@ -42,6 +47,14 @@ class RigidBodies {
   const Pose& X_GL(int link) const { return X_GL_[static_cast<std::size_t>(link)]; }
   /// The body on the base side of a body's joint, -1 for body 0.
   int Parent(int body) const { return bodies_[static_cast<std::size_t>(body)].parent; }
+  /// The joint that moves a body (not body 0) relative to its parent P.
+  struct Mobility {
+    int group_index;
+    bool prismatic;
+    Pose X_PG;               ///< At joint position 0.
+    Eigen::Vector3d axis_P;  ///< Unit; a revolute joint's axis passes through G's origin.
+  };
+  Mobility MobilityOf(int body) const;
 
   /// Computes the poses of all bodies in the base frame W for group positions q (group order, rad
   /// or m).
@@ -50,10 +63,6 @@ class RigidBodies {
   /// A ball, in the frame of `ancestor`, that a ball fixed to `body` never leaves, whatever the
   /// joints between them do, as long as WithinTravel. `body` must descend from `ancestor` or equal
   /// it.
-  struct Ball {
-    Eigen::Vector3d center;
-    double radius;
-  };
   Ball Reach(int ancestor, int body, const Ball& ball) const;
   bool Descends(int body, int ancestor) const;
   /// True if no prismatic joint of the group is further from its zero than its limits allow

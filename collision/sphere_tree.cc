@@ -8,18 +8,18 @@ namespace {
 
 /// A small sphere around all balls, by Badoiu and Clarkson's iteration: step towards the farthest
 /// ball by 1/(k+1).
-SphereTree::Ball Enclose(std::span<const SphereTree::Ball> balls) {
+Ball Enclose(std::span<const Ball> balls) {
   if (balls.size() == 1) return balls.front();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const SphereTree::Ball& ball : balls) center += ball.center;
+  for (const Ball& ball : balls) center += ball.center;
   center /= static_cast<double>(balls.size());
 
-  SphereTree::Ball best{center, 0};
+  Ball best{center, 0};
   constexpr int kIterations = 200;
   for (int k = 0; k < kIterations; ++k) {
     double radius = 0;
-    const SphereTree::Ball* farthest = &balls.front();
-    for (const SphereTree::Ball& ball : balls) {
+    const Ball* farthest = &balls.front();
+    for (const Ball& ball : balls) {
       const double reach = (ball.center - center).norm() + ball.radius;
       if (reach > radius) {
         radius = reach;

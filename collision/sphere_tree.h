@@ -19,11 +19,6 @@ class SphereTree {
     int next;                ///< Index of the first node behind this subtree.
     bool leaf;               ///< One of the given spheres; otherwise encloses all of its subtree.
   };
-  struct Ball {
-    Eigen::Vector3d center;
-    double radius;
-  };
-
   SphereTree() = default;
   explicit SphereTree(std::vector<Ball> spheres);
 

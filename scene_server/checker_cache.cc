@@ -7,7 +7,7 @@ CollisionChecker& CheckerCache::Get(const PlanningGroup& group, CollisionModel m
                                     const std::shared_ptr<const Scene>& scene,
                                     std::vector<double> base_positions) {
   Entry& entry = entries_[{group.name, model}];
-  if (!entry.checker) entry.checker = MakeCollisionChecker(*robot_, group, model);
+  if (!entry.checker) entry.checker = MakeReferenceChecker(*robot_, group, model);
 
   // Where the group's own joints stand does not matter to the checker and must not cost a set-up.
   const std::vector<double> defaults = robot_->model.DefaultPositions();

@@ -20,7 +20,7 @@ class CheckerCache {
   explicit CheckerCache(const Robot& robot) : robot_(&robot) {}
 
   /// The checker, in that scene, with the joints outside the group at `base_positions` (full
-  /// positions). Valid until the next call. Throws InputError as MakeCollisionChecker and SetScene
+  /// positions). Valid until the next call. Throws InputError as MakeReferenceChecker and SetScene
   /// do.
   CollisionChecker& Get(const PlanningGroup& group, CollisionModel model,
                         const std::string& scene_id, const std::shared_ptr<const Scene>& scene,

@@ -190,7 +190,7 @@ TEST(EdgeCheckerTest, SamplesTheSameConfigurationsWhateverTheBatch) {
   const std::vector<double> from = {0.1, 0.2};
   const std::vector<double> to = {0.7, -1.1};
   std::vector<std::vector<double>> one_by_one;
-  for (int batch : {1, 3, 8, 1000}) {
+  for (int batch : {1, 3, 8, 64, 1000}) {
     ScriptedChecker checker(robot, batch);
     EdgeChecker edges(&checker, 0.03);
     EXPECT_TRUE(edges.IsValidEdge(from, to));

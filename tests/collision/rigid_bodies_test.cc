@@ -53,7 +53,7 @@ TEST(RigidBodiesTest, LinksWithoutAGroupJointBetweenThemAreOneBody) {
 TEST(RigidBodiesTest, NothingLeavesItsReach) {
   const Robot arm = MakeTestArm();
   const RigidBodies bodies(arm.model, arm.groups.front(), arm.model.DefaultPositions());
-  const RigidBodies::Ball ball{Eigen::Vector3d(0.1, -0.2, 0.3), 0.05};
+  const Ball ball{Eigen::Vector3d(0.1, -0.2, 0.3), 0.05};
   std::mt19937_64 generator(4);
   std::vector<Pose> X_WG(static_cast<std::size_t>(bodies.size()));
   for (int i = 0; i < 200; ++i) {
@@ -61,7 +61,7 @@ TEST(RigidBodiesTest, NothingLeavesItsReach) {
     for (int body = 0; body < bodies.size(); ++body) {
       for (int ancestor = 0; ancestor <= body; ++ancestor) {
         if (!bodies.Descends(body, ancestor)) continue;
-        const RigidBodies::Ball reach = bodies.Reach(ancestor, body, ball);
+        const Ball reach = bodies.Reach(ancestor, body, ball);
         const Eigen::Vector3d center = X_WG[static_cast<std::size_t>(ancestor)].InverseTimes(
             X_WG[static_cast<std::size_t>(body)] * ball.center);
         EXPECT_LE((center - reach.center).norm() + ball.radius, reach.radius + 1e-12);

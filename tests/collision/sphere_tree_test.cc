@@ -12,8 +12,8 @@ namespace {
 
 class SphereTreeTest : public testing::Test {
  protected:
-  std::vector<SphereTree::Ball> RandomBalls(int num) {
-    std::vector<SphereTree::Ball> balls;
+  std::vector<Ball> RandomBalls(int num) {
+    std::vector<Ball> balls;
     for (int i = 0; i < num; ++i) balls.push_back({RandomPoint(), 0.01 + 0.2 * Unit()});
     return balls;
   }

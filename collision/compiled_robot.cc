@@ -1,0 +1,230 @@
+#include "collision/compiled_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/ball_tree.h"
+#include "robot_model/motion_bound.h"
+
+namespace planbench {
+namespace {
+
+using kernels::Node;
+
+/// Motion bounds are rounded to single precision and summed there; this much more than covers it.
+constexpr double kBoundFactor = 1 + 1e-5;
+
+template <typename Container, typename Index>
+auto& At(Container& container, Index index) {
+  return container[static_cast<std::size_t>(index)];
+}
+
+/// A rotation that takes z to `axis` (unit).
+Eigen::Matrix3d RotationWithZ(const Eigen::Vector3d& axis) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
+}
+
+void SetRows(const Eigen::Matrix3d& R, float* rows) {
+  for (int i = 0; i < 9; ++i) rows[i] = static_cast<float>(R(i / 3, i % 3));
+}
+
+void SetVector(const Eigen::Vector3d& v, float* values) {
+  for (int i = 0; i < 3; ++i) values[i] = static_cast<float>(v[i]);
+}
+
+void SetBall(const Ball& ball, const Eigen::Matrix3d& R_CG, double padding, Node* node) {
+  const Eigen::Vector3d p_C = R_CG * ball.center;
+  node->x = static_cast<float>(p_C.x());
+  node->y = static_cast<float>(p_C.y());
+  node->z = static_cast<float>(p_C.z());
+  node->radius = static_cast<float>(ball.radius + padding);
+}
+
+/// Writes a tree whose root has its place already.
+void Emit(const BallTree& tree, const Eigen::Matrix3d& R_CG, int index, std::vector<Node>* nodes) {
+  const int first = static_cast<int>(nodes->size());
+  const int num = static_cast<int>(tree.children().size());
+  // Balls of balls enclose the enlarged ones, and what rounding does to both.
+  SetBall(tree.ball(), R_CG, num == 0 ? kRadiusPadding : 2 * kRadiusPadding, &At(*nodes, index));
+  At(*nodes, index).first_child = first;
+  At(*nodes, index).num_children = num;
+  nodes->resize(nodes->size() + static_cast<std::size_t>(num));
+  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), R_CG, first + i, nodes);
+}
+
+}  // namespace
+
+CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
+                             const RigidBodies& rigid_bodies,
+                             std::span<const double> base_positions) {
+  kernel.num_joints = group.space.size();
+  kernel.bodies.resize(static_cast<std::size_t>(rigid_bodies.size()));
+  R_CG_.assign(kernel.bodies.size(), Eigen::Matrix3d::Identity());
+  for (int i = 1; i < rigid_bodies.size(); ++i) {
+    const RigidBodies::Mobility mobility = rigid_bodies.MobilityOf(i);
+    kernels::Body& body = At(kernel.bodies, i);
+    body.parent = rigid_bodies.Parent(i);
+    body.joint = mobility.group_index;
+    body.prismatic = mobility.prismatic;
+    const Eigen::Matrix3d& R_PC = At(R_CG_, body.parent);  // parent's frames: G to C
+    SetVector(R_PC * mobility.X_PG.translation, body.position);
+    SetVector(R_PC * mobility.axis_P, body.axis);
+    if (mobility.prismatic) {
+      body.turns = At(kernel.bodies, body.parent).turns;
+      At(R_CG_, i) = R_PC * mobility.X_PG.rotation;
+      continue;
+    }
+    body.turns = true;
+    const Eigen::Vector3d axis_G = mobility.X_PG.rotation.transpose() * mobility.axis_P;
+    const Eigen::Matrix3d R_GC = RotationWithZ(axis_G);
+    SetRows(R_PC * mobility.X_PG.rotation * R_GC, body.rotation);
+    At(R_CG_, i) = R_GC.transpose();
+  }
+
+  for (int i = 0; i < rigid_bodies.size(); ++i) {
+    std::vector<BallTree> trees;
+    std::vector<CompiledTree> parts;
+    std::vector<LinkSphere> body_spheres;
+    for (int link = 0; link < robot.model.num_links(); ++link) {
+      if (rigid_bodies.BodyOf(link) != i) continue;
+      std::vector<Ball> balls;
+      std::vector<LinkSphere> spheres;
+      for (const LinkSphere& sphere : robot.spheres) {
+        if (sphere.link != link) continue;
+        balls.push_back({rigid_bodies.X_GL(link) * sphere.p_LS, sphere.radius});
+        spheres.push_back(sphere);
+      }
+      if (balls.empty()) continue;
+      CompiledTree part;
+      part.link = link;
+      part.body = i;
+      part.reach = AddReach(robot, group, base_positions, spheres);
+      trees.emplace_back(std::move(balls));
+      part.reach_W = rigid_bodies.Reach(0, i, trees.back().ball());
+      parts.push_back(part);
+      body_spheres.insert(body_spheres.end(), spheres.begin(), spheres.end());
+    }
+    if (parts.empty()) continue;
+    // The trees of a body's links are the children of the body's.
+    CompiledTree whole = parts.front();
+    whole.link = -1;
+    whole.root = static_cast<int>(kernel.nodes.size());
+    kernel.nodes.emplace_back();
+    if (parts.size() == 1) {
+      parts.front().root = whole.root;
+      Emit(trees.front(), At(R_CG_, i), whole.root, &kernel.nodes);
+    } else {
+      const BallTree tree(std::move(trees));
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        parts[k].root = static_cast<int>(kernel.nodes.size() + k);
+      }
+      Emit(tree, At(R_CG_, i), whole.root, &kernel.nodes);
+      whole.reach_W = rigid_bodies.Reach(0, i, tree.ball());
+      whole.reach = AddReach(robot, group, base_positions, body_spheres);
+    }
+    bodies.push_back(whole);
+    links.insert(links.end(), parts.begin(), parts.end());
+  }
+  std::sort(links.begin(), links.end(),
+            [](const CompiledTree& a, const CompiledTree& b) { return a.link < b.link; });
+  num_nodes_ = kernel.nodes.size();
+  num_reaches_ = kernel.reaches.size();
+}
+
+int CompiledRobot::AddReach(const Robot& robot, const PlanningGroup& group,
+                            std::span<const double> base_positions,
+                            std::span<const LinkSphere> spheres) {
+  std::vector<LinkBall> balls;
+  for (const LinkSphere& s : spheres) balls.push_back({s.link, s.p_LS, s.radius});
+  const MotionBound bound(robot.model, group, base_positions, balls);
+  const int offset = static_cast<int>(kernel.reaches.size());
+  for (double reach : bound.reach()) {
+    kernel.reaches.push_back(static_cast<float>(reach * kBoundFactor));
+  }
+  return offset;
+}
+
+CompiledTree CompiledRobot::AddBall(const Robot& robot, const PlanningGroup& group,
+                                    const RigidBodies& rigid_bodies,
+                                    std::span<const double> base_positions, int link,
+                                    const Ball& ball_L) {
+  CompiledTree tree;
+  tree.link = link;
+  tree.body = rigid_bodies.BodyOf(link);
+  tree.root = static_cast<int>(kernel.nodes.size());
+  const LinkSphere sphere{link, ball_L.center, ball_L.radius};
+  tree.reach = AddReach(robot, group, base_positions, {&sphere, 1});
+  const Ball ball_G{rigid_bodies.X_GL(link) * ball_L.center, ball_L.radius};
+  tree.reach_W = rigid_bodies.Reach(0, tree.body, ball_G);
+  kernel.nodes.emplace_back();
+  SetBall(ball_G, At(R_CG_, tree.body), kRadiusPadding, &kernel.nodes.back());
+  return tree;
+}
+
+void CompiledRobot::Truncate() {
+  kernel.nodes.resize(num_nodes_);
+  kernel.pairs.clear();
+  kernel.reaches.resize(num_reaches_);
+}
+
+std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
+  std::vector<Ball> leaves;
+  std::vector<int> open = {tree.root};
+  while (!open.empty()) {
+    const Node& node = At(kernel.nodes, open.back());
+    open.pop_back();
+    for (int i = 0; i < node.num_children; ++i) open.push_back(node.first_child + i);
+    if (node.num_children > 0) continue;
+    const Eigen::Vector3d p_C(node.x, node.y, node.z);
+    leaves.push_back({At(R_CG_, tree.body).transpose() * p_C, node.radius});
+  }
+  return leaves;
+}
+
+bool CompiledRobot::CanMeet(const RigidBodies& rigid_bodies, const CompiledTree& carrier,
+                            const CompiledTree& moving) const {
+  if (!rigid_bodies.Descends(moving.body, carrier.body)) return true;
+  const std::vector<Ball> fixed = LeavesOf(carrier);
+  for (const Ball& leaf : LeavesOf(moving)) {
+    const Ball reach = rigid_bodies.Reach(carrier.body, moving.body, leaf);
+    for (const Ball& ball : fixed) {
+      if ((ball.center - reach.center).norm() - kRadiusPadding <= ball.radius + reach.radius) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+double CompiledRobot::Distance(const CompiledTree& a, const CompiledTree& b) const {
+  double distance = std::numeric_limits<double>::infinity();
+  const std::vector<Ball> others = LeavesOf(b);
+  for (const Ball& ball : LeavesOf(a)) {
+    for (const Ball& other : others) {
+      distance =
+          std::min(distance, (ball.center - other.center).norm() - ball.radius - other.radius);
+    }
+  }
+  return distance;
+}
+
+bool CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree& a,
+                            const CompiledTree& b, bool doubtful) {
+  if (!CanMeet(rigid_bodies, a, b) || !CanMeet(rigid_bodies, b, a)) return false;
+  const int offset = static_cast<int>(kernel.reaches.size());
+  kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
+  // The joints between each and the nearest body that carries both.
+  for (const auto& [tree, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (int body = tree->body; !rigid_bodies.Descends(other->body, body);
+         body = rigid_bodies.Parent(body)) {
+      const int joint = At(kernel.bodies, body).joint;
+      At(kernel.reaches, offset + joint) = At(kernel.reaches, tree->reach + joint);
+    }
+  }
+  kernel.pairs.push_back({a.root, b.root, a.body, b.body, doubtful, offset});
+  return true;
+}
+
+}  // namespace planbench

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "collision/kernels/sphere_kernel.h"
+#include "collision/rigid_bodies.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// Radii are enlarged by this much, m, which covers the rounding of positions that single precision
+/// gives a robot of some metres: verdicts err towards collision.
+inline constexpr double kRadiusPadding = 2e-5;
+
+/// A tree of balls in the kernel's robot.
+struct CompiledTree {
+  int link = -1;  ///< Whose spheres they are; -1 for all of a body's.
+  int body = 0;
+  int root = 0;   ///< Node index.
+  Ball reach_W;   ///< That the tree never leaves while prismatic joints are WithinTravel.
+  int reach = 0;  ///< Offset into SphereRobot::reaches of its motion bound relative to W.
+};
+
+/// A robot's spheres as the kernels take them, with joints outside the group held.
+struct CompiledRobot {
+  /// `base_positions`: full positions, at which joints outside the group are held.
+  CompiledRobot(const Robot& robot, const PlanningGroup& group, const RigidBodies& bodies,
+                std::span<const double> base_positions);
+
+  /// A tree of one ball fixed to a body, given in the body's frame G, for something that is not a
+  /// sphere of the robot. Drops nothing that was added before; see Truncate.
+  CompiledTree AddBall(const Robot& robot, const PlanningGroup& group, const RigidBodies& bodies,
+                       std::span<const double> base_positions, int link, const Ball& ball_L);
+  /// Forgets added balls, and all pairs.
+  void Truncate();
+
+  /// Least distance between the balls of two trees of one body, m; negative if they overlap.
+  double Distance(const CompiledTree& a, const CompiledTree& b) const;
+
+  /// A pair of trees of different bodies. Returns false, adding nothing, if they can never meet.
+  bool AddPair(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
+               bool doubtful);
+
+  kernels::SphereRobot kernel;
+  std::vector<CompiledTree> links;   ///< Of every link that has spheres, in link order.
+  std::vector<CompiledTree> bodies;  ///< Of every body that has spheres, in body order.
+
+ private:
+  int AddReach(const Robot& robot, const PlanningGroup& group,
+               std::span<const double> base_positions, std::span<const LinkSphere> spheres);
+  /// In the body's frame G, enlarged.
+  std::vector<Ball> LeavesOf(const CompiledTree& tree) const;
+  bool CanMeet(const RigidBodies& bodies, const CompiledTree& carrier,
+               const CompiledTree& moving) const;
+
+  std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
+  std::size_t num_nodes_ = 0;          ///< Without added balls.
+  std::size_t num_reaches_ = 0;
+};
+
+}  // namespace planbench

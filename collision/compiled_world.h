@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "collision/compiled_robot.h"
+#include "collision/kernels/sphere_kernel.h"
+#include "collision/pair_rules.h"
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// A scene's objects as the kernels take them: solids that the robot can reach, in single
+/// precision, enlarged by what that rounds.
+class CompiledWorld {
+ public:
+  /// Up to this many solids every tree has its own list of those within its reach; beyond, a
+  /// hierarchy finds them.
+  static constexpr std::size_t kMaxListed = 24;
+
+  /// Distances beyond this are not told, m: solids that far out of reach are left out.
+  static constexpr double kMaxDistance = 0.5;
+
+  /// Takes the objects of a scene. Throws InputError, naming the object, for a shape that is none.
+  /// Meshes become doubtful boxes, as do solids too large for single precision.
+  void SetObjects(const Scene& scene, const CompiledRobot& robot);
+
+  /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
+  /// `checked[i]`: whether object i of the scene counts.
+  void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked, bool doubtful);
+
+  kernels::SphereWorld kernel;
+
+ private:
+  /// What a solid of the kernel's was made of.
+  struct Source {
+    int object;              ///< Index in the scene.
+    Eigen::Vector3d center;  ///< Bounding box in W: any orientation.
+    Eigen::Matrix3d R_WS;
+    Eigen::Vector3d half_size;
+  };
+
+  void AddShape(const Shape& shape, const Pose& X_WS, int object, const Ball& reach);
+  void AddSolid(kernels::Solid solid, const Source& source);
+  void BuildHierarchy();
+  void BuildNode(int first, int last);
+
+  std::vector<Source> sources_;  ///< By solid.
+};
+
+}  // namespace planbench

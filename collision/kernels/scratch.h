@@ -1,0 +1,29 @@
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "collision/kernels/sphere_kernel.h"
+
+namespace planbench::kernels {
+
+/// Levels of a tree of balls, at most (its builder sees to it): each may hold a list of solids.
+inline constexpr int kMaxDepth = 16;
+
+struct SphereScratch::Buffers {
+  std::size_t num_bodies = 0;
+  std::size_t num_nodes = 0;
+  hwy::AlignedFreeUniquePtr<float[]> poses;      ///< [body][12][kBlock]: R_WC row-major, p_WC.
+  hwy::AlignedFreeUniquePtr<float[]> positions;  ///< [node][3][kBlock]: p_W.
+  /// By node the placement that its position is of, then by node that of its children's.
+  std::vector<std::uint32_t> placed;
+  std::uint32_t placement = 0;
+  std::vector<std::int32_t> order;       ///< Tests: indices of world trees, then of pairs.
+  std::vector<std::int32_t> all_solids;  ///< 0, 1, 2, ...
+  std::vector<std::int32_t> lists;
+};
+
+}  // namespace planbench::kernels

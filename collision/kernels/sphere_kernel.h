@@ -1,0 +1,168 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+// The vectorised sphere engine's inner part: plain arrays of floats in, bit masks out. A block of
+// kBlock configurations is checked at once, one SIMD lane a configuration, with the widest
+// instructions of the machine it runs on (Highway's run-time dispatch). What it is given has been
+// compiled from the robot and the scene by SimdChecker; rounding is covered there, by padding.
+
+namespace planbench::kernels {
+
+/// Configurations in a block; arrays "by lane" have this many values.
+inline constexpr int kBlock = 16;
+
+/// A rigid body moved by one joint of the group. Frame C of the body: for a revolute joint its z
+/// axis is the joint's, for a prismatic one its axes are the parent's. Body 0 is the base, whose
+/// frame is W.
+struct Body {
+  int parent = 0;  ///< Index of a body before this one.
+  int joint = 0;   ///< Index into the group's joints.
+  bool prismatic = false;
+  bool turns = false;                               ///< False if the rotation is W's for good.
+  float rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< R_PC at joint position 0, row-major.
+  float position[3] = {0, 0, 0};                    ///< p_PC at joint position 0, m.
+  float axis[3] = {0, 0, 1};                        ///< Of a prismatic joint, in P.
+};
+
+/// A ball of a tree, in its body's frame (m): a sphere of the robot if it has no children, else it
+/// encloses all of its descendants. Children stand next to each other.
+struct Node {
+  float x, y, z, radius;
+  std::int32_t first_child;
+  std::int32_t num_children;
+};
+
+/// Two trees to test against each other.
+struct TreePair {
+  int root_a, root_b;
+  int body_a, body_b;
+  bool doubtful;  ///< Hits are passed on as doubts.
+  /// Joints that move the two relative to each other, as weights of half widths: num_joints values
+  /// at this offset of SphereRobot::reaches.
+  int reach;
+};
+
+/// What moves: kinematics, trees of balls, pairs of trees.
+struct SphereRobot {
+  int num_joints = 0;
+  std::vector<Body> bodies;  ///< Parents first; [0] is the base.
+  std::vector<Node> nodes;
+  std::vector<TreePair> pairs;
+  std::vector<float> reaches;  ///< m/rad, see TreePair and WorldTree.
+};
+
+enum class Kind : std::int32_t {
+  kUprightBox,       ///< cos yaw, sin yaw, half sizes (3).
+  kBox,              ///< Rows of R_OW (9), half sizes (3).
+  kUprightCylinder,  ///< Radius, half length.
+  kCylinder,         ///< Axis (3), radius, half length.
+  kSphere,           ///< Radius.
+  kCapsule,          ///< Axis (3), radius, half length of the segment.
+  kCone,             ///< Axis to the apex (3), radius of the base, half length.
+  kHalfSpace,        ///< Outward normal (3); `center` is on its surface.
+};
+
+/// A solid of the world, in W.
+struct Solid {
+  Kind kind;
+  bool doubtful;  ///< Hits are passed on as doubts: it stands for something inside it.
+  float center[3];
+  float v[12];  ///< See Kind.
+};
+
+/// Bounding-volume hierarchy over solids, depth first: `next` is the node behind the subtree, a
+/// leaf lists `count` solids from `first` on in SphereWorld::bvh_solids.
+struct BvhNode {
+  float low[3], high[3];
+  std::int32_t next, first, count;
+};
+
+/// A tree to test against the world.
+struct WorldTree {
+  int root;
+  int body;
+  bool doubtful;
+  int reach;  ///< As in TreePair, relative to W.
+  /// Solids it may meet: `num_candidates` from `first_candidate` on in SphereWorld::candidates. A
+  /// negative number: those the hierarchy finds.
+  int first_candidate, num_candidates;
+  /// Solids that count at all, as far as they may be, likewise; a negative number: all.
+  int first_checked, num_checked;
+};
+
+/// A grid of distances (m) in W: of a point in cell (i, j, k), cells being cubes of edge
+/// `resolution` from `origin` on. A ball collides if the value at its centre is less than its
+/// radius.
+struct DistanceGrid {
+  float origin[3] = {0, 0, 0};
+  float resolution = 1;
+  int size[3] = {0, 0, 0};
+  float outside = 0;          ///< The value everywhere outside.
+  std::vector<float> values;  ///< x fastest; empty: there is no grid.
+};
+
+/// What stands still.
+struct SphereWorld {
+  std::vector<Solid> solids;
+  std::vector<WorldTree> trees;
+  std::vector<std::int32_t> candidates;
+  std::vector<BvhNode> bvh;
+  std::vector<std::int32_t> bvh_solids;
+  const DistanceGrid* grid = nullptr;  ///< Tested with every tree, if any.
+};
+
+/// Memory of one thread, and the order in which tests are made: those that hit move to the front.
+class SphereScratch {
+ public:
+  SphereScratch();
+  ~SphereScratch();
+  SphereScratch(SphereScratch&&) noexcept;
+  SphereScratch& operator=(SphereScratch&&) noexcept;
+  /// Must be called when the robot or the world has changed.
+  void Reset(const SphereRobot& robot, const SphereWorld& world);
+
+  struct Buffers;
+  Buffers& buffers() { return *buffers_; }
+
+ private:
+  std::unique_ptr<Buffers> buffers_;
+};
+
+/// Lanes by bit.
+using LaneMask = std::uint32_t;
+
+struct BlockQuery {
+  const float* q = nullptr;  ///< [joint][kBlock], rad or m; revolute |q| <= 2 pi.
+  /// [joint][kBlock] or null. With them every lane stands for the box of configurations q +- width.
+  const float* half_widths = nullptr;
+  LaneMask lanes = 0;  ///< Lanes to check.
+  bool stop_at_first = false;
+};
+
+struct BlockVerdict {
+  LaneMask hits = 0;     ///< Colliding; with half widths: not proven free.
+  LaneMask certain = 0;  ///< Colliding at q itself. Equal to `hits` without half widths.
+  LaneMask doubts = 0;   ///< In touch with something doubtful.
+};
+
+/// With stop_at_first it returns when the first certain collision is found, what it then says of
+/// other lanes is incomplete.
+BlockVerdict CheckBlock(const SphereRobot& robot, const SphereWorld& world, SphereScratch* scratch,
+                        const BlockQuery& query);
+
+/// Smaller of `at_most` (m, > 0) and the distance to the nearest solid and of the nearest pair, by
+/// lane; 0 or less in collision. Doubtful ones count as they are.
+void BlockDistances(const SphereRobot& robot, const SphereWorld& world, SphereScratch* scratch,
+                    const float* q, float at_most, float* distances);
+
+/// Sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
+void BlockSinCos(const float* angles, float* sines, float* cosines);
+
+/// Name of the instruction set that is used here, e.g. "AVX3".
+const char* InstructionSet();
+
+}  // namespace planbench::kernels

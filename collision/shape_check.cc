@@ -1,0 +1,61 @@
+#include "collision/shape_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+void RequireSizes(const std::string& owner, const Shape& shape,
+                  std::initializer_list<double> sizes) {
+  for (double size : sizes) {
+    if (!std::isfinite(size) || size < 0) {
+      throw InputError(
+          fmt::format("'{}': a {} has the size {} m", owner, ShapeTypeName(shape), size));
+    }
+  }
+}
+
+void RequireTriangles(const std::string& owner, const Mesh& mesh) {
+  const TriangleMesh& m = mesh.triangles;
+  const std::string name = mesh.resource.empty() ? "a mesh" : "mesh " + mesh.resource;
+  if (m.triangles.empty()) {
+    throw InputError(fmt::format("'{}': {} has no triangles", owner, name));
+  }
+  for (const auto& triangle : m.triangles) {
+    for (std::uint32_t index : triangle) {
+      if (index >= m.vertices.size()) {
+        throw InputError(fmt::format("'{}': {} has {} vertices, a triangle names vertex {}", owner,
+                                     name, m.vertices.size(), index));
+      }
+    }
+  }
+  for (const Eigen::Vector3d& vertex : m.vertices) {
+    if (!vertex.allFinite()) {
+      throw InputError(fmt::format("'{}': {} has a vertex that is not finite", owner, name));
+    }
+  }
+}
+
+}  // namespace
+
+void RequireSolid(const Shape& shape, const std::string& owner) {
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    RequireSizes(owner, shape, {box->size.x(), box->size.y(), box->size.z()});
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    RequireSizes(owner, shape, {sphere->radius});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    RequireSizes(owner, shape, {cylinder->radius, cylinder->length});
+  } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+    RequireSizes(owner, shape, {cone->radius, cone->length});
+  } else {
+    RequireTriangles(owner, std::get<Mesh>(shape));
+  }
+}
+
+}  // namespace planbench

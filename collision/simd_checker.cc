@@ -1,0 +1,405 @@
+#include "collision/simd_checker.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "collision/ball_tree.h"
+#include "collision/shape_check.h"
+
+namespace planbench {
+namespace {
+
+using kernels::BlockQuery;
+using kernels::BlockVerdict;
+using kernels::kBlock;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename Container, typename Index>
+auto& At(Container& container, Index index) {
+  return container[static_cast<std::size_t>(index)];
+}
+
+kernels::LaneMask FirstLanes(int num) {
+  return static_cast<kernels::LaneMask>((std::uint64_t{1} << num) - 1);
+}
+
+/// Angle as the kernels take it: the same direction, at most 2 pi.
+double Reduced(double angle) {
+  return std::abs(angle) <= 2 * std::numbers::pi ? angle
+                                                 : std::remainder(angle, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group)
+    : CollisionChecker(robot, group, CollisionModel::kSpheres),
+      exact_(robot, group, CollisionModel::kSpheres) {
+  const auto n = static_cast<std::size_t>(group.space.size());
+  q_.resize(n * kBlock);
+  half_widths_.resize(n * kBlock);
+  exact_q_.resize(n);
+  exact_half_widths_.resize(n);
+}
+
+MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> base_positions) {
+  exact_is_set_ = false;
+  const PairRules rules(robot(), scene);
+  for (const AttachedObject& attached : scene.attached) {
+    for (const PlacedShape& placed : attached.object.shapes) {
+      RequireSolid(placed.shape, attached.object.id);
+    }
+  }
+
+  std::vector<double> held(base_positions.begin(), base_positions.end());
+  for (int joint : group().joints) {
+    At(held, At(robot().model.joints(), joint).position_index) = 0;
+  }
+  const bool robot_holds = held == held_;
+  if (!robot_holds) {
+    held_.clear();
+    rigid_bodies_.emplace(robot().model, group(), base_positions);
+    compiled_.emplace(robot(), group(), *rigid_bodies_, base_positions);
+    links_bound_ = BoundMotion({}, base_positions);
+    travels_.clear();
+    for (int body = 1; body < rigid_bodies_->size(); ++body) {
+      const RigidBodies::Mobility mobility = rigid_bodies_->MobilityOf(body);
+      if (!mobility.prismatic) continue;
+      const JointSpace::Joint& joint = space().joint(mobility.group_index);
+      travels_.emplace_back(
+          mobility.group_index,
+          std::max(std::abs(joint.lower), std::abs(joint.upper)) + JointSpace::kLimitTolerance);
+    }
+    held_ = std::move(held);
+  }
+
+  const bool same_matrix = scene.allowed_collisions == scene_.allowed_collisions;
+  if (!same_matrix) scene_.allowed_collisions = scene.allowed_collisions;
+  scene_.objects = scene.objects;
+  scene_.attached = scene.attached;
+  base_positions_.assign(base_positions.begin(), base_positions.end());
+  if (!robot_holds || !same_matrix || !pairs_hold_ || !scene.attached.empty()) {
+    pairs_hold_ = false;
+    NoteAllowedNames(scene.allowed_collisions);
+    CompilePairs(rules, scene, base_positions);
+    pairs_hold_ = scene.attached.empty();
+  }
+  world_.SetObjects(scene, *compiled_);
+  CompileTrees(rules, scene);
+  scratch_.Reset(compiled_->kernel, world_.kernel);
+  return scene.attached.empty() ? links_bound_ : BoundMotion(scene, base_positions);
+}
+
+MotionBound SimdChecker::BoundMotion(const Scene& scene,
+                                     std::span<const double> base_positions) const {
+  std::vector<LinkBall> balls;
+  for (const LinkSphere& s : robot().spheres) balls.push_back({s.link, s.p_LS, s.radius});
+  for (const AttachedObject& attached : scene.attached) {
+    const int link = robot().model.FindLink(attached.link);
+    for (const PlacedShape& placed : attached.object.shapes) {
+      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
+      balls.push_back({link, attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
+    }
+  }
+  return MotionBound(robot().model, group(), base_positions, balls);
+}
+
+void SimdChecker::NoteAllowedNames(const AllowedCollisionMatrix& matrix) {
+  allowed_names_.clear();
+  for (const auto& [names, allowed] : matrix.entries()) {
+    allowed_names_.insert(names.first);
+    allowed_names_.insert(names.second);
+  }
+}
+
+void SimdChecker::CompilePairs(const PairRules& rules, const Scene& scene,
+                               std::span<const double> base_positions) {
+  compiled_->Truncate();
+  links_collide_ = false;
+  links_distance_ = kInfinity;
+  const auto& links = compiled_->links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (std::size_t k = i + 1; k < links.size(); ++k) {
+      if (!rules.ChecksLinks(links[i].link, links[k].link)) continue;
+      if (links[i].body == links[k].body) {
+        links_distance_ = std::min(links_distance_, compiled_->Distance(links[i], links[k]));
+      } else {
+        compiled_->AddPair(*rigid_bodies_, links[i], links[k], false);
+      }
+    }
+  }
+  links_collide_ = links_distance_ <= 0;
+
+  attached_.clear();
+  for (const AttachedObject& attached : scene.attached) {
+    std::vector<Ball> balls;
+    for (const PlacedShape& placed : attached.object.shapes) {
+      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
+      balls.push_back({attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
+    }
+    if (balls.empty()) continue;
+    const CompiledTree tree = compiled_->AddBall(robot(), group(), *rigid_bodies_, base_positions,
+                                                 rules.LinkOf(attached), EnclosingBall(balls));
+    // Pairs of one body are the FCL engine's to judge, once; see CompileTrees.
+    for (const CompiledTree& link : links) {
+      if (link.body != tree.body && rules.ChecksAttachedWithLink(attached, link.link)) {
+        compiled_->AddPair(*rigid_bodies_, link, tree, true);
+      }
+    }
+    for (const CompiledTree& other : attached_) {
+      if (other.body != tree.body) compiled_->AddPair(*rigid_bodies_, other, tree, true);
+    }
+    attached_.push_back(tree);
+  }
+}
+
+void SimdChecker::CompileTrees(const PairRules& rules, const Scene& scene) {
+  // Objects that the matrix does not name count for every link, unless links allow by default.
+  const bool by_default = !scene.allowed_collisions.default_entries().empty();
+  std::vector<unsigned char> all(scene.objects.size(), 1);
+  std::vector<int> named;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (by_default || allowed_names_.contains(scene.objects[i].id)) {
+      named.push_back(static_cast<int>(i));
+    }
+  }
+  const auto add = [&](const CompiledTree& tree) {
+    std::vector<unsigned char> checked = all;
+    for (int i : named) {
+      At(checked, i) = rules.ChecksLinkWithObject(tree.link, At(scene.objects, i)) ? 1 : 0;
+    }
+    world_.AddTree(tree, checked, false);
+  };
+  const auto add_all = [&](bool moving) {
+    for (const CompiledTree& tree : named.empty() ? compiled_->bodies : compiled_->links) {
+      if ((tree.body != 0) == moving) named.empty() ? world_.AddTree(tree, all, false) : add(tree);
+    }
+  };
+
+  // What does not move is judged here, once.
+  always_collides_ = links_collide_;
+  standing_distance_ = links_distance_;
+  add_all(false);
+  if (!world_.kernel.trees.empty()) {
+    base_.num_joints = compiled_->kernel.num_joints;
+    base_.bodies.assign(1, kernels::Body());
+    base_.nodes = compiled_->kernel.nodes;
+    base_.reaches = compiled_->kernel.reaches;
+    base_scratch_.Reset(base_, world_.kernel);
+    BlockQuery query;
+    query.q = q_.data();
+    query.lanes = 1;
+    BlockVerdict verdict = kernels::CheckBlock(base_, world_.kernel, &base_scratch_, query);
+    float distances[kBlock];
+    kernels::BlockDistances(base_, world_.kernel, &base_scratch_, q_.data(),
+                            static_cast<float>(CompiledWorld::kMaxDistance), distances);
+    standing_distance_ = std::min(standing_distance_, static_cast<double>(distances[0]));
+    always_collides_ = always_collides_ || verdict.hits != 0;
+    if (verdict.doubts != 0) always_collides_ = always_collides_ || Exact().AlwaysCollides();
+    world_.kernel.trees.clear();
+    world_.kernel.candidates.clear();
+  }
+  add_all(true);
+  for (const CompiledTree& tree : attached_) world_.AddTree(tree, all, true);
+  if (!attached_.empty()) always_collides_ = always_collides_ || Exact().AlwaysCollides();
+}
+
+FclChecker& SimdChecker::Exact() {
+  if (!exact_is_set_) {
+    exact_.SetScene(scene_, base_positions_);
+    exact_is_set_ = true;
+  }
+  return exact_;
+}
+
+bool SimdChecker::SetLane(int lane, std::span<const double> q) {
+  float* values = q_.data() + lane;
+  for (std::size_t j = 0; j < q.size(); ++j) {
+    values[j * kBlock] = static_cast<float>(Reduced(q[j]));
+  }
+  bool fit = true;
+  for (const auto& [joint, travel] : travels_) {
+    const double position = At(q, joint);
+    values[static_cast<std::size_t>(joint) * kBlock] = static_cast<float>(position);
+    fit = fit && std::abs(position) <= travel;
+  }
+  return fit;
+}
+
+template <typename ExactIsFree>
+BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_widths,
+                                bool stop_at_first, ExactIsFree exact) {
+  const LaneMask lanes = FirstLanes(num);
+  if (always_collides_) return {lanes, lanes, 0};
+  // Lanes of no meaning must hold numbers all the same: NaN would be slow, not wrong.
+  BlockQuery query;
+  query.q = q_.data();
+  query.half_widths = half_widths;
+  query.lanes = lanes & ~unfit;
+  query.stop_at_first = stop_at_first;
+  BlockVerdict verdict = kernels::CheckBlock(compiled_->kernel, world_.kernel, &scratch_, query);
+  if (stop_at_first && verdict.certain != 0) return verdict;
+  for (LaneMask open = (verdict.doubts & ~verdict.certain) | unfit; open != 0; open &= open - 1) {
+    const int lane = std::countr_zero(open);
+    const LaneMask bit = LaneMask{1} << lane;
+    const bool in_collision = !exact(lane, false);
+    if (in_collision) verdict.certain |= bit;
+    if (in_collision || (half_widths != nullptr && !exact(lane, true))) verdict.hits |= bit;
+    if (in_collision && stop_at_first) break;
+  }
+  return verdict;
+}
+
+bool SimdChecker::DoIsFree(std::span<const double> q) { return DoFindCollision(q, 1) < 0; }
+
+int SimdChecker::DoFindCollision(std::span<const double> qs, int num) {
+  const auto n = static_cast<std::size_t>(space().size());
+  for (int first = 0; first < num; first += kBlock) {
+    const int count = std::min(kBlock, num - first);
+    const auto row = [&](int lane) {
+      return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
+    };
+    LaneMask unfit = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      if (!SetLane(lane, row(lane))) unfit |= LaneMask{1} << lane;
+    }
+    const BlockVerdict verdict = Check(count, unfit, nullptr, true,
+                                       [&](int lane, bool) { return Exact().IsFree(row(lane)); });
+    if (verdict.certain != 0) return first + std::countr_zero(verdict.certain);
+  }
+  return -1;
+}
+
+void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) {
+  const auto n = static_cast<std::size_t>(space().size());
+  for (int first = 0; first < num; first += kBlock) {
+    const int count = std::min(kBlock, num - first);
+    const auto row = [&](int lane) {
+      return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
+    };
+    LaneMask unfit = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      if (!SetLane(lane, row(lane))) unfit |= LaneMask{1} << lane;
+    }
+    const BlockVerdict verdict = Check(count, unfit, nullptr, false,
+                                       [&](int lane, bool) { return Exact().IsFree(row(lane)); });
+    for (int lane = 0; lane < count; ++lane) {
+      At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
+    }
+  }
+}
+
+void SimdChecker::DoCheckAround(std::span<const double> qs, std::span<const double> half_widths,
+                                int num, std::span<unsigned char> free) {
+  const auto n = static_cast<std::size_t>(space().size());
+  for (int first = 0; first < num; first += kBlock) {
+    const int count = std::min(kBlock, num - first);
+    const auto row = [&](std::span<const double> values, int lane) {
+      return values.subspan(static_cast<std::size_t>(first + lane) * n, n);
+    };
+    LaneMask unfit = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      if (!SetLane(lane, row(qs, lane))) unfit |= LaneMask{1} << lane;
+      const auto widths = row(half_widths, lane);
+      for (std::size_t j = 0; j < n; ++j) {
+        half_widths_[j * kBlock + static_cast<std::size_t>(lane)] = static_cast<float>(widths[j]);
+      }
+    }
+    const BlockVerdict verdict =
+        Check(count, unfit, half_widths_.data(), false, [&](int lane, bool around) {
+          unsigned char is_free = 0;
+          if (!around) return Exact().IsFree(row(qs, lane));
+          Exact().CheckAround(row(qs, lane), row(half_widths, lane), 1, {&is_free, 1});
+          return is_free != 0;
+        });
+    for (int lane = 0; lane < count; ++lane) {
+      At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
+    }
+  }
+}
+
+SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
+                                           std::span<const double> motions,
+                                           std::span<const MotionSample> samples,
+                                           bool stop_at_first) {
+  const auto n = static_cast<std::size_t>(space().size());
+  SampleVerdicts verdicts;
+  for (std::size_t first = 0; first < samples.size(); first += kBlock) {
+    const int count = static_cast<int>(std::min<std::size_t>(kBlock, samples.size() - first));
+    bool around = false;
+    LaneMask unfit = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      const MotionSample& sample = samples[first + static_cast<std::size_t>(lane)];
+      const double* motion = motions.data() + static_cast<std::size_t>(sample.motion) * n;
+      float* values = q_.data() + lane;
+      float* widths = half_widths_.data() + lane;
+      around = around || sample.half_length > 0;
+      for (std::size_t j = 0; j < n; ++j) {
+        const double q = start[j] + sample.position * motion[j];
+        values[j * kBlock] = static_cast<float>(Reduced(q));
+        widths[j * kBlock] = static_cast<float>(sample.half_length * std::abs(motion[j]));
+      }
+      for (const auto& [joint, travel] : travels_) {
+        const double q = At(start, joint) + sample.position * motion[joint];
+        values[static_cast<std::size_t>(joint) * kBlock] = static_cast<float>(q);
+        if (std::abs(q) > travel) unfit |= LaneMask{1} << lane;
+      }
+    }
+    const BlockVerdict verdict =
+        Check(count, unfit, around ? half_widths_.data() : nullptr, stop_at_first,
+              [&](int lane, bool stretch) {
+                const MotionSample& sample = samples[first + static_cast<std::size_t>(lane)];
+                for (std::size_t j = 0; j < n; ++j) {
+                  const double motion = motions[static_cast<std::size_t>(sample.motion) * n + j];
+                  exact_q_[j] = start[j] + sample.position * motion;
+                  exact_half_widths_[j] = sample.half_length * std::abs(motion);
+                }
+                if (!stretch) return Exact().IsFree(exact_q_);
+                unsigned char is_free = 0;
+                Exact().CheckAround(exact_q_, exact_half_widths_, 1, {&is_free, 1});
+                return is_free != 0;
+              });
+    verdicts.blocked |= static_cast<std::uint64_t>(verdict.hits) << first;
+    verdicts.certain |= static_cast<std::uint64_t>(verdict.certain) << first;
+    if (stop_at_first && verdict.certain != 0) break;
+  }
+  return verdicts;
+}
+
+void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
+                                  std::span<double> distances) {
+  const auto n = static_cast<std::size_t>(space().size());
+  const double limit = std::min({at_most, CompiledWorld::kMaxDistance, standing_distance_});
+  for (int first = 0; first < num; first += kBlock) {
+    const int count = std::min(kBlock, num - first);
+    LaneMask unfit = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
+      if (!SetLane(lane, q)) unfit |= LaneMask{1} << lane;
+    }
+    float block[kBlock];
+    kernels::BlockDistances(compiled_->kernel, world_.kernel, &scratch_, q_.data(),
+                            static_cast<float>(limit), block);
+    for (int lane = 0; lane < count; ++lane) {
+      const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
+      const bool exact = (unfit >> lane & 1) != 0;
+      At(distances, first + lane) = exact ? std::min(limit, Exact().FindClosest(q).distance_m)
+                                          : static_cast<double>(block[lane]);
+    }
+  }
+}
+
+std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
+  if (auto contact = Exact().FindContact(q)) return contact;
+  if (DoIsFree(q)) return std::nullopt;
+  // Within the band in which this engine errs towards collision.
+  const ClosestPair closest = Exact().FindClosest(q);
+  return Contact{closest.body_a, closest.body_b, 0};
+}
+
+ClosestPair SimdChecker::DoFindClosest(std::span<const double> q) { return Exact().FindClosest(q); }
+
+}  // namespace planbench

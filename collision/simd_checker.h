@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "collision/collision_checker.h"
+#include "collision/compiled_robot.h"
+#include "collision/compiled_world.h"
+#include "collision/fcl_checker.h"
+#include "collision/rigid_bodies.h"
+
+namespace planbench {
+
+/// The vectorised engine of the spheres model: many configurations at once, one SIMD lane each, in
+/// single precision (kernels/sphere_kernel.h).
+///
+/// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
+/// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
+/// kernels do not know (scene meshes, attached objects, prismatic joints far beyond their limits,
+/// objects of tens of metres that are not boxes) they pass on as doubts, which the FCL engine
+/// decides; it also names contacts and nearest pairs, in double precision.
+class SimdChecker : public CollisionChecker {
+ public:
+  /// Throws InputError if the robot has no spheres.
+  SimdChecker(const Robot& robot, const PlanningGroup& group);
+
+  std::string_view EngineName() const override { return "simd"; }
+  int BatchSize() const override { return kernels::kBlock; }
+
+ protected:
+  MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
+  bool DoIsFree(std::span<const double> q) override;
+  int DoFindCollision(std::span<const double> qs, int num) override;
+  void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
+  void DoCheckAround(std::span<const double> qs, std::span<const double> half_widths, int num,
+                     std::span<unsigned char> free) override;
+  SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motions,
+                                std::span<const MotionSample> samples, bool stop_at_first) override;
+  void DoFindDistances(std::span<const double> qs, int num, double at_most,
+                       std::span<double> distances) override;
+  std::optional<Contact> DoFindContact(std::span<const double> q) override;
+  ClosestPair DoFindClosest(std::span<const double> q) override;
+
+ private:
+  using LaneMask = kernels::LaneMask;
+
+  void CompilePairs(const PairRules& rules, const Scene& scene,
+                    std::span<const double> base_positions);
+  void CompileTrees(const PairRules& rules, const Scene& scene);
+  void NoteAllowedNames(const AllowedCollisionMatrix& matrix);
+  MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions) const;
+  FclChecker& Exact();
+
+  /// Puts a configuration into a lane. False if the kernels cannot judge it.
+  bool SetLane(int lane, std::span<const double> q);
+  /// Checks the first `num` lanes; `exact(lane)` is the verdict of the FCL engine, asked for lanes
+  /// in `unfit` and where there are doubts.
+  template <typename ExactIsFree>
+  kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
+                              ExactIsFree exact);
+
+  // Of the held positions.
+  std::vector<double> held_;  ///< Full positions, the group's as 0, that the following are of.
+  std::optional<RigidBodies> rigid_bodies_;
+  std::optional<CompiledRobot> compiled_;
+  MotionBound links_bound_;  ///< Without attached objects.
+  /// Group joints that slide, and how far they may be from zero.
+  std::vector<std::pair<int, double>> travels_;
+
+  // Of the scene.
+  Scene scene_;
+  std::vector<double> base_positions_;
+  bool pairs_hold_ = false;  ///< The pairs are those of scene_, which has nothing attached.
+  std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
+  std::vector<CompiledTree> attached_;
+  bool links_collide_ = false;  ///< Links that do not move relative to each other.
+  double links_distance_ = 0;   ///< Of the nearest such, m.
+  bool always_collides_ = false;
+  double standing_distance_ = 0;  ///< Of pairs that do not move relative to each other, m.
+  CompiledWorld world_;
+  kernels::SphereScratch scratch_;
+  kernels::SphereRobot base_;  ///< What of the robot does not move.
+  kernels::SphereScratch base_scratch_;
+  FclChecker exact_;
+  bool exact_is_set_ = false;
+
+  // Of the block at hand, [joint][kBlock].
+  std::vector<float> q_;
+  std::vector<float> half_widths_;
+  std::vector<double> exact_q_;
+  std::vector<double> exact_half_widths_;
+};
+
+}  // namespace planbench
