@@ -2,14 +2,15 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "common/error.h"
 #include "planner_ara/ara_settings.h"
-#include "planner_ara/ara_star.h"
 #include "planner_ara/manipulation_graph.h"
+#include "planner_ara/two_way_search.h"
 
 namespace planbench {
 namespace {
@@ -27,7 +28,8 @@ class AraPlanner : public Planner {
     };
     require_known("discretization", settings_.discretization);
     require_known("joint_weights", settings_.joint_weights);
-    Options(settings_, robot.Group("").space, origin_);
+    const PlanningGroup& group = robot.Group("");
+    options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
   }
 
   PlannerDescription Describe() const override {
@@ -44,45 +46,57 @@ class AraPlanner : public Planner {
  protected:
   SearchResult Search(SearchQuery& query) override {
     const AraSettings settings = SettingsFor(query);
-    ManipulationGraphOptions options = Options(settings, query.space(), origin_);
-    options.remember_edges = query.anytime();
-    ManipulationGraph graph(&query.edges(), query.start(), query.goal(), std::move(options));
-    AraStar<ManipulationGraph> search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal);
+    const PlanningGroup& group = query.edges().checker().group();
+    std::optional<ManipulationGraphOptions> own_options;
+    if (!query.parameters().empty()) {
+      own_options = ResolveOptions(settings, robot(), group, "request parameters");
+    }
+    TwoWaySearch search(&query.edges(), query.start(), query.goal(),
+                        own_options ? *own_options : OptionsFor(group), settings.two_way);
 
     const double memory_limit = settings.memory_limit_mb * 1024 * 1024;
     bool out_of_memory = false;
     const auto should_stop = [&] {
-      out_of_memory = static_cast<double>(graph.bytes() + search.bytes()) > memory_limit;
+      out_of_memory = static_cast<double>(search.bytes()) > memory_limit;
       return out_of_memory || query.ShouldStop();
     };
 
-    double reported_bound = std::numeric_limits<double>::infinity();
+    const auto report = [&] {
+      query.ReportSolution(search.ProveBound(), search.cost(), search.counts().expansions);
+    };
     ImproveOutcome outcome = ImproveOutcome::kStopped;
     std::optional<double> epsilon = settings.epsilon.initial;
+    double reported_bound = std::numeric_limits<double>::infinity();
     while (epsilon) {
-      outcome = search.ImprovePath(*epsilon, should_stop);
-      if (search.bound() < reported_bound) {
-        reported_bound = search.bound();
-        query.ReportSolution(search.bound(), search.goal_cost(), search.num_expansions());
+      outcome = search.Improve(*epsilon, should_stop, [&] {
+        reported_bound = search.ProveBound();
+        report();
+      });
+      if (search.path().empty()) break;
+      if (search.ProveBound() < reported_bound) {
+        reported_bound = search.ProveBound();
+        report();
       }
       if (outcome != ImproveOutcome::kConverged || !query.anytime()) break;
-      epsilon = settings.epsilon.Next(*epsilon, search.bound());
+      epsilon = settings.epsilon.Next(*epsilon, reported_bound);
     }
 
     SearchResult result;
+    const TwoWaySearch::Counts counts = search.counts();
     result.counters = {
-        {"expansions", static_cast<double>(search.num_expansions())},
-        {"states", static_cast<double>(graph.num_states())},
-        {"edges_generated", static_cast<double>(search.num_edges_generated())},
-        {"goal_connections_tried", static_cast<double>(graph.num_goal_connections_tried())},
-        {"search_iterations", static_cast<double>(search.num_iterations())},
+        {"expansions", static_cast<double>(counts.expansions)},
+        {"states", static_cast<double>(counts.states)},
+        {"edges_generated", static_cast<double>(counts.edges_generated)},
+        {"edges_refuted", static_cast<double>(counts.edges_refuted)},
+        {"goal_connections_tried", static_cast<double>(counts.goal_connections_tried)},
+        {"search_iterations", static_cast<double>(counts.iterations)},
+        {"found_backward", search.found_backward() ? 1.0 : 0.0},
     };
-    const std::vector<PathStep> steps = search.Path();
-    if (!steps.empty()) {
+    if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
-      result.path = graph.Configurations(steps);
-      result.epsilon = search.bound();
-      result.cost = search.goal_cost();
+      result.path = search.path();
+      result.epsilon = search.ProveBound();
+      result.cost = search.cost();
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;
       result.message = "the lattice holds no path to the goal";
@@ -111,13 +125,16 @@ class AraPlanner : public Planner {
     return settings;
   }
 
-  ManipulationGraphOptions Options(const AraSettings& settings, const JointSpace& space,
-                                   const std::string& origin) const {
-    return ResolveOptions(settings, space, (robot().folder / settings.primitives).string(), origin);
+  const ManipulationGraphOptions& OptionsFor(const PlanningGroup& group) {
+    const auto known = options_.find(group.name);
+    if (known != options_.end()) return known->second;
+    return options_.emplace(group.name, ResolveOptions(settings_, robot(), group, origin_))
+        .first->second;
   }
 
   std::string origin_;  // of the settings
   AraSettings settings_;
+  std::map<std::string, ManipulationGraphOptions> options_;  // by group, of settings_
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "planner_ara/ara_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <optional>
@@ -51,15 +52,22 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
-                  "memory_limit_mb"});
+                  "two_way", "crowding", "crowding_joints", "cost", "epsilon_initial",
+                  "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
-  primitives = node.StringOr("primitives", primitives);
+  if (const std::optional<YamlNode> value = node.Find("primitives")) {
+    primitives = value->String() == "generated" ? "" : value->String();
+  }
   use_long_primitives = node.BoolOr("use_long_primitives", use_long_primitives);
   use_short_primitives = node.BoolOr("use_short_primitives", use_short_primitives);
   long_primitives_beyond = NonNegative(node, "long_primitives_beyond", long_primitives_beyond);
   short_primitives_within = NonNegative(node, "short_primitives_within", short_primitives_within);
+  two_way = node.BoolOr("two_way", two_way);
+  crowding = NonNegative(node, "crowding", crowding);
+  if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
+    crowding_joints = joints->Strings();
+  }
   if (const std::optional<YamlNode> value = node.Find("cost")) {
     const std::string name = value->String();
     if (name == "distance") {
@@ -77,8 +85,6 @@ void AraSettings::Apply(const YamlNode& node) {
 }
 
 void AraSettings::Validate(const std::string& origin) const {
-  if (primitives.empty()) throw InputError(origin + ": the field 'primitives' is missing");
-  if (discretization.empty()) throw InputError(origin + ": the field 'discretization' is missing");
   if (epsilon.initial < epsilon.final) {
     throw InputError(fmt::format("{}: epsilon_initial {} is less than epsilon_final {}", origin,
                                  epsilon.initial, epsilon.final));
@@ -89,16 +95,21 @@ std::map<std::string, std::string> AraSettings::AsText() const {
   std::map<std::string, std::string> text{
       {"discretization", ByJointAsText(discretization)},
       {"joint_weights", ByJointAsText(joint_weights)},
-      {"primitives", primitives.string()},
+      {"primitives", primitives.empty() ? "generated" : primitives.string()},
       {"use_long_primitives", fmt::format("{}", use_long_primitives)},
       {"use_short_primitives", fmt::format("{}", use_short_primitives)},
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
+      {"two_way", fmt::format("{}", two_way)},
+      {"crowding", fmt::format("{}", crowding)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},
       {"epsilon_decrement", fmt::format("{}", epsilon.decrement)},
       {"epsilon_final", fmt::format("{}", epsilon.final)},
       {"memory_limit_mb", fmt::format("{}", memory_limit_mb)},
   };
+  if (!crowding_joints.empty()) {
+    text["crowding_joints"] = fmt::format("[{}]", fmt::join(crowding_joints, ", "));
+  }
   if (std::isfinite(short_primitives_within)) {
     text["short_primitives_within"] = fmt::format("{}", short_primitives_within);
   }

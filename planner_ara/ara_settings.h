@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "common/yaml.h"
 #include "planner_ara/epsilon_schedule.h"
@@ -19,10 +20,12 @@ enum class MoveCost {
 /// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
 struct AraSettings {
   /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
+  /// Absent: DefaultCell.
   std::map<std::string, double> discretization;
   /// Weight of a joint in distances, per rad or m, > 0; 1 for joints that are not named.
   std::map<std::string, double> joint_weights;
-  /// The file of motion primitives; relative paths start at the robot folder.
+  /// The file of motion primitives (LoadMotionPrimitives); relative paths start at the robot
+  /// folder. Absent: DefaultPrimitives.
   std::filesystem::path primitives;
   bool use_long_primitives = true;
   bool use_short_primitives = true;
@@ -31,6 +34,17 @@ struct AraSettings {
   double long_primitives_beyond = 0;
   /// Short primitives are used in states at most this far from start or goal; absent: everywhere.
   double short_primitives_within = std::numeric_limits<double>::infinity();
+  /// Searches from start and goal in turn within one request; else from the start alone (the goal,
+  /// if the request's direction is backward).
+  bool two_way = true;
+  /// How much states in crowded places are put off until there is a first path: a state's heuristic
+  /// counts (1 + crowding log2(1 + n)) times in the order of the search, n the number of states
+  /// expanded before in its source's cell; >= 0. Does not touch the reported bound, which is
+  /// computed.
+  double crowding = 0.05;
+  /// The joints whose positions make up a cell of crowding, its sides the longest move of each.
+  /// Empty: the joints with at least half the longest reach, and prismatic ones.
+  std::vector<std::string> crowding_joints;
   MoveCost cost = MoveCost::kDistance;
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
   double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.

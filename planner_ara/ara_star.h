@@ -16,12 +16,14 @@ namespace planbench {
 struct CandidateEdge {
   double cost = 0;              ///< >= 0
   double target_heuristic = 0;  ///< Of the state it leads to.
+  float guide = 0;              ///< Stands for target_heuristic in EdgeOrder::kGuide.
   std::uint16_t action = 0;     ///< The graph's own number of the edge among those of its source.
 };
 
 /// An implicit graph. State ids are dense: they are handed out from 0 upwards as states become
 /// known.
-/// - CandidateEdges(s, &edges) appends the edges out of s; the same at every call.
+/// - CandidateEdges(s, &edges) appends the edges out of s; the same at every call, but for their
+/// guides.
 /// - Target(s, action) is the state an edge leads to.
 /// - IsValidEdge(s, action) decides about an edge; asked only when it is the most promising one.
 /// The heuristic h is a lower bound of the cost to the goal, 0 at the goal, and consistent: h(s) <=
@@ -42,7 +44,7 @@ struct PathStep {
 
 /// How a call of AraStar::ImprovePath ended.
 enum class ImproveOutcome {
-  kConverged,  ///< The solution is within epsilon of the optimum.
+  kConverged,  ///< The solution is within epsilon of the optimum (EdgeOrder::kGuide: there is one).
   kExhausted,  ///< There is no path to the goal.
   kStopped,    ///< should_stop said so; calling again with the same epsilon goes on.
 };
@@ -75,38 +77,68 @@ class AraStar {
     Touch(start).g = 0;
   }
 
-  /// Searches until the goal's cost is proven to be at most `epsilon` (>= 1) times the optimum. A
-  /// new value of epsilon begins a new iteration. `should_stop` is asked before every evaluation of
-  /// an edge.
+  /// Searches until best_cost() is proven to be at most `epsilon` (>= 1) times the optimum. A new
+  /// value of epsilon, or another order, begins a new iteration. `should_stop` is asked before
+  /// every evaluation of an edge.
+  ///
+  /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and the
+  /// search ends at its first path. Whatever the order of expansions, the smallest g + h of OPEN
+  /// and INCONS stays a lower bound of the optimum, so such a path, too, has a proven bound
+  /// (ProveBound), though not the one asked for.
   template <std::predicate StopFunction>
-  ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop) {
-    if (epsilon != epsilon_) BeginIteration(epsilon);
+  ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop,
+                             EdgeOrder order = EdgeOrder::kHeuristic) {
+    if (epsilon != epsilon_ || order != order_) BeginIteration(epsilon, order);
+    const bool ends_at_first = order == EdgeOrder::kGuide;
     ImproveOutcome outcome = ImproveOutcome::kConverged;
-    while (!open_.empty() && open_.top_key() < goal_cost()) {
+    while (!open_.empty() &&
+           (ends_at_first ? best_cost() == kInfinity : open_.top_key() < best_cost())) {
       if (should_stop()) {
         outcome = ImproveOutcome::kStopped;
         break;
       }
       Evaluate(open_.Pop());
     }
-    if (goal_cost() == kInfinity) {
-      return outcome == ImproveOutcome::kStopped ? outcome : ImproveOutcome::kExhausted;
-    }
-    RaiseLowerBound(SmallestOpenCost());
-    if (outcome == ImproveOutcome::kConverged) RaiseLowerBound(goal_cost() / epsilon);
+    if (outcome == ImproveOutcome::kStopped) return outcome;
+    if (best_cost() == kInfinity) return ImproveOutcome::kExhausted;
+    if (!ends_at_first) RaiseLowerBound(best_cost() / epsilon);
     return outcome;
+  }
+
+  /// Says that a path of this cost is known from elsewhere: from now on edges that cannot lie on a
+  /// cheaper one are dropped, and the search converges when it has none left.
+  void SetUpperBound(double cost) { upper_bound_ = std::min(upper_bound_, cost); }
+
+  /// Begins again from the start because edges that the search has followed have turned out not to
+  /// be valid. Without them no path is cheaper, so what is proven stays.
+  void Restart() {
+    nodes_ = ChunkedArray<Node>();
+    open_ = EdgeHeap();
+    incons_.clear();
+    epsilon_ = 0;
+    started_ = false;
+    Touch(goal_);
+    Touch(start_).g = 0;
   }
 
   /// Cost of the best path known, infinity without one. (Path() may be cheaper by what has not been
   /// propagated yet.)
   double goal_cost() const { return nodes_[goal_].g; }
-  /// Proven bound of goal_cost() / optimum, computed as the last ImprovePath ended: the goal's cost
-  /// over the smallest g + h of OPEN and INCONS, or epsilon where that is smaller. Never rises.
-  /// Infinity without a path or a bound.
-  double bound() const {
+  /// The smaller of goal_cost() and the upper bound that was set.
+  double best_cost() const { return std::min(goal_cost(), upper_bound_); }
+  /// Proven lower bound of the optimal cost, or of best_cost() if that is smaller: the smallest g +
+  /// h of OPEN and INCONS, or best_cost() over the epsilon last converged at where that is greater.
+  /// Never falls. Takes time linear in OPEN.
+  double ProveLowerBound() {
+    if (started_) RaiseLowerBound(SmallestOpenCost());
+    return std::min(lower_bound_, best_cost());
+  }
+  /// Proven bound of goal_cost() / optimum. Never rises while goal_cost() stays. Infinity without a
+  /// path or a bound.
+  double ProveBound() {
     if (goal_cost() == kInfinity) return kInfinity;
-    if (goal_cost() <= lower_bound_) return 1;
-    return goal_cost() / lower_bound_;
+    const double lower_bound = ProveLowerBound();
+    return goal_cost() <= lower_bound ? 1 : goal_cost() / lower_bound;
   }
   /// The best path known, start to goal; empty without one.
   std::vector<PathStep> Path() const {
@@ -140,15 +172,17 @@ class AraStar {
     return nodes_[state];
   }
 
-  bool CanImproveGoal(const EdgeHeap::Entry& edge) const { return edge.g + edge.h < goal_cost(); }
+  bool CanImproveGoal(const EdgeHeap::Entry& edge) const { return edge.g + edge.h < best_cost(); }
 
-  void BeginIteration(double epsilon) {
+  void BeginIteration(double epsilon, EdgeOrder order) {
     epsilon_ = epsilon;
+    order_ = order;
     ++iteration_;
-    open_.Rebuild(epsilon, incons_,
+    open_.Rebuild(epsilon, order, incons_,
                   [this](const EdgeHeap::Entry& edge) { return CanImproveGoal(edge); });
     incons_.clear();
-    if (iteration_ == 1 && start_ != goal_) Expand(start_);
+    if (!started_ && start_ != goal_) Expand(start_);
+    started_ = true;
   }
 
   void Evaluate(const EdgeHeap::Entry& edge) {
@@ -175,7 +209,8 @@ class AraStar {
     graph_->CandidateEdges(state, &edges_);
     num_edges_generated_ += static_cast<std::int64_t>(edges_.size());
     for (const CandidateEdge& edge : edges_) {
-      const EdgeHeap::Entry entry{node.g + edge.cost, edge.target_heuristic, state, edge.action};
+      const EdgeHeap::Entry entry{node.g + edge.cost, edge.target_heuristic, edge.guide, state,
+                                  edge.action};
       if (CanImproveGoal(entry)) open_.Push(entry);
     }
   }
@@ -183,7 +218,7 @@ class AraStar {
   // Smallest g + h of the edges that have not been followed: every path better than the goal's cost
   // takes one.
   double SmallestOpenCost() const {
-    double smallest = goal_cost();
+    double smallest = best_cost();
     for (const EdgeHeap::Entry& edge : open_.entries())
       smallest = std::min(smallest, edge.g + edge.h);
     for (const EdgeHeap::Entry& edge : incons_) smallest = std::min(smallest, edge.g + edge.h);
@@ -199,8 +234,11 @@ class AraStar {
   std::vector<EdgeHeap::Entry> incons_;
   std::vector<CandidateEdge> edges_;  // scratch of Expand
   double epsilon_ = 0;
+  EdgeOrder order_ = EdgeOrder::kHeuristic;
+  bool started_ = false;  // the start has been expanded
   std::uint32_t iteration_ = 0;
-  double lower_bound_ = 0;  // of the optimal cost
+  double lower_bound_ = 0;          // of the optimal cost
+  double upper_bound_ = kInfinity;  // cost of a path known from elsewhere
   std::int64_t num_expansions_ = 0;
   std::int64_t num_edges_generated_ = 0;
 };

@@ -11,15 +11,22 @@ namespace planbench {
 /// Dense identifier of a search state, counted from 0.
 using StateId = std::uint32_t;
 
-/// A 4-ary min-heap of candidate edges by g + epsilon h, where g is the cost of the edge's target
-/// by way of its source and h the heuristic of the target. Keys are not stored, so that a new
-/// epsilon only needs the order restored. Equal keys go by smaller h, then newer source, then
-/// smaller action: the order never depends on history.
+/// What EdgeHeap multiplies by epsilon.
+enum class EdgeOrder {
+  kHeuristic,  ///< h, as ARA* does.
+  kGuide,      ///< The graph's guide, which proves nothing.
+};
+
+/// A 4-ary min-heap of candidate edges by g + epsilon h (or guide), where g is the cost of the
+/// edge's target by way of its source and h the heuristic of the target. Keys are not stored, so
+/// that a new epsilon only needs the order restored. Equal keys go by smaller h, then newer source,
+/// then smaller action: the order never depends on history.
 class EdgeHeap {
  public:
   struct Entry {
     double g = 0;
     double h = 0;
+    float guide = 0;
     StateId source = 0;
     std::uint16_t action = 0;
   };
@@ -50,11 +57,12 @@ class EdgeHeap {
     return first;
   }
 
-  /// Sets epsilon, takes in `more`, keeps only entries that `keep` accepts, and orders the rest;
-  /// linear time.
+  /// Sets epsilon and order, takes in `more`, keeps only entries that `keep` accepts, and orders
+  /// the rest; linear time.
   template <typename Predicate>
-  void Rebuild(double epsilon, std::span<const Entry> more, Predicate keep) {
+  void Rebuild(double epsilon, EdgeOrder order, std::span<const Entry> more, Predicate keep) {
     epsilon_ = epsilon;
+    by_guide_ = order == EdgeOrder::kGuide;
     entries_.insert(entries_.end(), more.begin(), more.end());
     std::erase_if(entries_, [&](const Entry& entry) { return !keep(entry); });
     for (std::size_t i = entries_.size(); i-- > 0;) SiftDown(i, Entry(entries_[i]));
@@ -65,7 +73,9 @@ class EdgeHeap {
  private:
   static constexpr std::size_t kArity = 4;
 
-  double Key(const Entry& entry) const { return entry.g + epsilon_ * entry.h; }
+  double Key(const Entry& entry) const {
+    return entry.g + epsilon_ * (by_guide_ ? static_cast<double>(entry.guide) : entry.h);
+  }
   bool Before(const Entry& a, const Entry& b) const {
     const double key_a = Key(a);
     const double key_b = Key(b);
@@ -91,6 +101,7 @@ class EdgeHeap {
   }
 
   double epsilon_ = 1;
+  bool by_guide_ = false;
   std::vector<Entry> entries_;
 };
 

@@ -8,34 +8,59 @@
 #include <utility>
 
 #include "common/error.h"
+#include "planner_ara/default_primitives.h"
 
 namespace planbench {
+namespace {
 
-ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const JointSpace& space,
-                                        const std::string& primitives_file,
-                                        const std::string& origin) {
+constexpr std::size_t kCrowdSlots = 1 << 16;  // a power of two
+
+}  // namespace
+
+ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
+                                        const PlanningGroup& group, const std::string& origin) {
+  const JointSpace& space = group.space;
+  const std::vector<char> major = MajorJoints(space, JointReaches(robot, group));
   ManipulationGraphOptions options;
   for (const JointSpace::Joint& joint : space.joints()) {
     const auto cell = settings.discretization.find(joint.name);
-    if (cell == settings.discretization.end()) {
+    if (cell == settings.discretization.end() && !settings.discretization.empty()) {
       throw InputError(fmt::format("{}: discretization: joint {} has none", origin, joint.name));
     }
-    options.discretization.push_back(cell->second);
+    options.discretization.push_back(settings.discretization.empty() ? DefaultCell(joint)
+                                                                     : cell->second);
     const auto weight = settings.joint_weights.find(joint.name);
     options.weights.push_back(weight == settings.joint_weights.end() ? 1 : weight->second);
   }
-  options.primitives = LoadMotionPrimitives(primitives_file, space.size());
+  options.primitives = settings.primitives.empty()
+                           ? DefaultPrimitives(space, options.discretization, major)
+                           : LoadMotionPrimitives((robot.folder / settings.primitives).string(),
+                                                  space, options.discretization);
   if (!settings.use_long_primitives) options.primitives.long_moves.clear();
   if (!settings.use_short_primitives) options.primitives.short_moves.clear();
+  if (options.primitives.long_moves.empty() && options.primitives.short_moves.empty()) {
+    throw InputError(origin + ": no motion primitive is in use");
+  }
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
+  options.crowding = settings.crowding;
+  options.crowded_joints = major;
+  if (!settings.crowding_joints.empty()) {
+    options.crowded_joints.assign(major.size(), false);
+    for (const std::string& name : settings.crowding_joints) {
+      const int j = space.Find(name);
+      if (j < 0) throw InputError(fmt::format("{}: crowding_joints: no joint {}", origin, name));
+      options.crowded_joints[static_cast<std::size_t>(j)] = true;
+    }
+  }
   return options;
 }
 
 ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double> start,
                                      const GoalBox& goal, ManipulationGraphOptions options)
     : edges_(edges),
+      fine_edges_(&edges->checker(), edges->edge_resolution_m() / 2),
       goal_(goal),
       options_(std::move(options)),
       lattice_(edges->space(), start, options_.discretization),
@@ -67,8 +92,15 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       to_start.push_back(from_start * from_start);
     }
   }
-  known_words_ = (2 * (kFirstMove + moves_.size()) + 63) / 64;
-  known_edges_ = ChunkedArray<std::uint64_t>(known_words_);
+  known_edges_ = ChunkedArray<std::uint64_t>((2 * (kFirstMove + moves_.size()) + 63) / 64);
+  if (options_.crowding > 0) {
+    visits_.resize(kCrowdSlots);
+    crowd_cells_.assign(start.size(), 0);
+    for (std::size_t j = 0; j < start.size(); ++j) {
+      if (!options_.crowded_joints[j]) continue;
+      for (const Move& move : moves_) crowd_cells_[j] = std::max(crowd_cells_[j], move.cells[j]);
+    }
+  }
   points_.FindOrAdd(lattice_.anchor());
 }
 
@@ -132,12 +164,15 @@ bool ManipulationGraph::MoveFrom(StateId source, const Move& move) {
 }
 
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
-  candidates->push_back({Heuristic(state), 0, kToNearestGoal});
+  // Cells of different hashes may share a count: it only guides.
+  const double crowd =
+      visits_.empty() ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
+  candidates->push_back({Heuristic(state), 0, 0, kToNearestGoal});
   if (goal_distance_.has_extent()) {
     SelectSource(state);
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
-    candidates->push_back({unit_ * distance, 0, kToNominalGoal});
+    candidates->push_back({unit_ * distance, 0, 0, kToNominalGoal});
   }
 
   bool use_long = true;
@@ -152,7 +187,8 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   for (std::size_t m = 0; m < moves_.size(); ++m) {
     const Move& move = moves_[m];
     if (!(move.is_long ? use_long : use_short) || !MoveFrom(state, move)) continue;
-    candidates->push_back({move.cost, unit_ * std::sqrt(SquaredDistance(goal_terms_, target_)),
+    const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
+    candidates->push_back({move.cost, heuristic, static_cast<float>(crowd * heuristic),
                            static_cast<std::uint16_t>(kFirstMove + m)});
   }
 }
@@ -164,28 +200,34 @@ StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
 }
 
 bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
-  if (!options_.remember_edges) return Check(source, action);
-  int shift = 0;
-  std::uint64_t* word = KnowledgeWord(source, action, &shift);
-  const auto known = static_cast<Knowledge>(*word >> shift & 3);
-  if (known != Knowledge::kUnknown) return known == Knowledge::kFree;
-  const bool valid = Check(source, action);
-  *word |= static_cast<std::uint64_t>(valid ? Knowledge::kFree : Knowledge::kBlocked) << shift;
+  const Knowledge known = Recall(source, action);
+  if (known != Knowledge::kUnknown) return known != Knowledge::kBlocked;
+  if (action < kFirstMove) ++num_goal_connections_tried_;
+  SelectEdge(source, action);
+  const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
+  Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
   return valid;
 }
 
-bool ManipulationGraph::Check(StateId source, std::uint16_t action) {
+bool ManipulationGraph::Verify(StateId source, std::uint16_t action) {
+  if (Recall(source, action) == Knowledge::kVerified) return true;
+  SelectEdge(source, action);
+  const bool valid = fine_edges_.IsValidEdge(from_, to_, /*from_is_free=*/true);
+  Remember(source, action, valid ? Knowledge::kVerified : Knowledge::kBlocked);
+  return valid;
+}
+
+// Sets from_ and to_ to the ends of an edge.
+void ManipulationGraph::SelectEdge(StateId source, std::uint16_t action) {
   SelectSource(source);
   if (action < kFirstMove) {
-    ++num_goal_connections_tried_;
     GoalConfiguration(action, from_, to_);
-  } else {
-    MoveFrom(source, moves_[action - kFirstMove]);
-    for (std::size_t j = 0; j < to_.size(); ++j) {
-      to_[j] = lattice_.Value(static_cast<int>(j), target_[j]);
-    }
+    return;
   }
-  return edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
+  MoveFrom(source, moves_[action - kFirstMove]);
+  for (std::size_t j = 0; j < to_.size(); ++j) {
+    to_[j] = lattice_.Value(static_cast<int>(j), target_[j]);
+  }
 }
 
 void ManipulationGraph::GoalConfiguration(std::uint16_t action, std::span<const double> from,
@@ -197,11 +239,32 @@ void ManipulationGraph::GoalConfiguration(std::uint16_t action, std::span<const 
   }
 }
 
-std::uint64_t* ManipulationGraph::KnowledgeWord(StateId state, std::uint16_t action, int* shift) {
-  while (known_edges_.size() <= state) known_edges_.Append();
+ManipulationGraph::Knowledge ManipulationGraph::Recall(StateId source, std::uint16_t action) {
+  if (known_edges_.size() <= source) return Knowledge::kUnknown;
   const std::size_t bit = 2 * static_cast<std::size_t>(action);
-  *shift = static_cast<int>(bit % 64);
-  return known_edges_.Record(state) + bit / 64;
+  return static_cast<Knowledge>(known_edges_.Record(source)[bit / 64] >> bit % 64 & 3);
+}
+
+void ManipulationGraph::Remember(StateId source, std::uint16_t action, Knowledge knowledge) {
+  while (known_edges_.size() <= source) known_edges_.Append();
+  const std::size_t bit = 2 * static_cast<std::size_t>(action);
+  std::uint64_t& word = known_edges_.Record(source)[bit / 64];
+  word = (word & ~(std::uint64_t{3} << bit % 64)) | static_cast<std::uint64_t>(knowledge)
+                                                        << bit % 64;
+}
+
+// Counts an expansion in the cell of crowding that the state lies in; returns the number of those
+// before.
+double ManipulationGraph::CountVisit(StateId state) {
+  const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(state - 1);
+  std::uint64_t hash = 0;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    if (crowd_cells_[j] == 0) continue;
+    hash = (hash ^ static_cast<std::uint64_t>(coordinates[j] / crowd_cells_[j])) *
+           0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 32;
+  }
+  return visits_[hash & (kCrowdSlots - 1)]++;
 }
 
 Path ManipulationGraph::Configurations(const std::vector<PathStep>& steps) const {

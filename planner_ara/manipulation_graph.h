@@ -25,15 +25,15 @@ struct ManipulationGraphOptions {
   double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
-  bool remember_edges = false;  ///< For searches that expand a state more than once.
+  double crowding = 0;               ///< See AraSettings::crowding.
+  std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
 };
 
-/// Resolves settings against a group. `primitives_file` is absolute. Throws InputError, prefixed by
-/// `origin`, for joints of the group without a discretisation, and what LoadMotionPrimitives
-/// refuses.
-ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const JointSpace& space,
-                                        const std::string& primitives_file,
-                                        const std::string& origin);
+/// Resolves settings against a group. Throws InputError, prefixed by `origin`, for joints of the
+/// group without a discretisation where others have one, unknown crowding joints, settings that
+/// leave no primitive, and what LoadMotionPrimitives refuses.
+ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
+                                        const PlanningGroup& group, const std::string& origin);
 
 /// The graph an ARA* search of a manipulation problem runs on (SearchGraph): the points of a
 /// lattice anchored at the start, joined by motion primitives, and the goal as one more state,
@@ -57,6 +57,8 @@ class ManipulationGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
+  /// True if a valid edge is so at half the edge resolution, too; if not, it is valid no longer.
+  bool Verify(StateId source, std::uint16_t action);
   /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
 
@@ -75,7 +77,7 @@ class ManipulationGraph {
  private:
   enum Action : std::uint16_t { kToNearestGoal = 0, kToNominalGoal = 1, kFirstMove = 2 };
   // Of an edge, two bits each.
-  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
+  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2, kVerified = 3 };
 
   struct Move {
     std::vector<int> cells;  // by joint
@@ -90,10 +92,13 @@ class ManipulationGraph {
                          std::span<double> to) const;
   void SelectSource(StateId state);
   bool MoveFrom(StateId source, const Move& move);
-  bool Check(StateId source, std::uint16_t action);
-  std::uint64_t* KnowledgeWord(StateId state, std::uint16_t action, int* shift);
+  void SelectEdge(StateId source, std::uint16_t action);
+  Knowledge Recall(StateId source, std::uint16_t action);
+  void Remember(StateId source, std::uint16_t action, Knowledge knowledge);
+  double CountVisit(StateId state);
 
   EdgeChecker* edges_;
+  EdgeChecker fine_edges_;
   GoalBox goal_;
   ManipulationGraphOptions options_;
   Lattice lattice_;
@@ -106,7 +111,9 @@ class ManipulationGraph {
   std::vector<std::vector<double>> goal_terms_;
   std::vector<std::vector<double>> start_terms_;
   ChunkedArray<std::uint64_t> known_edges_;  // by state
-  std::size_t known_words_ = 0;              // of a state
+  // By joint, the cells of one cell of crowding; 0 for joints that do not count.
+  std::vector<int> crowd_cells_;
+  std::vector<std::uint32_t> visits_;  // by hash of the cell of crowding
   std::int64_t num_goal_connections_tried_ = 0;
 
   // The state whose edges are at hand.

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <numbers>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -34,12 +38,25 @@ std::vector<int> Integers(std::string_view line, const std::string& where) {
   return values;
 }
 
+bool MovesNothing(const std::vector<int>& row) {
+  return std::all_of(row.begin(), row.end(), [](int cells) { return cells == 0; });
+}
+
+// The factor of the one of two units that is named.
+double Unit(const YamlNode& node, std::string_view a, double factor_a, std::string_view b,
+            double factor_b) {
+  const std::string name = node.String();
+  if (name == a) return factor_a;
+  if (name == b) return factor_b;
+  node.Fail(fmt::format("expected {} or {}, found '{}'", a, b, name));
+}
+
 std::vector<int> Row(const std::string& line, const std::string& where, int columns) {
   std::vector<int> row = Integers(line, where);
   if (static_cast<int>(row.size()) != columns) {
     throw InputError(fmt::format("{}: expected {} numbers, found {}", where, columns, row.size()));
   }
-  if (std::all_of(row.begin(), row.end(), [](int value) { return value == 0; })) {
+  if (MovesNothing(row)) {
     throw InputError(where + ": a motion primitive of zeros moves nothing");
   }
   for (const int value : row) {
@@ -105,13 +122,56 @@ MotionPrimitives ParseMotionPrimitives(const std::string& text, const std::strin
   return primitives;
 }
 
-MotionPrimitives LoadMotionPrimitives(const std::string& path, int num_joints) {
+MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& space,
+                                      std::span<const double> discretization) {
+  node.AllowOnly({"angle_unit", "length_unit", "long", "short"});
+  const double angle = Unit(node.At("angle_unit"), "deg", std::numbers::pi / 180, "rad", 1);
+  const double length = Unit(node.At("length_unit"), "m", 1, "mm", 1e-3);
+  const auto read_list = [&](const std::string& key, std::vector<std::vector<int>>* moves) {
+    const std::optional<YamlNode> list = node.Find(key);
+    if (!list) return;
+    for (const YamlNode& move : list->Elements()) {
+      std::vector<int>& row = moves->emplace_back(static_cast<std::size_t>(space.size()), 0);
+      for (const std::string& name : move.Keys()) {
+        const YamlNode value = move.At(name);
+        const int j = space.Find(name);
+        if (j < 0) value.Fail("the planning group has no joint of that name");
+        const double unit = space.joint(j).prismatic ? length : angle;
+        const auto k = static_cast<std::size_t>(j);
+        const double cells = value.Double() * unit / discretization[k];
+        if (!(std::abs(cells) <= kMaxMultiple))
+          value.Fail("is beyond what a lattice axis can have");
+        if (std::abs(cells - std::round(cells)) > 0.01) {
+          value.Fail(
+              fmt::format("is {:.4g} cells of the discretisation, not a whole number", cells));
+        }
+        row[k] = static_cast<int>(std::lround(cells));
+      }
+      if (MovesNothing(row)) move.Fail("moves nothing");
+      if (moves->size() > kMaxRows) list->Fail(fmt::format("has more than {} moves", kMaxRows));
+    }
+  };
+  MotionPrimitives primitives;
+  read_list("long", &primitives.long_moves);
+  read_list("short", &primitives.short_moves);
+  if (primitives.long_moves.empty() && primitives.short_moves.empty()) {
+    node.Fail("has no motion primitive, neither long nor short");
+  }
+  return primitives;
+}
+
+MotionPrimitives LoadMotionPrimitives(const std::string& path, const JointSpace& space,
+                                      std::span<const double> discretization) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".yaml" || extension == ".yml") {
+    return ReadMotionPrimitives(YamlNode::LoadFile(path), space, discretization);
+  }
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be opened");
   std::ostringstream text;
   text << file.rdbuf();
   if (file.bad() || !text) throw InputError(path + ": cannot be read");
-  return ParseMotionPrimitives(text.str(), path, num_joints);
+  return ParseMotionPrimitives(text.str(), path, space.size());
 }
 
 }  // namespace planbench

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
+
+#include "common/yaml.h"
+#include "robot_model/joint_space.h"
 
 namespace planbench {
 
@@ -19,7 +23,24 @@ struct MotionPrimitives {
 /// rows of zeros, no rows, and COLUMNS other than `num_joints`.
 MotionPrimitives ParseMotionPrimitives(const std::string& text, const std::string& origin,
                                        int num_joints);
-/// The same from a file.
-MotionPrimitives LoadMotionPrimitives(const std::string& path, int num_joints);
+
+/// Reads the same moves with their units:
+///
+///   angle_unit: deg         # or rad; of revolute and continuous joints
+///   length_unit: m          # or mm; of prismatic joints
+///   long:                   # either list may be left out, not both
+///     - {shoulder_pan_joint: 20, shoulder_lift_joint: -20}   # joints not named do not move
+///   short:
+///     - {shoulder_pan_joint: 10}
+///
+/// Throws InputError with file, line and key for unknown joints, moves that are no whole multiples
+/// of the discretisation (n joints, rad or m; to 1 % of a cell), moves of nothing, and lists
+/// without moves.
+MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& space,
+                                      std::span<const double> discretization);
+
+/// Reads a file: the YAML form if its name ends in .yaml or .yml, SMPL's if not.
+MotionPrimitives LoadMotionPrimitives(const std::string& path, const JointSpace& space,
+                                      std::span<const double> discretization);
 
 }  // namespace planbench

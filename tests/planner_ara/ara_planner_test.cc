@@ -41,7 +41,11 @@ class AraPlannerTest : public testing::Test {
 
 TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
   ExpectInputError([&] { Make(kPlanarSettings + "speed: 3"); }, {"ara.yaml:4", "speed"});
-  ExpectInputError([&] { Make("discretization: {shoulder: 0.2}"); }, {"ara.yaml", "primitives"});
+  ExpectInputError([&] { Make(kPlanarSettings + "crowding_joints: [knee]"); },
+                   {"ara.yaml", "crowding_joints", "knee"});
+  ExpectInputError(
+      [&] { Make(kPlanarSettings + "use_long_primitives: false\nuse_short_primitives: false"); },
+      {"ara.yaml", "no motion primitive"});
   ExpectInputError([&] { Make(kPlanarSettings + "joint_weights: {knee: 2}"); },
                    {"ara.yaml:4", "knee", "no joint"});
   ExpectInputError(

@@ -24,6 +24,9 @@ use_long_primitives: false
 use_short_primitives: true
 long_primitives_beyond: 0.5
 short_primitives_within: 0.4
+two_way: false
+crowding: 0.3
+crowding_joints: [lift]
 cost: uniform
 epsilon_initial: 30
 epsilon_decrement: 2
@@ -38,6 +41,9 @@ memory_limit_mb: 100
   EXPECT_TRUE(settings.use_short_primitives);
   EXPECT_EQ(settings.long_primitives_beyond, 0.5);
   EXPECT_EQ(settings.short_primitives_within, 0.4);
+  EXPECT_FALSE(settings.two_way);
+  EXPECT_EQ(settings.crowding, 0.3);
+  EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
   EXPECT_EQ(settings.cost, MoveCost::kUniform);
   EXPECT_EQ(settings.epsilon.initial, 30);
   EXPECT_EQ(settings.epsilon.decrement, 2);
@@ -66,7 +72,8 @@ TEST(AraSettings, LaterValuesAreLaidOverEarlierOnes) {
 TEST(AraSettings, TextReadsBackAsTheSameSettings) {
   const AraSettings settings = Read(
       "{discretization: {lift: 0.005, roll: 0.017453292519943295}, joint_weights: {lift: 3}, "
-      "primitives: a.mprim, short_primitives_within: 0.25, cost: uniform, epsilon_initial: 7.5}");
+      "primitives: a.mprim, crowding_joints: [lift, roll], two_way: false, "
+      "short_primitives_within: 0.25, cost: uniform, epsilon_initial: 7.5}");
   AraSettings again;
   for (const auto& [key, text] : settings.AsText()) {
     YamlNode node = YamlNode::Parse("", "parameter");
@@ -75,6 +82,14 @@ TEST(AraSettings, TextReadsBackAsTheSameSettings) {
   }
   EXPECT_EQ(again.AsText(), settings.AsText());
   EXPECT_EQ(again.discretization, settings.discretization);
+  EXPECT_EQ(again.crowding_joints, settings.crowding_joints);
+}
+
+TEST(AraSettings, GeneratedPrimitivesReplaceAFile) {
+  AraSettings settings = Read("primitives: a.mprim");
+  settings.Apply(YamlNode::Parse("primitives: generated", "ara.yaml"));
+  EXPECT_TRUE(settings.primitives.empty());
+  EXPECT_EQ(settings.AsText().at("primitives"), "generated");
 }
 
 TEST(AraSettings, RefusesWhatItCannotUse) {
@@ -96,6 +111,9 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"epsilon_initial: 0.9", {"ara.yaml:1: epsilon_initial:", "at least 1"}},
       {"epsilon_decrement: 0", {"ara.yaml:1: epsilon_decrement:", "greater than zero"}},
       {"epsilon_final: .nan", {"ara.yaml:1: epsilon_final:", "finite"}},
+      {"crowding: -0.1", {"ara.yaml:1: crowding:", "negative"}},
+      {"crowding_joints: lift", {"ara.yaml:1: crowding_joints:", "sequence"}},
+      {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
       {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
       {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},
   };
@@ -106,15 +124,9 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
 }
 
 TEST(AraSettings, MustHoldTogether) {
-  const std::string cells = "discretization: {lift: 0.1}\n";
-  ExpectInputError([&] { Read(cells).Validate("ara.yaml"); }, {"ara.yaml", "'primitives'"});
-  ExpectInputError([&] { Read("primitives: a.mprim").Validate("ara.yaml"); },
-                   {"ara.yaml", "'discretization'"});
-  ExpectInputError(
-      [&] {
-        Read(cells + "primitives: a.mprim\nepsilon_initial: 2\nepsilon_final: 3").Validate("x");
-      },
-      {"epsilon_initial 2", "epsilon_final 3"});
+  Read("").Validate("ara.yaml");
+  ExpectInputError([&] { Read("epsilon_initial: 2\nepsilon_final: 3").Validate("x"); },
+                   {"x", "epsilon_initial 2", "epsilon_final 3"});
 }
 
 }  // namespace

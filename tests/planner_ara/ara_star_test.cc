@@ -54,26 +54,26 @@ TEST(AraStar, KeepsItsPromiseAtEveryEpsilon) {
       if (optimum == kInfinity) {
         EXPECT_EQ(outcome, ImproveOutcome::kExhausted);
         EXPECT_EQ(search.goal_cost(), kInfinity);
-        EXPECT_EQ(search.bound(), kInfinity);
+        EXPECT_EQ(search.ProveBound(), kInfinity);
         EXPECT_TRUE(search.Path().empty());
         continue;
       }
       ASSERT_EQ(outcome, ImproveOutcome::kConverged);
       EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
-      EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
-      EXPECT_GE(search.bound(), 1);
-      EXPECT_LE(search.bound(), epsilon + 1e-12);
-      EXPECT_LE(search.bound(), last_bound);
+      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+      EXPECT_GE(search.ProveBound(), 1);
+      EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
+      EXPECT_LE(search.ProveBound(), last_bound);
       EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
       num_improved += last_cost != kInfinity && search.goal_cost() < last_cost ? 1 : 0;
-      last_bound = search.bound();
+      last_bound = search.ProveBound();
       last_cost = search.goal_cost();
     }
     if (optimum == kInfinity) continue;
     ++num_solvable;
     EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
     EXPECT_NEAR(CostOf(graph, search.Path()), optimum, 1e-9);
-    EXPECT_EQ(search.bound(), 1);
+    EXPECT_EQ(search.ProveBound(), 1);
   }
   // The graphs put the promise to the test.
   EXPECT_GT(num_solvable, kNumGraphs / 2);
@@ -93,7 +93,7 @@ TEST(AraStar, BoundHoldsWhereverItIsStopped) {
         int budget = 2;
         outcome = search.ImprovePath(epsilon, [&] { return budget-- == 0; });
         if (search.goal_cost() == kInfinity) continue;
-        EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
+        EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
         EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
       }
     }
@@ -156,6 +156,87 @@ TEST(AraStar, WithoutHeuristicAndInflationIsDijkstra) {
   }
 }
 
+// A guide that leads anywhere: whatever the order of expansions, the bound is proven.
+TEST(AraStar, BoundHoldsUnderAnyGuide) {
+  int num_in_another_order = 0;
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    ExplicitGraph plain = graph;
+    AraStar<ExplicitGraph>(&plain, kStart, kGoal).ImprovePath(10, kNever);
+    graph.guide_seed = seed + 1;
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    const ImproveOutcome outcome = search.ImprovePath(10, kNever, EdgeOrder::kGuide);
+    ExpectNoneTwice(graph.expanded);
+    num_in_another_order += graph.expanded != plain.expanded ? 1 : 0;
+    if (optimum == kInfinity) {
+      EXPECT_EQ(outcome, ImproveOutcome::kExhausted);
+      continue;
+    }
+    ASSERT_EQ(outcome, ImproveOutcome::kConverged);
+    EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+    double last_bound = search.ProveBound();
+    for (const double epsilon : {10.0, 2.0, 1.0}) {
+      graph.expanded.clear();
+      ASSERT_EQ(search.ImprovePath(epsilon, kNever), ImproveOutcome::kConverged);
+      ExpectNoneTwice(graph.expanded);
+      EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
+      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+      EXPECT_LE(search.ProveBound(), last_bound);
+      last_bound = search.ProveBound();
+    }
+    EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
+  }
+  EXPECT_GT(num_in_another_order, kNumGraphs / 4);
+}
+
+TEST(AraStar, AnUpperBoundEndsTheSearchOfDearerPaths) {
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    if (optimum == kInfinity || optimum == 0) continue;
+    for (const double factor : {0.7, 1.5}) {
+      AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+      search.SetUpperBound(factor * optimum);
+      for (const double epsilon : {3.0, 1.0}) {
+        EXPECT_EQ(search.ImprovePath(epsilon, kNever), ImproveOutcome::kConverged);
+        EXPECT_LE(search.best_cost(), epsilon * optimum + 1e-9);
+        EXPECT_LE(search.ProveLowerBound(), optimum + 1e-9);
+      }
+      EXPECT_NEAR(search.best_cost(), std::min(1.0, factor) * optimum, 1e-9);
+      EXPECT_EQ(search.goal_cost() < kInfinity, factor > 1);
+    }
+  }
+}
+
+TEST(AraStar, BeginsAgainWithoutAnEdgeThatTurnedOutInvalid) {
+  int num_detours = 0;
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    ExplicitGraph graph = RandomGraph(seed, kGoal);
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    if (search.ImprovePath(2, kNever) != ImproveOutcome::kConverged) continue;
+    const double bound_before = search.goal_cost() / search.ProveBound();
+    const std::vector<PathStep> path = search.Path();
+    const std::size_t middle = path.size() / 2;
+    graph.edges[path[middle - 1].state][path[middle].action].valid = false;
+    search.Restart();
+    EXPECT_EQ(search.goal_cost(), kInfinity);
+    EXPECT_TRUE(search.Path().empty());
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    EXPECT_LE(bound_before, optimum + 1e-9);
+    const ImproveOutcome outcome = search.ImprovePath(1, kNever);
+    EXPECT_EQ(outcome == ImproveOutcome::kExhausted, optimum == kInfinity);
+    if (optimum == kInfinity) continue;
+    ++num_detours;
+    EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
+    EXPECT_NEAR(CostOf(graph, search.Path()), optimum, 1e-9);
+  }
+  EXPECT_GT(num_detours, 50);
+}
+
 // Start 0, goal 1. State 2 is cheap to reach by way of 3, but the inflated heuristic of 3 lets the
 // search come to 2 directly first; when 3 is expanded in turn, 2 is closed and must wait.
 ExplicitGraph GraphWithLateImprovement() {
@@ -177,14 +258,14 @@ TEST(AraStar, StateImprovedAfterItsExpansionWaitsForTheNextIteration) {
   ASSERT_EQ(search.ImprovePath(10, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4}));
   EXPECT_EQ(search.goal_cost(), 17);
-  EXPECT_DOUBLE_EQ(search.bound(), 17.0 / 13);  // 3 is the only open state: 1 + 12
+  EXPECT_DOUBLE_EQ(search.ProveBound(), 17.0 / 13);  // 3 is the only open state: 1 + 12
 
   // At 1.2: 3 has 1 + 14.4 < 17. It improves 2 (key 2 + 13.2), 4 (3 + 12) and the goal.
   graph.expanded.clear();
   ASSERT_EQ(search.ImprovePath(1.2, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{3, 2, 4}));
   EXPECT_EQ(search.goal_cost(), 13);
-  EXPECT_EQ(search.bound(), 1);
+  EXPECT_EQ(search.ProveBound(), 1);
 }
 
 TEST(AraStar, ClosedStateIsImprovedButNotExpandedAgain) {
@@ -198,13 +279,13 @@ TEST(AraStar, ClosedStateIsImprovedButNotExpandedAgain) {
   ASSERT_EQ(search.ImprovePath(6, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4, 3}));
   EXPECT_EQ(search.goal_cost(), 37);
-  EXPECT_EQ(search.bound(), 6);
+  EXPECT_EQ(search.ProveBound(), 6);
   // The next iteration takes it up.
   graph.expanded.clear();
   ASSERT_EQ(search.ImprovePath(5.9, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{2, 4}));
   EXPECT_EQ(search.goal_cost(), 33);
-  EXPECT_EQ(search.bound(), 1);
+  EXPECT_EQ(search.ProveBound(), 1);
 }
 
 // ARA* as the paper has it: every edge of an expanded state is evaluated at once, OPEN and INCONS
@@ -292,7 +373,7 @@ TEST(AraStar, StartThatIsTheGoalNeedsNoSearch) {
   AraStar<ExplicitGraph> search(&graph, 0, 0);
   EXPECT_EQ(search.ImprovePath(3, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(search.goal_cost(), 0);
-  EXPECT_EQ(search.bound(), 1);
+  EXPECT_EQ(search.ProveBound(), 1);
   EXPECT_EQ(search.Path().size(), 1U);
   EXPECT_TRUE(graph.expanded.empty());
 }
@@ -301,7 +382,7 @@ TEST(AraStar, StoppedAtOnceHasEvaluatedNothing) {
   ExplicitGraph graph = GraphWithLateImprovement();
   AraStar<ExplicitGraph> search(&graph, 0, 1);
   EXPECT_EQ(search.ImprovePath(2, [] { return true; }), ImproveOutcome::kStopped);
-  EXPECT_EQ(search.bound(), kInfinity);
+  EXPECT_EQ(search.ProveBound(), kInfinity);
   EXPECT_TRUE(search.Path().empty());
   EXPECT_EQ(graph.num_validity_checks, 0);
 }

@@ -22,7 +22,8 @@ const auto kAll = [](const Entry&) { return true; };
 // Few values, so that keys and ties meet; no two entries are equal.
 Entry RandomEntry(std::mt19937* random, int number) {
   return {static_cast<double>((*random)() % 10), static_cast<double>((*random)() % 10),
-          static_cast<StateId>(number / 4), static_cast<std::uint16_t>(number % 4)};
+          static_cast<float>((*random)() % 1000), static_cast<StateId>(number / 4),
+          static_cast<std::uint16_t>(number % 4)};
 }
 
 void ExpectPopsInOrder(EdgeHeap* heap, std::vector<Entry> expected, double epsilon) {
@@ -43,7 +44,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
     std::mt19937 random(seed);
     const double epsilon = 1 + seed % 5;
     EdgeHeap heap;
-    heap.Rebuild(epsilon, {}, kAll);
+    heap.Rebuild(epsilon, EdgeOrder::kHeuristic, {}, kAll);
     std::vector<Entry> model;
     for (int step = 0; step < 2000; ++step) {
       if (random() % 3 != 0 || model.empty()) {
@@ -66,7 +67,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
 TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
   std::mt19937 random(1);
   EdgeHeap heap;
-  heap.Rebuild(10, {}, kAll);
+  heap.Rebuild(10, EdgeOrder::kHeuristic, {}, kAll);
   std::vector<Entry> expected;
   std::vector<Entry> more;
   const auto keep = [](const Entry& entry) { return entry.g < 7; };
@@ -79,8 +80,26 @@ TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
     }
     if (keep(entry)) expected.push_back(entry);
   }
-  heap.Rebuild(1.5, more, keep);
+  heap.Rebuild(1.5, EdgeOrder::kHeuristic, more, keep);
   ExpectPopsInOrder(&heap, expected, 1.5);
+}
+
+TEST(EdgeHeap, RebuildCanOrderByTheGuide) {
+  std::mt19937 random(2);
+  EdgeHeap heap;
+  for (int i = 0; i < 300; ++i) {
+    Entry entry = RandomEntry(&random, i);
+    entry.guide = static_cast<float>((i * 37) % 301);  // all different
+    heap.Push(entry);
+  }
+  heap.Rebuild(4, EdgeOrder::kGuide, {}, kAll);
+  double last = 0;
+  while (!heap.empty()) {
+    EXPECT_EQ(heap.top_key(), heap.top().g + 4 * static_cast<double>(heap.top().guide));
+    EXPECT_GE(heap.top_key(), last);
+    last = heap.top_key();
+    heap.Pop();
+  }
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
     for (const double epsilon : {10.0, 2.0, 1.0}) {
       ASSERT_EQ(search.ImprovePath(epsilon, [] { return false; }), ImproveOutcome::kConverged);
       EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
-      EXPECT_LE(search.goal_cost(), search.bound() * optimum + 1e-9);
+      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
       const Path path = graph.Configurations(search.Path());
       EXPECT_EQ(path.front(), kLeft);
       EXPECT_EQ(path.back(), kRight);
@@ -188,7 +188,6 @@ TEST_F(ManipulationGraphTest, GoalBoxIsReachedAtItsNearestOrNominalPoint) {
 
 TEST_F(ManipulationGraphTest, RemembersWhatItHasChecked) {
   ManipulationGraphOptions options = Options();
-  options.remember_edges = true;
   for (int k = 0; k < 20; ++k) options.primitives.long_moves.push_back({2, k % 3, -1});
   ManipulationGraph graph = Graph(Point(kRight), options);
   Spread(&graph, 100);

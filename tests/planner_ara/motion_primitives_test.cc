@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <numbers>
+
+#include "planner_ara/default_primitives.h"
 #include "support/expect_input_error.h"
+#include "support/planning_problems.h"
 #include "support/shared_data.h"
+#include "support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -61,14 +67,118 @@ TEST(MotionPrimitives, RefusesWhatDoesNotHoldTogether) {
   }
 }
 
-TEST(MotionPrimitives, RefusesAFileThatIsNotThere) {
-  ExpectInputError([] { LoadMotionPrimitives("/nowhere/arm.mprim", 2); },
-                   {"/nowhere/arm.mprim", "cannot be opened"});
+// A continuous, a bounded and a prismatic joint.
+JointSpace ThreeJoints() {
+  return JointSpace({{"roll", true, false, -std::numbers::pi, std::numbers::pi, 1},
+                     {"flex", false, false, -2, 2, 1},
+                     {"lift", false, true, 0, 0.4, 1}});
 }
+const std::vector<double> kCells = {std::numbers::pi / 180, 0.1, 0.005};
+
+TEST(MotionPrimitives, YamlNamesJointsAndUnits) {
+  const auto read = [](const std::string& text) {
+    return ReadMotionPrimitives(YamlNode::Parse(text, "arm.yaml"), ThreeJoints(), kCells);
+  };
+  const MotionPrimitives degrees = read(
+      "angle_unit: deg\nlength_unit: mm\nlong:\n  - {roll: 20, lift: -40}\nshort:\n  - {roll: "
+      "-5}\n");
+  EXPECT_EQ(degrees.long_moves, (Rows{{20, 0, -8}}));
+  EXPECT_EQ(degrees.short_moves, (Rows{{-5, 0, 0}}));
+  const MotionPrimitives radians =
+      read("{angle_unit: rad, length_unit: m, long: [{flex: 0.3}, {lift: 0.1}]}");
+  EXPECT_EQ(radians.long_moves, (Rows{{0, 3, 0}, {0, 0, 20}}));
+  EXPECT_TRUE(radians.short_moves.empty());
+}
+
+TEST(MotionPrimitives, YamlErrorsNameFileLineAndKey) {
+  const std::string units = "angle_unit: rad\nlength_unit: m\n";
+  struct Case {
+    std::string text;
+    std::vector<std::string> message;
+  };
+  for (const Case& test : std::vector<Case>{
+           {"length_unit: m\nlong: [{flex: 0.1}]", {"arm.yaml:1", "angle_unit"}},
+           {"angle_unit: grad\nlength_unit: m", {"arm.yaml:1: angle_unit:", "deg or rad", "grad"}},
+           {units, {"arm.yaml:1", "no motion primitive"}},
+           {units + "long: []", {"arm.yaml:1", "no motion primitive"}},
+           {units + "long: [{knee: 1}]", {"arm.yaml:3: long[0].knee:", "no joint"}},
+           {units + "long: [{flex: far}]", {"arm.yaml:3: long[0].flex:", "number"}},
+           {units + "long:\n  - {flex: 0.1}\n  - {flex: 0.15}",
+            {"arm.yaml:5: long[1].flex:", "1.5 cells", "whole number"}},
+           {units + "long: [{flex: 0}]", {"arm.yaml:3: long[0]:", "moves nothing"}},
+           {units + "long: [{}]", {"arm.yaml:3: long[0]:", "moves nothing"}},
+           {units + "short: [{flex: 1e9}]", {"arm.yaml:3: short[0].flex:", "beyond"}},
+           {units + "short: {flex: 1}", {"arm.yaml:3: short:", "sequence"}},
+           {units + "speed: 3", {"arm.yaml:3", "speed"}}}) {
+    SCOPED_TRACE(test.text);
+    ExpectInputError(
+        [&] {
+          ReadMotionPrimitives(YamlNode::Parse(test.text, "arm.yaml"), ThreeJoints(), kCells);
+        },
+        test.message);
+  }
+}
+
+TEST(MotionPrimitives, TheNameOfAFileTellsItsForm) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "arm.yaml")
+      << "{angle_unit: rad, length_unit: m, long: [{flex: 0.2}]}";
+  std::ofstream(folder.path() / "arm.mprim") << "Motion_Primitives(degrees): 1 3 0\n0 2 0\n";
+  for (const char* name : {"arm.yaml", "arm.mprim"}) {
+    EXPECT_EQ(LoadMotionPrimitives(folder.path() / name, ThreeJoints(), kCells).long_moves,
+              (Rows{{0, 2, 0}}));
+  }
+}
+
+TEST(MotionPrimitives, RefusesAFileThatIsNotThere) {
+  for (const std::string file : {"/nowhere/arm.mprim", "/nowhere/arm.yaml"}) {
+    ExpectInputError([&] { LoadMotionPrimitives(file, ThreeJoints(), kCells); }, {file});
+  }
+}
+
+TEST(DefaultPrimitives, FollowFromLimitsAndReaches) {
+  const JointSpace space = ThreeJoints();
+  const std::vector<char> major = MajorJoints(space, std::vector<double>{1.0, 0.4, 1.0});
+  EXPECT_EQ(major, (std::vector<char>{1, 0, 1}));
+  std::vector<double> cells;
+  for (const JointSpace::Joint& joint : space.joints()) cells.push_back(DefaultCell(joint));
+  EXPECT_DOUBLE_EQ(cells[0], std::numbers::pi / 180);
+  EXPECT_DOUBLE_EQ(cells[2], 0.005);
+  const MotionPrimitives primitives = DefaultPrimitives(space, cells, major);
+  // A third of 4 rad is more than the 40 degrees of a joint of short reach.
+  EXPECT_EQ(primitives.long_moves, (Rows{{20, 0, 0}, {0, 40, 0}, {0, 0, 20}}));
+  EXPECT_EQ(primitives.short_moves, (Rows{{10, 0, 0}, {0, 20, 0}, {0, 0, 10}}));
+}
+
+TEST(DefaultPrimitives, DivideTheCircleWhereADivisorIsNear) {
+  const JointSpace space({{"a", true, false, -std::numbers::pi, std::numbers::pi, 1},
+                          {"b", true, false, -std::numbers::pi, std::numbers::pi, 1}});
+  const double cell = 2 * std::numbers::pi / 100;  // 20 degrees are 5.6 cells
+  const MotionPrimitives primitives =
+      DefaultPrimitives(space, std::vector<double>{cell, cell}, std::vector<char>{1, 1});
+  EXPECT_EQ(primitives.long_moves, (Rows{{5, 0}, {0, 5}, {5, 5}, {5, -5}}));
+  EXPECT_EQ(primitives.short_moves, (Rows{{2, 0}, {0, 2}}));
+}
+
+TEST(DefaultPrimitives, OfTheFetchAreThoseOfItsFile) {
+  const Robot fetch = LoadFetch();
+  const PlanningGroup& group = fetch.groups.front();
+  std::vector<double> cells;
+  for (const JointSpace::Joint& joint : group.space.joints()) cells.push_back(DefaultCell(joint));
+  const MotionPrimitives generated =
+      DefaultPrimitives(group.space, cells, MajorJoints(group.space, JointReaches(fetch, group)));
+  const MotionPrimitives own =
+      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/ara.mprim", group.space, cells);
+  EXPECT_EQ(generated.long_moves, own.long_moves);
+  EXPECT_EQ(generated.short_moves, own.short_moves);
+}
+
+const JointSpace kEight(std::vector<JointSpace::Joint>(8));
+const std::vector<double> kEightCells(8, 0.1);
 
 TEST(MotionPrimitives, FetchMovesAreThoseOfTheStudy) {
   const MotionPrimitives primitives =
-      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", 8);
+      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
   ASSERT_EQ(primitives.long_moves.size(), 5U);
   ASSERT_EQ(primitives.short_moves.size(), 8U);
   for (std::size_t j = 0; j < 8; ++j) {
@@ -85,9 +195,9 @@ TEST(MotionPrimitives, FetchMovesAreThoseOfTheStudy) {
 TEST(MotionPrimitives, ReadsThePublishedFile) {
   PLANBENCH_NEED_SHARED_DATA("paper/fetch.mprim");
   const MotionPrimitives published =
-      LoadMotionPrimitives(SharedData("paper/fetch.mprim").string(), 8);
+      LoadMotionPrimitives(SharedData("paper/fetch.mprim").string(), kEight, kEightCells);
   const MotionPrimitives own =
-      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", 8);
+      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
   EXPECT_EQ(published.long_moves, own.long_moves);
   EXPECT_EQ(published.short_moves, own.short_moves);
 }

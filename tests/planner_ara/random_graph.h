@@ -22,6 +22,7 @@ struct ExplicitGraph {
 
   std::vector<StateId> expanded;  // in order
   int num_validity_checks = 0;
+  unsigned guide_seed = 0;  // of a guide without sense; 0: the heuristic
 
   explicit ExplicitGraph(std::size_t num_states) : edges(num_states), heuristic(num_states, 0) {}
   void Add(StateId from, StateId to, double cost, bool valid = true) {
@@ -32,7 +33,10 @@ struct ExplicitGraph {
     expanded.push_back(state);
     for (std::size_t i = 0; i < edges[state].size(); ++i) {
       const Edge& edge = edges[state][i];
-      candidates->push_back({edge.cost, heuristic[edge.target], static_cast<std::uint16_t>(i)});
+      const double h = heuristic[edge.target];
+      const double guide = guide_seed == 0 ? h : (edge.target * 7919 + guide_seed * 104729) % 101;
+      candidates->push_back(
+          {edge.cost, h, static_cast<float>(guide), static_cast<std::uint16_t>(i)});
     }
   }
   StateId Target(StateId source, std::uint16_t action) const {

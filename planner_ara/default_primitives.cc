@@ -1,0 +1,95 @@
+#include "planner_ara/default_primitives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "robot_model/motion_bound.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The divisor of `whole` nearest to `wanted`, `wanted` itself if none is within a third of it.
+int NearestDivisor(int whole, int wanted) {
+  for (int off = 0; 3 * off <= wanted; ++off) {
+    for (const int candidate : {wanted - off, wanted + off}) {
+      if (candidate > 0 && whole % candidate == 0) return candidate;
+    }
+  }
+  return wanted;
+}
+
+}  // namespace
+
+std::vector<double> JointReaches(const Robot& robot, const PlanningGroup& group) {
+  std::vector<LinkBall> balls;
+  for (const LinkSphere& sphere : robot.spheres) {
+    balls.push_back({sphere.link, sphere.p_LS, sphere.radius});
+  }
+  if (balls.empty()) {
+    for (int link = 0; link < robot.model.num_links(); ++link) {
+      balls.push_back({link, Eigen::Vector3d::Zero(), 0});
+    }
+  }
+  return MotionBound(robot.model, group, robot.model.DefaultPositions(), balls).reach();
+}
+
+std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches) {
+  double longest = 0;
+  for (int j = 0; j < space.size(); ++j) {
+    if (!space.joint(j).prismatic) {
+      longest = std::max(longest, reaches[static_cast<std::size_t>(j)]);
+    }
+  }
+  std::vector<char> major;
+  for (int j = 0; j < space.size(); ++j) {
+    major.push_back(space.joint(j).prismatic ||
+                    reaches[static_cast<std::size_t>(j)] >= longest / 2);
+  }
+  return major;
+}
+
+double DefaultCell(const JointSpace::Joint& joint) {
+  return joint.prismatic ? std::min(0.005, (joint.upper - joint.lower) / 40) : kDegree;
+}
+
+MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const double> discretization,
+                                   std::span<const char> major) {
+  const auto n = static_cast<std::size_t>(space.size());
+  std::vector<int> cells;
+  for (std::size_t j = 0; j < n; ++j) {
+    const JointSpace::Joint& joint = space.joint(static_cast<int>(j));
+    const double wanted = joint.prismatic ? 0.1 : (major[j] ? 20 : 40) * kDegree;
+    const double size = std::min(wanted, (joint.upper - joint.lower) / 3);
+    const int whole = std::max(1, static_cast<int>(size / discretization[j] + 1e-9));
+    const int circle = static_cast<int>(std::lround(2 * std::numbers::pi / discretization[j]));
+    cells.push_back(joint.continuous ? NearestDivisor(circle, whole) : whole);
+  }
+  MotionPrimitives primitives;
+  for (std::size_t j = 0; j < n; ++j) {
+    std::vector<int> move(n, 0);
+    move[j] = cells[j];
+    primitives.long_moves.push_back(move);
+    move[j] = cells[j] / 2;
+    if (move[j] > 0) primitives.short_moves.push_back(move);
+  }
+  const auto turns_the_arm = [&](std::size_t j) {
+    return major[j] && !space.joint(static_cast<int>(j)).prismatic;
+  };
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      if (!turns_the_arm(a) || !turns_the_arm(b)) continue;
+      for (const int sign : {1, -1}) {
+        std::vector<int> move(n, 0);
+        move[a] = cells[a];
+        move[b] = sign * cells[b];
+        primitives.long_moves.push_back(std::move(move));
+      }
+    }
+  }
+  return primitives;
+}
+
+}  // namespace planbench

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "planner_ara/ara_star.h"
+#include "planner_ara/manipulation_graph.h"
+#include "planning/planner.h"
+
+namespace planbench {
+
+/// ARA* from the start and, if asked for, from the goal, in turn within one request. Each search
+/// has the lattice anchored at its own root, with the other end as its goal; the one that has done
+/// less work goes next, so that the better direction finds its path in twice the work it would need
+/// alone, whichever it is. Neither follows edges that cannot lead to a path cheaper than the best
+/// of both.
+///
+/// Every path is verified at half the edge resolution before it counts; an edge that fails is taken
+/// out of its lattice, whose search begins again with what it knows of the other edges.
+class TwoWaySearch {
+ public:
+  /// What the searches have done, both together.
+  struct Counts {
+    std::int64_t expansions = 0;
+    std::int64_t states = 0;
+    std::int64_t edges_generated = 0;
+    std::int64_t goal_connections_tried = 0;
+    std::int64_t iterations = 0;     ///< Of the search that had the most.
+    std::int64_t edges_refuted = 0;  ///< Edges of paths that verification took out.
+  };
+
+  /// `start` and the goal's nominal point are valid. The edge checker must outlive this. Throws
+  /// InputError as ManipulationGraph does.
+  TwoWaySearch(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
+               const ManipulationGraphOptions& options, bool two_way);
+  ~TwoWaySearch();
+
+  /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
+  /// lattice. `should_stop` is asked before every evaluation of an edge; `on_solution` is called at
+  /// each better path.
+  ImproveOutcome Improve(double epsilon, const std::function<bool()>& should_stop,
+                         const std::function<void()>& on_solution);
+
+  /// Cost of the best path, infinity without one.
+  double cost() const { return cost_; }
+  /// The best path, start to goal; empty without one.
+  const Path& path() const { return path_; }
+  /// Proven bound of cost() against the optimum of either lattice; never rises.
+  double ProveBound();
+  /// True if the best path was found from the goal.
+  bool found_backward() const { return found_backward_; }
+
+  Counts counts() const;
+  std::size_t bytes() const;
+
+ private:
+  struct Side;
+  Side* NextSide() const;
+  void TakePath(Side* side);
+
+  EdgeChecker* edges_;
+  bool guided_;
+  std::vector<std::unique_ptr<Side>> sides_;
+  double cost_ = std::numeric_limits<double>::infinity();
+  Path path_;
+  bool found_backward_ = false;
+  std::int64_t edges_refuted_ = 0;
+};
+
+}  // namespace planbench

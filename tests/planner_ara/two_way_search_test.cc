@@ -1,0 +1,169 @@
+#include "planner_ara/two_way_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "support/planning_problems.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const auto kNever = [] { return false; };
+const auto kSilent = [] {};
+
+GoalBox Point(const Configuration& q) { return {q, q, q}; }
+
+// The planar arm between its two posts.
+class TwoWaySearchTest : public testing::Test {
+ protected:
+  TwoWaySearchTest() {
+    checker_->SetScene(PostsScene(), std::vector<double>(4, 0.0));
+    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m);
+    options_.discretization.assign(3, 0.3);
+    options_.weights.assign(3, 1.0);
+    options_.primitives.short_moves = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    options_.crowding = 0.1;
+    options_.crowded_joints.assign(3, true);
+  }
+
+  // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm, over edges
+  // that are valid at the edge resolution (and at half of it, where `verified`).
+  double Optimum(const Configuration& start, const Configuration& goal, bool verified) {
+    ManipulationGraph graph(edges_.get(), start, Point(goal), options_);
+    std::vector<double> costs(2, kInfinity);
+    costs[ManipulationGraph::kStart] = 0;
+    std::priority_queue<std::pair<double, StateId>> queue;
+    queue.push({0, ManipulationGraph::kStart});
+    std::vector<CandidateEdge> candidates;
+    while (!queue.empty()) {
+      const auto [negative, s] = queue.top();
+      queue.pop();
+      if (-negative > costs[s] || s == ManipulationGraph::kGoal) continue;
+      candidates.clear();
+      graph.CandidateEdges(s, &candidates);
+      for (const CandidateEdge& edge : candidates) {
+        const StateId t = graph.Target(s, edge.action);
+        if (t >= costs.size()) costs.resize(t + 1, kInfinity);
+        if (costs[s] + edge.cost >= costs[t] || !graph.IsValidEdge(s, edge.action)) continue;
+        if (verified && !graph.Verify(s, edge.action)) continue;
+        costs[t] = costs[s] + edge.cost;
+        queue.push({-costs[t], t});
+      }
+    }
+    return costs[ManipulationGraph::kGoal];
+  }
+
+  void ExpectJoins(const Path& path, double cost) {
+    ASSERT_FALSE(path.empty());
+    EXPECT_EQ(path.front(), kLeft_);
+    EXPECT_EQ(path.back(), kRight_);
+    EdgeChecker fine(checker_.get(), robot_.edge_resolution_m / 2);
+    double length = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      EXPECT_TRUE(fine.IsValidEdge(path[i - 1], path[i])) << i;
+      length += edges_->space().Distance(path[i - 1], path[i]);
+    }
+    EXPECT_LE(length, cost + 1e-9);
+  }
+
+  const Configuration kLeft_ = {0.6, 0, 0};
+  const Configuration kRight_ = {-0.65, 0.2, -0.1};  // on no lattice point of the other
+  const Robot robot_ = LoadPlanarRobot();
+  std::unique_ptr<CollisionChecker> checker_ =
+      MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
+  std::unique_ptr<EdgeChecker> edges_;
+  ManipulationGraphOptions options_;
+};
+
+TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
+  const double forward = Optimum(kLeft_, kRight_, true);
+  const double backward = Optimum(kRight_, kLeft_, true);
+  ASSERT_TRUE(std::isfinite(forward));
+  ASSERT_TRUE(std::isfinite(backward));
+  for (const double crowding : {0.0, 0.1, 3.0}) {
+    options_.crowding = crowding;
+    TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
+    double last_cost = kInfinity;
+    double last_bound = kInfinity;
+    for (const double epsilon : {50.0, 3.0, 1.5, 1.2, 1.0}) {
+      ASSERT_EQ(search.Improve(epsilon, kNever, kSilent), ImproveOutcome::kConverged);
+      const double bound = search.ProveBound();
+      EXPECT_LE(bound, epsilon + 1e-12);
+      EXPECT_GE(bound, 1);
+      EXPECT_LE(bound, last_bound);
+      EXPECT_LE(search.cost(), last_cost);
+      EXPECT_LE(search.cost(), bound * std::min(forward, backward) + 1e-9);
+      ExpectJoins(search.path(), search.cost());
+      last_bound = bound;
+      last_cost = search.cost();
+    }
+    EXPECT_NEAR(search.cost(), std::min(forward, backward), 1e-9);
+  }
+}
+
+TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
+  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, false);
+  ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
+  EXPECT_NEAR(search.cost(), Optimum(kLeft_, kRight_, true), 1e-9);
+  EXPECT_FALSE(search.found_backward());
+}
+
+TEST_F(TwoWaySearchTest, PathsAreVerifiedAtHalfTheResolution) {
+  // So coarse a resolution that moves are checked at their ends alone.
+  edges_ = std::make_unique<EdgeChecker>(checker_.get(), 0.4);
+  const double coarse = Optimum(kLeft_, kRight_, false);
+  const double fine = Optimum(kLeft_, kRight_, true);
+  ASSERT_LT(coarse, fine - 1e-6);  // some edge of the coarse optimum is refuted
+  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, false);
+  ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
+  EXPECT_NEAR(search.cost(), fine, 1e-9);
+  EXPECT_GT(search.counts().edges_refuted, 0);
+  EdgeChecker half(checker_.get(), 0.2);
+  for (std::size_t i = 1; i < search.path().size(); ++i) {
+    EXPECT_TRUE(half.IsValidEdge(search.path()[i - 1], search.path()[i]));
+  }
+}
+
+TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
+  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
+  std::vector<double> costs;
+  const auto note = [&] { costs.push_back(search.cost()); };
+  for (const double epsilon : {50.0, 2.0, 1.0}) search.Improve(epsilon, kNever, note);
+  ASSERT_FALSE(costs.empty());
+  for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_LT(costs[i], costs[i - 1]);
+  EXPECT_EQ(costs.back(), search.cost());
+}
+
+TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
+  checker_->SetScene(WallsScene(), std::vector<double>(4, 0.0));
+  const Configuration left = {1.57, 0, 0};
+  const Configuration right = {-1.57, 0, 0};
+  TwoWaySearch search(edges_.get(), left, Point(right), options_, true);
+  EXPECT_EQ(search.Improve(50, kNever, kSilent), ImproveOutcome::kExhausted);
+  EXPECT_TRUE(search.path().empty());
+  EXPECT_EQ(search.ProveBound(), kInfinity);
+}
+
+TEST_F(TwoWaySearchTest, GoesOnWhereItWasStopped) {
+  TwoWaySearch at_once(edges_.get(), kLeft_, Point(kRight_), options_, true);
+  TwoWaySearch in_steps(edges_.get(), kLeft_, Point(kRight_), options_, true);
+  ASSERT_EQ(at_once.Improve(50, kNever, kSilent), ImproveOutcome::kConverged);
+  int num_stops = 0;
+  for (int budget = 20;; budget = 20, ++num_stops) {
+    const ImproveOutcome outcome = in_steps.Improve(
+        50, [&] { return budget-- == 0; }, kSilent);
+    if (outcome != ImproveOutcome::kStopped) break;
+  }
+  EXPECT_GT(num_stops, 0);
+  EXPECT_EQ(in_steps.path(), at_once.path());
+}
+
+}  // namespace
+}  // namespace planbench
