@@ -103,6 +103,17 @@ std::vector<LinkSphere> ReadSpheres(const YamlNode& root, const RobotModel& mode
   return spheres;
 }
 
+VoxelSettings ReadVoxels(const YamlNode& node) {
+  node.AllowOnly({"resolution_m", "lower", "upper", "walls"});
+  VoxelSettings settings;
+  settings.resolution_m = node.At("resolution_m").PositiveDouble();
+  settings.lower = Eigen::Vector3d(node.At("lower").Doubles(3).data());
+  settings.upper = Eigen::Vector3d(node.At("upper").Doubles(3).data());
+  settings.walls = node.At("walls").Bool();
+  AtField(node, [&] { return NumVoxels(settings); });
+  return settings;
+}
+
 std::vector<std::string> JointNames(const PlanningGroup& group) {
   std::vector<std::string> names;
   for (const JointSpace::Joint& joint : group.space.joints()) names.push_back(joint.name);
@@ -181,8 +192,8 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const fs::path robot_file = folder / "robot.yaml";
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
-  root.AllowOnly(
-      {"name", "urdf", "spheres", "edge_resolution_m", "groups", "allowed_pairs", "planners"});
+  root.AllowOnly({"name", "urdf", "spheres", "edge_resolution_m", "groups", "allowed_pairs",
+                  "planners", "voxels"});
   ContentHash hash;
   hash.Add(robot_text);
 
@@ -206,6 +217,7 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   if (const auto pairs = root.Find("allowed_pairs")) {
     robot.allowed_pairs = ReadAllowedPairs(*pairs, robot.model);
   }
+  if (const auto voxels = root.Find("voxels")) robot.voxels = ReadVoxels(*voxels);
   if (const auto planners = root.Find("planners")) {
     for (const std::string& planner : planners->Keys()) {
       // Planners read their own settings when they start: other programs must not need the files.

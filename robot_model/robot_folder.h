@@ -9,6 +9,7 @@
 
 #include "geometry/mesh_loader.h"
 #include "robot_model/robot_model.h"
+#include "robot_model/voxel_settings.h"
 
 namespace planbench {
 
@@ -26,6 +27,11 @@ namespace planbench {
 ///       tip_link: gripper_link
 ///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other
 ///   planners: {ara: ara.yaml, rrtc: rrtc.yaml}   # optional: settings files by planner name
+///   voxels:                        # optional: the grid of the voxels model (VoxelSettings);
+///     resolution_m: 0.02           #   without it the reach of the robot, without walls
+///     lower: [-1, -1, 0]           # m, base frame
+///     upper: [1, 1, 2]
+///     walls: true                  # whether all outside of the box counts as occupied
 ///
 /// spheres.yaml:
 ///   links:
@@ -41,6 +47,7 @@ struct Robot {
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
   double edge_resolution_m = 0.02;
+  std::optional<VoxelSettings> voxels;
   std::map<std::string, std::filesystem::path> planner_settings;  ///< By planner name, absolute.
   ResourceResolver resources;  ///< For the collision meshes the URDF names.
 

@@ -32,6 +32,7 @@ groups:
     tip_link: hand
 allowed_pairs: [[base, hand]]
 planners: {ara: ara.yaml}
+voxels: {resolution_m: 0.1, lower: [-1, -1, 0], upper: [1, 1, 2], walls: true}
 )";
 
 std::string Replaced(std::string text, const std::string& what, const std::string& by) {
@@ -117,6 +118,30 @@ const Malformed kMalformedRobots[] = {
     {"PairOfOne", "[[base, hand]]", "[[base, base]]", {":9:", "allowed_pairs[0]", "same"}},
     {"PlannersNoMap", "{ara: ara.yaml}", "[ara.yaml]", {":10:", "planners", "expected a map"}},
     {"PlannerNoText", "{ara: ara.yaml}", "{ara: [a]}", {":10:", "planners.ara", "expected text"}},
+    {"VoxelsNoMap",
+     "{resolution_m: 0.1, lower: [-1, -1, 0], upper: [1, 1, 2], walls: true}",
+     "[0.1]",
+     {":11:", "voxels", "expected a map"}},
+    {"VoxelsUnknownKey", "walls: true", "wall: true", {":11:", "voxels", "unknown key 'wall'"}},
+    {"VoxelsNoWalls", ", walls: true", "", {":11:", "voxels", "'walls' is missing"}},
+    {"VoxelsWallsNoBool", "walls: true", "walls: 2", {":11:", "voxels.walls", "'2'"}},
+    {"VoxelsNoResolution", "resolution_m: 0.1, ", "", {":11:", "'resolution_m' is missing"}},
+    {"VoxelResolutionZero",
+     "resolution_m: 0.1,",
+     "resolution_m: 0,",
+     {":11:", "voxels.resolution_m", "greater than zero"}},
+    {"VoxelResolutionNegative",
+     "resolution_m: 0.1,",
+     "resolution_m: -0.1,",
+     {":11:", "voxels.resolution_m", "greater than zero"}},
+    {"VoxelsShortCorner", "[-1, -1, 0]", "[-1, -1]", {":11:", "voxels.lower", "3 numbers"}},
+    {"VoxelsEmptyBox", "[1, 1, 2]", "[1, -1, 2]", {":11:", "voxels", "along y"}},
+    {"VoxelsTurnedBox", "[1, 1, 2]", "[1, 1, -2]", {":11:", "voxels", "along z"}},
+    {"TooManyVoxels", "resolution_m: 0.1", "resolution_m: 0.004", {":11:", "voxels", "125000000"}},
+    {"TooManyVoxelsInARow",
+     "resolution_m: 0.1",
+     "resolution_m: 1e-9",
+     {":11:", "voxels", "along x", "2048"}},
 };
 
 const Malformed kMalformedSpheres[] = {
@@ -148,6 +173,11 @@ TEST(MalformedFolder, TheUnchangedFilesAreFine) {
   EXPECT_EQ(robot.name, "tiny");
   EXPECT_EQ(robot.edge_resolution_m, 0.05);
   EXPECT_EQ(robot.allowed_pairs, (std::vector<std::pair<int, int>>{{0, 2}}));
+  ASSERT_TRUE(robot.voxels.has_value());
+  EXPECT_EQ(robot.voxels->resolution_m, 0.1);
+  EXPECT_EQ(robot.voxels->lower, Eigen::Vector3d(-1, -1, 0));
+  EXPECT_EQ(robot.voxels->upper, Eigen::Vector3d(1, 1, 2));
+  EXPECT_TRUE(robot.voxels->walls);
 }
 
 TEST(MalformedFolder, FoldersAndFilesThatAreMissingAreNamed) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -61,6 +63,26 @@ TEST(LoadRobot, LoadsTheFetch) {
                                                   "wrist_roll_joint"}));
   EXPECT_TRUE(group.space.joint(0).prismatic);
   EXPECT_EQ(group.tip_link, fetch.model.FindLink("gripper_link"));
+}
+
+TEST(LoadRobot, FetchHasTheStudysGrid) {
+  const Robot fetch = LoadRobot(FetchFolder());
+  ASSERT_TRUE(fetch.voxels.has_value());
+  EXPECT_EQ(NumVoxels(*fetch.voxels), (std::array<int, 3>{100, 100, 100}));
+  EXPECT_EQ(fetch.voxels->lower, Eigen::Vector3d(-1, -1, 0));
+  EXPECT_TRUE(fetch.voxels->walls);
+}
+
+TEST(NumVoxels, CoversTheBox) {
+  VoxelSettings settings;
+  settings.resolution_m = 0.1;
+  settings.lower = {-0.3, 0, 0};
+  settings.upper = {0.3, 0.61, 0.01};
+  EXPECT_EQ(NumVoxels(settings), (std::array<int, 3>{6, 7, 1}));
+  settings.upper.x() = std::numeric_limits<double>::infinity();
+  ExpectInputError([&] { NumVoxels(settings); }, {"along x", "inf"});
+  settings.resolution_m = std::numeric_limits<double>::quiet_NaN();
+  ExpectInputError([&] { NumVoxels(settings); }, {"resolution_m", "nan"});
 }
 
 TEST(LoadRobot, FetchHasTheStudysSpheres) {
@@ -131,6 +153,7 @@ TEST(LoadRobot, OptionalFieldsHaveDefaults) {
   EXPECT_TRUE(robot.spheres.empty());
   EXPECT_TRUE(robot.allowed_pairs.empty());
   EXPECT_TRUE(robot.planner_settings.empty());
+  EXPECT_FALSE(robot.voxels.has_value());
 }
 
 TEST(LoadRobot, ResolvesMeshesByPackageOrFolder) {
