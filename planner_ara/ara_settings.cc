@@ -52,8 +52,8 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "cost", "epsilon_initial",
-                  "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
+                  "two_way", "crowding", "crowding_joints", "verify_paths", "cost",
+                  "epsilon_initial", "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -68,6 +68,7 @@ void AraSettings::Apply(const YamlNode& node) {
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
     crowding_joints = joints->Strings();
   }
+  verify_paths = node.BoolOr("verify_paths", verify_paths);
   if (const std::optional<YamlNode> value = node.Find("cost")) {
     const std::string name = value->String();
     if (name == "distance") {
@@ -101,6 +102,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
+      {"verify_paths", fmt::format("{}", verify_paths)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},
       {"epsilon_decrement", fmt::format("{}", epsilon.decrement)},

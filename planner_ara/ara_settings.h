@@ -14,7 +14,7 @@ namespace planbench {
 /// What a move between lattice points costs.
 enum class MoveCost {
   kDistance,  ///< The weighted length of its motion.
-  kUniform,   ///< 1, whatever its length.
+  kUniform,   ///< 1, whatever its length; the motion to the goal its weighted length, at least 1.
 };
 
 /// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
@@ -45,6 +45,8 @@ struct AraSettings {
   /// The joints whose positions make up a cell of crowding, its sides the longest move of each.
   /// Empty: the joints with at least half the longest reach, and prismatic ones.
   std::vector<std::string> crowding_joints;
+  /// Checks paths at half the edge resolution before they count.
+  bool verify_paths = true;
   MoveCost cost = MoveCost::kDistance;
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
   double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.

@@ -32,7 +32,7 @@ class ChunkedArray {
   std::size_t bytes() const { return (chunks_.size() << kShift) * width_ * sizeof(T); }
 
  private:
-  static constexpr std::size_t kShift = 12;
+  static constexpr std::size_t kShift = 9;
   static constexpr std::size_t kMask = (std::size_t{1} << kShift) - 1;
 
   std::size_t width_;

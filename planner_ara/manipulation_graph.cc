@@ -13,7 +13,7 @@
 namespace planbench {
 namespace {
 
-constexpr std::size_t kCrowdSlots = 1 << 16;  // a power of two
+constexpr std::size_t kCrowdSlots = 1 << 14;  // a power of two
 
 }  // namespace
 
@@ -44,6 +44,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
+  options.verify_paths = settings.verify_paths;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
   if (!settings.crowding_joints.empty()) {
@@ -73,8 +74,8 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
   AddMoves(options_.primitives.short_moves, false);
   double longest = 0;
   for (const Move& move : moves_) longest = std::max(longest, move.cost);
-  if (options_.cost == MoveCost::kUniform && longest > 0) {
-    unit_ = 1 / longest;
+  if (options_.cost == MoveCost::kUniform) {
+    unit_ = 1 / std::max(1.0, longest);
     for (Move& move : moves_) move.cost = 1;
   }
   moves_depend_on_place_ =
@@ -139,6 +140,10 @@ double ManipulationGraph::Heuristic(StateId state) const {
              : unit_ * std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
 }
 
+double ManipulationGraph::CostToGoal(double distance) const {
+  return options_.cost == MoveCost::kUniform ? std::max(1.0, distance) : distance;
+}
+
 void ManipulationGraph::ConfigurationOf(StateId state, std::span<double> q) const {
   const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(state - 1);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
@@ -167,12 +172,12 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   // Cells of different hashes may share a count: it only guides.
   const double crowd =
       visits_.empty() ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
-  candidates->push_back({Heuristic(state), 0, 0, kToNearestGoal});
+  candidates->push_back({CostToGoal(Heuristic(state)), 0, 0, kToNearestGoal});
   if (goal_distance_.has_extent()) {
     SelectSource(state);
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
-    candidates->push_back({unit_ * distance, 0, 0, kToNominalGoal});
+    candidates->push_back({CostToGoal(unit_ * distance), 0, 0, kToNominalGoal});
   }
 
   bool use_long = true;
@@ -210,7 +215,7 @@ bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
 }
 
 bool ManipulationGraph::Verify(StateId source, std::uint16_t action) {
-  if (Recall(source, action) == Knowledge::kVerified) return true;
+  if (!options_.verify_paths || Recall(source, action) == Knowledge::kVerified) return true;
   SelectEdge(source, action);
   const bool valid = fine_edges_.IsValidEdge(from_, to_, /*from_is_free=*/true);
   Remember(source, action, valid ? Knowledge::kVerified : Knowledge::kBlocked);
@@ -264,7 +269,8 @@ double ManipulationGraph::CountVisit(StateId state) {
            0x9e3779b97f4a7c15ULL;
     hash ^= hash >> 32;
   }
-  return visits_[hash & (kCrowdSlots - 1)]++;
+  std::uint16_t& visits = visits_[hash & (kCrowdSlots - 1)];
+  return visits < std::numeric_limits<std::uint16_t>::max() ? visits++ : visits;
 }
 
 Path ManipulationGraph::Configurations(const std::vector<PathStep>& steps) const {

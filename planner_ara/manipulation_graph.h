@@ -25,6 +25,7 @@ struct ManipulationGraphOptions {
   double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
+  bool verify_paths = true;          ///< See AraSettings::verify_paths.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
 };
@@ -40,10 +41,11 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
 /// joined to every lattice point by the straight motion to the nearest point of the goal box (and
 /// to its nominal point, if that is another).
 ///
-/// Costs and heuristic are in one unit: weighted joint distance, or, with uniform costs, that
-/// distance over the length of the longest primitive. Every edge costs at least the length of its
-/// motion in that unit, and the edge to the nearest goal point exactly that, so the joint distance
-/// to the goal box is a consistent heuristic.
+/// Costs and heuristic are in one unit: weighted joint distance, or, with uniform costs, moves: a
+/// move costs 1, and the motion to the goal its weighted length, but at least 1. (Weighted lengths
+/// are divided by that of the longest primitive if it is more than 1.) Every edge costs at least
+/// the length of its motion in that unit, so the joint distance to the goal box is a consistent
+/// heuristic.
 class ManipulationGraph {
  public:
   static constexpr StateId kGoal = 0;
@@ -57,7 +59,8 @@ class ManipulationGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
-  /// True if a valid edge is so at half the edge resolution, too; if not, it is valid no longer.
+  /// True if a valid edge is so at half the edge resolution, too, or need not be; if not, it is
+  /// valid no longer.
   bool Verify(StateId source, std::uint16_t action);
   /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
@@ -92,6 +95,7 @@ class ManipulationGraph {
                          std::span<double> to) const;
   void SelectSource(StateId state);
   bool MoveFrom(StateId source, const Move& move);
+  double CostToGoal(double distance) const;
   void SelectEdge(StateId source, std::uint16_t action);
   Knowledge Recall(StateId source, std::uint16_t action);
   void Remember(StateId source, std::uint16_t action, Knowledge knowledge);
@@ -113,7 +117,7 @@ class ManipulationGraph {
   ChunkedArray<std::uint64_t> known_edges_;  // by state
   // By joint, the cells of one cell of crowding; 0 for joints that do not count.
   std::vector<int> crowd_cells_;
-  std::vector<std::uint32_t> visits_;  // by hash of the cell of crowding
+  std::vector<std::uint16_t> visits_;  // by hash of the cell of crowding
   std::int64_t num_goal_connections_tried_ = 0;
 
   // The state whose edges are at hand.

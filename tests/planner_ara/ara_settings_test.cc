@@ -25,6 +25,7 @@ use_short_primitives: true
 long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
+verify_paths: false
 crowding: 0.3
 crowding_joints: [lift]
 cost: uniform
@@ -42,6 +43,7 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.long_primitives_beyond, 0.5);
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
+  EXPECT_FALSE(settings.verify_paths);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
   EXPECT_EQ(settings.cost, MoveCost::kUniform);
