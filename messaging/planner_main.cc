@@ -9,19 +9,16 @@
 namespace planbench {
 namespace {
 
+YamlNode SettingsFile(const Robot& robot, const std::string& planner, const std::string& config) {
+  if (!config.empty()) return YamlNode::LoadFile(config);
+  const auto named = robot.planner_settings.find(planner);
+  if (named != robot.planner_settings.end()) return YamlNode::LoadFile(named->second.string());
+  return YamlNode::Parse("", "settings of planner " + planner);  // its own defaults
+}
+
 YamlNode LoadSettings(const Robot& robot, const std::string& planner, const std::string& config,
                       const std::vector<std::string>& overrides) {
-  std::string file = config;
-  if (file.empty()) {
-    const auto named = robot.planner_settings.find(planner);
-    if (named == robot.planner_settings.end()) {
-      throw InputError((robot.folder / "robot.yaml").string() +
-                       ": planners: names no settings for '" + planner +
-                       "'; add them there or give --config");
-    }
-    file = named->second.string();
-  }
-  YamlNode settings = YamlNode::LoadFile(file);
+  YamlNode settings = SettingsFile(robot, planner, config);
   for (const std::string& text : overrides) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos) {

@@ -16,7 +16,7 @@ using PlannerFactory =
 
 /// The main() of a planner process: --robot, --name, --config, --set, --package-path and what every
 /// program has. The settings come from --config, else from the file that the robot folder names for
-/// `planner`, and --set overrides single keys.
+/// `planner`, else they are the planner's defaults; --set overrides single keys.
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory);
 

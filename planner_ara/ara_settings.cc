@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "common/error.h"
 
 namespace planbench {
 namespace {
+
+constexpr int kMaxBatch = 1024;
+constexpr std::array<std::string_view, 3> kClearanceNames = {"ignore", "prove", "adapt"};
 
 void ApplyByJoint(const YamlNode& node, const std::string& key,
                   std::map<std::string, double>* values) {
@@ -52,8 +58,9 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "verify_paths", "cost",
-                  "epsilon_initial", "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
+                  "two_way", "crowding", "crowding_joints", "batch", "clearance", "verify_paths",
+                  "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
+                  "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -67,6 +74,19 @@ void AraSettings::Apply(const YamlNode& node) {
   crowding = NonNegative(node, "crowding", crowding);
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
     crowding_joints = joints->Strings();
+  }
+  if (const std::optional<YamlNode> value = node.Find("batch")) {
+    const long long number = value->Int();
+    if (number < 1 || number > kMaxBatch) value->Fail(fmt::format("must be 1 to {}", kMaxBatch));
+    batch = static_cast<int>(number);
+  }
+  if (const std::optional<YamlNode> value = node.Find("clearance")) {
+    const std::string name = value->String();
+    const auto* const found = std::find(kClearanceNames.begin(), kClearanceNames.end(), name);
+    if (found == kClearanceNames.end()) {
+      value->Fail("expected ignore, prove or adapt, found '" + name + "'");
+    }
+    clearance = static_cast<ClearanceUse>(found - kClearanceNames.begin());
   }
   verify_paths = node.BoolOr("verify_paths", verify_paths);
   if (const std::optional<YamlNode> value = node.Find("cost")) {
@@ -102,6 +122,8 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
+      {"batch", fmt::format("{}", batch)},
+      {"clearance", std::string(kClearanceNames.at(static_cast<std::size_t>(clearance)))},
       {"verify_paths", fmt::format("{}", verify_paths)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},

@@ -17,6 +17,15 @@ enum class MoveCost {
   kUniform,   ///< 1, whatever its length; the motion to the goal its weighted length, at least 1.
 };
 
+/// What the clearance of a state is used for: CollisionChecker::CheckAround proves, in one call for
+/// a state, which joints can make their longest single move without a collision (a bur of free
+/// configuration space: Lacevic, Osmankovic, Ademovic, "Burs of free C-space", ICRA 2016).
+enum class ClearanceUse {
+  kIgnore,
+  kProve,  ///< Moves so proven are not checked.
+  kAdapt,  ///< That, and a joint without the proof also gets its short moves.
+};
+
 /// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
 struct AraSettings {
   /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
@@ -45,6 +54,10 @@ struct AraSettings {
   /// The joints whose positions make up a cell of crowding, its sides the longest move of each.
   /// Empty: the joints with at least half the longest reach, and prismatic ones.
   std::vector<std::string> crowding_joints;
+  /// Edges out of a state that are checked in one call: the one that is asked for and the most
+  /// promising others; >= 1.
+  int batch = 1;
+  ClearanceUse clearance = ClearanceUse::kIgnore;
   /// Checks paths at half the edge resolution before they count.
   bool verify_paths = true;
   MoveCost cost = MoveCost::kDistance;

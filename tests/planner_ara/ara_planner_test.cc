@@ -71,6 +71,17 @@ TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
       {"fetch.mprim:1", "8 columns", "3 joints"});
 }
 
+TEST_F(AraPlannerTest, NeedsNoSettings) {
+  const std::unique_ptr<Planner> planner = Make("");
+  EXPECT_EQ(planner->Describe().settings.at("primitives"), "generated");
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = PastThePost();
+    request.direction = direction;
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  }
+}
+
 TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
   const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
   struct Case {

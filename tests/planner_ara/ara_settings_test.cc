@@ -25,6 +25,8 @@ use_short_primitives: true
 long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
+batch: 4
+clearance: adapt
 verify_paths: false
 crowding: 0.3
 crowding_joints: [lift]
@@ -43,6 +45,8 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.long_primitives_beyond, 0.5);
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
+  EXPECT_EQ(settings.batch, 4);
+  EXPECT_EQ(settings.clearance, ClearanceUse::kAdapt);
   EXPECT_FALSE(settings.verify_paths);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
@@ -115,6 +119,8 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"epsilon_final: .nan", {"ara.yaml:1: epsilon_final:", "finite"}},
       {"crowding: -0.1", {"ara.yaml:1: crowding:", "negative"}},
       {"crowding_joints: lift", {"ara.yaml:1: crowding_joints:", "sequence"}},
+      {"batch: 0", {"ara.yaml:1: batch:", "1 to"}},
+      {"clearance: some", {"ara.yaml:1: clearance:", "ignore, prove or adapt", "some"}},
       {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
       {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
       {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -236,6 +237,93 @@ TEST_F(ManipulationGraphTest, PrimitivesCanBeKeptToTheirPlaces) {
   }
   EXPECT_GT(num_near, 0);
   EXPECT_GT(num_far, 0);
+}
+
+TEST_F(ManipulationGraphTest, BatchesAndClearanceChangeNoVerdict) {
+  ManipulationGraphOptions options = Options();
+  options.primitives.long_moves = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}};
+  const auto verdicts = [&](int batch, ClearanceUse clearance) {
+    options.batch = batch;
+    options.clearance = clearance;
+    ManipulationGraph graph = Graph(Point(kRight), options);
+    Spread(&graph, 200);
+    std::vector<bool> valid;
+    Configuration q(3);
+    for (StateId s = 1; s < 200; ++s) {
+      graph.ConfigurationOf(s, q);
+      if (!edges_->IsValidState(q)) continue;
+      for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+        valid.push_back(graph.IsValidEdge(s, edge.action));
+      }
+    }
+    return valid;
+  };
+  const std::vector<bool> expected = verdicts(1, ClearanceUse::kIgnore);
+  const std::int64_t one_by_one = edges_->counters().edges;
+  EXPECT_EQ(verdicts(5, ClearanceUse::kIgnore), expected);
+  EXPECT_EQ(edges_->counters().edges, 2 * one_by_one);  // each edge once, whatever the batch
+  EXPECT_EQ(verdicts(1, ClearanceUse::kProve), expected);
+  EXPECT_LT(edges_->counters().edges, 3 * one_by_one);  // those proven were not checked
+}
+
+TEST_F(ManipulationGraphTest, BatchesTakeTheMostPromisingSiblings) {
+  ManipulationGraphOptions options = Options();
+  options.batch = 3;
+  ManipulationGraph graph = Graph(Point(kRight), options);
+  std::vector<CandidateEdge> edges = EdgesOf(&graph, ManipulationGraph::kStart);
+  std::erase_if(edges, [&](const CandidateEdge& edge) {
+    return graph.Target(ManipulationGraph::kStart, edge.action) == ManipulationGraph::kGoal;
+  });
+  ASSERT_GE(edges.size(), 5U);
+  std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
+    return a.target_heuristic < b.target_heuristic;
+  });
+  graph.IsValidEdge(ManipulationGraph::kStart, edges.back().action);
+  EXPECT_EQ(edges_->counters().edges, 3);
+  graph.IsValidEdge(ManipulationGraph::kStart, edges[0].action);
+  graph.IsValidEdge(ManipulationGraph::kStart, edges[1].action);
+  EXPECT_EQ(edges_->counters().edges, 3);
+  graph.IsValidEdge(ManipulationGraph::kStart, edges[2].action);
+  EXPECT_GT(edges_->counters().edges, 3);
+}
+
+TEST_F(ManipulationGraphTest, NearObstaclesAJointHasItsShortMoves) {
+  ManipulationGraphOptions options = Options(0.1);
+  options.primitives.long_moves = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  options.short_moves_within = 0;
+  const auto num_short_moves = [&](ClearanceUse clearance) {
+    options.clearance = clearance;
+    ManipulationGraph graph = Graph(Point(kRight), options);
+    Spread(&graph, 100);
+    std::size_t num_short = 0;
+    for (StateId s = 2; s < 100; ++s) {
+      for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+        const bool to_goal = graph.Target(s, edge.action) == ManipulationGraph::kGoal;
+        num_short += !to_goal && edge.cost < 0.15 ? 1 : 0;
+      }
+    }
+    return num_short;
+  };
+  EXPECT_EQ(num_short_moves(ClearanceUse::kIgnore), 0U);
+  EXPECT_EQ(num_short_moves(ClearanceUse::kProve), 0U);
+  EXPECT_GT(num_short_moves(ClearanceUse::kAdapt), 0U);
+  checker_->SetScene(EmptyPlanarScene(), std::vector<double>(4, 0.0));
+  const std::size_t without_posts = num_short_moves(ClearanceUse::kAdapt);
+  checker_->SetScene(PostsScene(), std::vector<double>(4, 0.0));
+  EXPECT_LT(without_posts, num_short_moves(ClearanceUse::kAdapt));
+}
+
+TEST_F(ManipulationGraphTest, CrowdedPlacesArePutOff) {
+  ManipulationGraphOptions options = Options();
+  options.crowding = 0.5;
+  options.crowded_joints = {1, 0, 0};  // all states of one shoulder angle are one place
+  ManipulationGraph graph = Graph(Point(kRight), options);
+  for (int visits = 0; visits < 3; ++visits) {
+    for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
+      const double factor = 1 + 0.5 * std::log2(1 + visits);
+      EXPECT_FLOAT_EQ(edge.guide, static_cast<float>(factor * edge.target_heuristic));
+    }
+  }
 }
 
 TEST_F(ManipulationGraphTest, RefusesMovesOfHalfATurn) {
