@@ -99,6 +99,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   conditions.collision_model = options_.collision_model;
   conditions.edge_resolution_m =
       options_.edge_resolution_m > 0 ? options_.edge_resolution_m : served_.edge_resolution_m;
+  conditions.edge_check = options_.edge_check.value_or(served_.edge_check);
   conditions.referee_step_m =
       options_.referee_step_m > 0 ? options_.referee_step_m : conditions.edge_resolution_m / 2;
   conditions.anytime = options_.anytime;

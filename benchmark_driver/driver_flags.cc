@@ -84,6 +84,8 @@ void DriverFlags::AddTo(CLI::App* app) {
   app->add_option(
       "--edge-resolution", options_.edge_resolution_m,
       "largest motion of any point between samples of an edge, m; default: the robot's");
+  app->add_option("--edge-check", edge_check_,
+                  "fixed: edges are free at samples; certified: proven free; default: the robot's");
   app->add_option("--referee-step", options_.referee_step_m,
                   "the same for the referee; default: half the edge resolution");
   app->add_flag("--anytime", options_.anytime,
@@ -167,6 +169,12 @@ DriverOptions DriverFlags::Parse() const {
   if (options.edge_resolution_m != 0) {
     require_positive(options.edge_resolution_m, "--edge-resolution");
   }
+  if (!edge_check_.empty()) {
+    options.edge_check = ParseEdgeCheck(edge_check_);
+    if (!options.edge_check) {
+      throw InputError("--edge-check " + edge_check_ + ": expected fixed or certified");
+    }
+  }
   if (options.referee_step_m != 0) require_positive(options.referee_step_m, "--referee-step");
   for (const std::string& command : planner_commands_) {
     const auto [name, line] = SplitAssignment(command, "--planner-command");
@@ -204,6 +212,7 @@ std::map<std::string, std::string> DriverFlags::AsSettings(const DriverOptions& 
       {"seed", fmt::format("{}", options.seed)},
       {"collision_model", collision_model_},
       {"edge_resolution_m", fmt::format("{}", options.edge_resolution_m)},
+      {"edge_check", edge_check_},
       {"referee_step_m", fmt::format("{}", options.referee_step_m)},
       {"anytime", options.anytime ? "true" : "false"},
       {"simplify", options.simplify ? "true" : "false"},

@@ -26,6 +26,7 @@ class DriverFlags {
   std::string range_;
   std::string planners_ = "ara,rrtc";
   std::string directions_ = "both";
+  std::string edge_check_;
   std::string collision_model_ = "spheres";
   std::vector<std::string> problems_;
   std::vector<std::string> planner_commands_;

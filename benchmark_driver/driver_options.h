@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "collision/collision_model.h"
 #include "planning/plan_status.h"
+#include "robot_model/edge_check.h"
 
 namespace planbench {
 
@@ -22,8 +24,9 @@ struct DriverOptions {
   int trials = 1;
   std::uint64_t seed = 1;
   CollisionModel collision_model = CollisionModel::kSpheres;
-  double edge_resolution_m = 0;  ///< 0: the robot's.
-  double referee_step_m = 0;     ///< 0: half the edge resolution.
+  double edge_resolution_m = 0;         ///< 0: the robot's.
+  std::optional<EdgeCheck> edge_check;  ///< None: the robot's.
+  double referee_step_m = 0;            ///< 0: half the edge resolution.
   bool anytime = false;
   bool simplify = true;
   bool clearance = true;

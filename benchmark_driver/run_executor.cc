@@ -101,6 +101,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.request.seed = run.seed;
   record.request.collision_model = conditions_.collision_model;
   record.request.edge_resolution_m = conditions_.edge_resolution_m;
+  record.request.edge_check = conditions_.edge_check;
   record.request.anytime = conditions_.anytime;
   record.request.simplify = conditions_.simplify;
   record.start_utime = NowUtime();

@@ -19,6 +19,7 @@ struct RunConditions {
   double time_limit_s = 60;
   CollisionModel collision_model = CollisionModel::kSpheres;
   double edge_resolution_m = 0;
+  EdgeCheck edge_check = EdgeCheck::kCertified;
   double referee_step_m = 0.01;
   bool anytime = false;
   bool simplify = true;

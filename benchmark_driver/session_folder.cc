@@ -29,8 +29,8 @@ void RequireSameConditions(const SessionMessage& earlier,
     return found == all.end() ? std::string() : found->second;
   };
   for (const char* key :
-       {"time_limit_s", "seed", "collision_model", "edge_resolution_m", "referee_step_m", "anytime",
-        "simplify", "clearance", "planner_settings"}) {
+       {"time_limit_s", "seed", "collision_model", "edge_resolution_m", "edge_check",
+        "referee_step_m", "anytime", "simplify", "clearance", "planner_settings"}) {
     const std::string before = value_in(earlier.settings, key);
     const std::string now = value_in(settings, key);
     if (before != now) {

@@ -44,6 +44,7 @@ struct Flags {
   std::string model = "spheres";
   double time_limit_s = 10;
   double edge_resolution_m = 0;
+  std::string edge_check;
   std::uint64_t seed = 1;
   int first = 1;
   int last = std::numeric_limits<int>::max();
@@ -128,6 +129,7 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     request.seed = flags.seed;
     request.collision_model = model;
     request.edge_resolution_m = flags.edge_resolution_m;
+    request.edge_check = ParseEdgeCheck(flags.edge_check);
     request.anytime = flags.anytime;
     request.simplify = flags.simplify;
     Run run{files.index, planner->Plan(request, problem.scene, nullptr), false};
@@ -241,6 +243,7 @@ int Main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--model", flags.model, "Collision model")->capture_default_str();
   app.add_option("--time", flags.time_limit_s, "Limit of a request, s")->capture_default_str();
+  app.add_option("--edge-check", flags.edge_check, "fixed or certified; default: the robot's");
   app.add_option("--edge-resolution", flags.edge_resolution_m, "m; default: the robot's");
   app.add_option("--seed", flags.seed, "Seed of every request")->capture_default_str();
   app.add_option("--first", flags.first, "First problem's number")->capture_default_str();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 
 #include "collision/ball_tree.h"
@@ -19,6 +20,22 @@ constexpr double kBoundFactor = 1 + 1e-5;
 template <typename Container, typename Index>
 auto& At(Container& container, Index index) {
   return container[static_cast<std::size_t>(index)];
+}
+
+/// What is tried to prove that two trees never meet.
+constexpr int kMaxProofJoints = 3;
+constexpr int kMaxProofBoxes = 4000;
+
+double LeastDistance(std::span<const Ball> balls_a, const Pose& X_AB,
+                     std::span<const Ball> balls_b) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Ball& b : balls_b) {
+    const Eigen::Vector3d center = X_AB * b.center;
+    for (const Ball& a : balls_a) {
+      distance = std::min(distance, (a.center - center).norm() - a.radius - b.radius);
+    }
+  }
+  return distance;
 }
 
 /// A rotation that takes z to `axis` (unit).
@@ -58,7 +75,8 @@ void Emit(const BallTree& tree, const Eigen::Matrix3d& R_CG, int index, std::vec
 
 CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
                              const RigidBodies& rigid_bodies,
-                             std::span<const double> base_positions) {
+                             std::span<const double> base_positions)
+    : space_(&group.space) {
   kernel.num_joints = group.space.size();
   kernel.bodies.resize(static_cast<std::size_t>(rigid_bodies.size()));
   R_CG_.assign(kernel.bodies.size(), Eigen::Matrix3d::Identity());
@@ -183,8 +201,8 @@ std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
   return leaves;
 }
 
-bool CompiledRobot::CanMeet(const RigidBodies& rigid_bodies, const CompiledTree& carrier,
-                            const CompiledTree& moving) const {
+bool CompiledRobot::WithinReach(const RigidBodies& rigid_bodies, const CompiledTree& carrier,
+                                const CompiledTree& moving) const {
   if (!rigid_bodies.Descends(moving.body, carrier.body)) return true;
   const std::vector<Ball> fixed = LeavesOf(carrier);
   for (const Ball& leaf : LeavesOf(moving)) {
@@ -198,21 +216,52 @@ bool CompiledRobot::CanMeet(const RigidBodies& rigid_bodies, const CompiledTree&
   return false;
 }
 
-double CompiledRobot::Distance(const CompiledTree& a, const CompiledTree& b) const {
-  double distance = std::numeric_limits<double>::infinity();
-  const std::vector<Ball> others = LeavesOf(b);
-  for (const Ball& ball : LeavesOf(a)) {
-    for (const Ball& other : others) {
-      distance =
-          std::min(distance, (ball.center - other.center).norm() - ball.radius - other.radius);
+bool CompiledRobot::ProvenApart(const RigidBodies& rigid_bodies, const CompiledTree& a,
+                                const CompiledTree& b, std::span<const float> reach) const {
+  struct Box {
+    std::vector<double> center, half_width;
+  };
+  Box all{std::vector<double>(reach.size(), 0.0), std::vector<double>(reach.size(), 0.0)};
+  int num_joints = 0;
+  for (std::size_t j = 0; j < reach.size(); ++j) {
+    if (reach[j] == 0) continue;
+    ++num_joints;
+    const JointSpace::Joint& joint = space_->joint(static_cast<int>(j));
+    all.center[j] = (joint.lower + joint.upper) / 2;
+    all.half_width[j] = (joint.upper - joint.lower) / 2 + JointSpace::kLimitTolerance;
+  }
+  if (num_joints > kMaxProofJoints) return false;
+
+  const std::vector<Ball> balls_a = LeavesOf(a);
+  const std::vector<Ball> balls_b = LeavesOf(b);
+  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies.size()));
+  std::vector<Box> open = {all};
+  for (int i = 0; i < kMaxProofBoxes && !open.empty(); ++i) {
+    const Box box = std::move(open.back());
+    open.pop_back();
+    rigid_bodies.ComputePoses(box.center, X_WG);
+    const double distance =
+        LeastDistance(balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body), balls_b);
+    if (distance <= 0) return false;
+    double motion = 0;
+    std::size_t widest = 0;
+    for (std::size_t j = 0; j < reach.size(); ++j) {
+      motion += reach[j] * box.half_width[j];
+      if (reach[j] * box.half_width[j] > reach[widest] * box.half_width[widest]) widest = j;
+    }
+    if (motion < distance) continue;
+    for (const double side : {-0.5, 0.5}) {
+      open.push_back(box);
+      open.back().center[widest] += side * box.half_width[widest];
+      open.back().half_width[widest] /= 2;
     }
   }
-  return distance;
+  return open.empty();
 }
 
-bool CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree& a,
+void CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree& a,
                             const CompiledTree& b, bool doubtful) {
-  if (!CanMeet(rigid_bodies, a, b) || !CanMeet(rigid_bodies, b, a)) return false;
+  if (!WithinReach(rigid_bodies, a, b) || !WithinReach(rigid_bodies, b, a)) return;
   const int offset = static_cast<int>(kernel.reaches.size());
   kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
   // The joints between each and the nearest body that carries both.
@@ -223,8 +272,105 @@ bool CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree&
       At(kernel.reaches, offset + joint) = At(kernel.reaches, tree->reach + joint);
     }
   }
-  kernel.pairs.push_back({a.root, b.root, a.body, b.body, doubtful, offset});
-  return true;
+  const std::size_t num_pairs = kernel.pairs.size();
+  if (doubtful) {
+    kernel.pairs.push_back({a.root, b.root, a.body, b.body, doubtful, offset});
+  } else {
+    AddProven(rigid_bodies, a, b, offset);
+  }
+  if (kernel.pairs.size() == num_pairs) kernel.reaches.resize(static_cast<std::size_t>(offset));
+}
+
+void CompiledRobot::AddProven(const RigidBodies& rigid_bodies, const CompiledTree& a,
+                              const CompiledTree& b, int reach) {
+  const std::vector<float> weights(kernel.reaches.begin() + reach,
+                                   kernel.reaches.begin() + reach + kernel.num_joints);
+  if (ProvenApart(rigid_bodies, a, b, weights)) return;
+  const CompiledTree* split = nullptr;
+  if (UsuallyTouch(rigid_bodies, a, b)) {
+    const Node& node_a = At(kernel.nodes, a.root);
+    const Node& node_b = At(kernel.nodes, b.root);
+    if (node_a.num_children > 0) split = &a;
+    if (node_b.num_children > 0 && (split == nullptr || node_b.radius > node_a.radius)) split = &b;
+  }
+  if (split == nullptr) {
+    kernel.pairs.push_back({a.root, b.root, a.body, b.body, false, reach});
+    return;
+  }
+  // A test of roots that always touch tells nothing, and some of what is below may be apart for
+  // good.
+  const int first = At(kernel.nodes, split->root).first_child;
+  const int num = At(kernel.nodes, split->root).num_children;
+  for (int i = 0; i < num; ++i) {
+    CompiledTree child = *split;
+    child.root = first + i;
+    AddProven(rigid_bodies, child, split == &a ? b : a, reach);
+  }
+}
+
+bool CompiledRobot::UsuallyTouch(const RigidBodies& rigid_bodies, const CompiledTree& a,
+                                 const CompiledTree& b) const {
+  const auto ball = [&](const CompiledTree& tree) {
+    const Node& node = At(kernel.nodes, tree.root);
+    const Eigen::Vector3d p_C(node.x, node.y, node.z);
+    return Ball{At(R_CG_, tree.body).transpose() * p_C, node.radius};
+  };
+  const Ball ball_a = ball(a);
+  const Ball ball_b = ball(b);
+  std::mt19937_64 generator(1);
+  std::vector<double> q(static_cast<std::size_t>(space_->size()));
+  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies.size()));
+  constexpr int kNumSamples = 64;
+  int num_touching = 0;
+  for (int i = 0; i < kNumSamples; ++i) {
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      const JointSpace::Joint& joint = space_->joint(static_cast<int>(j));
+      const double fraction = static_cast<double>(generator() >> 11) * 0x1p-53;
+      q[j] = joint.lower + fraction * (joint.upper - joint.lower);
+    }
+    rigid_bodies.ComputePoses(q, X_WG);
+    const double distance =
+        (At(X_WG, a.body) * ball_a.center - At(X_WG, b.body) * ball_b.center).norm();
+    num_touching += distance <= ball_a.radius + ball_b.radius ? 1 : 0;
+  }
+  return num_touching > kNumSamples / 2;
+}
+
+void CompiledRobot::AddPairs(
+    const RigidBodies& rigid_bodies, const CompiledTree& body_a, const CompiledTree& body_b,
+    const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks, double* distance) {
+  const bool same = body_a.body == body_b.body;
+  std::vector<const CompiledTree*> links_b;
+  for (const CompiledTree& link : links) {
+    if (link.body == body_b.body) links_b.push_back(&link);
+  }
+  bool checks_all = true;
+  std::vector<std::pair<const CompiledTree*, const CompiledTree*>> pairs;
+  for (const CompiledTree& a : links) {
+    if (a.body != body_a.body) continue;
+    std::size_t num_checked = 0;
+    for (const CompiledTree* b : links_b) {
+      if ((same && b->link <= a.link) || !checks(a, *b)) continue;
+      pairs.emplace_back(&a, b);
+      ++num_checked;
+    }
+    if (num_checked < links_b.size()) {
+      checks_all = false;
+    } else {
+      // All of the other body's links: its own tree serves.
+      pairs.resize(pairs.size() - num_checked);
+      pairs.emplace_back(&a, &body_b);
+    }
+  }
+  if (same) {
+    for (const auto& [a, b] : pairs) {
+      *distance = std::min(*distance, LeastDistance(LeavesOf(*a), Pose(), LeavesOf(*b)));
+    }
+  } else if (checks_all) {
+    AddPair(rigid_bodies, body_a, body_b, false);
+  } else {
+    for (const auto& [a, b] : pairs) AddPair(rigid_bodies, *a, *b, false);
+  }
 }
 
 }  // namespace planbench

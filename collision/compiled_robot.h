@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,12 +36,15 @@ struct CompiledRobot {
   /// Forgets added balls, and all pairs.
   void Truncate();
 
-  /// Least distance between the balls of two trees of one body, m; negative if they overlap.
-  double Distance(const CompiledTree& a, const CompiledTree& b) const;
-
-  /// A pair of trees of different bodies. Returns false, adding nothing, if they can never meet.
-  bool AddPair(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
+  /// A pair of trees of different bodies, unless they can never meet within the joint limits.
+  void AddPair(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
                bool doubtful);
+  /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
+  /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs
+  /// is stored there.
+  void AddPairs(const RigidBodies& bodies, const CompiledTree& body_a, const CompiledTree& body_b,
+                const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks,
+                double* distance);
 
   kernels::SphereRobot kernel;
   std::vector<CompiledTree> links;   ///< Of every link that has spheres, in link order.
@@ -51,9 +55,22 @@ struct CompiledRobot {
                std::span<const double> base_positions, std::span<const LinkSphere> spheres);
   /// In the body's frame G, enlarged.
   std::vector<Ball> LeavesOf(const CompiledTree& tree) const;
-  bool CanMeet(const RigidBodies& bodies, const CompiledTree& carrier,
-               const CompiledTree& moving) const;
+  /// False if `moving` never comes near `carrier` whatever the joints between them do.
+  bool WithinReach(const RigidBodies& bodies, const CompiledTree& carrier,
+                   const CompiledTree& moving) const;
+  /// True if it is proven that the trees never meet within the limits: the joints between them are
+  /// few, and their ranges can be covered with boxes over each of which the trees move less than
+  /// they are apart.
+  bool ProvenApart(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
+                   std::span<const float> reach) const;
 
+  /// True if the trees' root balls touch at most configurations.
+  bool UsuallyTouch(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b) const;
+  /// Adds what of a pair is not proven apart; `reach`: offset, see TreePair.
+  void AddProven(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
+                 int reach);
+
+  const JointSpace* space_;
   std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
   std::size_t num_nodes_ = 0;          ///< Without added balls.
   std::size_t num_reaches_ = 0;

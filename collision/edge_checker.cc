@@ -68,17 +68,6 @@ double SamplePosition(std::int64_t part, std::int64_t num_parts) {
 
 }  // namespace
 
-std::string_view EdgeCheckName(EdgeCheck method) {
-  return method == EdgeCheck::kFixed ? "fixed" : "certified";
-}
-
-std::optional<EdgeCheck> ParseEdgeCheck(std::string_view name) {
-  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
-    if (name == EdgeCheckName(method)) return method;
-  }
-  return std::nullopt;
-}
-
 EdgeChecker::EdgeChecker(CollisionChecker* checker, double edge_resolution_m, EdgeCheck method)
     : checker_(checker), edge_resolution_m_(edge_resolution_m), method_(method) {
   if (!std::isfinite(edge_resolution_m) || edge_resolution_m <= 0) {

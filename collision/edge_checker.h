@@ -1,24 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "collision/collision_checker.h"
+#include "robot_model/edge_check.h"
 
 namespace planbench {
-
-/// How an edge is found valid.
-enum class EdgeCheck {
-  kFixed,      ///< At samples a fixed resolution apart; between them it may collide.
-  kCertified,  ///< Proven free all along.
-};
-
-/// "fixed", "certified".
-std::string_view EdgeCheckName(EdgeCheck method);
-std::optional<EdgeCheck> ParseEdgeCheck(std::string_view name);
 
 /// Validity of states and edges, the same for every planner. A state is valid if it is within the
 /// joint limits and free. An edge is the straight joint motion (continuous joints the short way

@@ -27,10 +27,10 @@ kernels::LaneMask FirstLanes(int num) {
   return static_cast<kernels::LaneMask>((std::uint64_t{1} << num) - 1);
 }
 
-/// Angle as the kernels take it: the same direction, at most 2 pi.
-double Reduced(double angle) {
-  return std::abs(angle) <= 2 * std::numbers::pi ? angle
-                                                 : std::remainder(angle, 2 * std::numbers::pi);
+/// Joint position as the kernels take it: angles at most 2 pi.
+float Reduced(double position, bool slides) {
+  if (std::abs(position) <= 2 * std::numbers::pi || slides) return static_cast<float>(position);
+  return static_cast<float>(std::remainder(position, 2 * std::numbers::pi));
 }
 
 }  // namespace
@@ -43,6 +43,11 @@ SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group)
   half_widths_.resize(n * kBlock);
   exact_q_.resize(n);
   exact_half_widths_.resize(n);
+  for (const JointSpace::Joint& joint : space().joints()) {
+    lower_.push_back(joint.continuous ? -kInfinity : joint.lower - JointSpace::kLimitTolerance);
+    slides_.push_back(joint.prismatic ? 1 : 0);
+    upper_.push_back(joint.continuous ? kInfinity : joint.upper + JointSpace::kLimitTolerance);
+  }
 }
 
 MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> base_positions) {
@@ -64,15 +69,6 @@ MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> 
     rigid_bodies_.emplace(robot().model, group(), base_positions);
     compiled_.emplace(robot(), group(), *rigid_bodies_, base_positions);
     links_bound_ = BoundMotion({}, base_positions);
-    travels_.clear();
-    for (int body = 1; body < rigid_bodies_->size(); ++body) {
-      const RigidBodies::Mobility mobility = rigid_bodies_->MobilityOf(body);
-      if (!mobility.prismatic) continue;
-      const JointSpace::Joint& joint = space().joint(mobility.group_index);
-      travels_.emplace_back(
-          mobility.group_index,
-          std::max(std::abs(joint.lower), std::abs(joint.upper)) + JointSpace::kLimitTolerance);
-    }
     held_ = std::move(held);
   }
 
@@ -121,14 +117,13 @@ void SimdChecker::CompilePairs(const PairRules& rules, const Scene& scene,
   links_collide_ = false;
   links_distance_ = kInfinity;
   const auto& links = compiled_->links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    for (std::size_t k = i + 1; k < links.size(); ++k) {
-      if (!rules.ChecksLinks(links[i].link, links[k].link)) continue;
-      if (links[i].body == links[k].body) {
-        links_distance_ = std::min(links_distance_, compiled_->Distance(links[i], links[k]));
-      } else {
-        compiled_->AddPair(*rigid_bodies_, links[i], links[k], false);
-      }
+  const auto checks = [&](const CompiledTree& a, const CompiledTree& b) {
+    return rules.ChecksLinks(a.link, b.link);
+  };
+  for (const CompiledTree& a : compiled_->bodies) {
+    for (const CompiledTree& b : compiled_->bodies) {
+      if (b.body < a.body) continue;
+      compiled_->AddPairs(*rigid_bodies_, a, b, checks, &links_distance_);
     }
   }
   links_collide_ = links_distance_ <= 0;
@@ -215,18 +210,20 @@ FclChecker& SimdChecker::Exact() {
   return exact_;
 }
 
+bool SimdChecker::Fits(const double* q) const {
+  unsigned outside = 0;
+  for (std::size_t j = 0; j < lower_.size(); ++j) {
+    outside |= static_cast<unsigned>(q[j] < lower_[j]) | static_cast<unsigned>(q[j] > upper_[j]);
+  }
+  return outside == 0;
+}
+
 bool SimdChecker::SetLane(int lane, std::span<const double> q) {
   float* values = q_.data() + lane;
   for (std::size_t j = 0; j < q.size(); ++j) {
-    values[j * kBlock] = static_cast<float>(Reduced(q[j]));
+    values[j * kBlock] = Reduced(q[j], slides_[j] != 0);
   }
-  bool fit = true;
-  for (const auto& [joint, travel] : travels_) {
-    const double position = At(q, joint);
-    values[static_cast<std::size_t>(joint) * kBlock] = static_cast<float>(position);
-    fit = fit && std::abs(position) <= travel;
-  }
-  return fit;
+  return Fits(q.data());
 }
 
 template <typename ExactIsFree>
@@ -326,6 +323,13 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
                                            std::span<const MotionSample> samples,
                                            bool stop_at_first) {
   const auto n = static_cast<std::size_t>(space().size());
+  // Between ends within the limits everything is.
+  const bool start_fits = Fits(start.data());
+  fits_.resize(motions.size() / n);
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    for (std::size_t j = 0; j < n; ++j) exact_q_[j] = start[j] + motions[i * n + j];
+    fits_[i] = Fits(exact_q_.data()) ? 1 : 0;
+  }
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
     const int count = static_cast<int>(std::min<std::size_t>(kBlock, samples.size() - first));
@@ -339,14 +343,10 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
       around = around || sample.half_length > 0;
       for (std::size_t j = 0; j < n; ++j) {
         const double q = start[j] + sample.position * motion[j];
-        values[j * kBlock] = static_cast<float>(Reduced(q));
+        values[j * kBlock] = Reduced(q, slides_[j] != 0);
         widths[j * kBlock] = static_cast<float>(sample.half_length * std::abs(motion[j]));
       }
-      for (const auto& [joint, travel] : travels_) {
-        const double q = At(start, joint) + sample.position * motion[joint];
-        values[static_cast<std::size_t>(joint) * kBlock] = static_cast<float>(q);
-        if (std::abs(q) > travel) unfit |= LaneMask{1} << lane;
-      }
+      if (!start_fits || At(fits_, sample.motion) == 0) unfit |= LaneMask{1} << lane;
     }
     const BlockVerdict verdict =
         Check(count, unfit, around ? half_widths_.data() : nullptr, stop_at_first,

@@ -55,7 +55,9 @@ class SimdChecker : public CollisionChecker {
   MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions) const;
   FclChecker& Exact();
 
-  /// Puts a configuration into a lane. False if the kernels cannot judge it.
+  bool Fits(const double* q) const;
+  /// Puts a configuration into a lane. False if the kernels cannot judge it: what was left out
+  /// because it cannot be reached is so within the limits only.
   bool SetLane(int lane, std::span<const double> q);
   /// Checks the first `num` lanes; `exact(lane)` is the verdict of the FCL engine, asked for lanes
   /// in `unfit` and where there are doubts.
@@ -68,8 +70,6 @@ class SimdChecker : public CollisionChecker {
   std::optional<RigidBodies> rigid_bodies_;
   std::optional<CompiledRobot> compiled_;
   MotionBound links_bound_;  ///< Without attached objects.
-  /// Group joints that slide, and how far they may be from zero.
-  std::vector<std::pair<int, double>> travels_;
 
   // Of the scene.
   Scene scene_;
@@ -91,6 +91,10 @@ class SimdChecker : public CollisionChecker {
   // Of the block at hand, [joint][kBlock].
   std::vector<float> q_;
   std::vector<float> half_widths_;
+  /// Of the joints, kLimitTolerance added; infinite for continuous ones.
+  std::vector<double> lower_, upper_;
+  std::vector<unsigned char> slides_;  ///< By joint: prismatic.
+  std::vector<unsigned char> fits_;    ///< By motion: whether it ends within the limits.
   std::vector<double> exact_q_;
   std::vector<double> exact_half_widths_;
 };

@@ -113,6 +113,11 @@ std::vector<RunColumn> MakeRunColumns() {
        }},
       {"edge_resolution", "REAL",
        [](const Record& r) { return RealUnlessZero(r.request.edge_resolution_m); }},
+      {"edge_check", "TEXT",
+       [](const Record& r) {
+         const auto& method = r.request.edge_check;
+         return Text(method ? std::string(EdgeCheckName(*method)) : "");
+       }},
       {"time_limit", "REAL", [](const Record& r) { return Real(r.request.time_limit_s); }},
       {"anytime", "BOOLEAN", [](const Record& r) { return Bool(r.request.anytime); }},
 

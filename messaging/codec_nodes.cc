@@ -148,6 +148,7 @@ std::vector<std::uint8_t> Encode(const ProblemSetsMessage& message) {
   wire.robot_name = message.robot_name;
   wire.robot_id = message.robot_id;
   wire.edge_resolution_m = message.edge_resolution_m;
+  wire.edge_check = EdgeCheckName(message.edge_check);
   wire.has_meshes = message.has_meshes;
   for (const ProblemSetSummary& set : message.sets) wire.set.push_back(wire::SetToWire(set));
   wire.num_sets = wire::Count(wire.set.size());
@@ -163,8 +164,8 @@ ProblemSetsMessage Decode(std::span<const std::uint8_t> bytes, const std::string
   message.server = wire::NotEmpty(wire.server, at("server"));
   message.robot_name = wire.robot_name;
   message.robot_id = wire.robot_id;
-  message.edge_resolution_m =
-      wire::Positive(wire.edge_resolution_m, at("edge_resolution_m"));
+  message.edge_resolution_m = wire::Positive(wire.edge_resolution_m, at("edge_resolution_m"));
+  message.edge_check = wire::Method(wire.edge_check, at("edge_check"));
   message.has_meshes = wire::Bool(wire.has_meshes, at("has_meshes"));
   for (std::size_t i = 0; i < wire.set.size(); ++i) {
     message.sets.push_back(wire::SetFromWire(wire.set[i], at("set", i)));

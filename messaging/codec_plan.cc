@@ -51,6 +51,7 @@ lcmt_plan_request ToWire(const PlanRequest& request) {
   wire.seed = static_cast<std::int64_t>(request.seed);
   wire.collision_model = CollisionModelName(request.collision_model);
   wire.edge_resolution_m = request.edge_resolution_m;
+  if (request.edge_check) wire.edge_check = EdgeCheckName(*request.edge_check);
   wire.anytime = request.anytime;
   wire.simplify = request.simplify;
   wire.parameter = ToWire(request.parameters);
@@ -72,6 +73,7 @@ PlanRequest FromWire(const lcmt_plan_request& wire, const Field& at) {
   request.seed = static_cast<std::uint64_t>(wire.seed);
   request.collision_model = Model(wire.collision_model, at("collision_model"));
   request.edge_resolution_m = NonNegative(wire.edge_resolution_m, at("edge_resolution_m"));
+  if (!wire.edge_check.empty()) request.edge_check = Method(wire.edge_check, at("edge_check"));
   request.anytime = Bool(wire.anytime, at("anytime"));
   request.simplify = Bool(wire.simplify, at("simplify"));
   request.parameters = FromWire(wire.parameter, at, "parameter");

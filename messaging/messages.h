@@ -12,8 +12,8 @@
 #include "scene/problem.h"
 #include "scene/scene.h"
 
-/// The messages as value types; lcmtypes/ has the wire types, codec.h the conversions. `utime` fields are left out
-/// where only the moment of sending matters: Encode sets them.
+/// The messages as value types; lcmtypes/ has the wire types, codec.h the conversions. `utime`
+/// fields are left out where only the moment of sending matters: Encode sets them.
 namespace planbench {
 
 struct DiscoverMessage {
@@ -54,7 +54,8 @@ struct ProblemSetsMessage {
   std::string server;
   std::string robot_name;
   std::string robot_id;
-  double edge_resolution_m = 0;  ///< The robot's default, > 0.
+  double edge_resolution_m = 0;              ///< The robot's default, > 0.
+  EdgeCheck edge_check = EdgeCheck::kFixed;  ///< The robot's default.
   bool has_meshes = false;
   std::vector<ProblemSetSummary> sets;
 };
@@ -182,8 +183,9 @@ struct PathCheckReplyMessage {
   std::string message;
   std::string engine;
   double step_m = 0;
-  std::optional<PathVerdict> verdict;       ///< With the geometry of the request's collision model.
-  std::optional<PathVerdict> mesh_verdict;  ///< With the referee's mesh robot, if the server has one.
+  std::optional<PathVerdict> verdict;  ///< With the geometry of the request's collision model.
+  std::optional<PathVerdict>
+      mesh_verdict;  ///< With the referee's mesh robot, if the server has one.
 };
 
 struct SessionMessage {

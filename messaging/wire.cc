@@ -63,6 +63,12 @@ CollisionModel Model(const std::string& name, const Field& at) {
   return *model;
 }
 
+EdgeCheck Method(const std::string& name, const Field& at) {
+  const auto method = ParseEdgeCheck(name);
+  if (!method) at.Fail(fmt::format("no way to check edges '{}'", name));
+  return *method;
+}
+
 const std::vector<std::string>& Names(const std::vector<std::string>& names, const Field& parent,
                                       const char* name) {
   std::set<std::string_view> seen;

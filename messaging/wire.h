@@ -68,6 +68,7 @@ std::int64_t AtLeast(std::int64_t minimum, std::int64_t value, const Field& at);
 bool Bool(std::int8_t value, const Field& at);
 const std::string& NotEmpty(const std::string& text, const Field& at);
 CollisionModel Model(const std::string& name, const Field& at);
+EdgeCheck Method(const std::string& name, const Field& at);
 /// An enum whose values are 0 to count - 1.
 template <typename Enum>
 Enum EnumOf(std::int8_t value, int count, const Field& at) {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/collision_model.h"
 #include "planning/plan_status.h"
+#include "robot_model/edge_check.h"
 #include "scene/problem.h"
 
 namespace planbench {
@@ -16,7 +18,7 @@ struct PlanRequest {
   std::string run_id;      ///< The benchmark session it belongs to.
   std::string request_id;  ///< Unique; equal ids are the same request.
   std::string scene_id;
-  std::string robot_id;    ///< Content id of the robot meant; empty: any.
+  std::string robot_id;         ///< Content id of the robot meant; empty: any.
   std::string group;            ///< Empty: the robot's first group.
   JointState start;             ///< All joints it names; those outside the group are held there.
   std::vector<JointGoal> goal;  ///< One for each joint of the group, any order.
@@ -24,7 +26,8 @@ struct PlanRequest {
   double time_limit_s = 60;
   std::uint64_t seed = 1;
   CollisionModel collision_model = CollisionModel::kSpheres;
-  double edge_resolution_m = 0;  ///< 0: the robot's.
+  double edge_resolution_m = 0;         ///< 0: the robot's.
+  std::optional<EdgeCheck> edge_check;  ///< None: the robot's.
   bool anytime = false;  ///< Keep improving until the time limit; else stop at the first solution.
   bool simplify = true;  ///< Run the shared shortcutting pass on the path.
   std::map<std::string, std::string> parameters;  ///< Planner settings for this request only.

@@ -157,8 +157,10 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   // Even for the scene of the request before: what a request costs must not depend on its place in
   // the run.
   checker.SetScene(scene, resolved.base_positions);
-  EdgeChecker edges(&checker, request.edge_resolution_m > 0 ? request.edge_resolution_m
-                                                            : robot_->edge_resolution_m);
+  EdgeChecker edges(
+      &checker,
+      request.edge_resolution_m > 0 ? request.edge_resolution_m : robot_->edge_resolution_m,
+      request.edge_check.value_or(robot_->edge_check));
   result->phases.setup_s = SecondsSince(begin);
 
   SearchQuery query;

@@ -192,8 +192,8 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const fs::path robot_file = folder / "robot.yaml";
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
-  root.AllowOnly({"name", "urdf", "spheres", "edge_resolution_m", "groups", "allowed_pairs",
-                  "planners", "voxels"});
+  root.AllowOnly({"name", "urdf", "spheres", "edge_resolution_m", "edge_check", "groups",
+                  "allowed_pairs", "planners", "voxels"});
   ContentHash hash;
   hash.Add(robot_text);
 
@@ -213,6 +213,11 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   }
   if (const auto resolution = root.Find("edge_resolution_m")) {
     robot.edge_resolution_m = resolution->PositiveDouble();
+  }
+  if (const auto method = root.Find("edge_check")) {
+    const auto parsed = ParseEdgeCheck(method->String());
+    if (!parsed) method->Fail("expected fixed or certified, found '" + method->String() + "'");
+    robot.edge_check = *parsed;
   }
   if (const auto pairs = root.Find("allowed_pairs")) {
     robot.allowed_pairs = ReadAllowedPairs(*pairs, robot.model);
@@ -245,6 +250,7 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
   referee.model = RobotModel::FromUrdf(urdf_text, urdf_file.string());
   referee.name = referee.model.name();
   referee.edge_resolution_m = planning_robot.edge_resolution_m;
+  referee.edge_check = planning_robot.edge_check;
   for (const PlanningGroup& group : planning_robot.groups) {
     referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/mesh_loader.h"
+#include "robot_model/edge_check.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/voxel_settings.h"
 
@@ -21,6 +22,7 @@ namespace planbench {
 ///   urdf: fetch.urdf
 ///   spheres: spheres.yaml          # optional; without it only the meshes model can be used
 ///   edge_resolution_m: 0.02        # optional, default 0.02
+///   edge_check: certified          # or fixed; optional, default certified
 ///   groups:
 ///     - name: arm_with_torso
 ///       joints: [torso_lift_joint, ...]
@@ -47,6 +49,7 @@ struct Robot {
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
   double edge_resolution_m = 0.02;
+  EdgeCheck edge_check = EdgeCheck::kCertified;
   std::optional<VoxelSettings> voxels;
   std::map<std::string, std::filesystem::path> planner_settings;  ///< By planner name, absolute.
   ResourceResolver resources;  ///< For the collision meshes the URDF names.

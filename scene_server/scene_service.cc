@@ -49,6 +49,7 @@ ProblemSetsMessage SceneService::ProblemSets(const std::string& server_name) con
   message.robot_name = robot_.name;
   message.robot_id = robot_.content_id;
   message.edge_resolution_m = robot_.edge_resolution_m;
+  message.edge_check = robot_.edge_check;
   message.has_meshes = mesh_robot_.has_value();
   for (const auto& [name, set] : library_.sets()) {
     ProblemSetSummary summary;

@@ -326,21 +326,9 @@ class CheckPass {
     const Node& node = placement_.node(index);
     V x, y, z;
     placement_.Position(index, &x, &y, &z);
+    if (node.num_children == 0) return TestLeaf(node, x, y, z, motion, list, num);
     const V grown = Grown(node.radius, motion);
     const V reach = hn::Mul(grown, grown);
-    if (node.num_children == 0) {
-      V least = hn::Set(d_, std::numeric_limits<float>::max());
-      for (int i = 0; i < num; ++i) {
-        const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
-        const V squared = SquaredDistance(d_, solid, x, y, z);
-        if (solid.doubtful) {
-          Note(squared, node.radius, hn::Le(squared, reach), true);
-        } else {
-          least = hn::Min(least, squared);
-        }
-      }
-      return Note(least, node.radius, hn::Le(least, reach), doubtful_);
-    }
     int num_near = 0;
     for (int i = 0; i < num; ++i) {
       const V squared =
@@ -357,6 +345,23 @@ class CheckPass {
       }
     }
     return false;
+  }
+
+  HWY_INLINE bool TestLeaf(const Node& node, V x, V y, V z, V motion, const std::int32_t* list,
+                           int num) {
+    const V grown = Grown(node.radius, motion);
+    const V reach = hn::Mul(grown, grown);
+    V least = hn::Set(d_, std::numeric_limits<float>::max());
+    for (int i = 0; i < num; ++i) {
+      const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+      const V squared = SquaredDistance(d_, solid, x, y, z);
+      if (HWY_UNLIKELY(solid.doubtful)) {
+        Note(squared, node.radius, hn::Le(squared, reach), true);
+      } else {
+        least = hn::Min(least, squared);
+      }
+    }
+    return Note(least, node.radius, hn::Le(least, reach), doubtful_);
   }
 
   bool VisitGrid(int index, int body, V motion) {
@@ -392,40 +397,67 @@ class CheckPass {
   }
 
   bool TestPair(const TreePair& pair) {
-    const M before = certain_;
     placement_.PlaceRoot(pair.root_a, pair.body_a);
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     doubtful_ = pair.doubtful;
-    VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, Motion(pair.reach));
+    const V motion = Motion(pair.reach);
+    const M before = certain_;
+    const Node& node_a = placement_.node(pair.root_a);
+    const Node& node_b = placement_.node(pair.root_b);
+    V x, y, z;
+    placement_.Position(pair.root_a, &x, &y, &z);
+    const float radius = node_a.radius + node_b.radius;
+    const V squared = SquaredTo(pair.root_b, x, y, z);
+    const M touching = Within(squared, Grown(radius, motion));
+    if (hn::AllFalse(d_, touching)) return false;
+    if (node_a.num_children == 0 && node_b.num_children == 0) {
+      Note(squared, radius, touching, doubtful_);
+    } else {
+      VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion);
+    }
     return !hn::AllFalse(d_, hn::AndNot(before, certain_));
   }
 
+  HWY_INLINE V SquaredTo(int node, V x, V y, V z) const {
+    V px, py, pz;
+    placement_.Position(node, &px, &py, &pz);
+    const V dx = hn::Sub(px, x);
+    const V dy = hn::Sub(py, y);
+    const V dz = hn::Sub(pz, z);
+    return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+  }
+
+  HWY_INLINE M Within(V squared, V grown) const {
+    return hn::And(alive_, hn::Le(squared, hn::Mul(grown, grown)));
+  }
+
+  /// Two balls that touch, not both of them leaves. Returns true to stop.
   bool VisitPair(int a, int body_a, int b, int body_b, V motion) {
-    const Node& node_a = placement_.node(a);
-    const Node& node_b = placement_.node(b);
-    V ax, ay, az, bx, by, bz;
-    placement_.Position(a, &ax, &ay, &az);
-    placement_.Position(b, &bx, &by, &bz);
-    const V dx = hn::Sub(ax, bx);
-    const V dy = hn::Sub(ay, by);
-    const V dz = hn::Sub(az, bz);
-    const V squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const float radius = node_a.radius + node_b.radius;
-    const V grown = Grown(radius, motion);
-    const M touching = hn::And(alive_, hn::Le(squared, hn::Mul(grown, grown)));
-    if (hn::AllFalse(d_, touching)) return false;
-    const bool a_is_leaf = node_a.num_children == 0;
-    const bool b_is_leaf = node_b.num_children == 0;
-    if (a_is_leaf && b_is_leaf) return Note(squared, radius, touching, doubtful_);
-    if (b_is_leaf || (!a_is_leaf && node_a.radius > node_b.radius)) {
-      placement_.PlaceChildren(a, body_a);
-      for (int i = 0; i < node_a.num_children; ++i) {
-        if (VisitPair(node_a.first_child + i, body_a, b, body_b, motion)) return true;
+    {
+      // The larger one is replaced by its children.
+      const Node& node_a = placement_.node(a);
+      const Node& node_b = placement_.node(b);
+      if (node_a.num_children == 0 || (node_b.num_children != 0 && node_a.radius < node_b.radius)) {
+        std::swap(a, b);
+        std::swap(body_a, body_b);
       }
-    } else {
-      placement_.PlaceChildren(b, body_b);
-      for (int i = 0; i < node_b.num_children; ++i) {
-        if (VisitPair(a, body_a, node_b.first_child + i, body_b, motion)) return true;
+    }
+    const Node& large = placement_.node(a);
+    const Node& small = placement_.node(b);
+    placement_.PlaceChildren(a, body_a);
+    V x, y, z;
+    placement_.Position(b, &x, &y, &z);
+    for (int i = 0; i < large.num_children; ++i) {
+      const int child = large.first_child + i;
+      const Node& node = placement_.node(child);
+      const float radius = node.radius + small.radius;
+      const V squared = SquaredTo(child, x, y, z);
+      const M touching = Within(squared, Grown(radius, motion));
+      if (hn::AllFalse(d_, touching)) continue;
+      if (node.num_children == 0 && small.num_children == 0) {
+        if (Note(squared, radius, touching, doubtful_)) return true;
+      } else if (VisitPair(child, body_a, b, body_b, motion)) {
+        return true;
       }
     }
     return false;

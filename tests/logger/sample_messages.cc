@@ -68,6 +68,7 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
   request.seed = 9'223'372'036'854'775'809u;
   request.collision_model = CollisionModel::kVoxels;
   request.edge_resolution_m = 0.05;
+  request.edge_check = EdgeCheck::kCertified;
   request.anytime = true;
   request.parameters = {{"epsilon", "5"}};
 

@@ -99,7 +99,13 @@ NodeStatusMessage Example() {
 
 template <>
 ProblemSetsMessage Example() {
-  return {"scene-server", "arm", "0123", 0.02, true, {{"shelf", {1, 2, 100}}, {"box", {}}}};
+  return {"scene-server",
+          "arm",
+          "0123",
+          0.02,
+          EdgeCheck::kCertified,
+          true,
+          {{"shelf", {1, 2, 100}}, {"box", {}}}};
 }
 
 template <>
@@ -149,6 +155,7 @@ PlanRequest Example() {
   request.seed = 0xfedcba9876543210;
   request.collision_model = CollisionModel::kMeshes;
   request.edge_resolution_m = 0.05;
+  request.edge_check = EdgeCheck::kCertified;
   request.anytime = true;
   request.simplify = false;
   request.parameters = {{"range", "2"}, {"epsilon", "100"}};

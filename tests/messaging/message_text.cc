@@ -138,8 +138,8 @@ class Writer {
     All(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
   void Add(const ProblemSetsMessage& message) {
-    const auto& [a, b, c, d, e, f] = message;
-    All(a, b, c, d, e, f);
+    const auto& [a, b, c, d, e, f, g] = message;
+    All(a, b, c, d, e, f, g);
   }
   void Add(const ProblemRequestMessage& message) {
     const auto& [a, b, c] = message;
@@ -158,8 +158,8 @@ class Writer {
     All(a, b, c, d, e);
   }
   void Add(const PlanRequest& message) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = message;
-    All(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = message;
+    All(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
   void Add(const PlanAckMessage& message) {
     const auto& [a, b, c, d] = message;
