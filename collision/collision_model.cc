@@ -25,8 +25,8 @@ std::optional<CollisionModel> ParseCollisionModel(std::string_view name) {
 }
 
 const std::vector<CollisionModel>& AvailableCollisionModels() {
-  static const std::vector<CollisionModel> kAvailable = {CollisionModel::kSpheres,
-                                                         CollisionModel::kMeshes};
+  static const std::vector<CollisionModel> kAvailable = {
+      CollisionModel::kSpheres, CollisionModel::kVoxels, CollisionModel::kMeshes};
   return kAvailable;
 }
 

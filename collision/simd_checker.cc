@@ -33,11 +33,23 @@ float Reduced(double position, bool slides) {
   return static_cast<float>(std::remainder(position, 2 * std::numbers::pi));
 }
 
+/// A grid that no sphere leaves.
+VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
+  VoxelSettings settings;
+  settings.lower.setConstant(kInfinity);
+  settings.upper.setConstant(-kInfinity);
+  for (const CompiledTree& tree : robot.bodies) {
+    const Eigen::Vector3d extent = Eigen::Vector3d::Constant(tree.reach_W.radius);
+    settings.lower = settings.lower.cwiseMin(tree.reach_W.center - extent);
+    settings.upper = settings.upper.cwiseMax(tree.reach_W.center + extent);
+  }
+  return settings;
+}
+
 }  // namespace
 
-SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group)
-    : CollisionChecker(robot, group, CollisionModel::kSpheres),
-      exact_(robot, group, CollisionModel::kSpheres) {
+SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
+    : CollisionChecker(robot, group, model), exact_(robot, group, CollisionModel::kSpheres) {
   const auto n = static_cast<std::size_t>(group.space.size());
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
@@ -69,6 +81,10 @@ MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> 
     rigid_bodies_.emplace(robot().model, group(), base_positions);
     compiled_.emplace(robot(), group(), *rigid_bodies_, base_positions);
     links_bound_ = BoundMotion({}, base_positions);
+    if (model() == CollisionModel::kVoxels) {
+      field_ = std::make_unique<DistanceFieldBuilder>(
+          robot().voxels ? *robot().voxels : VoxelsWithinReach(*compiled_));
+    }
     held_ = std::move(held);
   }
 
@@ -83,7 +99,20 @@ MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> 
     CompilePairs(rules, scene, base_positions);
     pairs_hold_ = scene.attached.empty();
   }
-  world_.SetObjects(scene, *compiled_);
+  if (field_ == nullptr) {
+    world_.SetObjects(scene, *compiled_);
+  } else {
+    world_.SetObjects({}, *compiled_);
+    const DistanceField& field = field_->Rebuild(scene);
+    for (std::size_t k = 0; k < 3; ++k) {
+      grid_.origin[k] = field.origin[k];
+      grid_.size[k] = field.size[k];
+    }
+    grid_.resolution = field.resolution;
+    grid_.outside = field.outside;
+    grid_.values = field.values.data();
+    world_.kernel.grid = &grid_;
+  }
   CompileTrees(rules, scene);
   scratch_.Reset(compiled_->kernel, world_.kernel);
   return scene.attached.empty() ? links_bound_ : BoundMotion(scene, base_positions);
@@ -156,7 +185,7 @@ void SimdChecker::CompileTrees(const PairRules& rules, const Scene& scene) {
   const bool by_default = !scene.allowed_collisions.default_entries().empty();
   std::vector<unsigned char> all(scene.objects.size(), 1);
   std::vector<int> named;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+  for (std::size_t i = 0; field_ == nullptr && i < scene.objects.size(); ++i) {
     if (by_default || allowed_names_.contains(scene.objects[i].id)) {
       named.push_back(static_cast<int>(i));
     }
@@ -177,7 +206,7 @@ void SimdChecker::CompileTrees(const PairRules& rules, const Scene& scene) {
   // What does not move is judged here, once.
   always_collides_ = links_collide_;
   standing_distance_ = links_distance_;
-  add_all(false);
+  if (field_ == nullptr) add_all(false);
   if (!world_.kernel.trees.empty()) {
     base_.num_joints = compiled_->kernel.num_joints;
     base_.bodies.assign(1, kernels::Body());
@@ -392,7 +421,40 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
   }
 }
 
+double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const double> q) {
+  kernels::SphereRobot robot = compiled_->kernel;
+  robot.pairs.clear();
+  kernels::SphereWorld world;
+  world.grid = &grid_;
+  world.trees.push_back({tree.root, tree.body, false, tree.reach, 0, 0, 0, -1});
+  kernels::SphereScratch scratch;
+  scratch.Reset(robot, world);
+  SetLane(0, q);
+  float distances[kBlock];
+  kernels::BlockDistances(robot, world, &scratch, q_.data(),
+                          static_cast<float>(CompiledWorld::kMaxDistance), distances);
+  return distances[0];
+}
+
+std::pair<double, std::string> SimdChecker::NearestToField(std::span<const double> q) {
+  std::pair<double, std::string> nearest = {kInfinity, ""};
+  for (const CompiledTree& tree : compiled_->links) {
+    if (tree.body == 0) continue;
+    const double distance = FieldDistance(tree, q);
+    if (distance < nearest.first) {
+      nearest = {distance, At(robot().model.links(), tree.link).name};
+    }
+  }
+  return nearest;
+}
+
 std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
+  if (field_ != nullptr) {
+    if (DoIsFree(q)) return std::nullopt;
+    // What is not the field's is the robot's own, or an attached object's.
+    const auto [distance, link] = NearestToField(q);
+    if (distance <= 0) return Contact{link, "voxels", -distance};
+  }
   if (auto contact = Exact().FindContact(q)) return contact;
   if (DoIsFree(q)) return std::nullopt;
   // Within the band in which this engine errs towards collision.
@@ -400,6 +462,16 @@ std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
   return Contact{closest.body_a, closest.body_b, 0};
 }
 
-ClosestPair SimdChecker::DoFindClosest(std::span<const double> q) { return Exact().FindClosest(q); }
+ClosestPair SimdChecker::DoFindClosest(std::span<const double> q) {
+  if (field_ == nullptr) return Exact().FindClosest(q);
+  Scene without_objects = scene_;
+  without_objects.objects.clear();
+  exact_.SetScene(without_objects, base_positions_);
+  exact_is_set_ = false;
+  ClosestPair closest = exact_.FindClosest(q);
+  const auto [distance, link] = NearestToField(q);
+  if (distance < closest.distance_m) closest = {distance, link, "voxels"};
+  return closest;
+}
 
 }  // namespace planbench

@@ -1,32 +1,41 @@
 #pragma once
 
-#include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "collision/collision_checker.h"
 #include "collision/compiled_robot.h"
 #include "collision/compiled_world.h"
+#include "collision/distance_field.h"
 #include "collision/fcl_checker.h"
 #include "collision/rigid_bodies.h"
 
 namespace planbench {
 
-/// The vectorised engine of the spheres model: many configurations at once, one SIMD lane each, in
-/// single precision (kernels/sphere_kernel.h).
+/// The vectorised engine of the spheres and voxels models: many configurations at once, one SIMD
+/// lane each, in single precision (kernels/sphere_kernel.h).
 ///
 /// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
 /// kernels do not know (scene meshes, attached objects, prismatic joints far beyond their limits,
 /// objects of tens of metres that are not boxes) they pass on as doubts, which the FCL engine
 /// decides; it also names contacts and nearest pairs, in double precision.
+///
+/// Voxels: a sphere collides with the world if the distance field's value at its centre is less
+/// than its radius. Links that the group does not move are not checked against the field, and a
+/// field cannot tell objects apart: the allowed-collision matrix's entries for objects do not
+/// count. Attached objects are checked against the exact shapes. The grid is Robot::voxels, else
+/// one that covers the robot's reach at 0.02 m.
 class SimdChecker : public CollisionChecker {
  public:
-  /// Throws InputError if the robot has no spheres.
-  SimdChecker(const Robot& robot, const PlanningGroup& group);
+  /// Throws InputError if the robot has no spheres, or for a grid that is too large.
+  SimdChecker(const Robot& robot, const PlanningGroup& group,
+              CollisionModel model = CollisionModel::kSpheres);
 
   std::string_view EngineName() const override { return "simd"; }
   int BatchSize() const override { return kernels::kBlock; }
@@ -51,6 +60,9 @@ class SimdChecker : public CollisionChecker {
   void CompilePairs(const PairRules& rules, const Scene& scene,
                     std::span<const double> base_positions);
   void CompileTrees(const PairRules& rules, const Scene& scene);
+  /// The distance of a tree from the field alone, at most kMaxDistance.
+  double FieldDistance(const CompiledTree& tree, std::span<const double> q);
+  std::pair<double, std::string> NearestToField(std::span<const double> q);
   void NoteAllowedNames(const AllowedCollisionMatrix& matrix);
   MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions) const;
   FclChecker& Exact();
@@ -82,6 +94,8 @@ class SimdChecker : public CollisionChecker {
   bool always_collides_ = false;
   double standing_distance_ = 0;  ///< Of pairs that do not move relative to each other, m.
   CompiledWorld world_;
+  std::unique_ptr<DistanceFieldBuilder> field_;  ///< Voxels.
+  kernels::DistanceGrid grid_;                   ///< Refers to field_.
   kernels::SphereScratch scratch_;
   kernels::SphereRobot base_;  ///< What of the robot does not move.
   kernels::SphereScratch base_scratch_;

@@ -201,7 +201,7 @@ HWY_INLINE V GridDistance(Lanes d, const DistanceGrid& grid, V x, V y, V z, floa
                       hn::Add(hn::ConvertTo(di, cy),
                               hn::Mul(hn::Set(di, grid.size[1]), hn::ConvertTo(di, cz)))));
   const auto safe = hn::IfThenElseZero(hn::RebindMask(di, inside), index);
-  return hn::IfThenElse(inside, hn::GatherIndex(d, grid.values.data(), safe), hn::Set(d, outside));
+  return hn::IfThenElse(inside, hn::GatherIndex(d, grid.values, safe), hn::Set(d, outside));
 }
 
 /// How far grid values at two points may differ beyond the distance of the points: each is that of

@@ -102,7 +102,7 @@ struct DistanceGrid {
   float resolution = 1;
   int size[3] = {0, 0, 0};
   float outside = 0;          ///< The value everywhere outside.
-  std::vector<float> values;  ///< x fastest; empty: there is no grid.
+  const float* values = nullptr;  ///< x fastest.
 };
 
 /// What stands still.

@@ -14,7 +14,8 @@ TEST(CollisionModelTest, NamesAreParsedBack) {
     EXPECT_EQ(ParseCollisionModel(unknown), std::nullopt);
   }
   EXPECT_THAT(AvailableCollisionModels(),
-              testing::ElementsAre(CollisionModel::kSpheres, CollisionModel::kMeshes));
+              testing::ElementsAre(CollisionModel::kSpheres, CollisionModel::kVoxels,
+                                   CollisionModel::kMeshes));
 }
 
 }  // namespace

@@ -149,8 +149,6 @@ TEST(MeshesModelTest, RefusesRobotsWithoutTheirGeometry) {
   const Robot spheres_only = MakeRailRobot();
   ExpectInputError(make(spheres_only, CollisionModel::kMeshes),
                    {"rail_robot", "collision geometry", "meshes model"});
-  ExpectInputError(make(spheres_only, CollisionModel::kVoxels),
-                   {"the voxels model is not available; available: spheres, meshes"});
 }
 
 }  // namespace

@@ -367,7 +367,6 @@ TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
       {"step NaN", [](PlanRequest* r) { r->edge_resolution_m = kNan; }, "edge_resolution_m"},
       {"infinite step", [](PlanRequest* r) { r->edge_resolution_m = INFINITY; },
        "edge_resolution_m"},
-      {"model", [](PlanRequest* r) { r->collision_model = CollisionModel::kVoxels; }, "voxels"},
       {"group", [](PlanRequest* r) { r->group = "leg"; }, "leg"},
       {"start joint", [](PlanRequest* r) { r->start.names[0] = "knee"; }, "knee"},
       {"start NaN", [](PlanRequest* r) { r->start.positions[0] = kNan; }, "shoulder"},

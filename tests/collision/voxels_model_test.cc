@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "collision/simd_checker.h"
+#include "robot_model/robot_folder.h"
+#include "scene/moveit_yaml.h"
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+#include "tests/support/shared_data.h"
+
+namespace planbench {
+namespace {
+
+/// The rail robot: a sphere of radius 0.25 m at (0, 0, slide).
+Robot RailRobotWithGrid(bool walls) {
+  Robot robot = MakeRailRobot();
+  robot.voxels = VoxelSettings{0.02, Eigen::Vector3d(-1, -1, -2), Eigen::Vector3d(1, 1, 2), walls};
+  return robot;
+}
+
+Scene BoxAt(double z) {
+  return SceneWith("box", Box{Eigen::Vector3d(0.4, 0.4, 0.4)},
+                   Eigen::Isometry3d(Eigen::Translation3d(0, 0, z)));
+}
+
+TEST(VoxelsModelTest, VerdictIsThatOfTheFieldAtTheSpheresCentre) {
+  const Robot robot = RailRobotWithGrid(false);
+  SimdChecker checker(robot, robot.groups.front(), CollisionModel::kVoxels);
+  const Scene scene = BoxAt(0);
+  checker.SetScene(scene, std::vector<double>{0.0});
+  DistanceFieldBuilder builder(*robot.voxels);
+  const DistanceField& field = builder.Rebuild(scene);
+  int num_free = 0;
+  for (double z = -1.95; z < 1.95; z += 0.0103) {
+    const auto i = static_cast<std::size_t>(std::floor((z + 2) / 0.02));
+    const std::size_t nx = static_cast<std::size_t>(field.size[0]);
+    const std::size_t ny = static_cast<std::size_t>(field.size[1]);
+    const float value = field.values[nx / 2 + nx * (ny / 2 + ny * i)];
+    if (std::abs(value - 0.25) < 1e-4) continue;
+    const std::vector<double> q = {z};
+    EXPECT_EQ(checker.IsFree(q), value > 0.25) << z;
+    num_free += checker.IsFree(q) ? 1 : 0;
+    EXPECT_EQ(checker.FindContact(q).has_value(), value < 0.25) << z;
+    EXPECT_NEAR(checker.FindClosest(q).distance_m, std::min(value - 0.25, 0.5), 1e-4);
+  }
+  EXPECT_GT(num_free, 100);
+}
+
+TEST(VoxelsModelTest, WallsStandWhereTheGridEnds) {
+  for (const bool walls : {false, true}) {
+    const Robot robot = RailRobotWithGrid(walls);
+    SimdChecker checker(robot, robot.groups.front(), CollisionModel::kVoxels);
+    checker.SetScene({}, std::vector<double>{0.0});
+    EXPECT_TRUE(checker.IsFree(std::vector<double>{0.0}));
+    EXPECT_TRUE(checker.IsFree(std::vector<double>{1.7}));
+    EXPECT_EQ(checker.IsFree(std::vector<double>{1.8}), !walls);
+    EXPECT_EQ(checker.IsFree(std::vector<double>{5.0}), !walls);
+  }
+}
+
+TEST(VoxelsModelTest, WithoutAGridOfItsOwnTheRobotIsCovered) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  SimdChecker voxels(arm, arm.groups.front(), CollisionModel::kVoxels);
+  SimdChecker spheres(arm, arm.groups.front());
+  std::mt19937_64 generator(5);
+  int num_differ = 0;
+  int num_blocked = 0;
+  for (const NamedScene& world : MakeTestScenes()) {
+    if (!world.scene.attached.empty() || !world.scene.allowed_collisions.entries().empty())
+      continue;
+    voxels.SetScene(world.scene, base);
+    spheres.SetScene(world.scene, base);
+    for (int i = 0; i < 100; ++i) {
+      const auto q = RandomConfiguration(arm.groups.front().space, &generator);
+      const double distance = spheres.FindClosest(q).distance_m;
+      num_blocked += voxels.IsFree(q) ? 0 : 1;
+      // A cell's value and a point in it differ by less than two half diagonals.
+      if (std::abs(distance) < 0.04) continue;
+      num_differ += voxels.IsFree(q) == (distance > 0) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(num_differ, 0);
+  EXPECT_GT(num_blocked, 20);
+}
+
+TEST(VoxelsModelTest, ProvesBoxesOfConfigurations) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  SimdChecker checker(arm, arm.groups.front(), CollisionModel::kVoxels);
+  checker.SetScene(MakeTestScenes()[1].scene, base);
+  const JointSpace& space = arm.groups.front().space;
+  std::mt19937_64 generator(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int num_proven = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto q = RandomConfiguration(space, &generator);
+    const std::vector<double> widths(q.size(), 0.02);
+    unsigned char free = 0;
+    checker.CheckAround(q, widths, 1, {&free, 1});
+    if (free == 0) continue;
+    ++num_proven;
+    for (int k = 0; k < 20; ++k) {
+      std::vector<double> near = q;
+      for (std::size_t j = 0; j < q.size(); ++j) near[j] += widths[j] * unit(generator);
+      EXPECT_TRUE(checker.IsFree(near));
+    }
+  }
+  EXPECT_GT(num_proven, 20);
+}
+
+}  // namespace
+}  // namespace planbench
