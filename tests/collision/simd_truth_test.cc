@@ -1,0 +1,241 @@
+// The vectorised engine against the exact one: wherever the exact distance is more than 0.1 mm from
+// zero the verdicts agree; nearer, the vectorised engine errs towards collision only.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "collision/fcl_checker.h"
+#include "collision/simd_checker.h"
+#include "scene/moveit_yaml.h"
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+#include "tests/support/shared_data.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kBand_m = 1e-4;
+
+class Comparison {
+ public:
+  Comparison(const Robot& robot, const Scene& scene, std::span<const double> base_positions)
+      : exact_(robot, robot.groups.front(), CollisionModel::kSpheres),
+        fast_(robot, robot.groups.front()) {
+    exact_.SetScene(scene, base_positions);
+    fast_.SetScene(scene, base_positions);
+  }
+  SimdChecker& fast() { return fast_; }
+  FclChecker& exact() { return exact_; }
+  int num_free() const { return num_free_; }
+  int num_disputed() const { return num_disputed_; }
+
+  void Judge(std::span<const double> q, bool fast_free) {
+    const bool exact_free = exact_.IsFree(q);
+    num_free_ += exact_free ? 1 : 0;
+    if (fast_free == exact_free) return;
+    ++num_disputed_;
+    EXPECT_FALSE(fast_free) << "errs towards free";
+    EXPECT_LE(exact_.FindClosest(q).distance_m, kBand_m);
+  }
+
+  void JudgeRandom(int num, std::uint64_t seed) {
+    const JointSpace& space = fast_.space();
+    std::mt19937_64 generator(seed);
+    std::vector<double> qs;
+    for (int i = 0; i < num; ++i) {
+      const auto q = RandomConfiguration(space, &generator);
+      qs.insert(qs.end(), q.begin(), q.end());
+    }
+    std::vector<unsigned char> free(static_cast<std::size_t>(num));
+    fast_.CheckAll(qs, num, free);
+    const auto n = static_cast<std::size_t>(space.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      Judge(std::span(qs).subspan(i * n, n), free[i] != 0);
+    }
+  }
+
+ private:
+  FclChecker exact_;
+  SimdChecker fast_;
+  int num_free_ = 0;
+  int num_disputed_ = 0;
+};
+
+struct World {
+  std::string what;
+  Robot robot;
+  Scene scene;
+  std::vector<double> base_positions;
+};
+
+/// The Fetch in scenes of its own and in published ones, where these are at hand.
+std::vector<World> FetchWorlds() {
+  std::vector<World> worlds;
+  std::vector<std::filesystem::path> folders = {PLANBENCH_SOURCE_DIR "/problems/shelf_demo"};
+  for (const char* set : {"bookshelf_small_fetch", "box_fetch", "table_pick_fetch"}) {
+    const auto folder = SharedData("problems") / set;
+    if (std::filesystem::exists(folder)) folders.push_back(folder);
+  }
+  const Robot robot = LoadRobot(PLANBENCH_SOURCE_DIR "/robots/fetch");
+  for (const auto& folder : folders) {
+    for (const int index : {1, 4}) {
+      const ProblemFiles* files = nullptr;
+      const ProblemSet set = ListProblemSet(folder);
+      files = set.Find(index);
+      const Problem problem = ReadProblem(files->scene, files->request, robot.resources);
+      worlds.push_back({files->scene.string(), robot, problem.scene,
+                        FullPositions(robot.model, problem.start.names, problem.start.positions,
+                                      files->request.string())});
+    }
+  }
+  return worlds;
+}
+
+TEST(SimdTruthTest, RandomConfigurationsInShelvesBoxesAndTables) {
+  for (const World& world : FetchWorlds()) {
+    SCOPED_TRACE(world.what);
+    Comparison comparison(world.robot, world.scene, world.base_positions);
+    constexpr int kNum = 100'000;
+    comparison.JudgeRandom(kNum, 1);
+    EXPECT_GT(comparison.num_free(), kNum / 10);
+    EXPECT_LT(comparison.num_free(), kNum);
+    EXPECT_LT(comparison.num_disputed(), kNum / 500);
+  }
+}
+
+TEST(SimdTruthTest, RandomConfigurationsAmongShapesOfAllKinds) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    Comparison comparison(arm, world.scene, base);
+    comparison.JudgeRandom(20'000, 2);
+    EXPECT_LT(comparison.num_disputed(), 400);
+  }
+}
+
+TEST(SimdTruthTest, EdgesAtFixedSamples) {
+  for (const World& world : FetchWorlds()) {
+    SCOPED_TRACE(world.what);
+    Comparison comparison(world.robot, world.scene, world.base_positions);
+    EdgeChecker exact_edges(&comparison.exact(), world.robot.edge_resolution_m);
+    EdgeChecker fast_edges(&comparison.fast(), world.robot.edge_resolution_m);
+    const JointSpace& space = comparison.fast().space();
+    std::mt19937_64 generator(3);
+    int num_valid = 0;
+    int num_disputed = 0;
+    constexpr int kNum = 12'500;
+    for (int i = 0; i < kNum; ++i) {
+      const auto from = RandomConfiguration(space, &generator);
+      auto to = RandomConfiguration(space, &generator);
+      space.Interpolate(from, to, 0.1, to);
+      const bool valid = exact_edges.IsValidEdge(from, to);
+      num_valid += valid ? 1 : 0;
+      if (fast_edges.IsValidEdge(from, to) == valid) continue;
+      ++num_disputed;
+      EXPECT_TRUE(valid) << "errs towards free";
+      double clearance = std::numeric_limits<double>::infinity();
+      const int intervals = exact_edges.NumIntervals(from, to);
+      std::vector<double> q(from.size());
+      for (int k = 0; k <= intervals; ++k) {
+        space.Interpolate(from, to, static_cast<double>(k) / intervals, q);
+        clearance = std::min(clearance, comparison.exact().FindClosest(q).distance_m);
+      }
+      EXPECT_LE(clearance, kBand_m);
+    }
+    EXPECT_GT(num_valid, kNum / 10);
+    EXPECT_LT(num_disputed, kNum / 50);
+  }
+}
+
+TEST(SimdTruthTest, CertifiedEdgesAreFreeAllAlong) {
+  for (const World& world : FetchWorlds()) {
+    SCOPED_TRACE(world.what);
+    Comparison comparison(world.robot, world.scene, world.base_positions);
+    const double resolution = world.robot.edge_resolution_m;
+    EdgeChecker certified(&comparison.fast(), resolution, EdgeCheck::kCertified);
+    EdgeChecker fixed(&comparison.fast(), resolution);
+    EdgeChecker fine(&comparison.exact(), resolution / 16);
+    const JointSpace& space = comparison.fast().space();
+    std::mt19937_64 generator(4);
+    int num_valid = 0;
+    int num_refused_without_need = 0;
+    for (int i = 0; i < 600; ++i) {
+      const auto from = RandomConfiguration(space, &generator);
+      auto to = RandomConfiguration(space, &generator);
+      space.Interpolate(from, to, 0.2, to);
+      const bool valid = certified.IsValidEdge(from, to);
+      if (valid) {
+        ++num_valid;
+        EXPECT_TRUE(fixed.IsValidEdge(from, to));
+        EXPECT_TRUE(fine.IsValidEdge(from, to));
+      } else if (fine.IsValidEdge(from, to)) {
+        ++num_refused_without_need;
+      }
+    }
+    EXPECT_GT(num_valid, 100);
+    EXPECT_LT(num_refused_without_need, num_valid / 20);
+  }
+}
+
+/// What is not found among random scenes: shapes of sizes and places that strain single precision,
+/// approached to within the band from both sides.
+TEST(SimdTruthTest, TinyHugeFarAndRotatedShapesTouchedFromAllSides) {
+  const Robot robot = MakeRailRobot();  // a sphere of radius 0.25 m on a rail along z
+  const std::vector<double> base = {0.0};
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const double kSizes[] = {1e-5, 1e-3, 0.1, 1, 30, 1e3, 1e5};
+  int num_judged = 0;
+  int num_blocked = 0;
+  for (int i = 0; i < 700; ++i) {
+    const double size = kSizes[i % 7];
+    const double other = size * std::exp2(3 * unit(generator));
+    Shape shape = Box{Eigen::Vector3d(size, other, size)};
+    if (i / 7 % 4 == 1) shape = Cylinder{size / 2, other};
+    if (i / 7 % 4 == 2) shape = Sphere{size / 2};
+    if (i / 7 % 4 == 3) shape = Cone{size / 2, other};
+    Eigen::Isometry3d X_WO = RandomPose(&generator, 0.5);
+    if (i % 3 == 0) X_WO.linear().setIdentity();
+    // Its surface near the rail, wherever its middle is.
+    const double depth = OracleDistance(shape, Eigen::Vector3d::Zero());
+    X_WO.translation() +=
+        Eigen::Vector3d(unit(generator), unit(generator), unit(generator)).normalized() *
+        (0.25 - std::min(depth, 0.0));
+    Comparison comparison(robot, SceneWith("thing", shape, X_WO), base);
+    // Bisects for where the verdict changes along the rail, and looks closely there.
+    for (int k = 0; k < 20; ++k) {
+      double low = 5 * unit(generator);
+      double high = 5 * unit(generator);
+      const auto distance = [&](double z) {
+        return OracleDistance(shape, X_WO.inverse() * Eigen::Vector3d(0, 0, z)) - 0.25;
+      };
+      if ((distance(low) > 0) != (distance(high) > 0)) {
+        for (int step = 0; step < 40; ++step) {
+          const double middle = (low + high) / 2;
+          ((distance(middle) > 0) == (distance(low) > 0) ? low : high) = middle;
+        }
+      }
+      for (const double offset : {0.0, 3e-4, -3e-4, 1.1e-4, -1.1e-4, 1e-5, -1e-5}) {
+        const std::vector<double> q = {low + offset};
+        const double d = distance(q[0]);
+        if (std::abs(d) <= kBand_m) continue;
+        ++num_judged;
+        num_blocked += d > 0 ? 0 : 1;
+        EXPECT_EQ(comparison.fast().IsFree(q), d > 0)
+            << ShapeTypeName(shape) << " of " << size << " m, distance " << d;
+      }
+    }
+  }
+  EXPECT_GT(num_judged, 50'000);
+  EXPECT_GT(num_blocked, num_judged / 20);
+}
+
+}  // namespace
+}  // namespace planbench
