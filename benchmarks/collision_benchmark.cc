@@ -1,15 +1,22 @@
 // Throughput of collision checking on one published problem: items_per_second is configurations
 // (edges) per second of CPU time on one core.
 //
-//   collision_benchmark --problems DIR [--index N] [--robot DIR] [--model spheres|meshes]
-//   [--benchmark_... flags]
+//   collision_benchmark --problems DIR [--index N] [--robot DIR] [--model spheres|voxels|meshes]
+//   [--engine fast|exact] [--spheres N] [--edge-check fixed|certified] [--benchmark_... flags]
+//
+// Names: check: one configuration a call; block: 16 a call, one in collision ends a call; edge: of
+// at most that length (L2, rad and m), as planners check them; unit_edge: free edges of 1 rad at 32
+// samples; successors: 16 edges of 8 samples out of one configuration; boxes: random configurations
+// among that many boxes, of one density around the robot.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
@@ -31,6 +38,7 @@ struct Workload {
   Problem problem;
   std::vector<double> base_positions;
   std::unique_ptr<CollisionChecker> checker;
+  EdgeCheck edge_check = EdgeCheck::kFixed;
   std::vector<Configuration> random;  ///< Uniform within limits.
   std::vector<Configuration> free;    ///< Those of `random` that are free.
 };
@@ -48,9 +56,10 @@ Workload Prepare(const std::string& robot_folder, const std::string& problems, i
 }
 
 /// Done once the workload is where it stays: the checker refers to the robot.
-void AddConfigurations(Workload* work, CollisionModel model) {
+void AddConfigurations(Workload* work, CollisionModel model, bool exact) {
   const PlanningGroup& group = work->robot.Group(work->problem.group);
-  work->checker = MakeCollisionChecker(work->robot, group, model);
+  work->checker = exact ? MakeReferenceChecker(work->robot, group, model)
+                        : MakeCollisionChecker(work->robot, group, model);
   work->checker->SetScene(work->problem.scene, work->base_positions);
   std::mt19937_64 generator(1);
   for (int i = 0; i < 20000; ++i) {
@@ -94,7 +103,7 @@ void CheckBlocks(benchmark::State& state, CollisionChecker& checker,
 /// Edges from each free configuration towards the next, cut to at most `max_length` (L2, rad and
 /// m).
 void CheckEdges(benchmark::State& state, Workload& work, double max_length) {
-  EdgeChecker edges(work.checker.get(), work.robot.edge_resolution_m);
+  EdgeChecker edges(work.checker.get(), work.robot.edge_resolution_m, work.edge_check);
   const JointSpace& space = edges.space();
   std::vector<Configuration> ends;
   for (std::size_t i = 0; i + 1 < work.free.size(); ++i) {
@@ -118,6 +127,140 @@ void CheckEdges(benchmark::State& state, Workload& work, double max_length) {
       static_cast<double>(edges.counters().configurations), benchmark::Counter::kIsRate);
 }
 
+/// Samples of free edges of length 1 (L2, rad and m): 32 of one edge, or 8 of each of 16 edges out
+/// of one configuration; all of them free.
+void CheckSamples(benchmark::State& state, Workload& work, int num_edges, int num_samples) {
+  const auto n = static_cast<std::size_t>(work.checker->space().size());
+  std::mt19937_64 generator(2);
+  std::normal_distribution<double> normal;
+  struct Case {
+    Configuration start;
+    std::vector<double> motions;
+  };
+  std::vector<MotionSample> samples;
+  for (int i = 0; i < num_samples; ++i) {
+    for (int edge = 0; edge < num_edges; ++edge) {
+      samples.push_back({edge, static_cast<double>(i + 1) / num_samples});
+    }
+  }
+  const double length = num_edges == 1 ? 1.0 : 0.14;
+  std::vector<Case> cases;
+  for (std::size_t i = 0; cases.size() < 200; i = i + 1 == work.free.size() ? 0 : i + 1) {
+    Case one{work.free[i], {}};
+    for (int tries = 0;
+         tries < 50 * num_edges && one.motions.size() < n * static_cast<std::size_t>(num_edges);
+         ++tries) {
+      std::vector<double> motion(n);
+      double squared = 0;
+      for (double& value : motion) {
+        value = normal(generator);
+        squared += value * value;
+      }
+      for (double& value : motion) value *= length / std::sqrt(squared);
+      std::vector<MotionSample> along;
+      for (int k = 0; k < num_samples; ++k) {
+        along.push_back({0, static_cast<double>(k + 1) / num_samples});
+      }
+      Configuration end = one.start;
+      for (std::size_t j = 0; j < n; ++j) end[j] += motion[j];
+      if (!work.checker->space().WithinLimits(end)) continue;
+      if (work.checker->CheckSamples(one.start, motion, along, true).blocked != 0) continue;
+      one.motions.insert(one.motions.end(), motion.begin(), motion.end());
+    }
+    if (one.motions.size() == n * static_cast<std::size_t>(num_edges))
+      cases.push_back(std::move(one));
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    for (std::size_t first = 0; first < samples.size(); first += 64) {
+      const auto block =
+          std::span(samples).subspan(first, std::min<std::size_t>(64, samples.size() - first));
+      benchmark::DoNotOptimize(
+          work.checker->CheckSamples(cases[i].start, cases[i].motions, block, false));
+    }
+    i = i + 1 == cases.size() ? 0 : i + 1;
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
+}
+
+/// The same number of boxes in every cubic metre around the robot, however many there are.
+Scene MakeBoxes(int num) {
+  Scene scene;
+  std::mt19937_64 generator(3);
+  const double half_extent = std::cbrt(num / 10.0) / 2 * 1.5;
+  std::uniform_real_distribution<double> place(-half_extent, half_extent);
+  std::uniform_real_distribution<double> size(0.02, 0.1);
+  std::uniform_real_distribution<double> angle(-3, 3);
+  for (int i = 0; i < num; ++i) {
+    SceneObject object;
+    object.id = fmt::format("box{}", i);
+    do {
+      object.X_WO.translation() << place(generator) + 0.6, place(generator), place(generator) + 0.8;
+      // Not where the robot stands.
+    } while (object.X_WO.translation().head<2>().norm() < 0.45);
+    object.X_WO.linear() =
+        Eigen::AngleAxisd(angle(generator), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Vector3d edges(size(generator), size(generator), size(generator));
+    object.shapes.push_back({Box{edges}, Eigen::Isometry3d::Identity()});
+    scene.objects.push_back(std::move(object));
+  }
+  return scene;
+}
+
+void CheckAmongBoxes(benchmark::State& state, Workload& work, int num, bool edges) {
+  Scene scene = MakeBoxes(num);
+  scene.allowed_collisions = work.problem.scene.allowed_collisions;
+  work.checker->SetScene(scene, work.base_positions);
+  if (edges) {
+    CheckEdges(state, work, 1.0);
+  } else {
+    std::vector<double> rows;
+    for (const Configuration& q : work.random) rows.insert(rows.end(), q.begin(), q.end());
+    std::vector<unsigned char> free(16);
+    const std::size_t block = 16 * work.random.front().size();
+    std::size_t i = 0;
+    std::int64_t num_free = 0;
+    for (auto _ : state) {
+      work.checker->CheckAll(std::span(rows).subspan(i, block), 16, free);
+      num_free += std::count(free.begin(), free.end(), 1);
+      i = i + 2 * block > rows.size() ? 0 : i + block;
+    }
+    state.SetItemsProcessed(state.iterations() * 16);
+    state.counters["free"] =
+        static_cast<double>(num_free) / static_cast<double>(state.iterations() * 16);
+  }
+  work.checker->SetScene(work.problem.scene, work.base_positions);
+}
+
+/// Joins the nearest two spheres of a link, wherever that enlarges least, until `num` are left: a
+/// model of another's size, to compare times only.
+void ReduceSpheres(Robot* robot, std::size_t num) {
+  auto& spheres = robot->spheres;
+  while (spheres.size() > num) {
+    std::size_t best_a = 0;
+    std::size_t best_b = 0;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < spheres.size(); ++a) {
+      for (std::size_t b = a + 1; b < spheres.size(); ++b) {
+        if (spheres[a].link != spheres[b].link) continue;
+        const double radius =
+            ((spheres[a].p_LS - spheres[b].p_LS).norm() + spheres[a].radius + spheres[b].radius) /
+            2;
+        const double growth = radius - std::max(spheres[a].radius, spheres[b].radius);
+        if (growth < best) {
+          best = growth;
+          best_a = a;
+          best_b = b;
+        }
+      }
+    }
+    LinkSphere& large =
+        spheres[best_a].radius > spheres[best_b].radius ? spheres[best_a] : spheres[best_b];
+    const std::size_t gone = &large == &spheres[best_a] ? best_b : best_a;
+    spheres.erase(spheres.begin() + static_cast<std::ptrdiff_t>(gone));
+  }
+}
+
 void Register(Workload* work) {
   benchmark::RegisterBenchmark("check/random", [work](benchmark::State& state) {
     Check(state, *work->checker, work->random);
@@ -130,6 +273,31 @@ void Register(Workload* work) {
   benchmark::RegisterBenchmark("block/free", [work](benchmark::State& state) {
     CheckBlocks(state, *work->checker, work->free);
   });
+  benchmark::RegisterBenchmark(
+      "unit_edge", [work](benchmark::State& state) { CheckSamples(state, *work, 1, 32); });
+  benchmark::RegisterBenchmark(
+      "successors", [work](benchmark::State& state) { CheckSamples(state, *work, 16, 8); });
+  benchmark::RegisterBenchmark("distances/free", [work](benchmark::State& state) {
+    std::vector<double> rows;
+    for (const Configuration& q : work->free) rows.insert(rows.end(), q.begin(), q.end());
+    std::vector<double> distances(16);
+    const std::size_t block = 16 * work->free.front().size();
+    std::size_t i = 0;
+    for (auto _ : state) {
+      work->checker->FindDistances(std::span(rows).subspan(i, block), 16, 0.1, distances);
+      i = i + 2 * block > rows.size() ? 0 : i + block;
+    }
+    state.SetItemsProcessed(state.iterations() * 16);
+  });
+  for (const int num : {10, 100, 1000, 10000}) {
+    for (const bool edges : {false, true}) {
+      benchmark::RegisterBenchmark(
+          fmt::format("boxes/{}/{}", edges ? "edges" : "random", num).c_str(),
+          [work, num, edges](benchmark::State& state) {
+            CheckAmongBoxes(state, *work, num, edges);
+          });
+    }
+  }
   for (const double length : {0.2, 1.0, 100.0}) {
     benchmark::RegisterBenchmark(
         fmt::format("edge/at_most_{}", length).c_str(),
@@ -160,12 +328,24 @@ int Main(int argc, char** argv) {
   app.add_option("--index", index, "Number of the problem")->capture_default_str();
   app.add_option("--robot", robot, "Robot folder")->capture_default_str();
   app.add_option("--model", model_name, "Collision model")->capture_default_str();
+  std::string engine = "fast";
+  std::string edge_check = "fixed";
+  std::size_t num_spheres = 0;
+  app.add_option("--engine", engine, "fast or exact")
+      ->check(CLI::IsMember({"fast", "exact"}))
+      ->capture_default_str();
+  app.add_option("--edge-check", edge_check, "fixed or certified")
+      ->check(CLI::IsMember({"fixed", "certified"}))
+      ->capture_default_str();
+  app.add_option("--spheres", num_spheres, "Reduce the robot's spheres to this many");
   CLI11_PARSE(app, argc, argv);
 
   const auto model = ParseCollisionModel(model_name);
   if (!model) throw InputError(fmt::format("--model: unknown collision model '{}'", model_name));
   Workload work = Prepare(robot, problems, index);
-  AddConfigurations(&work, *model);
+  if (num_spheres > 0) ReduceSpheres(&work.robot, num_spheres);
+  work.edge_check = *ParseEdgeCheck(edge_check);
+  AddConfigurations(&work, *model, engine == "exact");
   benchmark::AddCustomContext("problem", fmt::format("{} {}", problems, index));
   benchmark::AddCustomContext("engine", std::string(work.checker->EngineName()));
   benchmark::AddCustomContext("model", model_name);
