@@ -54,6 +54,10 @@ class AraPlanner : public Planner {
     TwoWaySearch search(&query.edges(), query.start(), query.goal(),
                         own_options ? *own_options : OptionsFor(group), settings.two_way);
 
+    if (settings.tip_guide > 0) {
+      search.GuideByTip(query.scene(), query.base_positions(), settings.tip_guide);
+    }
+
     const double memory_limit = settings.memory_limit_mb * 1024 * 1024;
     bool out_of_memory = false;
     const auto should_stop = [&] {

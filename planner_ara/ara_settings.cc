@@ -58,8 +58,8 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "batch", "clearance", "verify_paths",
-                  "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
+                  "two_way", "crowding", "crowding_joints", "tip_guide", "batch", "clearance",
+                  "verify_paths", "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
                   "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
@@ -75,6 +75,7 @@ void AraSettings::Apply(const YamlNode& node) {
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
     crowding_joints = joints->Strings();
   }
+  tip_guide = NonNegative(node, "tip_guide", tip_guide);
   if (const std::optional<YamlNode> value = node.Find("batch")) {
     const long long number = value->Int();
     if (number < 1 || number > kMaxBatch) value->Fail(fmt::format("must be 1 to {}", kMaxBatch));
@@ -122,6 +123,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
+      {"tip_guide", fmt::format("{}", tip_guide)},
       {"batch", fmt::format("{}", batch)},
       {"clearance", std::string(kClearanceNames.at(static_cast<std::size_t>(clearance)))},
       {"verify_paths", fmt::format("{}", verify_paths)},

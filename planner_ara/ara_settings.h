@@ -54,6 +54,10 @@ struct AraSettings {
   /// The joints whose positions make up a cell of crowding, its sides the longest move of each.
   /// Empty: the joints with at least half the longest reach, and prismatic ones.
   std::vector<std::string> crowding_joints;
+  /// Until there is a first path, what the distance of the tip link round the obstacles
+  /// (TipDistance) adds to the heuristic in the order of the search, rad/m; >= 0. Does not touch
+  /// the reported bound.
+  double tip_guide = 3;
   /// Edges out of a state that are checked in one call: the one that is asked for and the most
   /// promising others; >= 1.
   int batch = 1;

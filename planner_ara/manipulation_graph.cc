@@ -108,6 +108,11 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
   points_.FindOrAdd(lattice_.anchor());
 }
 
+void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double weight) {
+  tip_distance_ = std::move(distance);
+  tip_weight_ = weight;
+}
+
 void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool are_long) {
   const JointSpace& space = edges_->space();
   for (const std::vector<int>& row : rows) {
@@ -180,6 +185,11 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   // Cells of different hashes may share a count: it only guides.
   const double crowd =
       visits_.empty() || !counting_ ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
+  double detour = 0;
+  if (tip_distance_ && counting_) {
+    SelectSource(state);
+    detour = unit_ * tip_weight_ * (*tip_distance_)(from_);
+  }
   candidates->push_back({CostToGoal(Heuristic(state)), 0, 0, kToNearestGoal});
   if (goal_distance_.has_extent()) {
     SelectSource(state);
@@ -203,7 +213,7 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     const bool offered = move.is_long ? use_long : use_short || IsShortMoveNearObstacle(move);
     if (!offered || !MoveFrom(state, move)) continue;
     const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
-    candidates->push_back({move.cost, heuristic, static_cast<float>(crowd * heuristic),
+    candidates->push_back({move.cost, heuristic, static_cast<float>(crowd * (heuristic + detour)),
                            static_cast<std::uint16_t>(kFirstMove + m)});
   }
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "planner_ara/goal_distance.h"
 #include "planner_ara/lattice.h"
 #include "planner_ara/motion_primitives.h"
+#include "planner_ara/tip_distance.h"
 #include "planning/planner.h"
 
 namespace planbench {
@@ -64,6 +66,8 @@ class ManipulationGraph {
   /// True if a valid edge is so at half the edge resolution, too, or need not be; if not, it is
   /// valid no longer.
   bool Verify(StateId source, std::uint16_t action);
+  /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
+  void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
   /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
 
@@ -124,6 +128,8 @@ class ManipulationGraph {
   // By joint, the cells of one cell of crowding; 0 for joints that do not count.
   std::vector<int> crowd_cells_;
   std::vector<std::uint16_t> visits_;  // by hash of the cell of crowding
+  std::unique_ptr<TipDistance> tip_distance_;
+  double tip_weight_ = 0;
   std::int64_t num_goal_connections_tried_ = 0;
 
   // Scratch of FindFreeMoves: half widths of a box along each joint alone, the state n times.

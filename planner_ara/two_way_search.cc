@@ -16,9 +16,13 @@ constexpr std::int64_t kExpansionWork = 10;
 struct TwoWaySearch::Side {
   Side(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
        const ManipulationGraphOptions& options)
-      : graph(edges, start, goal, options),
+      : root(start),
+        target(goal.nominal),
+        graph(edges, start, goal, options),
         search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal) {}
 
+  Configuration root;
+  Configuration target;
   ManipulationGraph graph;
   AraStar<ManipulationGraph> search;
   bool converged = false;
@@ -35,6 +39,18 @@ TwoWaySearch::TwoWaySearch(EdgeChecker* edges, const Configuration& start, const
 }
 
 TwoWaySearch::~TwoWaySearch() = default;
+
+void TwoWaySearch::GuideByTip(const Scene& scene, std::span<const double> base_positions,
+                              double weight) {
+  guided_ = true;
+  const CollisionChecker& checker = edges_->checker();
+  for (const auto& side : sides_) {
+    side->graph.GuideByTip(
+        std::make_unique<TipDistance>(scene, checker.robot().model, checker.group(), base_positions,
+                                      side->root, side->target),
+        weight);
+  }
+}
 
 TwoWaySearch::Side* TwoWaySearch::NextSide() const {
   Side* next = nullptr;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "planner_ara/ara_star.h"
@@ -37,6 +38,10 @@ class TwoWaySearch {
   TwoWaySearch(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
                const ManipulationGraphOptions& options, bool two_way);
   ~TwoWaySearch();
+
+  /// Before the first Improve: the tip's way round the obstacles guides the searches, too, by
+  /// `weight` (rad/m). Throws InputError as TipDistance does.
+  void GuideByTip(const Scene& scene, std::span<const double> base_positions, double weight);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
   /// lattice. `should_stop` is asked before every evaluation of an edge; `on_solution` is called at

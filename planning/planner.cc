@@ -167,6 +167,8 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   const bool backward = request.direction == Direction::kBackward;
   query.start_ = backward ? resolved.goal.nominal : resolved.start;
   query.goal_ = backward ? PointGoal(resolved.start) : resolved.goal;
+  query.scene_ = &scene;
+  query.base_positions_ = &resolved.base_positions;
   query.edges_ = &edges;
   query.seed_ = request.seed;
   query.anytime_ = request.anytime && description.anytime;

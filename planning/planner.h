@@ -66,6 +66,9 @@ class SearchQuery {
   const JointSpace& space() const { return edges_->space(); }
   const Configuration& start() const { return start_; }
   const GoalBox& goal() const { return goal_; }
+  /// The scene and the full positions that joints outside the group are held at.
+  const Scene& scene() const { return *scene_; }
+  const std::vector<double>& base_positions() const { return *base_positions_; }
   /// Validity of states and edges; the only way to ask.
   EdgeChecker& edges() const { return *edges_; }
   std::uint64_t seed() const { return seed_; }
@@ -87,6 +90,8 @@ class SearchQuery {
 
   Configuration start_;
   GoalBox goal_;
+  const Scene* scene_ = nullptr;
+  const std::vector<double>* base_positions_ = nullptr;
   EdgeChecker* edges_ = nullptr;
   std::uint64_t seed_ = 0;
   bool anytime_ = false;

@@ -25,6 +25,7 @@ use_short_primitives: true
 long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
+tip_guide: 1.5
 batch: 4
 clearance: adapt
 verify_paths: false
@@ -45,6 +46,7 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.long_primitives_beyond, 0.5);
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
+  EXPECT_EQ(settings.tip_guide, 1.5);
   EXPECT_EQ(settings.batch, 4);
   EXPECT_EQ(settings.clearance, ClearanceUse::kAdapt);
   EXPECT_FALSE(settings.verify_paths);
@@ -119,6 +121,7 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"epsilon_final: .nan", {"ara.yaml:1: epsilon_final:", "finite"}},
       {"crowding: -0.1", {"ara.yaml:1: crowding:", "negative"}},
       {"crowding_joints: lift", {"ara.yaml:1: crowding_joints:", "sequence"}},
+      {"tip_guide: -3", {"ara.yaml:1: tip_guide:", "negative"}},
       {"batch: 0", {"ara.yaml:1: batch:", "1 to"}},
       {"clearance: some", {"ara.yaml:1: clearance:", "ignore, prove or adapt", "some"}},
       {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
