@@ -53,6 +53,7 @@ SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, Collisi
   const auto n = static_cast<std::size_t>(group.space.size());
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
+  start_.resize(n);
   exact_q_.resize(n);
   exact_half_widths_.resize(n);
   for (const JointSpace::Joint& joint : space().joints()) {
@@ -247,12 +248,15 @@ bool SimdChecker::Fits(const double* q) const {
   return outside == 0;
 }
 
-bool SimdChecker::SetLane(int lane, std::span<const double> q) {
-  float* values = q_.data() + lane;
-  for (std::size_t j = 0; j < q.size(); ++j) {
-    values[j * kBlock] = Reduced(q[j], slides_[j] != 0);
-  }
-  return Fits(q.data());
+SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int num) {
+  kernels::RowBlock block;
+  block.num_joints = space().size();
+  block.num_rows = num;
+  block.rows = rows.data();
+  block.slides = slides_.data();
+  block.lower = lower_.data();
+  block.upper = upper_.data();
+  return kernels::PlaceRows(block, q_.data());
 }
 
 template <typename ExactIsFree>
@@ -288,10 +292,7 @@ int SimdChecker::DoFindCollision(std::span<const double> qs, int num) {
     const auto row = [&](int lane) {
       return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
     };
-    LaneMask unfit = 0;
-    for (int lane = 0; lane < count; ++lane) {
-      if (!SetLane(lane, row(lane))) unfit |= LaneMask{1} << lane;
-    }
+    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
     const BlockVerdict verdict = Check(count, unfit, nullptr, true,
                                        [&](int lane, bool) { return Exact().IsFree(row(lane)); });
     if (verdict.certain != 0) return first + std::countr_zero(verdict.certain);
@@ -306,10 +307,7 @@ void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsi
     const auto row = [&](int lane) {
       return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
     };
-    LaneMask unfit = 0;
-    for (int lane = 0; lane < count; ++lane) {
-      if (!SetLane(lane, row(lane))) unfit |= LaneMask{1} << lane;
-    }
+    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
     const BlockVerdict verdict = Check(count, unfit, nullptr, false,
                                        [&](int lane, bool) { return Exact().IsFree(row(lane)); });
     for (int lane = 0; lane < count; ++lane) {
@@ -326,9 +324,8 @@ void SimdChecker::DoCheckAround(std::span<const double> qs, std::span<const doub
     const auto row = [&](std::span<const double> values, int lane) {
       return values.subspan(static_cast<std::size_t>(first + lane) * n, n);
     };
-    LaneMask unfit = 0;
+    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
     for (int lane = 0; lane < count; ++lane) {
-      if (!SetLane(lane, row(qs, lane))) unfit |= LaneMask{1} << lane;
       const auto widths = row(half_widths, lane);
       for (std::size_t j = 0; j < n; ++j) {
         half_widths_[j * kBlock + static_cast<std::size_t>(lane)] = static_cast<float>(widths[j]);
@@ -352,12 +349,23 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
                                            std::span<const MotionSample> samples,
                                            bool stop_at_first) {
   const auto n = static_cast<std::size_t>(space().size());
+  kernels::SampleBlock block;
+  block.num_joints = static_cast<int>(n);
+  block.start = start_.data();
+  block.motions = motions_.data();
+  block.slides = slides_.data();
+  block.one_motion = motions.size() == n;
+  for (std::size_t j = 0; j < n; ++j) start_[j] = Reduced(start[j], slides_[j] != 0);
+  motions_.resize(motions.size());
+  block.motions = motions_.data();
+  std::transform(motions.begin(), motions.end(), motions_.begin(),
+                 [](double motion) { return static_cast<float>(motion); });
   // Between ends within the limits everything is.
   const bool start_fits = Fits(start.data());
   fits_.resize(motions.size() / n);
   for (std::size_t i = 0; i < fits_.size(); ++i) {
     for (std::size_t j = 0; j < n; ++j) exact_q_[j] = start[j] + motions[i * n + j];
-    fits_[i] = Fits(exact_q_.data()) ? 1 : 0;
+    fits_[i] = start_fits && Fits(exact_q_.data()) ? 1 : 0;
   }
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
@@ -366,17 +374,13 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
     LaneMask unfit = 0;
     for (int lane = 0; lane < count; ++lane) {
       const MotionSample& sample = samples[first + static_cast<std::size_t>(lane)];
-      const double* motion = motions.data() + static_cast<std::size_t>(sample.motion) * n;
-      float* values = q_.data() + lane;
-      float* widths = half_widths_.data() + lane;
+      block.motion[lane] = sample.motion;
+      block.position[lane] = static_cast<float>(sample.position);
+      block.half_length[lane] = static_cast<float>(sample.half_length);
       around = around || sample.half_length > 0;
-      for (std::size_t j = 0; j < n; ++j) {
-        const double q = start[j] + sample.position * motion[j];
-        values[j * kBlock] = Reduced(q, slides_[j] != 0);
-        widths[j * kBlock] = static_cast<float>(sample.half_length * std::abs(motion[j]));
-      }
-      if (!start_fits || At(fits_, sample.motion) == 0) unfit |= LaneMask{1} << lane;
+      if (At(fits_, sample.motion) == 0) unfit |= LaneMask{1} << lane;
     }
+    kernels::PlaceSamples(block, q_.data(), half_widths_.data());
     const BlockVerdict verdict =
         Check(count, unfit, around ? half_widths_.data() : nullptr, stop_at_first,
               [&](int lane, bool stretch) {
@@ -404,11 +408,7 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
   const double limit = std::min({at_most, CompiledWorld::kMaxDistance, standing_distance_});
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
-    LaneMask unfit = 0;
-    for (int lane = 0; lane < count; ++lane) {
-      const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
-      if (!SetLane(lane, q)) unfit |= LaneMask{1} << lane;
-    }
+    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
     float block[kBlock];
     kernels::BlockDistances(compiled_->kernel, world_.kernel, &scratch_, q_.data(),
                             static_cast<float>(limit), block);
@@ -429,7 +429,7 @@ double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const doub
   world.trees.push_back({tree.root, tree.body, false, tree.reach, 0, 0, 0, -1});
   kernels::SphereScratch scratch;
   scratch.Reset(robot, world);
-  SetLane(0, q);
+  SetLanes(q, 1);
   float distances[kBlock];
   kernels::BlockDistances(robot, world, &scratch, q_.data(),
                           static_cast<float>(CompiledWorld::kMaxDistance), distances);

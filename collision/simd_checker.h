@@ -68,9 +68,9 @@ class SimdChecker : public CollisionChecker {
   FclChecker& Exact();
 
   bool Fits(const double* q) const;
-  /// Puts a configuration into a lane. False if the kernels cannot judge it: what was left out
-  /// because it cannot be reached is so within the limits only.
-  bool SetLane(int lane, std::span<const double> q);
+  /// Puts the first `num` configurations into lanes. Returns the lanes that the kernels cannot
+  /// judge: what was left out because it cannot be reached is so within the limits only.
+  LaneMask SetLanes(std::span<const double> rows, int num);
   /// Checks the first `num` lanes; `exact(lane)` is the verdict of the FCL engine, asked for lanes
   /// in `unfit` and where there are doubts.
   template <typename ExactIsFree>
@@ -105,6 +105,7 @@ class SimdChecker : public CollisionChecker {
   // Of the block at hand, [joint][kBlock].
   std::vector<float> q_;
   std::vector<float> half_widths_;
+  std::vector<float> start_, motions_;  ///< Of samples.
   /// Of the joints, kLimitTolerance added; infinite for continuous ones.
   std::vector<double> lower_, upper_;
   std::vector<unsigned char> slides_;  ///< By joint: prismatic.

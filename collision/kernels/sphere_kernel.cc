@@ -653,6 +653,58 @@ void BlockDistancesImpl(const SphereRobot& robot, const SphereWorld& world,
   }
 }
 
+LaneMask PlaceRowsImpl(const RowBlock& block, float* q) {
+  const hn::CappedTag<double, 8> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const int width = static_cast<int>(hn::Lanes(d));
+  const auto period = hn::Set(d, 6.283185307179586);
+  const auto per_period = hn::Set(d, 0.15915494309189535);
+  LaneMask outside = 0;
+  for (int first = 0; first < block.num_joints; first += width) {
+    const int num = std::min(width, block.num_joints - first);
+    const auto some = hn::FirstN(d, static_cast<std::size_t>(num));
+    const auto lower = hn::MaskedLoad(some, d, block.lower + first);
+    const auto upper = hn::MaskedLoad(some, d, block.upper + first);
+    alignas(64) double turning[8];
+    for (int j = 0; j < width; ++j) turning[j] = j < num && block.slides[first + j] == 0 ? 1 : 0;
+    const auto turns_scale = hn::Mul(per_period, hn::Load(d, turning));
+    for (int row = 0; row < block.num_rows; ++row) {
+      auto value = hn::MaskedLoad(some, d, block.rows + row * block.num_joints + first);
+      const auto inside = hn::And(hn::Ge(value, lower), hn::Le(value, upper));
+      outside |= static_cast<LaneMask>(!hn::AllTrue(d, inside)) << row;
+      value = hn::NegMulAdd(hn::Round(hn::Mul(value, turns_scale)), period, value);
+      alignas(64) float narrow[8];
+      hn::Store(hn::DemoteTo(df, value), df, narrow);
+      float* out = q + first * kBlock + row;
+      for (int j = 0; j < num; ++j) out[j * kBlock] = narrow[j];
+    }
+  }
+  return outside;
+}
+
+void PlaceSamplesImpl(const SampleBlock& block, float* q, float* half_widths) {
+  const Lanes d;
+  const hn::RebindToSigned<Lanes> di;
+  const int width = static_cast<int>(hn::Lanes(d));
+  for (int lane = 0; lane < kBlock; lane += width) {
+    const V position = hn::LoadU(d, block.position + lane);
+    const V half_length = hn::LoadU(d, block.half_length + lane);
+    const auto row = hn::Mul(hn::LoadU(di, block.motion + lane), hn::Set(di, block.num_joints));
+    for (int j = 0; j < block.num_joints; ++j) {
+      const V motion = block.one_motion
+                           ? hn::Set(d, block.motions[j])
+                           : hn::GatherIndex(d, block.motions, hn::Add(row, hn::Set(di, j)));
+      V value = hn::MulAdd(position, motion, hn::Set(d, block.start[j]));
+      if (block.slides[j] == 0) {
+        const V turns = hn::Round(hn::Mul(value, hn::Set(d, 0.15915494f)));
+        value = hn::NegMulAdd(turns, hn::Set(d, 6.2831853f), value);
+      }
+      hn::StoreU(value, d, q + j * kBlock + lane);
+      hn::StoreU(hn::Mul(half_length, hn::Abs(motion)), d, half_widths + j * kBlock + lane);
+    }
+  }
+}
+
 void BlockSinCosImpl(const float* angles, float* sines, float* cosines) {
   const Lanes d;
   const int width = static_cast<int>(hn::Lanes(d));
@@ -674,6 +726,8 @@ namespace planbench::kernels {
 
 HWY_EXPORT(CheckBlockImpl);
 HWY_EXPORT(BlockDistancesImpl);
+HWY_EXPORT(PlaceRowsImpl);
+HWY_EXPORT(PlaceSamplesImpl);
 HWY_EXPORT(BlockSinCosImpl);
 HWY_EXPORT(InstructionSetImpl);
 
@@ -686,6 +740,14 @@ void BlockDistances(const SphereRobot& robot, const SphereWorld& world, SphereSc
                     const float* q, float at_most, float* distances) {
   HWY_DYNAMIC_DISPATCH(BlockDistancesImpl)
   (robot, world, &scratch->buffers(), q, at_most, distances);
+}
+
+LaneMask PlaceRows(const RowBlock& block, float* q) {
+  return HWY_DYNAMIC_DISPATCH(PlaceRowsImpl)(block, q);
+}
+
+void PlaceSamples(const SampleBlock& block, float* q, float* half_widths) {
+  HWY_DYNAMIC_DISPATCH(PlaceSamplesImpl)(block, q, half_widths);
 }
 
 void BlockSinCos(const float* angles, float* sines, float* cosines) {

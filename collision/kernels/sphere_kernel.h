@@ -101,7 +101,7 @@ struct DistanceGrid {
   float origin[3] = {0, 0, 0};
   float resolution = 1;
   int size[3] = {0, 0, 0};
-  float outside = 0;          ///< The value everywhere outside.
+  float outside = 0;              ///< The value everywhere outside.
   const float* values = nullptr;  ///< x fastest.
 };
 
@@ -158,6 +158,33 @@ BlockVerdict CheckBlock(const SphereRobot& robot, const SphereWorld& world, Sphe
 /// lane; 0 or less in collision. Doubtful ones count as they are.
 void BlockDistances(const SphereRobot& robot, const SphereWorld& world, SphereScratch* scratch,
                     const float* q, float at_most, float* distances);
+
+/// Configurations given as rows of num_joints values (rad or m), up to kBlock of them.
+struct RowBlock {
+  int num_joints = 0;
+  int num_rows = 0;
+  const double* rows = nullptr;
+  const std::uint8_t* slides = nullptr;  ///< See SampleBlock.
+  const double* lower = nullptr;         ///< Limits, by joint.
+  const double* upper = nullptr;
+};
+/// Writes them by [joint][kBlock]; returns the lanes of those outside of the limits.
+LaneMask PlaceRows(const RowBlock& block, float* q);
+
+/// Configurations on straight motions, as BlockQuery takes them.
+struct SampleBlock {
+  int num_joints = 0;
+  const float* start = nullptr;          ///< By joint, rad or m.
+  const float* motions = nullptr;        ///< One motion: by joint; several: [motion][joint].
+  const std::uint8_t* slides = nullptr;  ///< By joint: prismatic; others are brought within +-pi.
+  /// By lane: index of the motion, fraction of it, half the length of the stretch about it.
+  std::int32_t motion[kBlock] = {};
+  float position[kBlock] = {};
+  float half_length[kBlock] = {};
+  bool one_motion = false;  ///< All lanes are of motion 0.
+};
+/// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock].
+void PlaceSamples(const SampleBlock& block, float* q, float* half_widths);
 
 /// Sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
 void BlockSinCos(const float* angles, float* sines, float* cosines);
