@@ -94,8 +94,9 @@ class CollisionChecker {
   SampleVerdicts CheckSamples(std::span<const double> start, std::span<const double> motions,
                               std::span<const MotionSample> samples, bool stop_at_first);
   /// Smaller of `at_most` (m, > 0) and the distance of the nearest pair, for `num` configurations;
-  /// 0 or less in collision. May err downwards, by no more than the engine's tolerance where it is
-  /// positive.
+  /// 0 or less in collision. Pairs of links that can never meet may be left out. An engine may end
+  /// at a smaller distance of its own, of at least 0.5 m. May err downwards, by no more than the
+  /// engine's tolerance where it is positive.
   void FindDistances(std::span<const double> qs, int num, double at_most,
                      std::span<double> distances);
   /// Number of configurations that FindCollision handles at once; callers that choose how many to

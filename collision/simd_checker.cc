@@ -416,7 +416,7 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
       const bool exact = (unfit >> lane & 1) != 0;
       At(distances, first + lane) = exact ? std::min(limit, Exact().FindClosest(q).distance_m)
-                                          : static_cast<double>(block[lane]);
+                                          : std::min(limit, static_cast<double>(block[lane]));
     }
   }
 }

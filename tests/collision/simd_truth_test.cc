@@ -49,7 +49,13 @@ class Comparison {
     std::mt19937_64 generator(seed);
     std::vector<double> qs;
     for (int i = 0; i < num; ++i) {
-      const auto q = RandomConfiguration(space, &generator);
+      auto q = RandomConfiguration(space, &generator);
+      // At their limits joints come nearest to what is said never to meet.
+      for (int j = 0; i % 3 == 0 && j < space.size(); ++j) {
+        const std::uint64_t dice = generator() % 4;
+        if (dice == 0) q[static_cast<std::size_t>(j)] = space.joint(j).lower;
+        if (dice == 1) q[static_cast<std::size_t>(j)] = space.joint(j).upper;
+      }
       qs.insert(qs.end(), q.begin(), q.end());
     }
     std::vector<unsigned char> free(static_cast<std::size_t>(num));

@@ -245,6 +245,142 @@ TEST_P(CollisionCheckerContract, FindCollisionFindsOneAmongMany) {
   }
 }
 
+TEST_P(CollisionCheckerContract, RefusesBadSamplesWidthsAndDistances) {
+  const Robot robot = MakeRailRobot();
+  const auto checker = Make(robot);
+  checker->SetScene({}, Slide(0));
+  unsigned char free = 0;
+  double distance = 0;
+  const auto around = [&](std::vector<double> widths) {
+    return [&, widths] { checker->CheckAround(Slide(0), widths, 1, {&free, 1}); };
+  };
+  ExpectInputError(around({-0.1}), {"half width -0.1"});
+  ExpectInputError(around({std::nan("")}), {"half width"});
+  ExpectInputError(around({0.1, 0.1}), {"2 half widths"});
+  ExpectInputError([&] { checker->FindDistances(Slide(0), 1, 0, {&distance, 1}); }, {"at most 0"});
+  const std::vector<double> motion = {1.0};
+  const std::vector<MotionSample> unknown = {{1, 0.5}};
+  ExpectInputError([&] { checker->CheckSamples(Slide(0), motion, unknown, false); },
+                   {"motion 1 of 1"});
+  const std::vector<MotionSample> many(65, MotionSample{0, 0.5});
+  ExpectInputError([&] { checker->CheckSamples(Slide(0), motion, many, false); }, {"65", "64"});
+}
+
+TEST_P(CollisionCheckerContract, SamplesAreJudgedAsTheirConfigurations) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const JointSpace& space = checker->space();
+  const auto n = static_cast<std::size_t>(space.size());
+  std::mt19937_64 generator(21);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    checker->SetScene(world.scene, ArmBase(arm));
+    for (int round = 0; round < 20; ++round) {
+      const auto start = RandomConfiguration(space, &generator);
+      std::vector<double> motions;
+      for (int motion = 0; motion < 3; ++motion) {
+        const auto to = RandomConfiguration(space, &generator);
+        for (int j = 0; j < space.size(); ++j) {
+          const auto i = static_cast<std::size_t>(j);
+          motions.push_back(space.Difference(j, start[i], to[i]));
+        }
+      }
+      std::vector<MotionSample> samples;
+      for (int k = 0; k < 40; ++k) samples.push_back({k % 3, unit(generator)});
+      const SampleVerdicts verdicts = checker->CheckSamples(start, motions, samples, false);
+      EXPECT_EQ(verdicts.blocked, verdicts.certain);
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        std::vector<double> q(n);
+        for (std::size_t j = 0; j < n; ++j) {
+          q[j] = start[j] +
+                 samples[k].position * motions[static_cast<std::size_t>(samples[k].motion) * n + j];
+        }
+        const bool free = (verdicts.blocked >> k & 1) == 0;
+        if (checker->IsFree(q) == free) continue;
+        EXPECT_LE(std::abs(checker->FindClosest(q).distance_m), tolerance());
+      }
+      const SampleVerdicts first = checker->CheckSamples(start, motions, samples, true);
+      EXPECT_EQ(first.certain != 0, verdicts.certain != 0);
+      EXPECT_EQ(first.certain & ~verdicts.certain, 0u);
+    }
+  }
+}
+
+TEST_P(CollisionCheckerContract, BoxesOfConfigurationsProvenFreeAreFree) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const JointSpace& space = checker->space();
+  const auto n = static_cast<std::size_t>(space.size());
+  std::mt19937_64 generator(22);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int num_proven = 0;
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    checker->SetScene(world.scene, ArmBase(arm));
+    for (int i = 0; i < 60; ++i) {
+      const auto q = RandomConfiguration(space, &generator);
+      std::vector<double> widths(n);
+      for (double& width : widths) width = 0.02 * std::abs(unit(generator));
+      unsigned char free = 0;
+      checker->CheckAround(q, widths, 1, {&free, 1});
+      if (free == 0) continue;
+      ++num_proven;
+      for (int k = 0; k < 30; ++k) {
+        std::vector<double> near = q;
+        for (std::size_t j = 0; j < n; ++j)
+          near[j] += widths[j] * (k < 10 ? std::copysign(1, unit(generator)) : unit(generator));
+        if (!space.WithinLimits(near)) continue;
+        EXPECT_GT(
+            OracleClearance(OraclePairs(arm, checker->group(), world.scene, ArmBase(arm), near)),
+            0);
+      }
+      const std::vector<double> no_width(n, 0.0);
+      checker->CheckAround(q, no_width, 1, {&free, 1});
+      EXPECT_EQ(free != 0, checker->IsFree(q));
+    }
+  }
+  EXPECT_GT(num_proven, 50);
+}
+
+TEST_P(CollisionCheckerContract, DistancesOfManyAreThoseOfEach) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const int n = checker->space().size();
+  constexpr int kNum = 100;
+  for (const NamedScene& world : MakeTestScenes()) {
+    // What engines only know a box around counts as that box: distances are lower bounds there.
+    const bool exact = world.scene.attached.empty() &&
+                       world.what.find("mesh") == std::string::npos &&
+                       world.what.find("huge") == std::string::npos;
+    SCOPED_TRACE(world.what);
+    checker->SetScene(world.scene, ArmBase(arm));
+    const auto qs = Configurations(checker->space(), kNum, 23);
+    std::vector<double> distances(kNum);
+    for (const double at_most : {0.05, 0.3}) {
+      checker->FindDistances(qs, kNum, at_most, distances);
+      for (int i = 0; i < kNum; ++i) {
+        const double distance = distances[static_cast<std::size_t>(i)];
+        EXPECT_LE(distance, at_most);
+        double to_objects = std::numeric_limits<double>::infinity();
+        const auto pairs =
+            OraclePairs(arm, checker->group(), world.scene, ArmBase(arm), Row(qs, n, i));
+        for (const OraclePair& pair : pairs) {
+          for (const SceneObject& object : world.scene.objects) {
+            if (pair.body_a != object.id && pair.body_b != object.id) continue;
+            to_objects = std::min(to_objects, pair.distance_m);
+          }
+        }
+        EXPECT_LE(distance, std::max(to_objects, 0.0) + tolerance());
+        const double closest = OracleClearance(pairs);
+        if (exact && closest > tolerance()) {
+          EXPECT_GE(distance, std::min(closest, at_most) - tolerance());
+        }
+      }
+    }
+  }
+}
+
 TEST_P(CollisionCheckerContract, CountsConfigurations) {
   const Robot robot = MakeRailRobot();
   const auto checker = Make(robot);

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "collision/ball_tree.h"
+#include "collision/kernels/sphere_kernel.h"
+#include "collision/simd_checker.h"
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+
+namespace planbench {
+namespace {
+
+using kernels::kBlock;
+
+/// Runs `test` with every instruction set that was compiled and that this machine has.
+template <typename Test>
+void OnEveryInstructionSet(Test test) {
+  for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0;
+       targets &= targets - 1) {
+    hwy::SetSupportedTargetsForTest(targets & -targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    SCOPED_TRACE(kernels::InstructionSet());
+    test();
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+}
+
+TEST(KernelsTest, SinesAndCosines) {
+  OnEveryInstructionSet([] {
+    double worst = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      float angles[kBlock], sines[kBlock], cosines[kBlock];
+      for (int lane = 0; lane < kBlock; ++lane) {
+        angles[lane] = static_cast<float>(2 * std::numbers::pi *
+                                          (2.0 * (i * kBlock + lane) / (100'000.0 * kBlock) - 1));
+      }
+      kernels::BlockSinCos(angles, sines, cosines);
+      for (int lane = 0; lane < kBlock; ++lane) {
+        worst =
+            std::max(worst, std::abs(sines[lane] - std::sin(static_cast<double>(angles[lane]))));
+        worst =
+            std::max(worst, std::abs(cosines[lane] - std::cos(static_cast<double>(angles[lane]))));
+      }
+    }
+    EXPECT_LT(worst, 2e-7);
+  });
+}
+
+TEST(KernelsTest, InstructionSetsAgree) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  const JointSpace& space = arm.groups.front().space;
+  constexpr int kNum = 2'000;
+  std::mt19937_64 generator(1);
+  std::vector<double> qs;
+  for (int i = 0; i < kNum; ++i) {
+    const auto q = RandomConfiguration(space, &generator);
+    qs.insert(qs.end(), q.begin(), q.end());
+  }
+  const std::vector<double> widths(qs.size(), 0.01);
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    std::vector<unsigned char> expected;
+    std::vector<unsigned char> expected_around;
+    OnEveryInstructionSet([&] {
+      SimdChecker checker(arm, arm.groups.front());
+      checker.SetScene(world.scene, base);
+      std::vector<unsigned char> free(kNum);
+      std::vector<unsigned char> free_around(kNum);
+      checker.CheckAll(qs, kNum, free);
+      checker.CheckAround(qs, widths, kNum, free_around);
+      if (expected.empty()) {
+        expected = free;
+        expected_around = free_around;
+      }
+      int num_differ = 0;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        EXPECT_LE(free_around[i], free[i]);
+        // Rounding differs with fused operations, so verdicts may where something just touches.
+        num_differ += free[i] != expected[i] || free_around[i] != expected_around[i] ? 1 : 0;
+      }
+      EXPECT_LE(num_differ, 2);
+    });
+  }
+}
+
+TEST(BallTreeTest, EveryNodeEnclosesWhatIsBelow) {
+  std::mt19937_64 generator(2);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const int num : {1, 2, 3, 4, 5, 17, 113}) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < num; ++i) {
+      balls.push_back({Eigen::Vector3d(unit(generator), unit(generator), unit(generator)),
+                       0.05 * (1 + unit(generator))});
+    }
+    const BallTree tree(balls);
+    const auto check = [](const auto& self, const BallTree& node) -> void {
+      for (const Ball& leaf : node.Leaves()) {
+        EXPECT_LE((leaf.center - node.ball().center).norm() + leaf.radius,
+                  node.ball().radius + 1e-9);
+      }
+      for (const BallTree& child : node.children()) self(self, child);
+    };
+    check(check, tree);
+    // Every given ball is a leaf or inside one.
+    for (const Ball& ball : balls) {
+      bool covered = false;
+      for (const Ball& leaf : tree.Leaves()) {
+        covered |= (leaf.center - ball.center).norm() + ball.radius <= leaf.radius + 1e-12;
+      }
+      EXPECT_TRUE(covered);
+    }
+    EXPECT_LE(tree.Depth(), 8);
+  }
+}
+
+}  // namespace
+}  // namespace planbench
