@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>>& MayInclude() {
     rooms["collision"] = {"common", "geometry", "robot_model", "scene"};
     rooms["planning"] = rooms["collision"];
     rooms["planning"].insert("collision");
+    rooms["problem_generator"] = rooms["planning"];
     rooms["messaging"] = rooms["planning"];
     rooms["messaging"].insert("planning");
     for (const std::string& process : kProcesses) {

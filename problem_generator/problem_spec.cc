@@ -1,0 +1,367 @@
+#include "problem_generator/problem_spec.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/error.h"
+#include "common/yaml.h"
+
+namespace planbench {
+namespace {
+
+constexpr Range kZero{0, 0};
+constexpr Range3 kZero3{kZero, kZero, kZero};
+
+Range ReadRange(const YamlNode& node) {
+  if (!node.IsSequence()) {
+    const double value = node.Double();
+    return {value, value};
+  }
+  const std::vector<double> ends = node.Doubles(2);
+  if (ends[0] > ends[1]) node.Fail("a range is [low, high]; its ends are the wrong way round");
+  return {ends[0], ends[1]};
+}
+
+std::vector<Range> ReadRanges(const YamlNode& node, int count, const std::string& what) {
+  if (!node.IsSequence() || node.Size() != count) {
+    node.Fail(fmt::format("expected {}, each a number or a range [low, high]", what));
+  }
+  std::vector<Range> ranges;
+  for (const YamlNode& element : node.Elements()) ranges.push_back(ReadRange(element));
+  return ranges;
+}
+
+Range3 ReadRange3(const YamlNode& node, const std::string& what) {
+  const std::vector<Range> ranges = ReadRanges(node, 3, what);
+  return {ranges[0], ranges[1], ranges[2]};
+}
+
+Range3 PositionOr0(const YamlNode& map) {
+  const auto node = map.Find("position");
+  return node ? ReadRange3(*node, "x, y, z") : kZero3;
+}
+
+Range3 RpyOr0(const YamlNode& map) {
+  const auto node = map.Find("rpy");
+  return node ? ReadRange3(*node, "roll, pitch, yaw") : kZero3;
+}
+
+Range RangeOr0(const YamlNode& map, const std::string& key) {
+  const auto node = map.Find(key);
+  return node ? ReadRange(*node) : kZero;
+}
+
+double NonNegative(const YamlNode& node) {
+  const double value = node.Double();
+  if (value < 0) node.Fail("must not be negative");
+  return value;
+}
+
+int PositiveInt(const YamlNode& node) {
+  constexpr int kMost = 1'000'000;
+  const long long value = node.Int();
+  if (value < 1 || value > kMost) node.Fail(fmt::format("must be from 1 to {}", kMost));
+  return static_cast<int>(value);
+}
+
+PartSpec ReadPart(const YamlNode& node) {
+  node.AllowOnly({"name", "box", "cylinder", "sphere", "position", "rpy"});
+  PartSpec part;
+  part.name = node.StringOr("name", "");
+  const auto box = node.Find("box");
+  const auto cylinder = node.Find("cylinder");
+  const auto sphere = node.Find("sphere");
+  if (box.has_value() + cylinder.has_value() + sphere.has_value() != 1) {
+    node.Fail("needs one of the keys box, cylinder, sphere");
+  }
+  const YamlNode& size = box ? *box : cylinder ? *cylinder : *sphere;
+  if (box) {
+    part.kind = PartKind::kBox;
+    part.size = ReadRanges(size, 3, "the lengths along x, y, z");
+  } else if (cylinder) {
+    part.kind = PartKind::kCylinder;
+    part.size = ReadRanges(size, 2, "height, radius");
+  } else {
+    part.kind = PartKind::kSphere;
+    part.size = {ReadRange(size)};
+  }
+  for (const Range& range : part.size) {
+    if (range.low <= 0) size.Fail("sizes must be greater than zero");
+  }
+  part.position = PositionOr0(node);
+  part.rpy = RpyOr0(node);
+  return part;
+}
+
+int FindObject(const std::vector<ObjectSpec>& objects, const YamlNode& node,
+               const std::string& id) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].id == id) return static_cast<int>(i);
+  }
+  node.Fail(fmt::format("there is no object '{}' (above this line)", id));
+}
+
+// "stands_on: shelf.lower_board" or "stands_on: table", whose only part it is.
+void ReadSupport(const YamlNode& node, const std::vector<ObjectSpec>& above, ObjectSpec* object) {
+  const std::string text = node.String();
+  const std::size_t dot = text.find('.');
+  object->parent = FindObject(above, node, text.substr(0, dot));
+  const std::vector<PartSpec>& parts = above[static_cast<std::size_t>(object->parent)].parts;
+  if (dot == std::string::npos) {
+    if (parts.size() != 1) {
+      node.Fail(fmt::format("'{0}' has {1} parts: say which, {0}.PART", text, parts.size()));
+    }
+    object->support_part = 0;
+  } else {
+    const std::string name = text.substr(dot + 1);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (!name.empty() && parts[i].name == name) object->support_part = static_cast<int>(i);
+    }
+    if (object->support_part < 0) {
+      node.Fail(fmt::format("'{}' has no part '{}'", text.substr(0, dot), name));
+    }
+  }
+  if (parts[static_cast<std::size_t>(object->support_part)].kind != PartKind::kBox) {
+    node.Fail("objects stand on boxes only");
+  }
+}
+
+ObjectSpec ReadObject(const YamlNode& node, const std::vector<ObjectSpec>& above) {
+  node.AllowOnly({"id", "parts", "probability", "stands_on", "relative_to", "position", "rpy",
+                  "yaw", "about_base"});
+  ObjectSpec object;
+  object.where = node.Where();
+  const YamlNode id = node.At("id");
+  object.id = id.String();
+  if (object.id.empty() || object.id.find('.') != std::string::npos) {
+    id.Fail("an id has at least one character, and no dot");
+  }
+  for (const ObjectSpec& other : above) {
+    if (other.id == object.id) id.Fail("another object has this id");
+  }
+  const YamlNode parts = node.At("parts");
+  if (parts.Size() == 0) parts.Fail("an object needs at least one part");
+  for (const YamlNode& part : parts.Elements()) {
+    object.parts.push_back(ReadPart(part));
+    for (std::size_t i = 0; i + 1 < object.parts.size(); ++i) {
+      if (!object.parts[i].name.empty() && object.parts[i].name == object.parts.back().name) {
+        part.Fail("another part of the object has this name");
+      }
+    }
+  }
+  if (const auto probability = node.Find("probability")) {
+    object.probability = NonNegative(*probability);
+    if (object.probability > 1) probability->Fail("a probability is at most 1");
+  }
+  const auto support = node.Find("stands_on");
+  const auto frame = node.Find("relative_to");
+  const auto about_base = node.Find("about_base");
+  if (support && frame) frame->Fail("an object has either 'stands_on' or 'relative_to'");
+  if ((support || frame) && about_base) {
+    about_base->Fail("only for objects whose position is in the robot's base frame");
+  }
+  if (about_base) object.about_base = ReadRange(*about_base);
+  if (frame) object.parent = FindObject(above, *frame, frame->String());
+  if (support) {
+    ReadSupport(*support, above, &object);
+    if (const auto rpy = node.Find("rpy")) rpy->Fail("an object that stands has 'yaw' instead");
+    const std::vector<Range> xy =
+        ReadRanges(node.At("position"), 2, "x, y from the middle of the face it stands on");
+    object.position = {xy[0], xy[1], kZero};
+    object.rpy = {kZero, kZero, RangeOr0(node, "yaw")};
+  } else {
+    if (const auto yaw = node.Find("yaw")) yaw->Fail("only with 'stands_on'; otherwise 'rpy'");
+    object.position = ReadRange3(node.At("position"), "x, y, z");
+    object.rpy = RpyOr0(node);
+  }
+  return object;
+}
+
+// Named joint positions, of joints that can move. `group`: only those of the group.
+void ReadJoints(const YamlNode& map, const RobotModel& model, const PlanningGroup* group,
+                std::vector<double>* full_positions) {
+  for (const std::string& name : map.Keys()) {
+    const YamlNode node = map.At(name);
+    const int index = model.FindJoint(name);
+    if (index < 0) node.Fail("the robot has no such joint");
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+    if (joint.position_index < 0) node.Fail("a fixed joint has no position");
+    if (group != nullptr && group->space.Find(name) < 0) {
+      node.Fail(fmt::format("no joint of the group '{}'", group->name));
+    }
+    const double position = node.Double();
+    if (position < joint.lower || position > joint.upper) {
+      node.Fail(fmt::format("outside the joint's limits, {} to {}", joint.lower, joint.upper));
+    }
+    (*full_positions)[static_cast<std::size_t>(joint.position_index)] = position;
+  }
+}
+
+// What a robot's specifications share.
+struct Setup {
+  std::map<std::string, std::vector<double>> configurations;  // Group order.
+};
+
+Eigen::Vector3d ReadCorner(const YamlNode& node) {
+  const std::vector<double> values = node.Doubles(3);
+  return {values[0], values[1], values[2]};
+}
+
+Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
+  node.AllowOnly({"robot", "group", "rest", "configurations", "workspace", "time_limit_s",
+                  "allowed_collisions"});
+  const RobotModel& model = robot.model;
+  const YamlNode name = node.At("robot");
+  if (name.String() != robot.name) {
+    name.Fail(fmt::format("made for the robot '{}', given is '{}'", name.String(), robot.name));
+  }
+  const YamlNode group_node = node.At("group");
+  spec->group = group_node.String();
+  const PlanningGroup* group = nullptr;
+  for (const PlanningGroup& candidate : robot.groups) {
+    if (candidate.name == spec->group) group = &candidate;
+  }
+  if (group == nullptr) group_node.Fail("the robot has no such group");
+
+  std::vector<double> rest = model.DefaultPositions();
+  if (const auto joints = node.Find("rest")) ReadJoints(*joints, model, nullptr, &rest);
+  spec->rest.positions = rest;
+  spec->rest.names.resize(rest.size());
+  for (const Joint& joint : model.joints()) {
+    if (joint.position_index < 0) continue;
+    spec->rest.names[static_cast<std::size_t>(joint.position_index)] = joint.name;
+  }
+
+  Setup setup;
+  if (const auto configurations = node.Find("configurations")) {
+    for (const std::string& key : configurations->Keys()) {
+      const YamlNode joints = configurations->At(key);
+      std::vector<double> full = rest;
+      ReadJoints(joints, model, group, &full);
+      std::vector<double>& q = setup.configurations[key];
+      for (const int joint : group->joints) {
+        const Joint& moved = model.joints()[static_cast<std::size_t>(joint)];
+        if (!joints.Find(moved.name)) joints.Fail(fmt::format("lacks the joint {}", moved.name));
+        q.push_back(full[static_cast<std::size_t>(moved.position_index)]);
+      }
+    }
+  }
+  if (const auto workspace = node.Find("workspace")) {
+    workspace->AllowOnly({"min_corner", "max_corner"});
+    spec->workspace = {.frame = model.links().front().name,
+                       .min_corner = ReadCorner(workspace->At("min_corner")),
+                       .max_corner = ReadCorner(workspace->At("max_corner"))};
+  }
+  const auto limit = node.Find("time_limit_s");
+  spec->time_limit_s = limit ? limit->PositiveDouble() : 60.0;
+  if (const auto allowed = node.Find("allowed_collisions")) {
+    for (const std::string& link : allowed->Keys()) {
+      const YamlNode partners = allowed->At(link);
+      if (model.FindLink(link) < 0) partners.Fail("the robot has no such link");
+      for (const YamlNode& partner : partners.Elements()) {
+        if (model.FindLink(partner.String()) < 0) partner.Fail("the robot has no such link");
+        spec->allowed_collisions.SetEntry(link, partner.String(), true);
+      }
+    }
+  }
+  return setup;
+}
+
+GripperSpec ReadGripper(const YamlNode& node, const std::vector<ObjectSpec>& objects) {
+  node.AllowOnly(
+      {"object", "around", "position", "rpy", "position_tolerance", "orientation_tolerance"});
+  GripperSpec gripper;
+  const YamlNode object = node.At("object");
+  if (object.IsSequence()) {
+    for (const YamlNode& id : object.Elements()) {
+      gripper.objects.push_back(FindObject(objects, id, id.String()));
+    }
+    if (gripper.objects.empty()) object.Fail("needs at least one object");
+  } else {
+    gripper.objects.push_back(FindObject(objects, object, object.String()));
+  }
+  gripper.around = RangeOr0(node, "around");
+  gripper.position = ReadRange3(node.At("position"), "x, y, z");
+  gripper.rpy = RpyOr0(node);
+  if (const auto tolerance = node.Find("position_tolerance")) {
+    gripper.position_tolerance_m = NonNegative(*tolerance);
+  }
+  if (const auto tolerance = node.Find("orientation_tolerance")) {
+    gripper.orientation_tolerance_rad = NonNegative(*tolerance);
+  }
+  return gripper;
+}
+
+EndSpec ReadEnd(const YamlNode& query, const std::string& key, const Setup& setup,
+                const std::vector<ObjectSpec>& objects) {
+  const YamlNode node = query.At(key);
+  node.AllowOnly({"configuration", "gripper"});
+  EndSpec end;
+  end.where = node.Where();
+  end.name = query.At("name").String() + " " + key;
+  const auto configuration = node.Find("configuration");
+  const auto gripper = node.Find("gripper");
+  if (configuration.has_value() == gripper.has_value()) {
+    node.Fail("needs one of the keys configuration, gripper");
+  }
+  if (configuration) {
+    const auto found = setup.configurations.find(configuration->String());
+    if (found == setup.configurations.end()) {
+      configuration->Fail(
+          fmt::format("the robot's setup has no configuration '{}'", configuration->String()));
+    }
+    end.configuration = found->second;
+  } else {
+    end.gripper = ReadGripper(*gripper, objects);
+  }
+  return end;
+}
+
+Effort ReadEffort(const YamlNode& node) {
+  node.AllowOnly({"scenes", "poses", "solutions", "ik_starts"});
+  return {.scenes = PositiveInt(node.At("scenes")),
+          .poses = PositiveInt(node.At("poses")),
+          .solutions = PositiveInt(node.At("solutions")),
+          .ik_starts = PositiveInt(node.At("ik_starts"))};
+}
+
+}  // namespace
+
+ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robot) {
+  const YamlNode root = YamlNode::LoadFile(file.string());
+  root.AllowOnly(
+      {"setup", "clearance", "object_gap", "min_joint_distance", "effort", "objects", "queries"});
+  ProblemSpec spec;
+  spec.name = file.stem().string();
+  const YamlNode setup_file = root.At("setup");
+  const std::filesystem::path setup_path = file.parent_path() / setup_file.String();
+  if (!std::filesystem::is_regular_file(setup_path)) {
+    setup_file.Fail("there is no file " + setup_path.string());
+  }
+  const Setup setup = ReadSetup(YamlNode::LoadFile(setup_path.string()), robot, &spec);
+  spec.clearance_m = NonNegative(root.At("clearance"));
+  spec.object_gap_m = NonNegative(root.At("object_gap"));
+  spec.min_joint_distance = NonNegative(root.At("min_joint_distance"));
+  spec.effort = ReadEffort(root.At("effort"));
+  for (const YamlNode& object : root.At("objects").Elements()) {
+    spec.objects.push_back(ReadObject(object, spec.objects));
+  }
+  const YamlNode queries = root.At("queries");
+  if (queries.Size() == 0) queries.Fail("a specification needs at least one query");
+  for (const YamlNode& node : queries.Elements()) {
+    node.AllowOnly({"name", "weight", "start", "goal"});
+    QuerySpec query;
+    query.name = node.At("name").String();
+    if (const auto weight = node.Find("weight")) query.weight = weight->PositiveDouble();
+    query.start = ReadEnd(node, "start", setup, spec.objects);
+    query.goal = ReadEnd(node, "goal", setup, spec.objects);
+    if (query.start.configuration && query.goal.configuration) {
+      node.Fail("start and goal cannot both be named configurations");
+    }
+    spec.queries.push_back(std::move(query));
+  }
+  return spec;
+}
+
+}  // namespace planbench

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "collision/collision_checker.h"
+#include "problem_generator/problem_spec.h"
+#include "problem_generator/random_stream.h"
+#include "problem_generator/rejections.h"
+#include "problem_generator/scene_sampler.h"
+#include "robot_model/inverse_kinematics.h"
+
+namespace planbench {
+
+/// Finds starts and goals in a scene. Not thread-safe; keeps references to its arguments.
+class QuerySampler {
+ public:
+  /// `checker`: has the scene in which ends are to be found.
+  QuerySampler(const ProblemSpec& spec, InverseKinematics* kinematics, CollisionChecker* checker);
+
+  /// A configuration (group order) for the end, free with the specification's clearance; nothing
+  /// if the effort allowed has found none. What it threw away is counted.
+  std::optional<std::vector<double>> Sample(const EndSpec& end, const SampledScene& scene,
+                                            RandomStream* random, Rejections* rejections);
+
+ private:
+  bool Clear(const EndSpec& end, const std::vector<double>& q, Rejections* rejections);
+
+  const ProblemSpec* spec_;
+  InverseKinematics* kinematics_;
+  CollisionChecker* checker_;
+};
+
+/// A pose X_BT of the tip link as `gripper` allows it, X_BO being the object's.
+Eigen::Isometry3d DrawTipPose(const GripperSpec& gripper, const Eigen::Isometry3d& X_BO,
+                              RandomStream* random);
+
+}  // namespace planbench

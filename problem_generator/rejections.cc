@@ -1,0 +1,37 @@
+#include "problem_generator/rejections.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace planbench {
+
+void Rejections::Add(const Rejections& other) {
+  for (const auto& [key, count] : other.counts_) counts_[key] += count;
+}
+
+std::map<std::string, long> Rejections::ByReason() const {
+  std::map<std::string, long> by_reason;
+  for (const auto& [key, count] : counts_) by_reason[key.first] += count;
+  return by_reason;
+}
+
+std::string Rejections::Summary() const {
+  const std::map<std::string, long> by_reason = ByReason();
+  std::vector<std::pair<std::string, long>> sorted(by_reason.begin(), by_reason.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [reason, count] : sorted) {
+    text += (text.empty() ? "" : ", ") + reason + " " + std::to_string(count);
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string Rejections::MostFrequentPlace() const {
+  const auto most =
+      std::max_element(counts_.begin(), counts_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts_.end() ? "" : most->first.second;
+}
+
+}  // namespace planbench

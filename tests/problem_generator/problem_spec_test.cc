@@ -1,0 +1,244 @@
+#include "problem_generator/problem_spec.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/problem_generator/generator_support.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+TEST(ProblemSpec, ReadsWhatTheFileSays) {
+  const Robot fetch = LoadFetch();
+  const SpecFolder folder;
+  const ProblemSpec spec = folder.Load(kCanOnTable, fetch);
+  EXPECT_EQ(spec.name, "spec");
+  EXPECT_EQ(spec.group, "arm_with_torso");
+  EXPECT_EQ(spec.time_limit_s, 60);
+  EXPECT_EQ(spec.rest.names.size(), 15);
+  EXPECT_TRUE(spec.allowed_collisions.Allowed("laser_link", "base_link"));
+  EXPECT_FALSE(spec.allowed_collisions.Allowed("gripper_link", "base_link"));
+  EXPECT_EQ(spec.clearance_m, 0.005);
+  EXPECT_EQ(spec.object_gap_m, 0.02);
+  EXPECT_EQ(spec.min_joint_distance, 1);
+  EXPECT_EQ(spec.effort.scenes, 20);
+  ASSERT_EQ(spec.objects.size(), 2);
+  const ObjectSpec& can = spec.objects[1];
+  EXPECT_EQ(can.parent, 0);
+  EXPECT_EQ(can.support_part, 0);
+  EXPECT_EQ(can.position[0].low, -0.3);
+  EXPECT_EQ(can.position[0].high, -0.3);
+  EXPECT_EQ(can.position[1].low, -0.2);
+  EXPECT_EQ(can.position[1].high, 0.2);
+  EXPECT_EQ(can.parts[0].kind, PartKind::kCylinder);
+  ASSERT_EQ(spec.queries.size(), 1);
+  ASSERT_TRUE(spec.queries[0].start.configuration);
+  EXPECT_EQ(spec.queries[0].start.configuration->front(), 0.1);
+  EXPECT_EQ(spec.queries[0].goal.gripper.objects, std::vector<int>{1});
+  EXPECT_EQ(spec.queries[0].goal.gripper.position_tolerance_m, 0.01);
+}
+
+TEST(ProblemSpec, ThoseThatShipLoad) {
+  const Robot fetch = LoadFetch();
+  for (const char* name : {"shelf_zero_test", "shelf_height_test", "shelf_height_rot_test", "box",
+                           "cage", "table_pick", "table_under_pick"}) {
+    const ProblemSpec spec =
+        LoadProblemSpec(ShippedProblems() / (std::string(name) + ".yaml"), fetch);
+    EXPECT_EQ(spec.name, name);
+    EXPECT_EQ(spec.queries.size(), 2);
+  }
+}
+
+TEST(ProblemSpec, SharesItsAllowedCollisionsWithTheShippedProblems) {
+  // problems/README.md says so.
+  const Robot fetch = LoadFetch();
+  const ProblemSpec spec = LoadProblemSpec(ShippedProblems() / "box.yaml", fetch);
+  const ProblemFiles files = ListProblemSet(ShippedProblems() / "shelf_demo").problems.front();
+  EXPECT_EQ(spec.allowed_collisions.Simplified(),
+            ReadProblem(files.scene, files.request, {}).scene.allowed_collisions);
+}
+
+struct BadSpec {
+  const char* name;
+  const char* text;         // In kCanOnTable ...
+  const char* replacement;  // ... replaced by this.
+  std::vector<std::string> message;
+};
+
+class BadSpecTest : public testing::TestWithParam<BadSpec> {};
+
+TEST_P(BadSpecTest, IsRefusedByFileLineAndKey) {
+  const Robot fetch = LoadFetch();
+  const SpecFolder folder;
+  const std::string spec = CanOnTableWith(GetParam().text, GetParam().replacement);
+  ExpectInputError([&] { folder.Load(spec, fetch); }, GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSpecTest,
+    testing::Values(
+        BadSpec{
+            "NoSuchSetup", "fetch_setup.yaml", "other.yaml", {"spec.yaml:1: setup", "other.yaml"}},
+        BadSpec{"UnknownKey",
+                "clearance: 0.005",
+                "clearance: 0.005\nclearence: 1",
+                {"spec.yaml:3: clearence"}},
+        BadSpec{"MissingKey", "object_gap: 0.02", "", {"spec.yaml:1", "object_gap"}},
+        BadSpec{"NegativeClearance",
+                "clearance: 0.005",
+                "clearance: -1",
+                {"spec.yaml:2: clearance", "negative"}},
+        BadSpec{"NoEffort", "scenes: 20", "scenes: 0", {"spec.yaml:5: effort.scenes"}},
+        BadSpec{
+            "UnknownEffort", "scenes: 20", "scenes: 20, tries: 3", {"spec.yaml:5: effort.tries"}},
+        BadSpec{"NegativeSize",
+                "[0.12, 0.03]",
+                "[0.12, -0.03]",
+                {"spec.yaml:15: objects[1].parts[0].cylinder", "greater than zero"}},
+        BadSpec{"ZeroSize",
+                "[1.0, 1.0, 0.04]",
+                "[1.0, [0, 1], 0.04]",
+                {"spec.yaml:11: objects[0].parts[0].box"}},
+        BadSpec{"TooFewSizes",
+                "[0.12, 0.03]",
+                "[0.12]",
+                {"spec.yaml:15: objects[1].parts[0].cylinder", "height, radius"}},
+        BadSpec{"NoPrimitive",
+                "cylinder: [0.12, 0.03]",
+                "name: a",
+                {"spec.yaml:15: objects[1].parts[0]", "box, cylinder, sphere"}},
+        BadSpec{"TwoPrimitives",
+                "cylinder: [0.12, 0.03]",
+                "sphere: 1, cylinder: [0.12, 0.03]",
+                {"spec.yaml:15: objects[1].parts[0]"}},
+        BadSpec{"NoParts",
+                "[{cylinder: [0.12, 0.03]}]",
+                "[]",
+                {"spec.yaml:15: objects[1].parts", "at least one"}},
+        BadSpec{"RangeTheWrongWayRound",
+                "[-0.2, 0.2]",
+                "[0.2, -0.2]",
+                {"spec.yaml:14: objects[1].position", "[low, high]"}},
+        BadSpec{"NotANumber", "[-0.2, 0.2]", "wide", {"spec.yaml:14: objects[1].position"}},
+        BadSpec{"StandsAtThreeNumbers",
+                "[-0.3, [-0.2, 0.2]]",
+                "[-0.3, 0, 0.1]",
+                {"spec.yaml:14: objects[1].position", "x, y"}},
+        BadSpec{"SameId", "id: can", "id: table", {"spec.yaml:12: objects[1].id"}},
+        BadSpec{"IdWithADot", "id: can", "id: can.1", {"spec.yaml:12: objects[1].id", "dot"}},
+        BadSpec{"UnknownSupport",
+                "stands_on: table.top",
+                "stands_on: shelf.top",
+                {"spec.yaml:13: objects[1].stands_on", "shelf"}},
+        BadSpec{"UnknownPart",
+                "stands_on: table.top",
+                "stands_on: table.side",
+                {"spec.yaml:13: objects[1].stands_on", "side"}},
+        BadSpec{"StandsOnACylinder",
+                "box: [1.0, 1.0, 0.04]",
+                "cylinder: [0.04, 1.0]",
+                {"spec.yaml:13: objects[1].stands_on", "boxes"}},
+        BadSpec{"UnknownFrame",
+                "stands_on: table.top",
+                "relative_to: shelf",
+                {"spec.yaml:13: objects[1].relative_to", "shelf"}},
+        BadSpec{"BothSupportAndFrame",
+                "stands_on: table.top",
+                "stands_on: table.top\n    relative_to: table",
+                {"spec.yaml:14: objects[1].relative_to"}},
+        BadSpec{"StandsTilted",
+                "stands_on: table.top",
+                "stands_on: table.top\n    rpy: [0, 0, 1]",
+                {"spec.yaml:14: objects[1].rpy", "yaw"}},
+        BadSpec{"StandsTurnedAboutTheBase",
+                "stands_on: table.top",
+                "stands_on: table.top\n    about_base: 1",
+                {"spec.yaml:14: objects[1].about_base"}},
+        BadSpec{"YawWithoutSupport",
+                "id: table",
+                "id: table\n    yaw: 1",
+                {"spec.yaml:10: objects[0].yaw", "rpy"}},
+        BadSpec{"ImpossibleProbability",
+                "id: table",
+                "id: table\n    probability: 1.5",
+                {"spec.yaml:10: objects[0].probability"}},
+        BadSpec{"UnknownConfiguration",
+                "configuration: tuck",
+                "configuration: stretched",
+                {"spec.yaml:18: queries[0].start.configuration", "stretched"}},
+        BadSpec{"UnknownObjectInQuery",
+                "object: can",
+                "object: cup",
+                {"spec.yaml:19: queries[0].goal.gripper.object", "cup"}},
+        BadSpec{"NoObjectsInQuery",
+                "object: can",
+                "object: []",
+                {"spec.yaml:19: queries[0].goal.gripper.object"}},
+        BadSpec{"NegativeTolerance",
+                "position_tolerance: 0.01",
+                "position_tolerance: -0.01",
+                {"spec.yaml:19: queries[0].goal.gripper.position_tolerance", "negative"}},
+        BadSpec{"NoEnd",
+                "{configuration: tuck}",
+                "{}",
+                {"spec.yaml:18: queries[0].start", "configuration, gripper"}},
+        BadSpec{"NoWeight",
+                "name: approach",
+                "name: approach\n    weight: 0",
+                {"spec.yaml:18: queries[0].weight"}},
+        BadSpec{"NothingToPlan",
+                "{gripper: {object: can, position: [-0.0335, 0, 0.03], "
+                "position_tolerance: 0.01}}",
+                "{configuration: tuck}",
+                {"spec.yaml:17: queries[0]", "both"}}),
+    [](const auto& info) { return info.param.name; });
+
+struct BadSetup {
+  const char* name;
+  const char* text;
+  std::vector<std::string> message;
+};
+
+class BadSetupTest : public testing::TestWithParam<BadSetup> {};
+
+TEST_P(BadSetupTest, IsRefusedByFileLineAndKey) {
+  const Robot fetch = LoadFetch();
+  const TemporaryFolder folder;
+  folder.Write("fetch_setup.yaml", GetParam().text);
+  const auto spec = folder.Write("spec.yaml", kCanOnTable);
+  ExpectInputError([&] { LoadProblemSpec(spec, fetch); }, GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSetupTest,
+    testing::Values(
+        BadSetup{"OtherRobot", "robot: pr2\ngroup: arm\n", {"fetch_setup.yaml:1: robot", "pr2"}},
+        BadSetup{"UnknownGroup", "robot: fetch\ngroup: legs\n", {"fetch_setup.yaml:2: group"}},
+        BadSetup{"UnknownKey",
+                 "robot: fetch\ngroup: arm_with_torso\ntime_limit: 1\n",
+                 {"fetch_setup.yaml:3: time_limit"}},
+        BadSetup{"UnknownJoint",
+                 "robot: fetch\ngroup: arm_with_torso\nrest: {knee: 1}\n",
+                 {"fetch_setup.yaml:3: rest.knee"}},
+        BadSetup{"FixedJoint",
+                 "robot: fetch\ngroup: arm_with_torso\nrest: {gripper_axis: 1}\n",
+                 {"fetch_setup.yaml:3: rest.gripper_axis", "fixed"}},
+        BadSetup{"OutsideLimits",
+                 "robot: fetch\ngroup: arm_with_torso\nrest: {bellows_joint: 0.5}\n",
+                 {"fetch_setup.yaml:3: rest.bellows_joint", "limits"}},
+        BadSetup{"JointOutsideTheGroup",
+                 "robot: fetch\ngroup: arm_with_torso\n"
+                 "configurations:\n  tuck: {head_pan_joint: 0}\n",
+                 {"fetch_setup.yaml:4: configurations.tuck.head_pan_joint", "group"}},
+        BadSetup{"IncompleteConfiguration",
+                 "robot: fetch\ngroup: arm_with_torso\n"
+                 "configurations:\n  tuck: {wrist_flex_joint: 0}\n",
+                 {"fetch_setup.yaml:4: configurations.tuck", "torso_lift_joint"}},
+        BadSetup{"UnknownLink",
+                 "robot: fetch\ngroup: arm_with_torso\n"
+                 "allowed_collisions:\n  base_link: [laser_link, tail]\n",
+                 {"fetch_setup.yaml:4: allowed_collisions.base_link[1]"}}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace planbench
