@@ -22,7 +22,7 @@ ProblemGenerator::ProblemGenerator(const ProblemSpec& spec, const Robot& robot, 
       group_(&robot.Group(spec.group)),
       seed_(seed),
       rest_(FullPositions(robot.model, spec.rest.names, spec.rest.positions, spec.name)),
-      checker_(MakeCollisionChecker(robot, *group_, CollisionModel::kSpheres)),
+      checker_(MakeReferenceChecker(robot, *group_, CollisionModel::kSpheres)),
       kinematics_(robot.model, *group_, rest_) {}
 
 ProblemGenerator::Result ProblemGenerator::Generate(int k, int attempt) {
