@@ -65,24 +65,21 @@ class AraPlanner : public Planner {
       return out_of_memory || query.ShouldStop();
     };
 
-    const auto report = [&] {
-      query.ReportSolution(search.ProveBound(), search.cost(), search.counts().expansions);
+    double bound = std::numeric_limits<double>::infinity();
+    const auto report = [&](double proven) {
+      bound = proven;
+      query.ReportSolution(bound, search.cost(), search.counts().expansions);
     };
     ImproveOutcome outcome = ImproveOutcome::kStopped;
     std::optional<double> epsilon = settings.epsilon.initial;
-    double reported_bound = std::numeric_limits<double>::infinity();
     while (epsilon) {
-      outcome = search.Improve(*epsilon, should_stop, [&] {
-        reported_bound = search.ProveBound();
-        report();
+      outcome = search.Improve(*epsilon, should_stop, [&](double proven) {
+        if (query.anytime()) report(proven);
       });
       if (search.path().empty()) break;
-      if (search.ProveBound() < reported_bound) {
-        reported_bound = search.ProveBound();
-        report();
-      }
+      if (const double proven = search.ProveBound(); proven < bound) report(proven);
       if (outcome != ImproveOutcome::kConverged || !query.anytime()) break;
-      epsilon = settings.epsilon.Next(*epsilon, reported_bound);
+      epsilon = settings.epsilon.Next(*epsilon, bound);
     }
 
     SearchResult result;
@@ -99,7 +96,7 @@ class AraPlanner : public Planner {
     if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
-      result.epsilon = search.ProveBound();
+      result.epsilon = bound;
       result.cost = search.cost();
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;

@@ -95,8 +95,7 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       to_start.push_back(from_start * from_start);
     }
   }
-  const std::size_t known_words_ = (2 * (kFirstMove + moves_.size()) + 63) / 64;
-  known_edges_ = ChunkedArray<std::uint64_t>(known_words_);
+  known_edges_ = ChunkedArray<std::uint64_t>((2 * (kFirstMove + moves_.size()) + 63) / 64);
   if (options_.crowding > 0) {
     visits_.resize(kCrowdSlots);
     crowd_cells_.assign(start.size(), 0);

@@ -11,6 +11,7 @@ namespace {
 // search it would save.
 constexpr double kCell = 0.07;   // m
 constexpr double kMargin = 0.5;  // m
+constexpr double kMostCellsAlongAxis = 200;
 
 VoxelSettings GridAround(GroupKinematics* kinematics, std::span<const double> start,
                          std::span<const double> goal) {
@@ -20,9 +21,10 @@ VoxelSettings GridAround(GroupKinematics* kinematics, std::span<const double> st
   kinematics->Update(goal);
   const Eigen::Vector3d p_goal = kinematics->X_BL(tip).translation();
   VoxelSettings settings;
-  settings.resolution_m = kCell;
   settings.lower = p_start.cwiseMin(p_goal).array() - kMargin;
   settings.upper = p_start.cwiseMax(p_goal).array() + kMargin;
+  settings.resolution_m =
+      std::max(kCell, (settings.upper - settings.lower).maxCoeff() / kMostCellsAlongAxis);
   return settings;
 }
 

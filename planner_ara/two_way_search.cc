@@ -61,7 +61,7 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
 }
 
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
-                                     const std::function<void()>& on_solution) {
+                                     const std::function<void(double)>& on_solution) {
   for (const auto& side : sides_) side->converged = false;
   while (Side* side = NextSide()) {
     const EdgeOrder order =
@@ -88,8 +88,9 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
     const double cost_before = cost_;
     if (side->search.goal_cost() < cost_) TakePath(side);
     if (cost_ < cost_before) {
-      on_solution();
-      if (ProveBound() <= epsilon) return ImproveOutcome::kConverged;
+      const double bound = ProveBound();
+      on_solution(bound);
+      if (bound <= epsilon) return ImproveOutcome::kConverged;
     }
     if (stopped) return ImproveOutcome::kStopped;
   }

@@ -45,9 +45,9 @@ class TwoWaySearch {
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
   /// lattice. `should_stop` is asked before every evaluation of an edge; `on_solution` is called at
-  /// each better path.
+  /// each better path with its proven bound.
   ImproveOutcome Improve(double epsilon, const std::function<bool()>& should_stop,
-                         const std::function<void()>& on_solution);
+                         const std::function<void(double)>& on_solution);
 
   /// Cost of the best path, infinity without one.
   double cost() const { return cost_; }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const auto kNever = [] { return false; };
-const auto kSilent = [] {};
+const auto kSilent = [](double) {};
 
 GoalBox Point(const Configuration& q) { return {q, q, q}; }
 
@@ -139,7 +139,10 @@ TEST_F(TwoWaySearchTest, PathsAreVerifiedAtHalfTheResolution) {
 TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
   TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
   std::vector<double> costs;
-  const auto note = [&] { costs.push_back(search.cost()); };
+  const auto note = [&](double bound) {
+    costs.push_back(search.cost());
+    EXPECT_EQ(bound, search.ProveBound());
+  };
   for (const double epsilon : {50.0, 2.0, 1.0}) search.Improve(epsilon, kNever, note);
   ASSERT_FALSE(costs.empty());
   for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_LT(costs[i], costs[i - 1]);
