@@ -33,7 +33,7 @@ YamlNode LoadSettings(const Robot& robot, const std::string& planner, const std:
 }  // namespace
 
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
-                const PlannerFactory& factory) {
+                const PlannerFactory& factory, const std::vector<SettingFlag>& setting_flags) {
   Program program("planner_" + planner, description);
   std::string robot_folder;
   std::string name = planner;
@@ -46,6 +46,14 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   program.app()
       .add_option("--set", overrides, "KEY=VALUE: overrides a setting; repeatable")
       ->allow_extra_args(false);
+  for (const SettingFlag& flag : setting_flags) {
+    program.app().add_option_function<std::string>(
+        flag.flag,
+        [&overrides, key = flag.key](const std::string& value) {
+          overrides.push_back(key + "=" + value);
+        },
+        flag.help);
+  }
   AddPackagePathFlag(&program.app(), &package_paths);
   return program.Run(argc, argv, [&] {
     const Robot robot = LoadRobot(robot_folder, ParsePackagePaths(package_paths));

@@ -1,41 +1,64 @@
 #pragma once
 
+#include <ompl/base/StateSpace.h>
+
 #include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
+#include <iosfwd>
+#include <vector>
 
+#include "planner_rrtc/flat_joints.h"
 #include "robot_model/joint_space.h"
-
-namespace ompl::base {
-class State;
-class StateSampler;
-class StateSpace;
-}  // namespace ompl::base
 
 namespace planbench {
 
 /// A JointSpace as a state space of OMPL: n doubles in one block, distances L2 with continuous
 /// joints the short way round, motions straight. Flat, because a compound of OMPL's own spaces
-/// spends more time in virtual calls than a collision checker needs for a configuration. Positions
-/// of continuous joints must be kept in
-/// [-pi, pi]. `joints` must outlive the space.
-std::shared_ptr<ompl::base::StateSpace> MakeOmplJointSpace(const JointSpace& joints);
+/// spends more time in virtual calls than a collision checker needs for a configuration. States
+/// that are freed are kept for the next one asked for. Positions of continuous joints must be kept
+/// in [-pi, pi]. Its default projection, for the planners that need one, is onto the first three
+/// joints (all, if there are fewer), those that carry the others.
+///
+/// Not thread-safe, unlike OMPL's own spaces. `joints` must outlive it.
+class OmplJointSpace final : public ompl::base::StateSpace {
+ public:
+  explicit OmplJointSpace(const JointSpace& joints);
+  ~OmplJointSpace() override;
 
-/// The n positions of a state of such a space.
-std::span<double> OmplPositions(ompl::base::State* state, std::size_t n);
-std::span<const double> OmplPositions(const ompl::base::State* state, std::size_t n);
+  const JointSpace& joints() const { return joints_; }
+  const FlatJoints& flat_joints() const { return flat_; }
+  /// Positions with continuous joints wrapped.
+  void SetPositions(ompl::base::State* state, const std::vector<double>& q) const;
 
-/// Uniform sampler over the joints' limits, and [-pi, pi) for continuous joints, that depends on
-/// `seed` only and not on OMPL's process-wide seed. Adds the number of its uniform samples to
-/// *num_samples.
-std::shared_ptr<ompl::base::StateSampler> MakeOmplSampler(const ompl::base::StateSpace* space,
-                                                          const JointSpace& joints,
-                                                          std::uint64_t seed,
-                                                          std::int64_t* num_samples);
+  unsigned int getDimension() const override;
+  double getMaximumExtent() const override;
+  double getMeasure() const override;
+  void enforceBounds(ompl::base::State* state) const override;
+  bool satisfiesBounds(const ompl::base::State* state) const override;
+  void copyState(ompl::base::State* destination, const ompl::base::State* source) const override;
+  unsigned int getSerializationLength() const override;
+  void serialize(void* serialization, const ompl::base::State* state) const override;
+  void deserialize(ompl::base::State* state, const void* serialization) const override;
+  double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
+  bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
+  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
+                   ompl::base::State* state) const override;
+  /// A uniform JointSampler of a fixed seed; searches set an allocator of their own.
+  ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
+  ompl::base::State* allocState() const override;
+  void freeState(ompl::base::State* state) const override;
+  double* getValueAddressAtIndex(ompl::base::State* state, unsigned int index) const override;
+  void printState(const ompl::base::State* state, std::ostream& out) const override;
+  void registerProjections() override;
 
-/// A seed of OMPL's generator, which takes 32 bits; different for seeds that differ anywhere in
-/// their 64 bits (but for chance), never 0.
-std::uint32_t OmplSeed(std::uint64_t seed);
+ private:
+  const JointSpace& joints_;
+  FlatJoints flat_;
+  mutable std::vector<ompl::base::State*> free_states_;
+  mutable std::int64_t num_default_samples_ = 0;
+};
+
+/// The positions of a state of such a space.
+double* OmplPositions(ompl::base::State* state);
+const double* OmplPositions(const ompl::base::State* state);
 
 }  // namespace planbench

@@ -1,25 +1,25 @@
 #include "planner_rrtc/rrtc_planner.h"
 
 #include <fmt/format.h>
-#include <ompl/base/MotionValidator.h>
+#include <fmt/ranges.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateValidityChecker.h>
-#include <ompl/base/goals/GoalSampleableRegion.h>
-#include <ompl/datastructures/NearestNeighborsGNATNoThreadSafety.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/samplers/informed/RejectionInfSampler.h>
 #include <ompl/geometric/PathGeometric.h>
-#include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <chrono>
+#include <exception>
 #include <limits>
 #include <mutex>
-#include <numbers>
-#include <stdexcept>
 
+#include "common/error.h"
+#include "planner_rrtc/edge_validity.h"
+#include "planner_rrtc/goal_box_region.h"
 #include "planner_rrtc/ompl_joint_space.h"
+#include "planner_rrtc/rrtc_settings.h"
 
 namespace planbench {
 namespace {
@@ -46,238 +46,242 @@ void RedirectOmplMessages() {
   });
 }
 
-/// Positions with continuous joints wrapped, as the OMPL space wants them.
-void SetState(const JointSpace& joints, const Configuration& q, ob::State* state) {
-  const std::span<double> positions = OmplPositions(state, q.size());
-  std::copy(q.begin(), q.end(), positions.begin());
-  joints.Wrap(positions);
-}
-
-class QueryStateValidity final : public ob::StateValidityChecker {
+/// Silences OMPL for a while.
+class OmplSilence {
  public:
-  QueryStateValidity(const ob::SpaceInformationPtr& si, EdgeChecker& edges)
-      : ob::StateValidityChecker(si), edges_(edges) {}
-
-  bool isValid(const ob::State* state) const override {
-    return edges_.IsValidState(OmplPositions(state, si_->getStateDimension()));
-  }
+  OmplSilence() : level_(ompl::msg::getLogLevel()) { ompl::msg::setLogLevel(ompl::msg::LOG_NONE); }
+  ~OmplSilence() { ompl::msg::setLogLevel(level_); }
+  OmplSilence(const OmplSilence&) = delete;
+  OmplSilence& operator=(const OmplSilence&) = delete;
 
  private:
-  EdgeChecker& edges_;
+  ompl::msg::LogLevel level_;
 };
 
-class QueryMotionValidator final : public ob::MotionValidator {
- public:
-  QueryMotionValidator(const ob::SpaceInformationPtr& si, EdgeChecker& edges)
-      : ob::MotionValidator(si), edges_(edges) {}
-
-  bool checkMotion(const ob::State* s1, const ob::State* s2) const override {
-    const std::size_t n = si_->getStateDimension();
-    // OMPL's contract of this function: s1 has been found valid. RRTConnect keeps it, in the goal
-    // tree by a check of the new state before the motion from it to the tree.
-    const bool valid = edges_.IsValidEdge(OmplPositions(s1, n), OmplPositions(s2, n),
-                                          /*from_is_free=*/true);
-    ++(valid ? valid_ : invalid_);
-    return valid;
-  }
-
-  bool checkMotion(const ob::State* s1, const ob::State* s2,
-                   std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(s1, s2)) return true;
-    // The valid stretch is not measured; s1 is the last state known to be valid.
-    if (last_valid.first != nullptr && last_valid.first != s1) {
-      si_->copyState(last_valid.first, s1);
-    }
-    last_valid.second = 0;
+bool SetParameter(ob::ParamSet* parameters, const std::string& key, const std::string& value) {
+  const OmplSilence silence;
+  try {
+    return parameters->setParam(key, value);
+  } catch (const std::exception&) {  // what OMPL's conversion of numbers throws
     return false;
   }
-
- private:
-  EdgeChecker& edges_;
-};
-
-/// A goal box: its nominal point first, then uniform samples, by a generator of its own.
-class GoalBoxRegion final : public ob::GoalSampleableRegion {
- public:
-  GoalBoxRegion(const ob::SpaceInformationPtr& si, const JointSpace& joints, const GoalBox& box,
-                std::uint64_t seed)
-      : ob::GoalSampleableRegion(si), joints_(joints), box_(box), rng_(OmplSeed(seed)) {
-    is_point_ = box.lower == box.upper;
-  }
-
-  double distanceGoal(const ob::State* state) const override {
-    const std::span<const double> q = OmplPositions(state, box_.nominal.size());
-    double sum = 0;
-    for (int j = 0; j < joints_.size(); ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      const double offset = joints_.Difference(j, box_.nominal[k], q[k]);
-      const double inside =
-          std::clamp(offset, box_.lower[k] - box_.nominal[k], box_.upper[k] - box_.nominal[k]);
-      sum += (offset - inside) * (offset - inside);
-    }
-    return std::sqrt(sum);
-  }
-
-  void sampleGoal(ob::State* state) const override {
-    Configuration q = box_.nominal;
-    if (nominal_sampled_) {
-      for (int j = 0; j < joints_.size(); ++j) {
-        const auto k = static_cast<std::size_t>(j);
-        double below = box_.lower[k] - q[k];
-        double above = box_.upper[k] - q[k];
-        if (joints_.joint(j).continuous) {
-          // One turn at most; short of half a turn, so that the short way from the nominal point is
-          // the sample's.
-          constexpr double kHalfTurn = std::numbers::pi - 1e-9;
-          below = std::max(below, -kHalfTurn);
-          above = std::min(above, kHalfTurn);
-        }
-        q[k] += rng_.uniformReal(below, above);
-      }
-    }
-    nominal_sampled_ = true;
-    SetState(joints_, q, state);
-  }
-
-  unsigned int maxSampleCount() const override {
-    return is_point_ ? 1 : std::numeric_limits<unsigned int>::max();
-  }
-
- private:
-  const JointSpace& joints_;
-  const GoalBox& box_;
-  bool is_point_ = false;
-  mutable bool nominal_sampled_ = false;
-  mutable ompl::RNG rng_;
-};
-
-/// OMPL's default nearest-neighbour structure with a stop watch on the queries, which are long
-/// beside the two clock readings.
-template <typename T>
-class TimedNeighbors final : public ompl::NearestNeighborsGNATNoThreadSafety<T> {
- public:
-  explicit TimedNeighbors(double* seconds) : seconds_(seconds) {}
-
-  T nearest(const T& data) const override {
-    const auto begin = std::chrono::steady_clock::now();
-    T neighbor = ompl::NearestNeighborsGNATNoThreadSafety<T>::nearest(data);
-    *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return neighbor;
-  }
-
- private:
-  double* seconds_;
-};
-
-class SeededRrtConnect final : public og::RRTConnect {
- public:
-  SeededRrtConnect(const ob::SpaceInformationPtr& si, std::uint64_t seed) : og::RRTConnect(si) {
-    // RRTConnect draws nothing from it today; what it will must not come from OMPL's process-wide
-    // seed.
-    rng_.setLocalSeed(OmplSeed(seed));
-    tStart_ = std::make_shared<TimedNeighbors<Motion*>>(&nearest_seconds_);
-    tGoal_ = std::make_shared<TimedNeighbors<Motion*>>(&nearest_seconds_);
-  }
-
-  std::size_t NumStartStates() const { return tStart_->size(); }
-  std::size_t NumGoalStates() const { return tGoal_->size(); }
-  double nearest_seconds() const { return nearest_seconds_; }
-
- private:
-  double nearest_seconds_ = 0;
-};
-
-Path ToPath(const ob::PathPtr& path, std::size_t n) {
-  Path waypoints;
-  for (const ob::State* state : path->as<og::PathGeometric>()->getStates()) {
-    const std::span<const double> q = OmplPositions(state, n);
-    waypoints.emplace_back(q.begin(), q.end());
-  }
-  return waypoints;
 }
 
-/// The planner's range unless the request brings its own.
-double RangeOf(double range, const std::map<std::string, std::string>& parameters) {
-  YamlNode request = YamlNode::Parse("{}", "request parameters");
-  for (const auto& [key, text] : parameters) {
-    request.Override(key, text, "request parameter " + key);
-  }
-  request.AllowOnly({"range"});
-  return parameters.contains("range") ? request.At("range").PositiveDouble() : range;
+/// A number of 32 bits, not 0, different for seeds that differ anywhere in their 64 bits (but for
+/// chance).
+std::uint32_t OmplSeed(std::uint64_t seed) {
+  // The finalizer of SplitMix64 (Steele, Lea and Flood, 2014) spreads all bits over the upper half.
+  seed += 0x9e3779b97f4a7c15u;
+  seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9u;
+  seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebu;
+  const auto folded = static_cast<std::uint32_t>(seed >> 32);
+  return folded == 0 ? 1 : folded;
 }
+
+/// Path length, for spaces that OMPL cannot sample the informed subset of: by rejection.
+class PathLengthObjective final : public ob::PathLengthOptimizationObjective {
+ public:
+  using ob::PathLengthOptimizationObjective::PathLengthOptimizationObjective;
+
+  ob::InformedSamplerPtr allocInformedStateSampler(const ob::ProblemDefinitionPtr& problem,
+                                                   unsigned int max_calls) const override {
+    return std::make_shared<ob::RejectionInfSampler>(problem, max_calls);
+  }
+};
 
 }  // namespace
 
-RrtConnectPlanner::RrtConnectPlanner(const Robot& robot, const YamlNode& settings)
-    : Planner(robot) {
-  settings.AllowOnly({"range"});
-  const std::optional<YamlNode> range = settings.Find("range");
-  range_ = range ? range->PositiveDouble() : kDefaultRange;
+/// OMPL's objects for one joint space, and RRT-Connect's memory.
+class RrtcPlanner::Workspace {
+ public:
+  explicit Workspace(const JointSpace& joints)
+      : space_(std::make_shared<OmplJointSpace>(joints)),
+        si_(std::make_shared<ob::SpaceInformation>(space_)),
+        states_(std::make_shared<EdgeStateValidity>(si_)),
+        motions_(std::make_shared<EdgeMotionValidator>(si_)) {
+    si_->setStateValidityChecker(states_);
+    si_->setMotionValidator(motions_);
+    space_->setStateSamplerAllocator([this](const ob::StateSpace* space) {
+      return std::make_shared<JointSampler>(space, space_->joints(), sampler_kind_, sampler_seed_++,
+                                            &num_samples_);
+    });
+    si_->setup();
+    rrt_connect_ = std::make_shared<RrtConnect>(si_, RrtConnect::Settings{});
+  }
+
+  SearchResult Search(const RrtcSettings& settings, SearchQuery& query) {
+    states_->set_edges(&query.edges());
+    motions_->set_edges(&query.edges());
+    sampler_kind_ = settings.sampler;
+    sampler_seed_ = query.seed();
+    num_samples_ = 0;
+    return settings.ompl_algorithm == nullptr ? SearchWithRrtConnect(settings, query)
+                                              : SearchWithOmpl(settings, query);
+  }
+
+  /// OMPL's planner with the settings' range and parameters. Throws InputError, prefixed by
+  /// `origin`, for parameters that it refuses.
+  ob::PlannerPtr MakeOmplPlanner(const RrtcSettings& settings, const std::string& origin) const {
+    ob::PlannerPtr planner = settings.ompl_algorithm->make(si_);
+    ob::ParamSet& parameters = planner->params();
+    // Where a roadmap has one, it limits how far neighbours may be apart, which is another matter.
+    const bool is_roadmap =
+        settings.ompl_algorithm->planner_class == PlannerClass::kSampleThenSearch;
+    if (parameters.hasParam("range") && !is_roadmap) {
+      parameters.setParam("range", fmt::format("{}", settings.rrt_connect.range));
+    }
+    for (const auto& [key, value] : settings.ompl_parameters) {
+      if (!parameters.hasParam(key)) {
+        std::vector<std::string> known;
+        parameters.getParamNames(known);
+        throw InputError(fmt::format("{}: ompl.{}: {} has no such parameter; it has {}", origin,
+                                     key, settings.AlgorithmName(), fmt::join(known, ", ")));
+      }
+      if (!SetParameter(&parameters, key, value)) {
+        throw InputError(
+            fmt::format("{}: ompl.{}: '{}' is no value of this parameter", origin, key, value));
+      }
+    }
+    return planner;
+  }
+
+ private:
+  ob::ProblemDefinitionPtr MakeProblem(const SearchQuery& query) const {
+    auto problem = std::make_shared<ob::ProblemDefinition>(si_);
+    ob::State* start = space_->allocState();
+    space_->SetPositions(start, query.start());
+    problem->addStartState(start);
+    space_->freeState(start);
+    // Another seed than the sampler's, lest goals and samples be the same numbers.
+    problem->setGoal(std::make_shared<GoalBoxRegion>(si_, *space_, query.goal(), ~query.seed()));
+    return problem;
+  }
+
+  SearchResult SearchWithRrtConnect(const RrtcSettings& settings, SearchQuery& query) {
+    const ob::ProblemDefinitionPtr problem = MakeProblem(query);
+    RrtConnect& planner = *rrt_connect_;
+    planner.clear();
+    planner.set_settings(settings.rrt_connect);
+    planner.setProblemDefinition(problem);
+    if (!planner.isSetup()) planner.setup();
+    planner.solve(ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
+
+    SearchResult result = ResultOf(*problem, query);
+    result.guidance_s = planner.counters().nearest_s;
+    result.counters = {{"iterations", static_cast<double>(planner.counters().iterations)},
+                       {"states_start_tree", planner.NumStates(0)},
+                       {"states_goal_tree", planner.NumStates(1)}};
+    if (settings.rrt_connect.domain_radius > 0) {
+      result.counters["out_of_domain"] = static_cast<double>(planner.counters().out_of_domain);
+    }
+    return result;
+  }
+
+  SearchResult SearchWithOmpl(const RrtcSettings& settings, SearchQuery& query) {
+    {
+      // What the planners' own generators are seeded from. OMPL finds fault with setting it more
+      // than once a process, because generators that exist keep their seeds; here none does.
+      const OmplSilence silence;
+      ompl::RNG::setSeed(OmplSeed(query.seed()));
+    }
+    const ob::ProblemDefinitionPtr problem = MakeProblem(query);
+    const auto objective = std::make_shared<PathLengthObjective>(si_);
+    objective->setCostThreshold(query.anytime() ? ob::Cost(0) : objective->infiniteCost());
+    problem->setOptimizationObjective(objective);
+    double best = std::numeric_limits<double>::infinity();
+    problem->setIntermediateSolutionCallback(
+        [&](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
+          if (!query.anytime() || !(cost.value() < best)) return;
+          best = cost.value();
+          query.ReportSolution(/*epsilon=*/0, best, num_samples_);
+        });
+    const ob::PlannerPtr planner = MakeOmplPlanner(settings, "settings");
+    planner->setProblemDefinition(problem);
+    planner->setup();
+    const ob::PlannerStatus status =
+        planner->solve(ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
+
+    SearchResult result = ResultOf(*problem, query);
+    if (result.status == PlanStatus::kSolved && settings.ompl_algorithm->anytime) {
+      result.cost = problem->getSolutionPath()->length();
+      if (query.anytime() && result.cost < best) {
+        query.ReportSolution(/*epsilon=*/0, result.cost, num_samples_);
+      }
+    } else if (result.status == PlanStatus::kTimedOut && !query.ShouldStop()) {
+      result.message = fmt::format("{} gave up: {}", settings.AlgorithmName(), status.asString());
+    }
+    result.counters = {{"iterations", static_cast<double>(num_samples_)}};
+    return result;
+  }
+
+  static SearchResult ResultOf(const ob::ProblemDefinition& problem, const SearchQuery& query) {
+    SearchResult result;
+    if (problem.hasExactSolution()) {
+      result.status = PlanStatus::kSolved;
+      const std::size_t n = query.start().size();
+      const auto* path = problem.getSolutionPath()->as<og::PathGeometric>();
+      for (std::size_t i = 0; i < path->getStateCount(); ++i) {
+        const double* q = OmplPositions(path->getState(static_cast<unsigned int>(i)));
+        result.path.emplace_back(q, q + n);
+      }
+    } else if (query.Cancelled()) {
+      result.status = PlanStatus::kCancelled;
+      result.message = "cancelled";
+    } else {
+      result.status = PlanStatus::kTimedOut;
+      result.message = "no path was found within the time limit";
+    }
+    return result;
+  }
+
+  std::shared_ptr<OmplJointSpace> space_;
+  ob::SpaceInformationPtr si_;
+  std::shared_ptr<EdgeStateValidity> states_;
+  std::shared_ptr<EdgeMotionValidator> motions_;
+  std::shared_ptr<RrtConnect> rrt_connect_;
+  // Of the request being served:
+  SamplerKind sampler_kind_ = SamplerKind::kUniform;
+  std::uint64_t sampler_seed_ = 0;
+  std::int64_t num_samples_ = 0;
+};
+
+RrtcPlanner::RrtcPlanner(const Robot& robot, const YamlNode& settings)
+    : Planner(robot),
+      settings_(std::make_unique<RrtcSettings>(ReadRrtcSettings(settings, RrtcSettings{}))) {
   RedirectOmplMessages();
+  for (const PlanningGroup& group : robot.groups) {
+    workspaces_[&group.space] = std::make_unique<Workspace>(group.space);
+  }
+  if (settings_->ompl_algorithm != nullptr) {
+    // Refuses bad parameters now rather than at the first request.
+    workspaces_.begin()->second->MakeOmplPlanner(*settings_, settings.Where());
+  } else if (!settings_->ompl_parameters.empty()) {
+    settings.At("ompl").Fail("RRT-Connect has no parameters of OMPL's");
+  }
 }
 
-PlannerDescription RrtConnectPlanner::Describe() const {
+RrtcPlanner::~RrtcPlanner() = default;
+
+PlannerDescription RrtcPlanner::Describe() const {
   PlannerDescription description;
-  description.algorithm = "RRT-Connect";
-  description.planner_class = PlannerClass::kSamplingGuided;
+  description.algorithm = settings_->AlgorithmName();
+  description.planner_class = settings_->ompl_algorithm != nullptr
+                                  ? settings_->ompl_algorithm->planner_class
+                                  : PlannerClass::kSamplingGuided;
   description.backward = true;
-  description.anytime = false;
+  description.anytime = settings_->ompl_algorithm != nullptr && settings_->ompl_algorithm->anytime;
   description.collision_models = AvailableCollisionModels();
-  description.settings = {{"range", fmt::format("{}", range_)}};
+  description.settings = DescribeSettings(*settings_);
   return description;
 }
 
-SearchResult RrtConnectPlanner::Search(SearchQuery& query) {
-  const double range = RangeOf(range_, query.parameters());
-  const JointSpace& joints = query.space();
-  const ob::StateSpacePtr space = MakeOmplJointSpace(joints);
-  std::int64_t iterations = 0;
-  space->setStateSamplerAllocator([&](const ob::StateSpace* sampled_space) {
-    return MakeOmplSampler(sampled_space, joints, query.seed(), &iterations);
-  });
-
-  const auto si = std::make_shared<ob::SpaceInformation>(space);
-  si->setStateValidityChecker(std::make_shared<QueryStateValidity>(si, query.edges()));
-  si->setMotionValidator(std::make_shared<QueryMotionValidator>(si, query.edges()));
-  si->setup();
-
-  const auto problem = std::make_shared<ob::ProblemDefinition>(si);
-  ob::State* start = space->allocState();
-  SetState(joints, query.start(), start);
-  problem->addStartState(start);
-  space->freeState(start);
-  // Another seed than the sampler's, lest goals and samples be the same numbers.
-  problem->setGoal(std::make_shared<GoalBoxRegion>(si, joints, query.goal(), ~query.seed()));
-
-  SeededRrtConnect planner(si, query.seed());
-  planner.setRange(range);
-  planner.setProblemDefinition(problem);
-  planner.setup();
-  const ob::PlannerStatus status =
-      planner.solve(ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
-
-  SearchResult result;
-  result.guidance_s = planner.nearest_seconds();
-  result.counters = {{"iterations", static_cast<double>(iterations)},
-                     {"states_start_tree", static_cast<double>(planner.NumStartStates())},
-                     {"states_goal_tree", static_cast<double>(planner.NumGoalStates())}};
-  if (status == ob::PlannerStatus::EXACT_SOLUTION) {
-    result.status = PlanStatus::kSolved;
-    result.path = ToPath(problem->getSolutionPath(), static_cast<std::size_t>(joints.size()));
-  } else if (query.Cancelled()) {
-    result.status = PlanStatus::kCancelled;
-    result.message = "cancelled";
-  } else if (query.ShouldStop()) {
-    result.status = PlanStatus::kTimedOut;
-    result.message = "the trees did not meet within the time limit";
-  } else {
-    throw std::runtime_error("OMPL gave up before the time limit: " + status.asString());
-  }
-  return result;
+SearchResult RrtcPlanner::Search(SearchQuery& query) {
+  return workspaces_.at(&query.space())
+      ->Search(SettingsOfRequest(*settings_, query.parameters()), query);
 }
 
 std::unique_ptr<Planner> MakeRrtcPlanner(const Robot& robot, const YamlNode& settings) {
-  return std::make_unique<RrtConnectPlanner>(robot, settings);
+  return std::make_unique<RrtcPlanner>(robot, settings);
 }
 
 }  // namespace planbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "common/yaml.h"
@@ -7,21 +8,20 @@
 
 namespace planbench {
 
-/// RRT-Connect (Kuffner and LaValle, "RRT-Connect: An Efficient Approach to Single-Query Path
-/// Planning", ICRA 2000) as OMPL implements it (ompl::geometric::RRTConnect). Grows a tree from the
-/// start and one from the goal by straight motions of at most `range` towards random
-/// configurations, and tries to connect them.
-///
-/// Counters: iterations (random configurations drawn), states_start_tree, states_goal_tree.
-/// Guidance is the time for nearest neighbours.
-class RrtConnectPlanner : public Planner {
- public:
-  /// Settings: range: longest motion added to a tree, joint-space L2 (rad and m unweighted), > 0,
-  /// default kDefaultRange. Throws InputError for unknown keys and bad values. The robot must
-  /// outlive the planner.
-  RrtConnectPlanner(const Robot& robot, const YamlNode& settings);
+struct RrtcSettings;
 
-  static constexpr double kDefaultRange = 1.0;
+/// RRT-Connect, or any of OMPL's geometric planners, over one state space, one validator and
+/// samplers that depend on the request's seed alone.
+///
+/// Counters: iterations (configurations drawn from the whole space); of RRT-Connect also
+/// states_start_tree, states_goal_tree and, with a dynamic domain, out_of_domain. Guidance is
+/// RRT-Connect's time for nearest neighbours.
+class RrtcPlanner : public Planner {
+ public:
+  /// Settings: see RrtcSettings. Throws InputError for unknown keys, algorithms and parameters of
+  /// OMPL's planners, and for bad values. The robot must outlive the planner.
+  RrtcPlanner(const Robot& robot, const YamlNode& settings);
+  ~RrtcPlanner() override;
 
   PlannerDescription Describe() const override;
 
@@ -29,10 +29,14 @@ class RrtConnectPlanner : public Planner {
   SearchResult Search(SearchQuery& query) override;
 
  private:
-  double range_;
+  class Workspace;
+
+  std::unique_ptr<RrtcSettings> settings_;
+  /// What is kept from one request to the next, for each joint space.
+  std::map<const JointSpace*, std::unique_ptr<Workspace>> workspaces_;
 };
 
-/// RrtConnectPlanner, for programs.
+/// RrtcPlanner, for programs.
 std::unique_ptr<Planner> MakeRrtcPlanner(const Robot& robot, const YamlNode& settings);
 
 }  // namespace planbench

@@ -32,6 +32,8 @@ TEST_F(BadUse, MissingProblemFolder) {
 TEST_F(BadUse, MissingOrBrokenRobot) {
   ExpectBadInput(Start({Program("planner_ara"), "--robot", "/nowhere"}), "/nowhere");
   ExpectBadInput(StartPlanner("rrtc", {"--set", "rang=1"}), "--set rang");
+  ExpectBadInput(StartPlanner("rrtc", {"--algorithm", "RRTConect"}),
+                 "--set algorithm: algorithm: unknown algorithm");
   ExpectBadInput(StartPlanner("ara", {"--config", "/nowhere.yaml"}), "/nowhere.yaml");
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contract/planner_contract.h"
+#include "planner_rrtc/ompl_algorithms.h"
 #include "scene/moveit_yaml.h"
 #include "support/expect_input_error.h"
 #include "support/shared_data.h"
@@ -16,41 +17,115 @@ std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
   return MakeRrtcPlanner(robot, Settings("range: 1.0"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Rrtc, PlannerContract,
-                         testing::Values(PlannerFactory{"rrtc", MakeForContract}));
+std::vector<PlannerFactory> AllPlanners() {
+  std::vector<PlannerFactory> factories;
+  const auto add = [&](const std::string& name, const std::string& settings) {
+    factories.push_back({name, [settings](const Robot& robot) {
+                           return MakeRrtcPlanner(robot, Settings(settings));
+                         }});
+  };
+  add("RRT_Connect", "");
+  add("RRT_Connect_step_by_step", "{extension: step, balance: false}");
+  add("RRT_Connect_halton", "{sampler: halton}");
+  add("RRT_Connect_dynamic_domain", "{domain_radius: 2}");
+  for (const OmplAlgorithm& algorithm : OmplAlgorithms()) {
+    add(std::string(algorithm.name), "{algorithm: " + std::string(algorithm.name) + "}");
+  }
+  return factories;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rrtc, PlannerContract, testing::ValuesIn(AllPlanners()),
+                         [](const auto& info) { return info.param.name; });
 
 class RrtcPlannerTest : public testing::Test {
  protected:
+  PlanResult Solve(const std::string& settings, std::uint64_t seed = 1) const {
+    PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+    request.seed = seed;
+    return MakeRrtcPlanner(robot_, Settings(settings))->Plan(request, PostsScene(), nullptr);
+  }
+
   const Robot robot_ = LoadPlanarRobot();
 };
 
 TEST_F(RrtcPlannerTest, RefusesBadSettingsByFileLineAndKey) {
-  ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("range: 0")); },
-                   {"rrtc.yaml:1", "range"});
-  ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("\nrange: far")); },
-                   {"rrtc.yaml:2", "range", "far"});
-  ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("range: 1\nrnage: 2")); },
-                   {"rrtc.yaml:2", "rnage"});
-  ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("[1, 2]")); }, {"rrtc.yaml"});
+  const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    SCOPED_TRACE(text);
+    ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings(text)); }, parts);
+  };
+  expect_refused("range: 0", {"rrtc.yaml:1", "range"});
+  expect_refused("\nrange: far", {"rrtc.yaml:2", "range", "far"});
+  expect_refused("range: 1\nrnage: 2", {"rrtc.yaml:2", "rnage"});
+  expect_refused("[1, 2]", {"rrtc.yaml"});
+  expect_refused("range: 1\nsampler: sobol", {"rrtc.yaml:2", "sampler", "sobol", "halton"});
+  expect_refused("extension: jump", {"rrtc.yaml:1", "extension", "jump", "connect"});
+  expect_refused("domain_radius: -1", {"rrtc.yaml:1", "domain_radius", "-1"});
+  expect_refused("balance: 2.5", {"rrtc.yaml:1", "balance"});
+  expect_refused("range: 1\nalgorithm: RRTConect",
+                 {"rrtc.yaml:2", "algorithm", "RRTConect", "RRT-Connect", "BITstar", "PRM"});
+}
+
+TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
+  const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    SCOPED_TRACE(text);
+    ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings(text)); }, parts);
+  };
+  expect_refused("algorithm: RRT\nompl: {goal_bais: 0.1}",
+                 {"rrtc.yaml", "ompl.goal_bais", "RRT", "goal_bias"});
+  expect_refused("algorithm: RRT\nompl: {goal_bias: often}",
+                 {"rrtc.yaml", "ompl.goal_bias", "often"});
+  expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
+  expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml", "ompl", "RRT-Connect"});
 }
 
 TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
   const Robot fetch = LoadFetch();
   const YamlNode settings = YamlNode::LoadFile(fetch.planner_settings.at("rrtc").string());
-  EXPECT_EQ(MakeRrtcPlanner(fetch, settings)->Describe().settings.count("range"), 1u);
-}
-
-TEST_F(RrtcPlannerTest, NoSettingsMeanTheDefault) {
-  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings(""))->Describe().settings.at("range"), "1");
+  EXPECT_EQ(MakeRrtcPlanner(fetch, settings)->Describe().algorithm, "RRT-Connect");
+  const YamlNode study = YamlNode::LoadFile((fetch.folder / "rrtc_study.yaml").string());
+  const PlannerDescription description = MakeRrtcPlanner(fetch, study)->Describe();
+  EXPECT_EQ(description.algorithm, "RRTConnect");
+  EXPECT_EQ(description.settings.at("range"), "2");
 }
 
 TEST_F(RrtcPlannerTest, Describes) {
-  const PlannerDescription description = MakeForContract(robot_)->Describe();
+  const PlannerDescription description = MakeRrtcPlanner(robot_, Settings(""))->Describe();
   EXPECT_EQ(description.algorithm, "RRT-Connect");
   EXPECT_EQ(description.planner_class, PlannerClass::kSamplingGuided);
   EXPECT_TRUE(description.backward);
   EXPECT_FALSE(description.anytime);
   EXPECT_EQ(description.collision_models, AvailableCollisionModels());
+  EXPECT_EQ(description.settings, (std::map<std::string, std::string>{{"algorithm", "RRT-Connect"},
+                                                                      {"sampler", "uniform"},
+                                                                      {"range", "1"},
+                                                                      {"extension", "connect"},
+                                                                      {"balance", "true"},
+                                                                      {"domain_radius", "0"}}));
+}
+
+TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
+  const PlannerDescription description =
+      MakeRrtcPlanner(robot_, Settings("{algorithm: BITstar, ompl: {samples_per_batch: 50}}"))
+          ->Describe();
+  EXPECT_EQ(description.algorithm, "BITstar");
+  EXPECT_EQ(description.planner_class, PlannerClass::kSearchAndSample);
+  EXPECT_TRUE(description.anytime);
+  EXPECT_EQ(description.settings.at("ompl.samples_per_batch"), "50");
+  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings("algorithm: PRM"))->Describe().planner_class,
+            PlannerClass::kSampleThenSearch);
+}
+
+TEST_F(RrtcPlannerTest, ParametersOfOmplsPlannersTakeEffect) {
+  EXPECT_NE(Solve("{algorithm: RRT, ompl: {goal_bias: 0.05}}").counters,
+            Solve("{algorithm: RRT, ompl: {goal_bias: 0.5}}").counters);
+}
+
+TEST_F(RrtcPlannerTest, EverySettingTakesEffect) {
+  const Path path = Solve("").path;
+  for (const std::string text : {"range: 0.2", "sampler: halton", "extension: step",
+                                 "algorithm: RRTConnect", "algorithm: RRT"}) {
+    EXPECT_NE(Solve(text).path, path) << text;
+  }
 }
 
 TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {
@@ -81,15 +156,21 @@ TEST_F(RrtcPlannerTest, ARangeHoldsForItsRequestOnly) {
 }
 
 TEST_F(RrtcPlannerTest, SeedsDecideThePath) {
-  const std::unique_ptr<Planner> planner = MakeForContract(robot_);
-  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
-  const PlanResult one = planner->Plan(request, PostsScene(), nullptr);
-  request.seed = 2;
-  const PlanResult two = planner->Plan(request, PostsScene(), nullptr);
-  request.seed = 1 + (std::uint64_t{1} << 32);
-  const PlanResult far = planner->Plan(request, PostsScene(), nullptr);
-  EXPECT_NE(one.path, two.path);
-  EXPECT_NE(one.path, far.path);
+  for (const std::string settings : {"", "algorithm: RRT", "sampler: halton"}) {
+    const Path one = Solve(settings, 1).path;
+    EXPECT_EQ(Solve(settings, 1).path, one) << settings;
+    EXPECT_NE(Solve(settings, 2).path, one) << settings;
+    EXPECT_NE(Solve(settings, 1 + (std::uint64_t{1} << 32)).path, one) << settings;
+  }
+}
+
+TEST_F(RrtcPlannerTest, AnotherPlannersRequestsInBetweenDoNotMatter) {
+  const std::unique_ptr<Planner> planner = MakeRrtcPlanner(robot_, Settings("algorithm: KPIECE1"));
+  const std::unique_ptr<Planner> other = MakeRrtcPlanner(robot_, Settings("algorithm: RRT"));
+  const PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  const PlanResult before = planner->Plan(request, PostsScene(), nullptr);
+  other->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(planner->Plan(request, PostsScene(), nullptr).path, before.path);
 }
 
 TEST_F(RrtcPlannerTest, CountsItsTreesAndIterations) {

@@ -1,0 +1,113 @@
+#include "planner_rrtc/ompl_algorithms.h"
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
+#include <ompl/geometric/planners/est/BiEST.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/est/ProjEST.h>
+#include <ompl/geometric/planners/informedtrees/ABITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/pdst/PDST.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/LazyPRMstar.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/BiTRRT.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
+#include <ompl/geometric/planners/rrt/RRTsharp.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/TRRT.h>
+#include <ompl/geometric/planners/sbl/SBL.h>
+#include <ompl/geometric/planners/sst/SST.h>
+#include <ompl/geometric/planners/stride/STRIDE.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace planbench {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+template <typename Algorithm>
+ob::PlannerPtr Make(const ob::SpaceInformationPtr& si) {
+  return std::make_shared<Algorithm>(si);
+}
+
+/// OMPL's PRM divides its time between growing and expanding by the clock and looks for solutions
+/// in a second thread, so that no two runs are alike. The same roadmap, grown only, in one thread.
+template <bool kStar>
+class RepeatablePrm final : public og::PRM {
+ public:
+  explicit RepeatablePrm(const ob::SpaceInformationPtr& si) : og::PRM(si, kStar) {}
+
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
+    checkValidity();
+    while (const ob::State* state = pis_.nextStart()) {
+      startM_.push_back(addMilestone(si_->cloneState(state)));
+    }
+    if (startM_.empty()) return ob::PlannerStatus::INVALID_START;
+    if (const ob::State* state = pis_.nextGoal(ptc)) {
+      goalM_.push_back(addMilestone(si_->cloneState(state)));
+    }
+    if (goalM_.empty()) return ob::PlannerStatus::INVALID_GOAL;
+    if (!sampler_) sampler_ = si_->allocValidStateSampler();
+
+    ob::PathPtr solution;
+    ob::State* sample = si_->allocState();
+    while (!ptc && !maybeConstructSolution(startM_, goalM_, solution)) {
+      if (sampler_->sample(sample)) addMilestone(si_->cloneState(sample));
+    }
+    si_->freeState(sample);
+    if (!solution) return ob::PlannerStatus::TIMEOUT;
+    pdef_->addSolutionPath(solution, /*approximate=*/false, /*difference=*/0, getName());
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+};
+
+using enum PlannerClass;
+constexpr std::array kAlgorithms = {
+    OmplAlgorithm{"ABITstar", kSearchAndSample, true, Make<og::ABITstar>},
+    OmplAlgorithm{"BITstar", kSearchAndSample, true, Make<og::BITstar>},
+    OmplAlgorithm{"BKPIECE1", kSamplingGuided, false, Make<og::BKPIECE1>},
+    OmplAlgorithm{"BiEST", kSamplingGuided, false, Make<og::BiEST>},
+    OmplAlgorithm{"BiTRRT", kSamplingGuided, false, Make<og::BiTRRT>},
+    OmplAlgorithm{"EST", kSamplingGuided, false, Make<og::EST>},
+    OmplAlgorithm{"InformedRRTstar", kSamplingGuided, true, Make<og::InformedRRTstar>},
+    OmplAlgorithm{"KPIECE1", kSamplingGuided, false, Make<og::KPIECE1>},
+    OmplAlgorithm{"LBKPIECE1", kSamplingGuided, false, Make<og::LBKPIECE1>},
+    OmplAlgorithm{"LazyPRM", kSampleThenSearch, false, Make<og::LazyPRM>},
+    OmplAlgorithm{"LazyPRMstar", kSampleThenSearch, false, Make<og::LazyPRMstar>},
+    OmplAlgorithm{"PDST", kSamplingGuided, false, Make<og::PDST>},
+    OmplAlgorithm{"PRM", kSampleThenSearch, false, Make<RepeatablePrm<false>>},
+    OmplAlgorithm{"PRMstar", kSampleThenSearch, false, Make<RepeatablePrm<true>>},
+    OmplAlgorithm{"ProjEST", kSamplingGuided, false, Make<og::ProjEST>},
+    OmplAlgorithm{"RRT", kSamplingGuided, false, Make<og::RRT>},
+    OmplAlgorithm{"RRTConnect", kSamplingGuided, false, Make<og::RRTConnect>},
+    OmplAlgorithm{"RRTXstatic", kSamplingGuided, true, Make<og::RRTXstatic>},
+    OmplAlgorithm{"RRTsharp", kSamplingGuided, true, Make<og::RRTsharp>},
+    OmplAlgorithm{"RRTstar", kSamplingGuided, true, Make<og::RRTstar>},
+    OmplAlgorithm{"SBL", kSamplingGuided, false, Make<og::SBL>},
+    OmplAlgorithm{"STRIDE", kSamplingGuided, false, Make<og::STRIDE>},
+    OmplAlgorithm{"TRRT", kSamplingGuided, false, Make<og::TRRT>},
+};
+
+}  // namespace
+
+std::span<const OmplAlgorithm> OmplAlgorithms() { return kAlgorithms; }
+
+const OmplAlgorithm* FindOmplAlgorithm(std::string_view name) {
+  const auto* found =
+      std::find_if(kAlgorithms.begin(), kAlgorithms.end(),
+                   [&](const OmplAlgorithm& algorithm) { return algorithm.name == name; });
+  return found == kAlgorithms.end() ? nullptr : found;
+}
+
+}  // namespace planbench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "planning/planner.h"
+
+namespace planbench {
+
+/// A geometric planner of the installed OMPL.
+struct OmplAlgorithm {
+  std::string_view name;  ///< Its class in ompl::geometric.
+  PlannerClass planner_class;
+  /// Improves its path until it is stopped, and tells of each better one.
+  bool anytime;
+  ompl::base::PlannerPtr (*make)(const ompl::base::SpaceInformationPtr& si);
+};
+
+/// Those offered, by name: single-threaded ones that need nothing but a space, a validator and a
+/// goal, and that depend on nothing but their generators' seeds.
+std::span<const OmplAlgorithm> OmplAlgorithms();
+/// Null if there is none of that name.
+const OmplAlgorithm* FindOmplAlgorithm(std::string_view name);
+
+}  // namespace planbench

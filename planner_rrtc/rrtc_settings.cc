@@ -1,0 +1,95 @@
+#include "planner_rrtc/rrtc_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+#include <vector>
+
+namespace planbench {
+namespace {
+
+const OmplAlgorithm* ReadAlgorithm(const YamlNode& node) {
+  const std::string name = node.String();
+  if (name == RrtcSettings::kRrtConnect) return nullptr;
+  const OmplAlgorithm* algorithm = FindOmplAlgorithm(name);
+  if (algorithm == nullptr) {
+    std::vector<std::string_view> known = {RrtcSettings::kRrtConnect};
+    for (const OmplAlgorithm& a : OmplAlgorithms()) known.push_back(a.name);
+    node.Fail(fmt::format("unknown algorithm '{}'; known are {}", name, fmt::join(known, ", ")));
+  }
+  return algorithm;
+}
+
+SamplerKind ReadSampler(const YamlNode& node) {
+  const std::optional<SamplerKind> kind = ParseSamplerKind(node.String());
+  if (!kind) node.Fail(fmt::format("expected uniform or halton, found '{}'", node.String()));
+  return *kind;
+}
+
+Extension ReadExtension(const YamlNode& node) {
+  const std::string name = node.String();
+  if (name == "connect") return Extension::kConnect;
+  if (name == "step") return Extension::kStep;
+  node.Fail(fmt::format("expected connect or step, found '{}'", name));
+}
+
+double ReadDomainRadius(const YamlNode& node) {
+  const double radius = node.Double();
+  if (radius < 0) node.Fail(fmt::format("must not be negative, found {}", radius));
+  return radius;
+}
+
+}  // namespace
+
+RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
+  node.AllowOnly(
+      {"algorithm", "sampler", "range", "extension", "balance", "domain_radius", "ompl"});
+  RrtcSettings settings = defaults;
+  RrtConnect::Settings& rrt_connect = settings.rrt_connect;
+  if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
+  if (const auto value = node.Find("sampler")) settings.sampler = ReadSampler(*value);
+  if (const auto value = node.Find("range")) rrt_connect.range = value->PositiveDouble();
+  if (const auto value = node.Find("extension")) rrt_connect.extension = ReadExtension(*value);
+  if (const auto value = node.Find("balance")) rrt_connect.balance = value->Bool();
+  if (const auto value = node.Find("domain_radius")) {
+    rrt_connect.domain_radius = ReadDomainRadius(*value);
+  }
+  if (const auto value = node.Find("ompl")) {
+    for (const std::string& key : value->Keys()) {
+      settings.ompl_parameters[key] = value->At(key).String();
+    }
+  }
+  return settings;
+}
+
+std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings) {
+  std::map<std::string, std::string> text = {
+      {"algorithm", std::string(settings.AlgorithmName())},
+      {"sampler", std::string(SamplerKindName(settings.sampler))},
+      {"range", fmt::format("{}", settings.rrt_connect.range)}};
+  if (settings.ompl_algorithm != nullptr) {
+    for (const auto& [key, value] : settings.ompl_parameters) text["ompl." + key] = value;
+    return text;
+  }
+  const bool connect = settings.rrt_connect.extension == Extension::kConnect;
+  text["extension"] = connect ? "connect" : "step";
+  text["balance"] = settings.rrt_connect.balance ? "true" : "false";
+  text["domain_radius"] = fmt::format("{}", settings.rrt_connect.domain_radius);
+  return text;
+}
+
+RrtcSettings SettingsOfRequest(const RrtcSettings& settings,
+                               const std::map<std::string, std::string>& parameters) {
+  if (parameters.empty()) return settings;
+  YamlNode request = YamlNode::Parse("{}", "request parameters");
+  for (const auto& [key, text] : parameters) {
+    request.Override(key, text, "request parameter " + key);
+  }
+  request.AllowOnly({"sampler", "range", "extension", "balance", "domain_radius"});
+  // A parameter without a value is a mistake, not a wish for the default.
+  for (const auto& [key, text] : parameters) request.At(key).String();
+  return ReadRrtcSettings(request, settings);
+}
+
+}  // namespace planbench
