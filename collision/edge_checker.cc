@@ -18,7 +18,7 @@ constexpr std::int64_t kTimedCalls = 8;
 /// Samples that CheckSamples takes at once.
 constexpr int kMaxBlock = 64;
 /// Certified edges are first cut into stretches of this many edge resolutions ...
-constexpr double kFirstStretch = 2;
+constexpr double kFirstStretch = 4;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
 
