@@ -119,7 +119,10 @@ std::string_view PlannerClassName(PlannerClass planner_class) {
 
 CollisionChecker& Planner::CheckerFor(const PlanningGroup& group, CollisionModel model) {
   std::unique_ptr<CollisionChecker>& checker = checkers_[{group.name, model}];
-  if (!checker) checker = MakeCollisionChecker(*robot_, group, model);
+  if (!checker) {
+    checker = exact_ ? MakeReferenceChecker(*robot_, group, model)
+                     : MakeCollisionChecker(*robot_, group, model);
+  }
   return *checker;
 }
 

@@ -130,6 +130,12 @@ class Planner {
   virtual PlannerDescription Describe() const = 0;
   const Robot& robot() const { return *robot_; }
 
+  /// Has requests checked by the exact engine (MakeReferenceChecker) instead of the fastest one.
+  void UseReferenceChecker() {
+    exact_ = true;
+    checkers_.clear();
+  }
+
   /// Solves a request in its scene. Never throws for bad requests: they come back as
   /// kInvalidRequest with a message. The clock starts on entry (the caller has the scene).
   /// Deterministic up to the time limit: the same request gives the same path whatever ran before.
@@ -149,6 +155,7 @@ class Planner {
   CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model);
 
   const Robot* robot_;
+  bool exact_ = false;
   std::map<std::pair<std::string, CollisionModel>, std::unique_ptr<CollisionChecker>> checkers_;
 };
 

@@ -29,11 +29,33 @@ struct PlannerFactory {
 };
 inline void PrintTo(const PlannerFactory& factory, std::ostream* out) { *out << factory.name; }
 
+/// The exact collision engine leads a planner to the same paths as the fast one, unless its search
+/// comes on a configuration within 0.1 mm of contact, where the fast one errs to the safe side: not
+/// in these requests.
+inline void ExpectSamePathsFromBothEngines(
+    const std::function<std::unique_ptr<Planner>(const Robot&)>& make) {
+  const Robot robot = LoadPlanarRobot();
+  const Scene scene = PostsScene();
+  PlanRequest request = MakeRequest(robot, {0.6, 0, 0}, {-0.6, 0, 0});
+  request.edge_check = EdgeCheck::kFixed;  // both engines judge the same samples
+  const std::unique_ptr<Planner> fast = make(robot);
+  const std::unique_ptr<Planner> exact = make(robot);
+  exact->UseReferenceChecker();
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    request.seed = seed;
+    const PlanResult one = fast->Plan(request, scene, nullptr);
+    const PlanResult other = exact->Plan(request, scene, nullptr);
+    ASSERT_EQ(one.status, PlanStatus::kSolved) << one.message;
+    EXPECT_EQ(one.path, other.path);
+    EXPECT_EQ(one.simplified_path, other.simplified_path);
+  }
+}
+
 class PlannerContract : public testing::TestWithParam<PlannerFactory> {
  protected:
   std::unique_ptr<Planner> Make(const Robot& robot) const { return GetParam().make(robot); }
 
-  /// Expects the paths to be valid for the asked edge resolution and for half of it.
+  /// Expects the paths to be free all along, as certified edges are.
   static void ExpectSolved(const Robot& robot, const PlanRequest& request, const Scene& scene,
                            const PlanResult& result) {
     ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
@@ -51,20 +73,11 @@ class PlannerContract : public testing::TestWithParam<PlannerFactory> {
                           const Path& path, const std::string& what) {
     const PlanningGroup& group = robot.Group(request.group);
     const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, what);
-    const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
+    const auto checker = MakeReferenceChecker(robot, group, request.collision_model);
     checker->SetScene(scene, query.base_positions);
-    const double resolution_m = robot.edge_resolution_m;
     const PathVerdict verdict =
-        JudgePath(checker.get(), path, query.start, query.goal, resolution_m, false);
+        JudgePath(checker.get(), path, query.start, query.goal, robot.edge_resolution_m / 8, false);
     EXPECT_TRUE(verdict.valid) << what << ": " << verdict.reason;
-    // Between two samples an edge may graze an obstacle, but no point is further than half the
-    // resolution from where a sample found it free.
-    const PathVerdict finer =
-        JudgePath(checker.get(), path, query.start, query.goal, resolution_m / 2, false);
-    if (!finer.valid) {
-      ASSERT_TRUE(finer.contact.has_value()) << what << ": " << finer.reason;
-      EXPECT_LE(finer.contact->depth_m, resolution_m / 2) << what << ": " << finer.reason;
-    }
     EXPECT_EQ(path.front(), query.start) << what;
   }
 

@@ -244,5 +244,9 @@ TEST_F(AraPlannerTest, SolvesPublishedProblems) {
   }
 }
 
+TEST_F(AraPlannerTest, BothCollisionEnginesLeadToTheSamePaths) {
+  ExpectSamePathsFromBothEngines(MakeForContract);
+}
+
 }  // namespace
 }  // namespace planbench

@@ -207,5 +207,11 @@ TEST_F(RrtcPlannerTest, SolvesPublishedProblems) {
   }
 }
 
+TEST_F(RrtcPlannerTest, BothCollisionEnginesLeadToTheSamePaths) {
+  ExpectSamePathsFromBothEngines([](const Robot& robot) {
+    return MakeRrtcPlanner(robot, YamlNode::Parse("{}", "rrtc.yaml"));
+  });
+}
+
 }  // namespace
 }  // namespace planbench
