@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <map>
+#include <set>
 #include <tuple>
 
+#include "benchmark_driver/published_study.h"
 #include "benchmark_driver/statistics.h"
 
 namespace planbench {
@@ -44,6 +46,35 @@ struct Group {
 };
 
 using GroupKey = std::pair<std::string, std::string>;  // set, planner
+using Groups = std::map<GroupKey, Group>;
+
+/// The study's figures that go below a group's rows: none but below the last group of a set, where
+/// those of each algorithm stand that the session ran on it.
+std::vector<const PublishedFigures*> PublishedBelow(const Groups& groups,
+                                                    Groups::const_iterator group) {
+  const std::string& set = group->first.first;
+  const auto next = std::next(group);
+  if (next != groups.end() && next->first.first == set) return {};
+  std::set<std::string> algorithms;
+  for (auto one = groups.lower_bound({set, ""}); one != next; ++one) {
+    algorithms.insert(one->second.records.front()->algorithm);
+  }
+  std::vector<const PublishedFigures*> rows;
+  for (const std::string& algorithm : algorithms) {
+    if (const PublishedFigures* row = FindPublished(set, algorithm)) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string PublishedName(const PublishedFigures& row) {
+  return "published " + std::string(row.algorithm);
+}
+
+/// Below a table that has such rows.
+constexpr char kPublishedNote[] =
+    "  published: arXiv 2406.09623, Xeon E5-6248R, 60 s a request, ARA* backward where forward had "
+    "failed, RRT-Connect\n  once. Problems that planbench generates follow the study's recipe and "
+    "are not the same files; --problems takes the\n  originals.";
 
 std::string Count(bool present, int count) { return present ? fmt::format("{}", count) : "-"; }
 
@@ -96,12 +127,14 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-std::string SuccessTable(const std::map<GroupKey, Group>& groups) {
+std::string SuccessTable(const Groups& groups) {
   TextTable table("Success",
                   {"set", "planner", "problems", "forward", "backward", "failure", "unsolvable",
                    "other", "backward alone"},
                   2);
-  for (const auto& [key, group] : groups) {
+  std::string published_note;
+  for (auto at = groups.begin(); at != groups.end(); ++at) {
+    const auto& [key, group] = *at;
     int forward = 0, backward = 0, failure = 0, unsolvable = 0, other = 0, alone = 0;
     for (const auto& [problem, attempts] : group.attempts) {
       const ProblemOutcome outcome = FoldAttempts(attempts.forward, attempts.backward);
@@ -117,6 +150,15 @@ std::string SuccessTable(const std::map<GroupKey, Group>& groups) {
                Count(group.has_forward, forward), Count(group.has_backward, backward),
                fmt::format("{}", failure), fmt::format("{}", unsolvable), fmt::format("{}", other),
                Count(group.has_backward, alone)});
+    for (const PublishedFigures* row : PublishedBelow(groups, at)) {
+      const auto known = [](std::optional<int> count) {
+        return Count(count.has_value(), count.value_or(0));
+      };
+      table.Add({key.first, PublishedName(*row), fmt::format("{}", row->num_problems),
+                 fmt::format("{}", row->solved_forward), known(row->solved_backward),
+                 fmt::format("{}", row->failed), known(row->unsolvable), "-", "-"});
+      published_note = std::string(kPublishedNote) + "\n";
+    }
   }
   return table.Format(
       "  forward: solved start to goal. backward: solved goal to start where forward was not. "
@@ -125,14 +167,17 @@ std::string SuccessTable(const std::map<GroupKey, Group>& groups) {
       "other: path "
       "rejected by the referee, no answer,\n  request refused, cancelled. backward alone: all "
       "solved goal to "
-      "start.\n");
+      "start.\n" +
+      published_note);
 }
 
-std::string TimeTable(const std::map<GroupKey, Group>& groups) {
+std::string TimeTable(const Groups& groups) {
   TextTable table(
       "Planning time of the solved, ms",
       {"set", "planner", "direction", "solved", "median", "mean", "25 %", "75 %", "95 %"}, 3);
-  for (const auto& [key, group] : groups) {
+  std::string published_note;
+  for (auto at = groups.begin(); at != groups.end(); ++at) {
+    const auto& [key, group] = *at;
     std::vector<double> forward, backward, either;
     for (const auto& [problem, attempts] : group.attempts) {
       const ProblemOutcome outcome = FoldAttempts(attempts.forward, attempts.backward);
@@ -151,11 +196,25 @@ std::string TimeTable(const std::map<GroupKey, Group>& groups) {
     if (group.has_forward) add("forward", std::move(forward));
     if (group.has_backward) add("backward", std::move(backward));
     if (group.has_forward && group.has_backward) add("either", std::move(either));
+    for (const PublishedFigures* row : PublishedBelow(groups, at)) {
+      const std::string median =
+          row->median_from_s == row->median_to_s
+              ? "~" + Milliseconds(row->median_from_s)
+              : Milliseconds(row->median_from_s) + "-" + Milliseconds(row->median_to_s);
+      const bool both = row->solved_backward.has_value();
+      table.Add({key.first, PublishedName(*row), both ? "solving one" : "forward",
+                 fmt::format("{}", row->solved_forward + row->solved_backward.value_or(0)), median,
+                 "-", "-", "-", "-"});
+      published_note = std::string(kPublishedNote) +
+                       " Its medians are read off a plot. solving one: time of the attempt that\n"
+                       "  succeeded, the failed one before it left out.\n";
+    }
   }
   return table.Format(
       "  From request and scene at hand to the first solution; simplification and the bus "
       "excluded. either: "
-      "forward, then\n  backward if forward failed, with the time of the failed attempt.\n");
+      "forward, then\n  backward if forward failed, with the time of the failed attempt.\n" +
+      published_note);
 }
 
 double CounterOr0(const RunRecordMessage& record, const std::string& name) {
@@ -163,7 +222,7 @@ double CounterOr0(const RunRecordMessage& record, const std::string& name) {
   return found == record.result.result.counters.end() ? 0 : found->second;
 }
 
-std::string EffortTable(const std::map<GroupKey, Group>& groups) {
+std::string EffortTable(const Groups& groups) {
   TextTable table("Effort and quality over the solved runs, medians",
                   {"set", "planner", "bus ms", "simplify ms", "checking %", "edges",
                    "configurations", "length", "simplified", "tip m", "clearance mm"},
@@ -205,7 +264,7 @@ std::string EffortTable(const std::map<GroupKey, Group>& groups) {
       "search. length:\n  joint space, L2, rad and m. clearance: least along the raw path.\n");
 }
 
-std::string MeshTable(const std::map<GroupKey, Group>& groups) {
+std::string MeshTable(const Groups& groups) {
   TextTable table("Paths judged with the robot's meshes",
                   {"set", "planner", "solved", "mesh-valid", "simplified", "mesh-valid"}, 2);
   bool any = false;
@@ -262,7 +321,7 @@ ProblemOutcome FoldAttempts(const RunRecordMessage* forward, const RunRecordMess
 }
 
 std::string FormatTables(const std::vector<RunRecordMessage>& records) {
-  std::map<GroupKey, Group> groups;
+  Groups groups;
   for (const RunRecordMessage& record : records) {
     Group& group = groups[{record.problem_set, record.planner}];
     group.records.push_back(&record);

@@ -9,8 +9,9 @@ namespace planbench {
 
 /// The tables printed at the end of a session, as text: success by set and planner as in the study;
 /// planning times by set, planner and direction as in the study; times by phase and path quality;
-/// verdicts of the mesh robot if it judged. Definitions stand below each table. Records may come in
-/// any order.
+/// verdicts of the mesh robot if it judged. Below a set of the study's the first two also show what
+/// it published (published_study.h). Definitions stand below each table. Records may come in any
+/// order.
 std::string FormatTables(const std::vector<RunRecordMessage>& records);
 
 /// How the attempts at one problem by one planner and trial ended.

@@ -281,6 +281,56 @@ TEST(TablesTest, PrintedText) {
   }
 }
 
+/// As a session of the study's: two planners on one of its sets, on one of ours, and a planner that
+/// the study has not.
+std::vector<RunRecordMessage> StudySession(const std::string& set) {
+  std::vector<RunRecordMessage> session;
+  for (const auto& [planner, algorithm] : std::vector<std::pair<std::string, std::string>>{
+           {"ara", "ARA*"}, {"ara_2", "ARA*"}, {"mine", "PRM"}, {"rrtc", "RRT-Connect"}}) {
+    for (const std::string& problem_set : {set, std::string("box")}) {
+      session.push_back(OfPlanner(planner, Attempt(PlanStatus::kSolved, 0.1)));
+      session.back().problem_set = problem_set;
+      session.back().algorithm = algorithm;
+    }
+  }
+  return session;
+}
+
+TEST(TablesTest, PublishedFiguresStandBelowTheStudysSets) {
+  const auto session = StudySession("shelf_height_rot_test");
+  EXPECT_EQ(Row(session, kSuccess, "shelf_height_rot_test published ARA*"), "100 43 43 6 8 - -");
+  EXPECT_EQ(Row(session, kSuccess, "shelf_height_rot_test published RRT-Connect"),
+            "100 76 - 24 - - -");
+  EXPECT_EQ(Row(session, kTimes, "shelf_height_rot_test published ARA*"),
+            "solving one 86 ~170.0 - - - -");
+  EXPECT_EQ(Row(session, kTimes, "shelf_height_rot_test published RRT-Connect"),
+            "forward 76 15000-16000 - - - -");
+  for (const char* title : {kSuccess, kTimes}) {
+    std::vector<std::string> planners;
+    for (const std::string& line : Table(FormatTables(session), title)) {
+      if (line.rfind("shelf_height_rot_test ", 0) != 0) continue;
+      planners.push_back(line.substr(22, line.find(' ', 22) - 22));
+    }
+    EXPECT_THAT(planners,
+                testing::ElementsAre("ara", "ara_2", "mine", "rrtc", "published", "published"));
+  }
+  const std::string text = FormatTables(session);
+  EXPECT_THAT(text, Not(HasSubstr("box published")));
+  EXPECT_THAT(text, HasSubstr("arXiv 2406.09623"));
+  // Tables that have a published row stay within the width of the others.
+  std::istringstream lines(text.substr(0, text.find(kEffort)));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(TablesTest, PublishedFiguresAreOfTheAlgorithmsThatRan) {
+  auto session = StudySession("shelf_zero_test");
+  std::erase_if(session, [](const RunRecordMessage& r) { return r.algorithm == "RRT-Connect"; });
+  EXPECT_EQ(Row(session, kSuccess, "shelf_zero_test published ARA*"), "100 47 53 0 0 - -");
+  EXPECT_EQ(Row(session, kSuccess, "shelf_zero_test published RRT-Connect"), "");
+  std::erase_if(session, [](const RunRecordMessage& r) { return r.algorithm == "ARA*"; });
+  EXPECT_THAT(FormatTables(session), Not(HasSubstr("published")));
+}
+
 TEST(TablesTest, NoRunsAreSaid) { EXPECT_EQ(FormatTables({}), "No runs.\n"); }
 
 }  // namespace
