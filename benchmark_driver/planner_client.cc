@@ -26,16 +26,15 @@ PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string
                                              ack_ = ack;
                                              changed_.notify_all();
                                            })),
-      results_(bus->Subscribe<PlanResultMessage>(
+      results_(bus->SubscribeTimed<PlanResultMessage>(
           channels_.result,
-          [this](const PlanResultMessage& result) {
-            const Clock::time_point now = Clock::now();
+          [this](const PlanResultMessage& result, Clock::time_point arrival) {
             // Also results of former requests (whose acknowledgement was lost) are to be silenced.
             bus_->Publish(channels_.result_ack, AckMessage{result.request_id, "driver", true, ""});
             const std::scoped_lock lock(mutex_);
             if (result.request_id != request_id_ || result_) return;
             result_ = result;
-            result_received_ = now;
+            result_arrival_ = arrival;
             changed_.notify_all();
           },
           [this](const MessageError& error) {
@@ -92,7 +91,8 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     if (result_) {
       answer.outcome = Outcome::kResult;
       answer.result = *std::move(result_);
-      answer.roundtrip_time_s = std::chrono::duration<double>(result_received_ - sent).count();
+      answer.roundtrip_time_s =
+          std::chrono::duration<double>(std::max(result_arrival_, sent) - sent).count();
       break;
     }
     if (!unusable_result_.empty()) {

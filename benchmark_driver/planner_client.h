@@ -28,7 +28,7 @@ class PlannerClient {
     Outcome outcome = Outcome::kNoAnswer;
     PlanResultMessage result;     ///< kResult only.
     std::string message;          ///< Why, for the other outcomes.
-    double roundtrip_time_s = 0;  ///< Request sent -> result received, or given up.
+    double roundtrip_time_s = 0;  ///< Request sent -> result arrived, or given up.
   };
 
   PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner);
@@ -54,7 +54,7 @@ class PlannerClient {
   std::optional<PlanAckMessage> ack_;
   std::optional<PlanResultMessage> result_;
   std::string unusable_result_;  // why, if one came that could not be read
-  std::chrono::steady_clock::time_point result_received_;
+  std::chrono::steady_clock::time_point result_arrival_;
   Subscription acks_;
   Subscription results_;
 };

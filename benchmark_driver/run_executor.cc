@@ -37,6 +37,20 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
   return std::nullopt;
 }
 
+std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
+                                                     const std::function<bool()>& interrupted) {
+  const std::pair key(run.problem_set, run.problem_index);
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto known = problems_known_.find(key);
+    if (known != problems_known_.end()) return known->second;
+  }
+  std::optional<ProblemMessage> problem = FetchProblem(run, interrupted);
+  const std::scoped_lock lock(mutex_);
+  if (problem) problems_known_.emplace(key, *problem);
+  return problem;
+}
+
 std::optional<ProblemMessage> RunExecutor::FetchProblem(const ScheduledRun& run,
                                                         const std::function<bool()>& interrupted) {
   ProblemRequestMessage request;
@@ -78,8 +92,9 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
 std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
                                                      PlannerClient* planner,
                                                      const std::function<bool()>& interrupted) {
-  // Asked for anew for every run: it also hands the scene to planners that have just come up.
-  const std::optional<ProblemMessage> problem = FetchProblem(run, interrupted);
+  // The server's answer also hands out the scene. Once is enough: a planner that has come up since
+  // asks for it, and sending it again before each request would be in the request's way.
+  const std::optional<ProblemMessage> problem = ProblemOf(run, interrupted);
   if (!problem) return std::nullopt;
 
   RunRecordMessage record;

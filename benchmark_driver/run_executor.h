@@ -26,8 +26,8 @@ struct RunConditions {
   bool clearance = true;
 };
 
-/// Makes one run: fetches the problem, has the planner solve it, has the scene server judge the
-/// paths. Thread-safe for different planners.
+/// Makes one run: fetches the problem if it is not known yet, has the planner solve it, has the
+/// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
   RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions);
@@ -38,6 +38,8 @@ class RunExecutor {
                                           const std::function<bool()>& interrupted);
 
  private:
+  std::optional<ProblemMessage> ProblemOf(const ScheduledRun& run,
+                                          const std::function<bool()>& interrupted);
   std::optional<ProblemMessage> FetchProblem(const ScheduledRun& run,
                                              const std::function<bool()>& interrupted);
   std::optional<PathCheckReplyMessage> Judge(const std::string& check_id, const Path& path,
@@ -53,6 +55,8 @@ class RunExecutor {
   RunConditions conditions_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
+  std::mutex mutex_;
+  std::map<std::pair<std::string, int>, ProblemMessage> problems_known_;  // by set and index
 };
 
 }  // namespace planbench

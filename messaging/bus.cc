@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -107,6 +108,12 @@ std::string ResolveLcmUrl(const std::string& flag) {
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment
                                                                   : kDefaultLcmUrl;
+}
+
+std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime) {
+  const std::int64_t age_us = NowUtime() - utime;
+  return std::chrono::steady_clock::now() -
+         std::chrono::microseconds(std::max<std::int64_t>(age_us, 0));
 }
 
 struct Subscription::State {

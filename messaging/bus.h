@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,6 +18,9 @@ inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_b
 
 /// `flag` if not empty, else $LCM_DEFAULT_URL if set, else kDefaultLcmUrl.
 std::string ResolveLcmUrl(const std::string& flag);
+
+/// A moment just past, us since the Unix epoch, on the steady clock; now, if it seems to lie ahead.
+std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime);
 
 /// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler
 /// to end, after which there is none: it must not be destroyed from within the handler, nor outlive
@@ -69,12 +73,28 @@ class Bus {
       const std::string& channel, std::function<void(const Message&)> handler,
       std::function<void(const MessageError&)> on_bad_message = nullptr,
       int queue_capacity = kDefaultQueueCapacity) {
+    return SubscribeTimed<Message>(
+        channel,
+        [handler = std::move(handler)](const Message& message,
+                                       std::chrono::steady_clock::time_point) { handler(message); },
+        std::move(on_bad_message), queue_capacity);
+  }
+  /// The same for a handler that is also told when the message arrived at this process, before it
+  /// waited for the bus thread and was decoded.
+  template <typename Message>
+  [[nodiscard]] Subscription SubscribeTimed(
+      const std::string& channel,
+      std::function<void(const Message&, std::chrono::steady_clock::time_point arrival)> handler,
+      std::function<void(const MessageError&)> on_bad_message = nullptr,
+      int queue_capacity = kDefaultQueueCapacity) {
     return SubscribeBytes(
         channel,
         [handler = std::move(handler), on_bad_message = std::move(on_bad_message)](
-            const std::string& received_on, std::span<const std::uint8_t> bytes, std::int64_t) {
+            const std::string& received_on, std::span<const std::uint8_t> bytes,
+            std::int64_t utime) {
+          const std::chrono::steady_clock::time_point arrival = SteadyTimeOf(utime);
           try {
-            handler(Decode<Message>(bytes, received_on));
+            handler(Decode<Message>(bytes, received_on), arrival);
           } catch (const MessageError& error) {
             if (!on_bad_message) throw;
             on_bad_message(error);

@@ -1,5 +1,6 @@
 #include "messaging/planner_node.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -139,10 +140,11 @@ void PlannerNode::OnRequest(const PlanRequest& request) {
     if (id == request.scene_id) job->scene = scene;
   }
   job_ = std::move(job);
-  Acknowledge(request.request_id, Verdict::kAccepted, "");
   Tick();
   lock.unlock();
   changed_.notify_all();
+  // Last: the driver waits for the result, not for this.
+  Acknowledge(request.request_id, Verdict::kAccepted, "");
 }
 
 void PlannerNode::OnBadRequest(const MessageError& error) {
@@ -207,10 +209,14 @@ void PlannerNode::Solve() {
     };
     lock.unlock();
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
+    const std::string said = fmt::format(
+        "{}: {} in {:.3f} ms{}{}", job.request.request_id, PlanStatusName(result.status),
+        result.planning_time_s * 1e3, result.message.empty() ? "" : ": ", result.message);
     lock.lock();
-    spdlog::info("{}: {} in {:.3f} ms{}{}", job.request.request_id, PlanStatusName(result.status),
-                 result.planning_time_s * 1e3, result.message.empty() ? "" : ": ", result.message);
     Finish(std::move(result));
+    lock.unlock();
+    spdlog::info(said);  // after the result is out: writing takes time
+    lock.lock();
   }
 }
 

@@ -104,6 +104,21 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
   EXPECT_TRUE(checks[0].with_clearance);
 }
 
+TEST_F(RunExecutorTest, AsksForAProblemOnce) {
+  FakeSceneServer server(&bus_);
+  ASSERT_TRUE(Execute());
+  const std::size_t num_requests = server.problem_requests().messages().size();
+  ScheduledRun other = Scheduled();
+  other.request_id += "/again";
+  const auto record = Execute(other);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->request.scene_id, "scene-2");
+  EXPECT_EQ(server.problem_requests().messages().size(), num_requests);
+  ASSERT_TRUE(Execute(Scheduled(3)));
+  EXPECT_TRUE(server.problem_requests().WaitForOne(
+      [](const ProblemRequestMessage& request) { return request.problem_index == 3; }));
+}
+
 TEST_F(RunExecutorTest, PathThatTheRefereeRejectsIsNoSuccess) {
   FakeSceneServer server(&bus_);
   server.OnPathCheck([](const PathCheckRequestMessage&) {

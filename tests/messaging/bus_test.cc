@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <future>
@@ -42,6 +43,27 @@ TEST(BusTest, HandlersMayThrow) {
   const auto received = collector.WaitFor(3);
   ASSERT_EQ(received.size(), 3u);
   EXPECT_EQ(received[2].sender, "2");
+}
+
+TEST(BusTest, ArrivalIsNotWhenTheHandlerRuns) {
+  using Clock = std::chrono::steady_clock;
+  Bus bus("memq://");
+  std::promise<Clock::time_point> arrival;
+  const Subscription subscription = bus.SubscribeTimed<DiscoverMessage>(
+      "CHANNEL", [&](const DiscoverMessage&, Clock::time_point at) { arrival.set_value(at); });
+  const Clock::time_point before = Clock::now();
+  PublishNumber(&bus, "CHANNEL", 1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const Clock::time_point handled_after = Clock::now();
+  bus.Start();
+  const Clock::time_point at = arrival.get_future().get();
+  EXPECT_GE(at, before - std::chrono::microseconds(2));  // bus times are whole microseconds
+  EXPECT_LT(at, handled_after);
+}
+
+TEST(BusTest, MomentsAheadCountAsNow) {
+  const auto at = SteadyTimeOf(NowUtime() + 3'600'000'000);
+  EXPECT_LE(at, std::chrono::steady_clock::now());
 }
 
 TEST(BusTest, UndecodableMessagesGoToTheirHandlerOrAreDropped) {
