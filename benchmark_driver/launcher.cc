@@ -11,6 +11,20 @@ namespace {
 constexpr char kSceneServer[] = "scene_server";
 constexpr char kLogger[] = "logger";
 
+/// Shell text that runs the command $1 and ends as it ends. When told to end, as the kernel does
+/// when the driver is killed, it passes that on to its whole group: the kernel knows the driver's
+/// children only, and a command may have children of its own.
+constexpr char kRunCommand[] = R"(
+sh -c "$1" &
+child=$!
+trap 'trap : TERM; kill -TERM 0' TERM
+while :; do
+  wait "$child"
+  code=$?
+  # Waiting also ends when the trap has run.
+  kill -0 "$child" 2>/dev/null || exit "$code"
+done)";
+
 const std::map<std::string, std::string>& OwnPlanners() {
   static const std::map<std::string, std::string> programs = {{"ara", "planner_ara"},
                                                               {"rrtc", "planner_rrtc"}};
@@ -89,7 +103,7 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
   for (const std::string& planner : options.planners) {
     if (const auto command = options.planner_commands.find(planner);
         command != options.planner_commands.end()) {
-      start(planner, {"/bin/sh", "-c", "exec " + command->second});
+      start(planner, {"/bin/sh", "-c", kRunCommand, "sh", command->second});
       continue;
     }
     std::vector<std::string> arguments = with_packages(

@@ -10,6 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kResendPeriod{500};
+constexpr std::chrono::milliseconds kCancelPeriod{200};
 constexpr std::chrono::milliseconds kPoll{50};
 
 }  // namespace
@@ -79,10 +80,16 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   Clock::time_point next_send = sent;
   Clock::time_point last_sign = sent;  // of the planner's having heard us
   std::optional<Clock::time_point> accepted;
-  std::optional<Clock::time_point> cancelled;
+  std::optional<Clock::time_point> cancelled;          // because it was overdue
+  std::optional<Clock::time_point> interrupted_since;  // and cancelled for that
+  Clock::time_point next_cancel = sent;
   const auto limit = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(request.time_limit_s));
   while (true) {
+    if (interrupted_since && (result_ || Clock::now() - *interrupted_since > kCancelPatience)) {
+      answer.outcome = Outcome::kInterrupted;
+      break;
+    }
     // A request that was cancelled when this session was interrupted before is solved when it comes
     // again; the result that its planner may still repeat is of the former time.
     if (result_ && !accepted && !ack_ && result_->result.status == PlanStatus::kCancelled) {
@@ -119,14 +126,18 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     if (accepted && !cancelled && now - *accepted > limit + kResultGrace) {
       spdlog::warn("{} is overdue; cancelling it", request.request_id);
       cancelled = now;
-      bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
     }
     if (cancelled && now - *cancelled > kResultGrace) {
       answer.message = "no result, though live, " + std::to_string(2 * kResultGrace.count()) +
                        " s after the time limit";
       break;
     }
-    if (!accepted && now >= next_send) {
+    // Until the result comes: a cancellation may be lost, too.
+    if ((cancelled || interrupted_since) && now >= next_cancel) {
+      bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
+      next_cancel = now + kCancelPeriod;
+    }
+    if (!accepted && !interrupted_since && now >= next_send) {
       lock.unlock();
       next_send = Clock::now() + kResendPeriod;
       if (std::exchange(was_busy, false)) sent = Clock::now();
@@ -140,12 +151,12 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     const auto status = registry_->Find(planner_, NodeKind::kPlanner);
     lock.lock();
     if (result_) continue;
-    if (stop) {
-      bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
-      answer.outcome = Outcome::kInterrupted;
-      break;
-    }
+    if (stop && !interrupted_since) interrupted_since = Clock::now();
     if (!status || status->start_utime != incarnation->start_utime) {
+      if (interrupted_since) {
+        answer.outcome = Outcome::kInterrupted;
+        break;
+      }
       answer.message = !status ? "the process died or fell silent" : "the process was restarted";
       break;
     }

@@ -22,6 +22,8 @@ class PlannerClient {
   /// result that long after the time limit.
   static constexpr std::chrono::seconds kAckTimeout{10};
   static constexpr std::chrono::seconds kResultGrace{15};
+  /// How long an interrupted request is cancelled again and again without a result to it.
+  static constexpr std::chrono::seconds kCancelPatience{1};
 
   enum class Outcome { kResult, kRefused, kNoAnswer, kInterrupted };
   struct Answer {
@@ -37,7 +39,8 @@ class PlannerClient {
 
   /// Waits until the planner is live, sends the request until it is acknowledged (or while it is
   /// busy), and waits for the result, which it acknowledges. A planner that dies, restarts or falls
-  /// silent meanwhile is a kNoAnswer; `interrupted` (asked every 50 ms) cancels the request.
+  /// silent meanwhile is a kNoAnswer; `interrupted` (asked every 50 ms) cancels the request, again
+  /// until the planner answers or kCancelPatience is over.
   Answer Solve(const PlanRequest& request, const std::function<bool()>& interrupted);
 
  private:

@@ -151,7 +151,29 @@ TEST_F(PlannerClientTest, PlannerThatWasRestartedGivesNoAnswer) {
   EXPECT_EQ(Solve("b").outcome, Outcome::kResult);
 }
 
-TEST_F(PlannerClientTest, InterruptionCancelsTheRequest) {
+TEST_F(PlannerClientTest, InterruptionCancelsTheRequestUntilItsResultComes) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest(
+      [&](const PlanRequest& request) { planner.Acknowledge(request, Verdict::kAccepted); });
+  std::atomic<int> num_cancels = 0;
+  const Subscription cancels = bus_.Subscribe<PlanCancelMessage>(
+      PlannerChannels("arm").cancel, [&](const PlanCancelMessage& cancel) {
+        if (++num_cancels < 3) return;  // the first two were lost
+        PlanResult cancelled;
+        cancelled.status = PlanStatus::kCancelled;
+        planner.SendResult(cancel.request_id, cancelled);
+      });
+  auto answer = BeginToSolve("a");
+  ASSERT_EQ(planner.requests().WaitFor(1).size(), 1u);
+  interrupted_ = true;
+  EXPECT_EQ(answer.get().outcome, Outcome::kInterrupted);
+  EXPECT_TRUE(AcknowledgedAs(&planner, "a"));
+  for (const PlanCancelMessage& cancel : planner.cancels().messages()) {
+    EXPECT_EQ(cancel.request_id, "a");
+  }
+}
+
+TEST_F(PlannerClientTest, InterruptionDoesNotWaitLongForThePlanner) {
   FakePlanner planner(&bus_);
   planner.OnRequest(
       [&](const PlanRequest& request) { planner.Acknowledge(request, Verdict::kAccepted); });
@@ -159,9 +181,7 @@ TEST_F(PlannerClientTest, InterruptionCancelsTheRequest) {
   ASSERT_EQ(planner.requests().WaitFor(1).size(), 1u);
   interrupted_ = true;
   EXPECT_EQ(answer.get().outcome, Outcome::kInterrupted);
-  const auto cancels = planner.cancels().WaitFor(1);
-  ASSERT_EQ(cancels.size(), 1u);
-  EXPECT_EQ(cancels[0].request_id, "a");
+  EXPECT_FALSE(planner.cancels().messages().empty());
 }
 
 TEST_F(PlannerClientTest, LateResultOfAFormerRequestIsOnlyAcknowledged) {

@@ -120,5 +120,23 @@ TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE status = 7"), 1) << driver->Errors();
 }
 
+TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScript) {
+  const auto session = folder() / "session";
+  const auto script = folder() / "mine.sh";
+  std::ofstream(script) << "#!/bin/sh\n"
+                        << Program("planner_rrtc") << " --robot " << RobotFolder()
+                        << " --name mine\necho the planner has ended\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  ChildProcess* driver =
+      StartLaunchedDriver(session, {"--time", "30", "--trials", "1000", "--planners", "mine",
+                                    "--planner-command", "mine=cd / && " + script.string()});
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
+      << driver->Errors();
+  EXPECT_GE(LeftRunning().size(), 4U);
+  driver->Signal(SIGKILL);
+  EXPECT_EQ(driver->Wait(), 128 + SIGKILL);
+  EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
+}
+
 }  // namespace
 }  // namespace planbench

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace planbench {
 
@@ -43,8 +43,6 @@ class PipelineTest : public ::testing::Test {
   static void ExpectEndsCleanly(ChildProcess* process);
   /// Expects exit code 2 and one line on stderr that holds `text`.
   static void ExpectBadInput(ChildProcess* process, const std::string& text);
-  /// Waits until `condition` holds; false after two minutes.
-  static bool WaitUntil(const std::function<bool()>& condition);
   /// Processes, other than this one, that a test of this fixture started, their own children
   /// included.
   std::vector<int> LeftRunning() const;

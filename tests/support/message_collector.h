@@ -1,31 +1,16 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "messaging/bus.h"
+#include "tests/support/wait_until.h"
 
 namespace planbench {
-
-/// How long tests wait for what must come. Generous: a test that passes never waits that long,
-/// however busy the machine.
-inline constexpr std::chrono::seconds kTestPatience{60};
-
-/// Waits until `condition` holds; false after kTestPatience.
-inline bool WaitUntil(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kTestPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 /// Keeps what comes on a channel.
 template <typename Message>
