@@ -1,0 +1,26 @@
+# Sourced by ./run: the study's problem sets, generated.
+
+# Hash of all that a generated set depends on: program, specifications, robot, seed, number of problems.
+# problem_set_key PROGRAM SPEC ROBOT SEED COUNT
+problem_set_key() {
+  local program=$1 spec=$2 robot=$3 seed=$4 count=$5
+  {
+    find "$program" "$(dirname "$spec")"/*.yaml "$robot" -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum
+    printf '%s\n' "$spec" "$seed" "$count"
+  } | sha256sum
+}
+
+# Makes the problem set of a specification in the folder OUT, unless it is there already and nothing that it depends
+# on has changed. OUT.key holds the hash. OUT is complete or not there at all.
+# ensure_problem_set PROGRAM SPEC ROBOT SEED COUNT OUT
+ensure_problem_set() {
+  local program=$1 spec=$2 robot=$3 seed=$4 count=$5 out=$6 key
+  key=$(problem_set_key "$program" "$spec" "$robot" "$seed" "$count")
+  if [ -d "$out" ] && [ "$(cat "$out.key" 2>/dev/null)" = "$key" ]; then return; fi
+  say "generating $count problems of $spec in $out"
+  rm -rf "$out" "$out.key" "$out.new"
+  mkdir -p "$(dirname "$out")"
+  "$program" --spec "$spec" --robot "$robot" --count "$count" --seed "$seed" --out "$out.new"
+  mv "$out.new" "$out"
+  printf '%s\n' "$key" >"$out.key"
+}
