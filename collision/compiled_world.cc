@@ -121,10 +121,15 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
 }
 
 void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, const Ball& reach) {
+  if (std::holds_alternative<HalfSpace>(shape)) {
+    AddHalfSpace(X_WS, object, reach);
+    return;
+  }
   Source source{object, X_WS.translation, X_WS.rotation, Eigen::Vector3d::Zero()};
   const Eigen::Vector3d axis = X_WS.rotation.col(2);
   const auto* cylinder = std::get_if<Cylinder>(&shape);
   const auto* cone = std::get_if<Cone>(&shape);
+  const auto* capsule = std::get_if<Capsule>(&shape);
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (const auto* box = std::get_if<Box>(&shape)) {
     source.half_size = box->size / 2;
@@ -134,6 +139,8 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
     source.half_size << cylinder->radius, cylinder->radius, cylinder->length / 2;
   } else if (cone != nullptr) {
     source.half_size << cone->radius, cone->radius, cone->length / 2;
+  } else if (capsule != nullptr) {
+    source.half_size << capsule->radius, capsule->radius, capsule->length / 2 + capsule->radius;
   } else {
     Eigen::Vector3d low = mesh->triangles.vertices.front();
     Eigen::Vector3d high = low;
@@ -171,9 +178,29 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
     AddSolid(
         MakeAxial(Kind::kCylinder, source.center, axis, cylinder->radius, cylinder->length / 2),
         source);
+  } else if (capsule != nullptr) {
+    AddSolid(MakeAxial(Kind::kCapsule, source.center, axis, capsule->radius, capsule->length / 2),
+             source);
   } else {
     AddSolid(MakeAxial(Kind::kCone, source.center, axis, cone->radius, cone->length / 2), source);
   }
+}
+
+void CompiledWorld::AddHalfSpace(const Pose& X_WS, int object, const Ball& reach) {
+  const Eigen::Vector3d normal = X_WS.rotation.col(2);
+  const double height = normal.dot(reach.center - X_WS.translation);
+  if (height > reach.radius + 2 * kSolidPadding) return;
+  // Its bounding box is that of the part below the plane that points within reach can be in or
+  // have as their nearest one.
+  const Eigen::Vector3d foot = reach.center - height * normal;
+  const double depth = 2 * reach.radius + std::max(-height, 0.0);
+  Source source{object, foot - depth / 2 * normal, X_WS.rotation,
+                Eigen::Vector3d(2 * reach.radius, 2 * reach.radius, depth / 2)};
+  Solid solid{};
+  solid.kind = Kind::kHalfSpace;
+  SetCenter(foot + kSolidPadding * normal, &solid);
+  for (int k = 0; k < 3; ++k) solid.v[k] = static_cast<float>(normal[k]);
+  AddSolid(solid, source);
 }
 
 void CompiledWorld::AddSolid(Solid solid, const Source& source) {

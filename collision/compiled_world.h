@@ -41,6 +41,7 @@ class CompiledWorld {
   };
 
   void AddShape(const Shape& shape, const Pose& X_WS, int object, const Ball& reach);
+  void AddHalfSpace(const Pose& X_WS, int object, const Ball& reach);
   void AddSolid(kernels::Solid solid, const Source& source);
   void BuildHierarchy();
   void BuildNode(int first, int last);

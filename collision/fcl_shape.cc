@@ -2,6 +2,7 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -49,6 +50,11 @@ double DistancePointToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a
   return (p - a - t * along).norm();
 }
 
+double CapsuleDistance(const Capsule& capsule, const Eigen::Vector3d& point) {
+  const double beyond = std::max(std::abs(point.z()) - capsule.length / 2, 0.0);
+  return std::hypot(point.head<2>().norm(), beyond) - capsule.radius;
+}
+
 std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
@@ -64,10 +70,47 @@ std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
 
 struct FclShape::Geometry {
   std::unique_ptr<fcl::CollisionGeometryd> fcl;
-  std::variant<Box, Sphere, Cylinder, Cone, SolidMesh> shape;
+  std::variant<Box, Sphere, Cylinder, Cone, Capsule, HalfSpace, SolidMesh> shape;
 
+  bool IsHalfSpace() const { return std::holds_alternative<HalfSpace>(shape); }
   bool IsMesh() const { return std::holds_alternative<SolidMesh>(shape); }
   const SolidMesh& mesh() const { return std::get<SolidMesh>(shape); }
+
+  /// The least height, along z of a frame A, of the shape at pose X_AS.
+  double LowestHeight(const Pose& X_AS) const {
+    const Eigen::Vector3d up = X_AS.rotation.row(2);  // z of A in the shape's frame
+    const double across = up.head<2>().norm();
+    const double half_rise = std::abs(up.z()) / 2;  // by unit of length along the axis
+    const double below = std::visit(
+        Overloaded{
+            [&](const Box& box) { return box.size.dot(up.cwiseAbs()) / 2; },
+            [&](const Sphere& sphere) { return sphere.radius; },
+            [&](const Cylinder& cylinder) {
+              return cylinder.radius * across + cylinder.length * half_rise;
+            },
+            [&](const Cone& cone) {
+              const double apex = -up.z() * cone.length / 2;
+              return std::max(apex, cone.radius * across - apex);
+            },
+            [&](const Capsule& capsule) { return capsule.radius + capsule.length * half_rise; },
+            [&](const HalfSpace&) {
+              // Bounded below only if it is turned over.
+              return across > 1e-12 || up.z() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+            },
+            [&](const SolidMesh&) {
+              const auto& model = static_cast<const BvhModel&>(*fcl);
+              double lowest = std::numeric_limits<double>::infinity();
+              for (int t = 0; t < model.num_tris; ++t) {
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                  lowest = std::min(lowest, up.dot(model.vertices[model.tri_indices[t][corner]]));
+                }
+              }
+              return -lowest;
+            },
+        },
+        shape);
+    return X_AS.translation.z() - below;
+  }
 
   /// Distance of a point from the surface of the mesh.
   double SurfaceDistance(const Eigen::Vector3d& point) const {
@@ -82,43 +125,52 @@ struct FclShape::Geometry {
 FclShape::FclShape(const Shape& shape, const std::string& owner)
     : geometry_(std::make_unique<Geometry>()), bounding_sphere_{Eigen::Vector3d::Zero(), 0} {
   RequireSolid(shape, owner);
-  std::visit(Overloaded{
-                 [&](const Box& box) {
-                   geometry_->fcl = std::make_unique<fcl::Boxd>(box.size);
-                   geometry_->shape = box;
-                   box_half_size_ = box.size / 2;
-                 },
-                 [&](const Sphere& sphere) {
-                   geometry_->fcl = std::make_unique<fcl::Sphered>(sphere.radius);
-                   geometry_->shape = sphere;
-                   box_half_size_ = Eigen::Vector3d::Constant(sphere.radius);
-                 },
-                 [&](const Cylinder& cylinder) {
-                   geometry_->fcl =
-                       std::make_unique<fcl::Cylinderd>(cylinder.radius, cylinder.length);
-                   geometry_->shape = cylinder;
-                   box_half_size_ << cylinder.radius, cylinder.radius, cylinder.length / 2;
-                 },
-                 [&](const Cone& cone) {
-                   geometry_->fcl = std::make_unique<fcl::Coned>(cone.radius, cone.length);
-                   geometry_->shape = cone;
-                   box_half_size_ << cone.radius, cone.radius, cone.length / 2;
-                 },
-                 [&](const Mesh& mesh) {
-                   geometry_->fcl = MakeMesh(mesh.triangles);
-                   geometry_->shape = SolidMesh(mesh.triangles);
-                   Eigen::AlignedBox3d box;
-                   for (const auto& triangle : mesh.triangles.triangles) {
-                     for (std::uint32_t index : triangle) {
-                       box.extend(mesh.triangles.vertices[index]);
-                     }
-                   }
-                   box_center_ = box.center();
-                   box_half_size_ = box.sizes() / 2;
-                 },
-             },
-             shape);
-  geometry_->fcl->computeLocalAABB();
+  std::visit(
+      Overloaded{
+          [&](const Box& box) {
+            geometry_->fcl = std::make_unique<fcl::Boxd>(box.size);
+            geometry_->shape = box;
+            box_half_size_ = box.size / 2;
+          },
+          [&](const Sphere& sphere) {
+            geometry_->fcl = std::make_unique<fcl::Sphered>(sphere.radius);
+            geometry_->shape = sphere;
+            box_half_size_ = Eigen::Vector3d::Constant(sphere.radius);
+          },
+          [&](const Cylinder& cylinder) {
+            geometry_->fcl = std::make_unique<fcl::Cylinderd>(cylinder.radius, cylinder.length);
+            geometry_->shape = cylinder;
+            box_half_size_ << cylinder.radius, cylinder.radius, cylinder.length / 2;
+          },
+          [&](const Cone& cone) {
+            geometry_->fcl = std::make_unique<fcl::Coned>(cone.radius, cone.length);
+            geometry_->shape = cone;
+            box_half_size_ << cone.radius, cone.radius, cone.length / 2;
+          },
+          [&](const Capsule& capsule) {
+            geometry_->fcl = std::make_unique<fcl::Capsuled>(capsule.radius, capsule.length);
+            geometry_->shape = capsule;
+            box_half_size_ << capsule.radius, capsule.radius, capsule.length / 2 + capsule.radius;
+          },
+          [&](const HalfSpace& half_space) {
+            geometry_->shape = half_space;
+            box_half_size_.setConstant(std::numeric_limits<double>::infinity());
+          },
+          [&](const Mesh& mesh) {
+            geometry_->fcl = MakeMesh(mesh.triangles);
+            geometry_->shape = SolidMesh(mesh.triangles);
+            Eigen::AlignedBox3d box;
+            for (const auto& triangle : mesh.triangles.triangles) {
+              for (std::uint32_t index : triangle) {
+                box.extend(mesh.triangles.vertices[index]);
+              }
+            }
+            box_center_ = box.center();
+            box_half_size_ = box.sizes() / 2;
+          },
+      },
+      shape);
+  if (geometry_->fcl != nullptr) geometry_->fcl->computeLocalAABB();
   bounding_sphere_ = ComputeBoundingSphere(shape);
 }
 
@@ -127,32 +179,34 @@ FclShape::FclShape(FclShape&&) noexcept = default;
 
 bool FclShape::TouchesBall(const Eigen::Vector3d& center, double radius) const {
   const auto identity = fcl::Transform3d::Identity();
-  return std::visit(Overloaded{
-                        [&](const Box&) {
-                          return fcl::detail::sphereBoxIntersect<double>(
-                              fcl::Sphered(radius), Translation(center),
-                              static_cast<const fcl::Boxd&>(*geometry_->fcl), identity, nullptr);
-                        },
-                        [&](const Sphere& sphere) {
-                          const double reach = sphere.radius + radius;
-                          return center.squaredNorm() <= reach * reach;
-                        },
-                        [&](const Cylinder&) {
-                          return fcl::detail::sphereCylinderIntersect<double>(
-                              fcl::Sphered(radius), Translation(center),
-                              static_cast<const fcl::Cylinderd&>(*geometry_->fcl), identity,
-                              nullptr);
-                        },
-                        [&](const Cone& cone) { return ConeDistance(cone, center) <= radius; },
-                        [&](const SolidMesh& mesh) {
-                          const fcl::Sphered ball(radius);
-                          fcl::CollisionResultd result;
-                          fcl::collide(geometry_->fcl.get(), identity, &ball, Translation(center),
-                                       fcl::CollisionRequestd(), result);
-                          return result.isCollision() || mesh.Contains(center);
-                        },
-                    },
-                    geometry_->shape);
+  return std::visit(
+      Overloaded{
+          [&](const Box&) {
+            return fcl::detail::sphereBoxIntersect<double>(
+                fcl::Sphered(radius), Translation(center),
+                static_cast<const fcl::Boxd&>(*geometry_->fcl), identity, nullptr);
+          },
+          [&](const Sphere& sphere) {
+            const double reach = sphere.radius + radius;
+            return center.squaredNorm() <= reach * reach;
+          },
+          [&](const Cylinder&) {
+            return fcl::detail::sphereCylinderIntersect<double>(
+                fcl::Sphered(radius), Translation(center),
+                static_cast<const fcl::Cylinderd&>(*geometry_->fcl), identity, nullptr);
+          },
+          [&](const Cone& cone) { return ConeDistance(cone, center) <= radius; },
+          [&](const Capsule& capsule) { return CapsuleDistance(capsule, center) <= radius; },
+          [&](const HalfSpace&) { return center.z() <= radius; },
+          [&](const SolidMesh& mesh) {
+            const fcl::Sphered ball(radius);
+            fcl::CollisionResultd result;
+            fcl::collide(geometry_->fcl.get(), identity, &ball, Translation(center),
+                         fcl::CollisionRequestd(), result);
+            return result.isCollision() || mesh.Contains(center);
+          },
+      },
+      geometry_->shape);
 }
 
 double FclShape::BallDistance(const Eigen::Vector3d& center, double radius) const {
@@ -187,6 +241,8 @@ double FclShape::BallDistance(const Eigen::Vector3d& center, double radius) cons
             return contacts.empty() ? 0.0 : -contacts.front().penetration_depth;
           },
           [&](const Cone& cone) { return ConeDistance(cone, center) - radius; },
+          [&](const Capsule& capsule) { return CapsuleDistance(capsule, center) - radius; },
+          [&](const HalfSpace&) { return center.z() - radius; },
           [&](const SolidMesh& mesh) {
             const double distance = geometry_->SurfaceDistance(center);
             return (mesh.Contains(center) ? -distance : distance) - radius;
@@ -212,6 +268,8 @@ bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
   if (const auto* sphere = std::get_if<Sphere>(&geometry_->shape)) {
     return other.TouchesBall(X_SO.Inverse().translation, sphere->radius);
   }
+  if (geometry_->IsHalfSpace()) return other.geometry_->LowestHeight(X_SO) <= 0;
+  if (other.geometry_->IsHalfSpace()) return geometry_->LowestHeight(X_SO.Inverse()) <= 0;
   fcl::CollisionResultd result;
   fcl::collide(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
                X_SO.ToIsometry(), fcl::CollisionRequestd(), result);
@@ -226,6 +284,10 @@ double FclShape::Distance(const FclShape& other, const Pose& X_SO, double at_mos
     return std::min(at_most, other.BallDistance(X_SO.Inverse().translation, sphere->radius));
   }
   if (at_most <= 0) return at_most;
+  if (geometry_->IsHalfSpace()) {
+    return std::clamp(other.geometry_->LowestHeight(X_SO), 0.0, at_most);
+  }
+  if (other.geometry_->IsHalfSpace()) return other.Distance(*this, X_SO.Inverse(), at_most);
   // Both of FCL's iterative solvers stop early in some poses, at a distance that is too large
   // (libccd by up to 5e-4 m, where faces are parallel; the other one by centimetres, seldom): the
   // smaller is right. Triangles against triangles need neither.

@@ -13,7 +13,8 @@ namespace planbench {
 /// any shape, 0 for other pairs in collision, whose depth FCL does not give reliably.
 ///
 /// FCL's own view of a mesh is its surface; what lies wholly inside a closed one is found here by
-/// ray parity. A mesh that is not closed remains a surface.
+/// ray parity. A mesh that is not closed remains a surface. Half-spaces are not given to FCL, which
+/// has no distances from them: how far the other shape reaches down is exact and simpler.
 class FclShape {
  public:
   /// Throws InputError naming `owner` if the shape has a negative or non-finite size, or is a mesh
@@ -22,7 +23,7 @@ class FclShape {
   ~FclShape();
   FclShape(FclShape&&) noexcept;
 
-  /// Bounding box along the axes of the shape's frame.
+  /// Bounding box along the axes of the shape's frame; infinite for a half-space.
   const Eigen::Vector3d& box_center() const { return box_center_; }
   const Eigen::Vector3d& box_half_size() const { return box_half_size_; }
   const BoundingSphere& bounding_sphere() const { return bounding_sphere_; }

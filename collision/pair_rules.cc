@@ -16,6 +16,13 @@ PairRules::PairRules(const Robot& robot, const Scene& scene) : robot_(&robot), s
                       "does not have",
                       attached.object.id, attached.link, robot.name));
     }
+    for (const PlacedShape& placed : attached.object.shapes) {
+      if (!std::holds_alternative<HalfSpace>(placed.shape)) continue;
+      throw InputError(
+          fmt::format("scene: object '{}' is attached to link '{}' and has a half-space, "
+                      "which cannot move with a link",
+                      attached.object.id, attached.link));
+    }
   }
 }
 

@@ -53,8 +53,10 @@ void RequireSolid(const Shape& shape, const std::string& owner) {
     RequireSizes(owner, shape, {cylinder->radius, cylinder->length});
   } else if (const auto* cone = std::get_if<Cone>(&shape)) {
     RequireSizes(owner, shape, {cone->radius, cone->length});
-  } else {
-    RequireTriangles(owner, std::get<Mesh>(shape));
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    RequireSizes(owner, shape, {capsule->radius, capsule->length});
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    RequireTriangles(owner, *mesh);
   }
 }
 

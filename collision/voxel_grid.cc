@@ -53,6 +53,13 @@ Vector3d NearestPoint(const Cone& cone, const Vector3d& p) {
   return {p.x() * scale, p.y() * scale, nearest.y()};
 }
 
+Vector3d NearestPoint(const Capsule& capsule, const Vector3d& p) {
+  const Vector3d on_axis(0, 0, std::clamp(p.z(), -capsule.length / 2, capsule.length / 2));
+  const double distance = (p - on_axis).norm();
+  return distance <= capsule.radius ? p
+                                    : Vector3d(on_axis + capsule.radius / distance * (p - on_axis));
+}
+
 /// A convex shape with a NearestPoint.
 template <typename S>
 struct Posed {
@@ -149,6 +156,19 @@ bool Touches(const PosedBox& box, const AlignedBox3d& other) {
   return true;
 }
 
+struct PosedHalfSpace {
+  Vector3d normal;
+  double offset;  // normal . p of the points of the plane
+
+  PosedHalfSpace(const HalfSpace&, const Isometry3d& X_WS)
+      : normal(X_WS.linear().col(2)), offset(normal.dot(X_WS.translation())) {}
+};
+
+bool Touches(const PosedHalfSpace& half_space, const AlignedBox3d& box) {
+  const Vector3d lowest = (half_space.normal.array() > 0).select(box.min(), box.max());
+  return half_space.normal.dot(lowest) <= half_space.offset + kTouching;
+}
+
 struct Triangle {
   Vector3d a, b, c;
 };
@@ -187,6 +207,10 @@ struct SolidOf<Box> {
 template <>
 struct SolidOf<Sphere> {
   using Type = PosedSphere;
+};
+template <>
+struct SolidOf<HalfSpace> {
+  using Type = PosedHalfSpace;
 };
 
 }  // namespace

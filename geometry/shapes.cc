@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error.h"
 
@@ -72,6 +73,14 @@ struct BoundingSphereOf {
     return {Vector3d(0, 0, l / 2 - circumradius), circumradius};
   }
 
+  BoundingSphere operator()(const Capsule& capsule) const {
+    return {Vector3d::Zero(), capsule.radius + capsule.length / 2};
+  }
+
+  BoundingSphere operator()(const HalfSpace&) const {
+    return {Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+  }
+
   BoundingSphere operator()(const Mesh& mesh) const {
     if (mesh.triangles.vertices.empty()) {
       throw InputError("mesh '" + mesh.resource + "': has no vertices (not loaded?)");
@@ -87,6 +96,8 @@ struct TypeNameOf {
   std::string operator()(const Sphere&) const { return "sphere"; }
   std::string operator()(const Cylinder&) const { return "cylinder"; }
   std::string operator()(const Cone&) const { return "cone"; }
+  std::string operator()(const Capsule&) const { return "capsule"; }
+  std::string operator()(const HalfSpace&) const { return "half-space"; }
   std::string operator()(const Mesh&) const { return "mesh"; }
 };
 

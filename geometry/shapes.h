@@ -32,6 +32,15 @@ struct Cone {
   double length;  ///< Along z, m.
 };
 
+/// All points within `radius` of a segment along z, centred at its frame's origin.
+struct Capsule {
+  double radius;  ///< m
+  double length;  ///< Of the segment: between the centres of the caps, m.
+};
+
+/// Everything below a plane: z <= 0 in its frame. Unbounded.
+struct HalfSpace {};
+
 /// Triangles of a surface.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;                ///< m, in the shape's frame.
@@ -47,9 +56,9 @@ struct Mesh {
       triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
 };
 
-using Shape = std::variant<Box, Sphere, Cylinder, Cone, Mesh>;
+using Shape = std::variant<Box, Sphere, Cylinder, Cone, Capsule, HalfSpace, Mesh>;
 
-/// "box", "sphere", "cylinder", "cone" or "mesh".
+/// "box", "sphere", "cylinder", "cone", "capsule", "half-space" or "mesh".
 std::string ShapeTypeName(const Shape& shape);
 
 /// A shape and its pose X_FS in the frame F of what it belongs to (a link, an object).
@@ -58,7 +67,8 @@ struct PlacedShape {
   Eigen::Isometry3d X_FS = Eigen::Isometry3d::Identity();
 };
 
-/// Smallest sphere known to enclose a shape, in the shape's frame.
+/// Smallest sphere known to enclose a shape, in the shape's frame. That of a half-space has an
+/// infinite radius, the centre on its surface.
 struct BoundingSphere {
   Eigen::Vector3d center;
   double radius;

@@ -59,6 +59,10 @@ struct ShapeWriter {
     Set(lcmt_shape::CYLINDER, {cylinder.radius, cylinder.length});
   }
   void operator()(const Cone& cone) const { Set(lcmt_shape::CONE, {cone.radius, cone.length}); }
+  void operator()(const Capsule& capsule) const {
+    Set(lcmt_shape::CAPSULE, {capsule.radius, capsule.length});
+  }
+  void operator()(const HalfSpace&) const { Set(lcmt_shape::HALF_SPACE, {}); }
   // The store holds the scaled triangles, wherever they came from, so that the receiver needs
   // neither the package the resource is in nor the sender's working folder.
   void operator()(const Mesh& mesh) const {
@@ -112,8 +116,10 @@ Shape ShapeFromWire(const lcmt_shape& wire, const Field& at) {
       break;
     case lcmt_shape::CYLINDER:
     case lcmt_shape::CONE:
+    case lcmt_shape::CAPSULE:
       num_dimensions = 2;
       break;
+    case lcmt_shape::HALF_SPACE:
     case lcmt_shape::MESH:
       break;
     default:
@@ -134,6 +140,10 @@ Shape ShapeFromWire(const lcmt_shape& wire, const Field& at) {
       return Cylinder{d[0], d[1]};
     case lcmt_shape::CONE:
       return Cone{d[0], d[1]};
+    case lcmt_shape::CAPSULE:
+      return Capsule{d[0], d[1]};
+    case lcmt_shape::HALF_SPACE:
+      return HalfSpace{};
     default:
       return MeshFromWire(wire, at);
   }

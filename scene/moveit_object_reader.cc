@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 #include "common/error.h"
 #include "scene/moveit_fields.h"
+#include "scene/pose.h"
 
 namespace planbench {
 namespace {
@@ -100,6 +102,20 @@ Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
   return mesh;
 }
 
+// Pose of the half-space below shape_msgs/Plane's a x + b y + c z + d = 0.
+Eigen::Isometry3d ReadPlane(const YamlNode& node) {
+  const YamlNode coefficients = node.At("coef");
+  const std::vector<double> abcd = coefficients.Doubles(4);
+  const Eigen::Vector3d normal(abcd[0], abcd[1], abcd[2]);
+  const double length = normal.norm();
+  if (!(length > 0) || !std::isfinite(length)) {
+    coefficients.Fail("a, b and c must not all be zero: they are the plane's normal");
+  }
+  return PoseFromPositionOrientation(
+      -abcd[3] / (length * length) * normal,
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal));
+}
+
 // `plural` as a sequence, or `singular` as one element or a sequence.
 std::vector<YamlNode> OneOrMore(const YamlNode& node, const std::string& plural,
                                 const std::string& singular) {
@@ -160,6 +176,8 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const ResourceResolver& 
   attached.link = link.String();
   if (attached.link.empty()) link.Fail("must not be empty");
   const YamlNode object = node.At("object");
+  const std::vector<YamlNode> planes = OptionalElements(object, "planes");
+  if (!planes.empty()) planes.front().Fail("a plane cannot be attached to a link");
   attached.object = ReadCollisionObject(object, resources);
   const std::string frame = ReadFrame(object);
   if (!frame.empty() && frame != attached.link) {
@@ -189,7 +207,6 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   object.id = id.String();
   if (object.id.empty()) id.Fail("must not be empty");
   RequireAddOperation(node);
-  RefuseElements(node, "planes", "planes are not supported");
 
   const std::optional<YamlNode> pose = node.Find("pose");
   const bool has_pose = pose && !IsUnsetPose(*pose);
@@ -197,8 +214,9 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
 
   const std::vector<YamlNode> primitives = OptionalElements(node, "primitives");
   const std::vector<YamlNode> meshes = OneOrMore(node, "meshes", "mesh");
-  if (primitives.empty() && meshes.empty()) {
-    node.Fail("the object '" + object.id + "' has no shape (primitives or meshes)");
+  const std::vector<YamlNode> planes = OptionalElements(node, "planes");
+  if (primitives.empty() && meshes.empty() && planes.empty()) {
+    node.Fail("the object '" + object.id + "' has no shape (primitives, meshes or planes)");
   }
   const auto primitive_poses = ReadShapePoses(node, primitives.size(), "primitive_poses",
                                               "primitive_pose", pose.has_value());
@@ -209,6 +227,11 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
       ReadShapePoses(node, meshes.size(), "mesh_poses", "mesh_pose", pose.has_value());
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     object.shapes.push_back({ReadMesh(meshes[i], resources), mesh_poses[i]});
+  }
+  const auto plane_poses =
+      ReadShapePoses(node, planes.size(), "plane_poses", "plane_pose", pose.has_value());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    object.shapes.push_back({HalfSpace{}, CanonicalPose(plane_poses[i] * ReadPlane(planes[i]))});
   }
   return object;
 }

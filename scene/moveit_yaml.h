@@ -19,7 +19,7 @@ namespace planbench {
 /// attached in the start state of the request join those of the scene. `set` and `index` come from
 /// the file names (see ListProblemSet), "" and 0 for other names. Throws InputError naming file,
 /// line and field, for malformed input and for what planbench would have to ignore although it
-/// bears on planning: octomaps, planes, link padding and scale, multi-DOF joints, object operations
+/// bears on planning: octomaps, link padding and scale, multi-DOF joints, object operations
 /// other than ADD, goals other than one set of joint constraints, path constraints.
 Problem ReadProblem(const std::filesystem::path& scene_file,
                     const std::filesystem::path& request_file, const ResourceResolver& resources);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <stdexcept>
 
 #include "common/error.h"
 #include "scene/moveit_yaml.h"
@@ -76,6 +77,11 @@ struct ShapeWriter {
   std::string operator()(const Cone& cone) const {
     return Primitive("cone", HeightRadius(cone.length, cone.radius));
   }
+  std::string operator()(const Capsule&) const {
+    throw std::logic_error("a capsule cannot be written");  // ObjectFields has refused it
+  }
+  // shape_msgs/Plane: a x + b y + c z + d = 0 (see ReadCollisionObject).
+  std::string operator()(const HalfSpace&) const { return "coef: [0, 0, 1, 0]\n"; }
   std::string operator()(const Mesh& mesh) const {
     if (!mesh.resource.empty()) {
       return fmt::format("resource: {}\n{}dimensions: {}\n", Text(mesh.resource), indent,
@@ -129,11 +135,19 @@ std::string ObjectFields(const SceneObject& object, const std::string& frame,
   }
   std::vector<const PlacedShape*> primitives;
   std::vector<const PlacedShape*> meshes;
+  std::vector<const PlacedShape*> planes;
   for (const PlacedShape& placed : object.shapes) {
-    (std::holds_alternative<Mesh>(placed.shape) ? meshes : primitives).push_back(&placed);
+    if (std::holds_alternative<Capsule>(placed.shape)) {
+      throw InputError(fmt::format("object '{}': MoveIt's files have no capsules", object.id));
+    }
+    (std::holds_alternative<Mesh>(placed.shape)        ? meshes
+     : std::holds_alternative<HalfSpace>(placed.shape) ? planes
+                                                       : primitives)
+        .push_back(&placed);
   }
   return yaml + ShapeList(primitives, "primitives", "primitive_poses", indent) +
-         ShapeList(meshes, "meshes", "mesh_poses", indent);
+         ShapeList(meshes, "meshes", "mesh_poses", indent) +
+         ShapeList(planes, "planes", "plane_poses", indent);
 }
 
 // Makes the fields of a map, each line at `indent` + "  ", an element of a list.

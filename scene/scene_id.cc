@@ -35,6 +35,11 @@ struct ShapeHasher {
     hash->Add(cone.radius);
     hash->Add(cone.length);
   }
+  void operator()(const Capsule& capsule) const {
+    hash->Add(capsule.radius);
+    hash->Add(capsule.length);
+  }
+  void operator()(const HalfSpace&) const {}
   void operator()(const Mesh& mesh) const {
     if (mesh.triangles.triangles.empty()) {
       throw std::invalid_argument("SceneId: the mesh '" + mesh.resource + "' is not loaded");
@@ -47,10 +52,13 @@ void AddObject(const SceneObject& object, ContentHash* hash) {
   hash->Add(object.id);
   AddPose(object.X_WO, hash);
   hash->Add(object.shapes.size());
-  // Primitives before meshes, as files keep them in two lists.
-  for (const bool meshes : {false, true}) {
+  // Primitives before meshes before half-spaces, as files keep them in three lists.
+  for (const int list : {0, 1, 2}) {
     for (const PlacedShape& placed : object.shapes) {
-      if (std::holds_alternative<Mesh>(placed.shape) != meshes) continue;
+      const int own_list = std::holds_alternative<Mesh>(placed.shape)        ? 1
+                           : std::holds_alternative<HalfSpace>(placed.shape) ? 2
+                                                                             : 0;
+      if (own_list != list) continue;
       hash->Add(ShapeTypeName(placed.shape));
       AddPose(placed.X_FS, hash);
       std::visit(ShapeHasher{hash}, placed.shape);

@@ -176,6 +176,13 @@ TEST(VoxelGrid, Cones) {
   ExpectVoxelised(Cone{5, 5});
 }
 
+TEST(VoxelGrid, Capsules) {
+  ExpectVoxelised(Capsule{0.3, 0.8});
+  ExpectVoxelised(Capsule{0.06, 1.2});
+}
+
+TEST(VoxelGrid, HalfSpaces) { ExpectVoxelised(HalfSpace{}); }
+
 TEST(VoxelGrid, ClosedMeshesAreSolid) {
   for (const Vector3d& size : {Vector3d(0.7, 0.6, 0.5), Vector3d(5, 5, 0.3)}) {
     ExpectVoxelised(Mesh{"", Vector3d::Ones(), BoxMesh(size)}, Box{size});

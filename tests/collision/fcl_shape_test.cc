@@ -30,8 +30,8 @@ Pose Shift(double x, double y, double z) {
 
 const std::vector<Shape>& AllShapes() {
   static const std::vector<Shape> kShapes = {
-      Box{{0.4, 0.6, 1.0}}, Sphere{0.5},    Cylinder{0.3, 0.8},     Cylinder{1.0, 0.01},
-      Cone{0.4, 0.9},       Cone{0.5, 0.1}, Cuboid({0.4, 0.6, 1.0})};
+      Box{{0.4, 0.6, 1.0}}, Sphere{0.5},    Cylinder{0.3, 0.8}, Cylinder{1.0, 0.01},
+      Cone{0.4, 0.9},       Cone{0.5, 0.1}, Capsule{0.2, 0.5},  Cuboid({0.4, 0.6, 1.0})};
   return kShapes;
 }
 
@@ -79,6 +79,40 @@ TEST(FclShapeTest, EveryPairOfShapesMeetsAndParts) {
       EXPECT_NEAR(first.Distance(second, Shift(width + 0.2, 0, 0), 0.1), 0.1, 0);
     }
   }
+}
+
+TEST(FclShapeTest, HalfSpacesAreExact) {
+  const FclShape floor(HalfSpace{}, "floor");
+  EXPECT_DOUBLE_EQ(floor.BallDistance({7, -8, 0.5}, 0.2), 0.3);
+  EXPECT_DOUBLE_EQ(floor.BallDistance({7, -8, -0.5}, 0.2), -0.7);
+  EXPECT_TRUE(floor.TouchesBall({1e9, 0, 0.25}, 0.25));
+  EXPECT_FALSE(floor.TouchesBall({1e9, 0, 0.26}, 0.25));
+
+  std::mt19937_64 generator(9);
+  for (const Shape& shape : AllShapes()) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape other(shape, "other");
+    for (int i = 0; i < 100; ++i) {
+      Eigen::Isometry3d X = RandomPose(&generator, 1.5);
+      const Pose pose = Pose::From(X);
+      // A box so wide that its top is a plane, for FCL.
+      const FclShape slab(Cuboid({50, 50, 10}), "slab");
+      Pose on_slab = pose;
+      on_slab.translation.z() += 5;
+      const double expected = slab.Distance(other, on_slab, kInfinity);
+      const double distance = floor.Distance(other, pose, kInfinity);
+      EXPECT_NEAR(std::max(distance, 0.0), std::max(expected, 0.0), 1e-4);
+      EXPECT_EQ(floor.Touches(other, pose), distance <= 0);
+      EXPECT_EQ(other.Touches(floor, pose.Inverse()), distance <= 0);
+      EXPECT_NEAR(other.Distance(floor, pose.Inverse(), kInfinity), distance, 1e-12);
+      EXPECT_LE(floor.Distance(other, pose, 0.1), 0.1);
+    }
+  }
+  Pose facing = Shift(0, 0, 0.5);
+  EXPECT_TRUE(floor.Touches(floor, facing));
+  facing.rotation = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  EXPECT_FALSE(floor.Touches(floor, facing));
+  EXPECT_DOUBLE_EQ(floor.Distance(floor, facing, kInfinity), 0.5);
 }
 
 TEST(FclShapeTest, ConesPointUp) {
@@ -135,6 +169,7 @@ TEST(FclShapeTest, RefusesWhatIsNoShape) {
   ExpectInputError([] { FclShape(Box{{1, -1, 1}}, "crate"); }, {"crate", "box", "-1"});
   ExpectInputError([] { FclShape(Sphere{std::nan("")}, "ball"); }, {"ball", "sphere"});
   ExpectInputError([] { FclShape(Cylinder{kInfinity, 1}, "pipe"); }, {"pipe", "cylinder"});
+  ExpectInputError([] { FclShape(Capsule{-1, 2}, "pill"); }, {"pill", "capsule", "-1"});
   ExpectInputError([] { FclShape(Cone{1, -2}, "hat"); }, {"hat", "cone", "-2"});
   Mesh named;
   named.resource = "package://robot/hand.stl";

@@ -104,6 +104,9 @@ TEST_P(CollisionCheckerContract, RefusesScenesItCannotRepresent) {
   Scene attached;
   attached.attached = {{"no_such_link", {"mug", Eigen::Isometry3d::Identity(), {}}, {}}};
   ExpectInputError([&] { checker->SetScene(attached, q); }, {"mug", "no_such_link"});
+  Scene held_floor;
+  held_floor.attached = {{"tool", SceneWith("floor", HalfSpace{}).objects[0], {}}};
+  ExpectInputError([&] { checker->SetScene(held_floor, q); }, {"floor", "tool", "half-space"});
   ExpectInputError([&] { checker->SetScene(SceneWith("vase", Mesh{}), q); },
                    {"vase", "no triangles"});
   ExpectInputError([&] { checker->SetScene(SceneWith("pipe", Cylinder{-1, 1}), q); }, {"pipe"});
@@ -404,8 +407,12 @@ TEST_P(CollisionCheckerContract, TouchingIsCollision) {
   const auto checker = Make(robot);
   Mesh cube;
   cube.triangles = BoxMesh(Eigen::Vector3d(1, 1, 1));
-  const std::vector<Shape> shapes = {Box{Eigen::Vector3d(1, 1, 1)}, Cylinder{2, 1}, Sphere{0.5},
-                                     Cone{0.5, 1}, cube};
+  const std::vector<Shape> shapes = {Box{Eigen::Vector3d(1, 1, 1)},
+                                     Cylinder{2, 1},
+                                     Sphere{0.5},
+                                     Cone{0.5, 1},
+                                     Capsule{0.25, 0.5},
+                                     cube};
   for (const Shape& shape : shapes) {
     SCOPED_TRACE(ShapeTypeName(shape));
     checker->SetScene(SceneWith("thing", shape), Slide(0));

@@ -42,6 +42,13 @@ double ConeDistanceByRegion(const Cone& cone, const Vector3d& p) {
   return std::hypot(rho - cone.radius, down - cone.length);
 }
 
+double CapsuleDistance(const Capsule& capsule, const Vector3d& p) {
+  const Vector3d end(0, 0, capsule.length / 2);
+  if (p.z() > end.z()) return (p - end).norm() - capsule.radius;
+  if (p.z() < -end.z()) return (p + end).norm() - capsule.radius;
+  return std::hypot(p.x(), p.y()) - capsule.radius;
+}
+
 double TriangleDistance(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                         const Vector3d& c) {
   const Vector3d normal = (b - a).cross(c - a).normalized();
@@ -142,6 +149,8 @@ double OracleDistance(const Shape& shape, const Eigen::Vector3d& point) {
     return CylinderDistance(*cylinder, point);
   }
   if (const auto* cone = std::get_if<Cone>(&shape)) return ConeDistanceByRegion(*cone, point);
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return CapsuleDistance(*capsule, point);
+  if (std::holds_alternative<HalfSpace>(shape)) return point.z();
   return MeshDistance(std::get<Mesh>(shape).triangles, point);
 }
 

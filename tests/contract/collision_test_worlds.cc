@@ -59,11 +59,15 @@ void AddSpheres(Robot* robot, const std::string& link, const Vector3d& from, con
   }
 }
 
+constexpr int kCapsules = 4;
+
+/// Kinds 0 to 3: boxes, cylinders, spheres, cones.
 Shape RandomShape(std::mt19937_64* generator, int kind, double low, double high) {
   std::uniform_real_distribution<double> size(low, high);
   const double a = size(*generator);
   const double b = size(*generator);
   const double c = size(*generator);
+  if (kind == kCapsules) return Capsule{a / 2, b};
   switch (kind % 4) {
     case 0:
       return Box{Vector3d(a, b, c)};
@@ -201,6 +205,20 @@ std::vector<NamedScene> MakeTestScenes() {
   matrix.SetDefaultEntry("pad", true);
   matrix.SetDefaultEntry("sphere2", false);
   scenes.push_back({"allowed pairs", allowed});
+
+  scenes.push_back({"capsules", {}});
+  add_random(&scenes.back().scene, 10, 0.05, 0.5, kCapsules);
+  AddObject(&scenes.back().scene, "beam", Capsule{30, 200}, At(-31, 0, 0));
+
+  Scene planes;
+  AddObject(&planes, "floor", HalfSpace{}, At(3, -200, -0.1));
+  Eigen::Isometry3d X_WS = At(1.2, 0, 0.7);
+  X_WS.rotate(Eigen::AngleAxisd(-1.7, Vector3d(0.2, 1, 0.1).normalized()));
+  AddObject(&planes, "wall", HalfSpace{}, X_WS);
+  AddObject(&planes, "abyss", HalfSpace{}, At(0, 0, -50));
+  AddObject(&planes, "ball", Sphere{0.1}, At(0.7, 0.3, 0.8));
+  planes.attached = {Attach("hand", "held_ball", Sphere{0.05}, At(0.3, 0, 0), {"finger", "pad"})};
+  scenes.push_back({"half-spaces", planes});
   return scenes;
 }
 

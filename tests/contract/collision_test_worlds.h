@@ -30,7 +30,7 @@ struct NamedScene {
 };
 /// Generated scenes for an arm that reaches about 1.5 m: rotated primitives of all kinds, tiny
 /// ones, huge ones, cones, closed meshes, objects of several shapes, attached objects, allowed
-/// pairs, nothing.
+/// pairs, capsules, half-spaces, nothing.
 std::vector<NamedScene> MakeTestScenes();
 
 }  // namespace planbench

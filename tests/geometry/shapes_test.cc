@@ -36,6 +36,8 @@ TEST(ShapeTypeName, NamesEveryShape) {
   EXPECT_EQ(ShapeTypeName(Sphere{1}), "sphere");
   EXPECT_EQ(ShapeTypeName(Cylinder{1, 1}), "cylinder");
   EXPECT_EQ(ShapeTypeName(Cone{1, 1}), "cone");
+  EXPECT_EQ(ShapeTypeName(Capsule{1, 1}), "capsule");
+  EXPECT_EQ(ShapeTypeName(HalfSpace{}), "half-space");
   EXPECT_EQ(ShapeTypeName(Mesh{}), "mesh");
 }
 
@@ -51,6 +53,13 @@ TEST(BoundingSphere, IsExactForBoxSphereAndCylinder) {
   const BoundingSphere cylinder = ComputeBoundingSphere(Cylinder{0.3, 0.8});
   EXPECT_EQ(cylinder.center, Vector3d::Zero());
   EXPECT_DOUBLE_EQ(cylinder.radius, 0.5);
+}
+
+TEST(BoundingSphere, OfCapsulesAndHalfSpaces) {
+  const BoundingSphere capsule = ComputeBoundingSphere(Capsule{0.3, 0.8});
+  EXPECT_EQ(capsule.center, Vector3d::Zero());
+  EXPECT_DOUBLE_EQ(capsule.radius, 0.7);
+  EXPECT_TRUE(std::isinf(ComputeBoundingSphere(HalfSpace{}).radius));
 }
 
 TEST(BoundingSphere, OfConesIsTheSmallestThatHoldsApexAndBase) {

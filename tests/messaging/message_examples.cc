@@ -55,6 +55,8 @@ Scene ExampleScene() {
   table.shapes.push_back({Cylinder{0.03, 0.5}, Pose(0.1, 0.2, 0, 1.7)});
   table.shapes.push_back({Sphere{0.1}, Pose(0.3, 0, 0, 3.1)});
   table.shapes.push_back({Cone{0.1, 0.2}, Pose(0, -0.3, 0, -2)});
+  table.shapes.push_back({Capsule{0.05, 0.3}, Pose(0, 0.4, 0, 0.5)});
+  table.shapes.push_back({HalfSpace{}, Pose(0, 0, -0.2, 1)});
   scene.objects.push_back(table);
   Mesh mesh;
   mesh.triangles = ExampleMesh();

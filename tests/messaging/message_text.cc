@@ -59,6 +59,8 @@ class Writer {
   void Add(const Sphere& shape) { Add(shape.radius); }
   void Add(const Cylinder& shape) { All(shape.radius, shape.length); }
   void Add(const Cone& shape) { All(shape.radius, shape.length); }
+  void Add(const Capsule& shape) { All(shape.radius, shape.length); }
+  void Add(const HalfSpace&) {}
   void Add(const Mesh& shape) {
     Add(shape.triangles.vertices);
     for (const auto& [a, b, c] : shape.triangles.triangles) All(a, b, c);

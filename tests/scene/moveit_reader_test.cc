@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "common/error.h"
+#include "scene/moveit_object_reader.h"
 #include "scene/moveit_yaml.h"
 #include "tests/scene/problem_texts.h"
 
@@ -16,6 +17,24 @@ using testing::HasSubstr;
 
 Scene ParseScene(const std::string& text, const ResourceResolver& resources = {}) {
   return ReadScene(YamlNode::Parse(text, "scene.yaml"), resources);
+}
+
+TEST(MoveItReader, PlanesAreHalfSpacesBelowThem) {
+  const YamlNode node = YamlNode::Parse(
+      "id: walls\npose: {position: [1, 0, 0], orientation: [0, 0, 0, 1]}\n"
+      "planes: [{coef: [0, 0, 1, 0]}, {coef: [3, 0, 4, 10]}, {coef: [0, 0, -2, 1]}]\n",
+      "scene.yaml");
+  const SceneObject walls = ReadCollisionObject(node, {});
+  ASSERT_EQ(walls.shapes.size(), 3);
+  for (const PlacedShape& placed : walls.shapes) {
+    EXPECT_TRUE(std::holds_alternative<HalfSpace>(placed.shape));
+  }
+  EXPECT_EQ(walls.shapes[0].X_FS.matrix(), Eigen::Isometry3d::Identity().matrix());
+  EXPECT_TRUE(walls.shapes[1].X_FS.linear().col(2).isApprox(Eigen::Vector3d(0.6, 0, 0.8), 1e-11));
+  EXPECT_TRUE(walls.shapes[1].X_FS.translation().isApprox(Eigen::Vector3d(-1.2, 0, -1.6), 1e-12));
+  // z >= 0.5
+  EXPECT_TRUE(walls.shapes[2].X_FS.linear().col(2).isApprox(-Eigen::Vector3d::UnitZ(), 1e-11));
+  EXPECT_TRUE(walls.shapes[2].X_FS.translation().isApprox(Eigen::Vector3d(0, 0, 0.5), 1e-12));
 }
 
 TEST(MoveItReader, ReadsEveryField) {

@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "tests/scene/problem_texts.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
@@ -115,6 +116,23 @@ TEST_F(RoundTrip, MixedShapesOfOneObject) {
   cone.shape = Cone{.radius = 1, .length = 2};
   shapes.push_back(cone);
   Check(problem);
+}
+
+TEST_F(RoundTrip, Planes) {
+  Problem problem = ParseProblem(kFullScene);
+  // Before the mesh; files list planes apart.
+  std::vector<PlacedShape>& shapes = problem.scene.objects[2].shapes;
+  PlacedShape floor{HalfSpace{}, shapes.front().X_FS};
+  floor.X_FS.translation().z() -= 0.1;
+  shapes.insert(shapes.begin(), floor);
+  problem.scene.objects[0].shapes = {{HalfSpace{}}};
+  Check(problem);
+}
+
+TEST_F(RoundTrip, CapsulesCannotBeWritten) {
+  Problem problem = ParseProblem(kFullScene);
+  problem.scene.objects[2].shapes.push_back({Capsule{0.1, 0.2}});
+  ExpectInputError([&] { SceneToYaml(problem); }, {problem.scene.objects[2].id, "no capsules"});
 }
 
 TEST_F(RoundTrip, NoWorldFrame) {

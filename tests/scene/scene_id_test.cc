@@ -57,6 +57,9 @@ INSTANTIATE_TEST_SUITE_P(
                [](Scene* s) { std::get<Cylinder>(ShapeOf(s, 1, 0)).length += 1e-9; }},
         Change{"ShapeType",
                [](Scene* s) { ShapeOf(s, 1, 0) = Cone{.radius = 0.03, .length = 0.14}; }},
+        Change{"CapsuleForCylinder",
+               [](Scene* s) { ShapeOf(s, 1, 0) = Capsule{.radius = 0.03, .length = 0.14}; }},
+        Change{"HalfSpaceAdded", [](Scene* s) { s->objects[0].shapes.push_back({HalfSpace{}}); }},
         Change{"MeshVertex", [](Scene* s) { Wedge(s).triangles.vertices[3].z() = 1.5; }},
         Change{"MeshTriangle",
                [](Scene* s) {
