@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "logger/sqlite.h"
+#include "common/sqlite.h"
 #include "messaging/messages.h"
 
 namespace planbench {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "logger/sqlite.h"
+#include "common/sqlite.h"
 #include "messaging/messages.h"
 
 namespace planbench {

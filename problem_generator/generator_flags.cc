@@ -1,12 +1,15 @@
 #include "problem_generator/generator_flags.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <thread>
 
 #include "common/exit_codes.h"
+#include "problem_generator/certifier.h"
 #include "problem_generator/problem_set_maker.h"
 #include "problem_generator/progress_line.h"
 
@@ -27,12 +30,56 @@ void GeneratorFlags::AddTo(CLI::App* app) {
   app->add_flag("--replace", replace, "remove the problems that the folder holds");
   app->add_option("--threads", threads, "default: as many as the machine has; the set is the same")
       ->check(CLI::Range(1, 1024));
+  CLI::Option* certify_flag = app->add_flag(
+      "--certify", certify,
+      "let the live planners try each problem, and replace those that none of them solves");
+  app->add_option("--certify-time", certify_time_s, "time limit of each attempt, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->needs(certify_flag);
+  app->add_option("--certify-rounds", certify_rounds,
+                  "how often to let them try, replacements between")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(certify_flag);
 }
+
+namespace {
+
+/// Has the written set certified, says what was replaced. Exit code.
+int Certify(const GeneratorFlags& flags, const ProblemSpec& spec, const Robot& robot,
+            const CertifierOptions& options, const std::vector<int>& indices, int threads) {
+  const Certification certification = CertifyProblemSet(
+      flags.out, indices, options, [&](const std::vector<int>& unsolved, int attempt) {
+        const MadeProblems made = MakeProblems(spec, robot, flags.seed, unsolved, attempt, threads);
+        for (const Problem& problem : made.problems) WriteToFolder(problem, flags.out);
+      });
+  for (const auto& [index, attempt] : certification.replaced) {
+    fmt::print("problem {} replaced: attempt {}\n", index, attempt);
+  }
+  if (!certification.unsolved.empty()) {
+    fmt::print("NOT certified: after {} rounds nobody has solved problem {} within {} s\n",
+               certification.num_rounds, fmt::join(certification.unsolved, ", "),
+               flags.certify_time_s);
+    return kExitFailed;
+  }
+  fmt::print("certified: a planner has solved each problem within {} s\n", flags.certify_time_s);
+  return kExitOk;
+}
+
+}  // namespace
 
 int RunGenerator(const GeneratorFlags& flags) {
   const Robot robot = LoadRobot(flags.robot);
   const ProblemSpec spec = LoadProblemSpec(flags.spec, robot);
   RequireProblemFolder(flags.out, flags.replace);
+  CertifierOptions certifier;
+  if (flags.certify) {
+    certifier.driver = DriverBesideThisProgram();
+    certifier.robot = flags.robot;
+    certifier.time_limit_s = flags.certify_time_s;
+    certifier.max_rounds = flags.certify_rounds;
+  }
   const int threads = flags.threads > 0
                           ? flags.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -51,7 +98,9 @@ int RunGenerator(const GeneratorFlags& flags) {
   const auto rejected = made.rejections.ByReason();
   if (!rejected.empty()) fmt::print("rejected on the way:\n");
   for (const auto& [reason, count] : rejected) fmt::print("  {:6} {}\n", count, reason);
-  return kExitOk;
+  if (!flags.certify) return kExitOk;
+  std::fflush(stdout);  // before the driver has its say
+  return Certify(flags, spec, robot, certifier, indices, threads);
 }
 
 }  // namespace planbench

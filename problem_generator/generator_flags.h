@@ -15,6 +15,9 @@ struct GeneratorFlags {
   std::uint64_t seed = 1;
   bool replace = false;
   int threads = 0;  ///< 0: as many as the machine has.
+  bool certify = false;
+  double certify_time_s = 60;  ///< Of each attempt of each planner.
+  int certify_rounds = 5;
 
   void AddTo(CLI::App* app);
 };

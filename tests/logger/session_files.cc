@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "logger/sqlite.h"
+#include "common/sqlite.h"
 
 namespace planbench {
 

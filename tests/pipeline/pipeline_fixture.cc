@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "benchmark_driver/supervisor.h"
-#include "logger/sqlite.h"
+#include "common/sqlite.h"
 
 namespace planbench {
 namespace {

@@ -1,4 +1,4 @@
-#include "logger/sqlite.h"
+#include "common/sqlite.h"
 
 #include <spdlog/spdlog.h>
 #include <sqlite3.h>
