@@ -62,7 +62,7 @@ struct AraSettings {
   /// promising others; >= 1.
   int batch = 1;
   ClearanceUse clearance = ClearanceUse::kIgnore;
-  /// Checks paths at half the edge resolution before they count.
+  /// Checks paths at half the edge resolution before they count. (Certified edges need no more.)
   bool verify_paths = true;
   MoveCost cost = MoveCost::kDistance;
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.

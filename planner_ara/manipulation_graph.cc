@@ -298,7 +298,8 @@ void ManipulationGraph::AddSiblings(StateId source, std::uint16_t action) {
 }
 
 bool ManipulationGraph::Verify(StateId source, std::uint16_t action) {
-  if (!options_.verify_paths || Recall(source, action) == Knowledge::kVerified) return true;
+  if (!options_.verify_paths || edges_->method() == EdgeCheck::kCertified) return true;
+  if (Recall(source, action) == Knowledge::kVerified) return true;
   SelectEdge(source, action);
   const bool valid = fine_edges_.IsValidEdge(from_, to_, /*from_is_free=*/true);
   Remember(source, action, valid ? Knowledge::kVerified : Knowledge::kBlocked);

@@ -63,8 +63,8 @@ class ManipulationGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
-  /// True if a valid edge is so at half the edge resolution, too, or need not be; if not, it is
-  /// valid no longer.
+  /// True if a valid edge is so at half the edge resolution, too, or need not be, or is certified;
+  /// if not, it is valid no longer.
   bool Verify(StateId source, std::uint16_t action);
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
