@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::Pair;
 
 /// A run as a session's database has it.
-struct Run {
+struct RunRow {
   int problem_index;
   int solved;
   const char* referee_valid;
@@ -44,11 +44,11 @@ class CertifierTest : public testing::Test {
                       last + "\n");
     std::filesystem::permissions(options_.driver, std::filesystem::perms::owner_all);
   }
-  void WriteResults(int round, const std::vector<Run>& runs) {
+  void WriteResults(int round, const std::vector<RunRow>& runs) {
     SqliteConnection results(folder_ / ("round_" + std::to_string(round)),
                              SqliteConnection::Mode::kReadWriteCreate);
     results.Execute("CREATE TABLE runs (problem_index INTEGER, solved, referee_valid)");
-    for (const Run& run : runs) {
+    for (const RunRow& run : runs) {
       results.Execute("INSERT INTO runs VALUES (" + std::to_string(run.problem_index) + ", " +
                       std::to_string(run.solved) + ", " + run.referee_valid + ")");
     }
