@@ -28,6 +28,7 @@
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
 #include "planning/path_judge.h"
+#include "planning/path_metrics.h"
 #include "planning/resolve.h"
 #include "scene/moveit_yaml.h"
 
@@ -61,6 +62,7 @@ struct Run {
   int index = 0;
   PlanResult result;
   bool referee_valid = false;
+  bool simplified_valid = false;
 };
 
 double Quantile(std::vector<double> values, double q) {
@@ -132,7 +134,7 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     request.edge_check = ParseEdgeCheck(flags.edge_check);
     request.anytime = flags.anytime;
     request.simplify = flags.simplify;
-    Run run{files.index, planner->Plan(request, problem.scene, nullptr), false};
+    Run run{files.index, planner->Plan(request, problem.scene, nullptr), false, false};
     for (int i = 1; i < flags.repeat; ++i) {
       PlanResult again = planner->Plan(request, problem.scene, nullptr);
       if (again.planning_time_s < run.result.planning_time_s) run.result = std::move(again);
@@ -140,6 +142,10 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     if (run.result.status == PlanStatus::kInvalidRequest) throw InputError(run.result.message);
     if (run.result.status == PlanStatus::kSolved) {
       run.referee_valid = RefereeAccepts(robot, request, problem.scene, run.result.path);
+      if (flags.simplify) {
+        run.simplified_valid =
+            RefereeAccepts(robot, request, problem.scene, run.result.simplified_path);
+      }
     }
     runs.push_back(std::move(run));
   }
@@ -179,11 +185,7 @@ void PrintRow(const std::string& set, const std::string& direction, const std::v
     }
     if (solved) {
       solved_ms.push_back(all_ms.back());
-      double length = 0;
-      for (std::size_t i = 1; i < result.path.size(); ++i) {
-        length += space.Distance(result.path[i - 1], result.path[i]);
-      }
-      lengths.push_back(length);
+      lengths.push_back(PathLength(space, result.path));
       if (!run.referee_valid) ++num_refused;
     }
     edges.push_back(result.counters.at("edges_checked"));
@@ -214,6 +216,23 @@ void PrintRow(const std::string& set, const std::string& direction, const std::v
     }
   }
   std::fflush(stdout);
+}
+
+void PrintSimplification(const std::vector<Run>& runs, const JointSpace& space) {
+  std::vector<double> ms, lengths, waypoints;
+  int num_refused = 0;
+  for (const Run& run : runs) {
+    if (run.result.status != PlanStatus::kSolved) continue;
+    ms.push_back(1e3 * run.result.phases.simplification_s);
+    lengths.push_back(PathLength(space, run.result.simplified_path));
+    waypoints.push_back(static_cast<double>(run.result.simplified_path.size()));
+    if (!run.simplified_valid) ++num_refused;
+  }
+  fmt::print(
+      "    simplified: {} refused; ms median {:.3f}, mean {:.3f}, 95 % {:.3f}; length median "
+      "{:.2f}, mean {:.2f}; waypoints median {:.0f}\n",
+      num_refused, Quantile(ms, 0.5), Mean(ms), Quantile(ms, 0.95), Quantile(lengths, 0.5),
+      Mean(lengths), Quantile(waypoints, 0.5));
 }
 
 void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& direction,
@@ -255,7 +274,8 @@ int Main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--anytime", flags.anytime, "Improve until the time limit");
-  app.add_flag("--simplify", flags.simplify, "Simplify the paths (not in any figure)");
+  app.add_flag("--simplify", flags.simplify,
+               "Simplify the paths, and tell of it in a line of its own");
   app.add_flag("--counters", flags.counters, "Also print the planner's own counts");
   app.add_option("--csv", flags.csv, "File for a line a run");
   CLI11_PARSE(app, argc, argv);
@@ -282,10 +302,14 @@ int Main(int argc, char** argv) {
       std::vector<Run> runs = RunSet(flags, robot, set, direction, *model, planner.get());
       if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
       PrintRow(set.name, name, runs, space, flags.counters);
+      if (flags.simplify) PrintSimplification(runs, space);
       if (csv.is_open()) WriteCsv(&csv, set.name, name, runs);
       std::move(runs.begin(), runs.end(), std::back_inserter(all));
     }
-    if (flags.problems.size() > 1) PrintRow("all", name, all, space, flags.counters);
+    if (flags.problems.size() > 1) {
+      PrintRow("all", name, all, space, flags.counters);
+      if (flags.simplify) PrintSimplification(all, space);
+    }
   }
   return 0;
 }

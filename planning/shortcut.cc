@@ -12,9 +12,15 @@
 namespace planbench {
 namespace {
 
-Path BypassWaypoints(EdgeChecker* edges, const Path& path,
-                     const std::function<bool()>& should_stop) {
-  Path result = {path.front()};
+/// A path whose edges are the input's, or were found valid since.
+struct CheckedPath {
+  Path waypoints;
+  std::vector<bool> found_valid;  ///< Of each edge.
+};
+
+CheckedPath BypassWaypoints(EdgeChecker* edges, const Path& path,
+                            const std::function<bool()>& should_stop) {
+  CheckedPath result = {{path.front()}, {}};
   std::size_t i = 0;
   while (i + 1 < path.size()) {
     std::size_t next = i + 1;
@@ -24,7 +30,8 @@ Path BypassWaypoints(EdgeChecker* edges, const Path& path,
         break;
       }
     }
-    result.push_back(path[next]);
+    result.waypoints.push_back(path[next]);
+    result.found_valid.push_back(next > i + 1);
     i = next;
   }
   return result;
@@ -37,16 +44,15 @@ struct PathPoint {
   Configuration q;
 };
 
-/// A path with the lengths of its edges.
+/// A checked path with the lengths of its edges.
 class MeasuredPath {
  public:
-  MeasuredPath(const JointSpace& space, Path path) : space_(space), path_(std::move(path)) {
-    for (std::size_t i = 1; i < path_.size(); ++i) {
-      lengths_.push_back(space_.Distance(path_[i - 1], path_[i]));
-    }
+  MeasuredPath(const JointSpace& space, CheckedPath path) : space_(space), path_(std::move(path)) {
+    Measure();
   }
 
-  const Path& path() const { return path_; }
+  const Path& waypoints() const { return path_.waypoints; }
+  bool FoundValid(std::size_t segment) const { return path_.found_valid[segment]; }
   double TotalLength() const { return std::accumulate(lengths_.begin(), lengths_.end(), 0.0); }
 
   PathPoint At(double length) const {
@@ -57,8 +63,8 @@ class MeasuredPath {
     const double segment_length = lengths_[point.segment];
     point.from_segment_start = std::min(length, segment_length);
     const double t = segment_length > 0 ? point.from_segment_start / segment_length : 0.0;
-    point.q.resize(path_[point.segment].size());
-    space_.Interpolate(path_[point.segment], path_[point.segment + 1], t, point.q);
+    point.q.resize(waypoints()[point.segment].size());
+    space_.Interpolate(waypoints()[point.segment], waypoints()[point.segment + 1], t, point.q);
     return point;
   }
 
@@ -69,26 +75,37 @@ class MeasuredPath {
     return length;
   }
 
-  /// Puts the edge a -> b in place of what lies between the points.
+  /// Puts the edge a -> b in place of what lies between the points; it and what remains of the two
+  /// cut edges have been found valid.
   void Replace(const PathPoint& a, const PathPoint& b) {
-    Path path(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(a.segment) + 1);
-    if (path.back() != a.q) path.push_back(a.q);
-    path.push_back(b.q);
-    auto rest = path_.begin() + static_cast<std::ptrdiff_t>(b.segment) + 1;
-    if (*rest == b.q) ++rest;
-    path.insert(path.end(), rest, path_.end());
-    *this = MeasuredPath(space_, std::move(path));
-  }
-
-  MeasuredPath& operator=(MeasuredPath&& other) noexcept {
-    path_ = std::move(other.path_);
-    lengths_ = std::move(other.lengths_);
-    return *this;
+    CheckedPath path;
+    const auto append = [&path](const Configuration& q, bool found_valid) {
+      if (path.waypoints.back() == q) return;
+      path.waypoints.push_back(q);
+      path.found_valid.push_back(found_valid);
+    };
+    path.waypoints.push_back(waypoints().front());
+    for (std::size_t s = 0; s < a.segment; ++s) append(waypoints()[s + 1], FoundValid(s));
+    append(a.q, true);
+    append(b.q, true);
+    append(waypoints()[b.segment + 1], true);
+    for (std::size_t s = b.segment + 1; s < lengths_.size(); ++s) {
+      append(waypoints()[s + 1], FoundValid(s));
+    }
+    path_ = std::move(path);
+    Measure();
   }
 
  private:
+  void Measure() {
+    lengths_.clear();
+    for (std::size_t i = 1; i < waypoints().size(); ++i) {
+      lengths_.push_back(space_.Distance(waypoints()[i - 1], waypoints()[i]));
+    }
+  }
+
   const JointSpace& space_;
-  Path path_;
+  CheckedPath path_;
   std::vector<double> lengths_;
 };
 
@@ -104,7 +121,14 @@ Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int 
   // Not std::uniform_real_distribution: its values differ between standard libraries.
   const auto uniform01 = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
 
-  for (int attempt = 0; attempt < attempts && measured.path().size() > 2; ++attempt) {
+  // Part of a proven edge needs no proof. The samples of part of a sampled edge lie elsewhere than
+  // those of the whole; and how the input's edges were found valid is not known here.
+  const auto part_is_valid = [&](std::size_t segment, const Configuration& from,
+                                 const Configuration& to) {
+    return (edges->method() == EdgeCheck::kCertified && measured.FoundValid(segment)) ||
+           edges->IsValidEdge(from, to);
+  };
+  for (int attempt = 0; attempt < attempts && measured.waypoints().size() > 2; ++attempt) {
     if (should_stop()) break;
     const double total = measured.TotalLength();
     const double at_1 = uniform01() * total;
@@ -112,17 +136,15 @@ Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int 
     const PathPoint a = measured.At(std::min(at_1, at_2));
     const PathPoint b = measured.At(std::max(at_1, at_2));
     if (a.segment == b.segment) continue;
-    // Gains below this are rounding, not worth two more waypoints.
-    constexpr double kLeastGain = 1e-6;  // rad or m
-    if (space.Distance(a.q, b.q) > measured.Between(a, b) - kLeastGain) continue;
-    // The parts that remain of the two cut edges are new edges too: their samples lie elsewhere
-    // than those of the whole edge.
+    // Less is not worth checking an edge, nor two more waypoints.
+    constexpr double kLeastGain = 1e-3;  // of the path's length
+    if (space.Distance(a.q, b.q) > measured.Between(a, b) - kLeastGain * total) continue;
     if (!edges->IsValidEdge(a.q, b.q)) continue;
-    if (!edges->IsValidEdge(measured.path()[a.segment], a.q)) continue;
-    if (!edges->IsValidEdge(b.q, measured.path()[b.segment + 1])) continue;
+    if (!part_is_valid(a.segment, measured.waypoints()[a.segment], a.q)) continue;
+    if (!part_is_valid(b.segment, b.q, measured.waypoints()[b.segment + 1])) continue;
     measured.Replace(a, b);
   }
-  return measured.path();
+  return measured.waypoints();
 }
 
 }  // namespace planbench

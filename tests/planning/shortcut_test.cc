@@ -14,9 +14,10 @@ bool Never() { return false; }
 class ShortcutTest : public testing::Test {
  protected:
   Path Shortcut(const Path& path, const Scene& scene, std::uint64_t seed = 1, int attempts = 200,
-                const std::function<bool()>& should_stop = Never) {
+                const std::function<bool()>& should_stop = Never,
+                EdgeCheck method = EdgeCheck::kFixed) {
     checker_->SetScene(scene, robot_.model.DefaultPositions());
-    EdgeChecker edges(checker_.get(), kResolution);
+    EdgeChecker edges(checker_.get(), kResolution, method);
     return ShortcutPath(&edges, path, seed, attempts, should_stop);
   }
 
@@ -54,6 +55,35 @@ TEST_F(ShortcutTest, KeepsClearOfObstaclesAndShortens) {
     EXPECT_EQ(path.back(), around_post_.back());
     EXPECT_GT(path.size(), 2u) << "the straight edge runs through the post";
     EXPECT_LT(PathLength(space_, path), 0.9 * PathLength(space_, around_post_));
+  }
+}
+
+TEST_F(ShortcutTest, EdgesAreProvenWhereTheyAreCertified) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Path path = Shortcut(around_post_, PostsScene(), seed, 200, Never, EdgeCheck::kCertified);
+    const Configuration& goal = path.back();
+    const PathVerdict verdict =
+        JudgePath(checker_.get(), path, path.front(), {goal, goal, goal}, kResolution / 64, false);
+    EXPECT_TRUE(verdict.valid) << "seed " << seed << ": " << verdict.reason;
+    EXPECT_LT(PathLength(space_, path), 0.9 * PathLength(space_, around_post_));
+  }
+}
+
+TEST_F(ShortcutTest, WhatIsNotProvenIsCheckedAgainBeforePartOfItIsKept) {
+  // An input whose second edge runs through the post ahead: parts of it may not come in as new
+  // edges, so each edge of the result is an edge of the input or valid.
+  const Path path = {{1.5, 0, 0}, {0.6, 0.3, 0}, {-0.6, -0.3, 0}, {-1.5, 0, 0}};
+  checker_->SetScene(PostsScene(), robot_.model.DefaultPositions());
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    EdgeChecker edges(checker_.get(), kResolution, method);
+    ASSERT_FALSE(edges.IsValidEdge(path[1], path[2]));
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const Path shorter = ShortcutPath(&edges, path, seed, 200, Never);
+      for (std::size_t i = 1; i < shorter.size(); ++i) {
+        const bool is_of_input = shorter[i - 1] == path[1] && shorter[i] == path[2];
+        EXPECT_TRUE(is_of_input || edges.IsValidEdge(shorter[i - 1], shorter[i]));
+      }
+    }
   }
 }
 
