@@ -98,10 +98,11 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
 
 TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   const auto session = folder() / "session";
-  // A time limit that an invalid range cannot shorten: tiny steps make RRT-Connect work for long.
+  // With steps so tiny every run lasts to its time limit.
   ChildProcess* driver = StartLaunchedDriver(
-      session, {"--problems-range", "1-2", "--time", "3", "--planners", "rrtc", "--set",
-                "rrtc.range=0.0001", "--directions", "forward", "--trials", "2"});
+      session, {"--problems-range", "1-2", "--time", "2", "--planners", "rrtc", "--set",
+                "rrtc.range=0.00001", "--set", "rrtc.extension=step", "--directions", "forward",
+                "--trials", "2"});
   const auto planner_pid = [&]() -> int {
     for (const int pid : LeftRunning()) {
       std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
