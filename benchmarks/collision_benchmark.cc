@@ -4,10 +4,9 @@
 //   collision_benchmark --problems DIR [--index N] [--robot DIR] [--model spheres|voxels|meshes]
 //   [--engine fast|exact] [--spheres N] [--edge-check fixed|certified] [--benchmark_... flags]
 //
-// Names: check: one configuration a call; block: 16 a call, one in collision ends a call; edge: of
-// at most that length (L2, rad and m), as planners check them; unit_edge: free edges of 1 rad at 32
-// samples; successors: 16 edges of 8 samples out of one configuration; boxes: random configurations
-// among that many boxes, of one density around the robot.
+// Names: check: one configuration a call; block: 16 a call; edge: of at most that length (L2, rad
+// and m), as planners check them; unit_edge: free edges of 1 rad at 32 samples; boxes: random
+// configurations among that many boxes, of one density around the robot.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -32,6 +31,8 @@ namespace planbench {
 namespace {
 
 using Configuration = std::vector<double>;
+
+constexpr int kBlock = 16;  ///< Configurations handed over at once.
 
 struct Workload {
   Robot robot;
@@ -85,19 +86,31 @@ void Check(benchmark::State& state, CollisionChecker& checker,
   state.counters["free"] = static_cast<double>(num_free) / static_cast<double>(state.iterations());
 }
 
-/// Blocks of configurations; one in collision ends a block.
-void CheckBlocks(benchmark::State& state, CollisionChecker& checker,
-                 const std::vector<Configuration>& configurations) {
-  constexpr int kBlock = 16;
+/// Calls visit(block) for 16 configurations after another, round and round.
+template <typename Visit>
+void VisitBlocks(benchmark::State& state, const std::vector<Configuration>& configurations,
+                 Visit visit) {
   std::vector<double> rows;
   for (const Configuration& q : configurations) rows.insert(rows.end(), q.begin(), q.end());
-  const std::size_t block = kBlock * configurations.front().size();
+  const std::size_t size = kBlock * configurations.front().size();
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(checker.FindCollision(std::span(rows).subspan(i, block), kBlock));
-    i = i + 2 * block > rows.size() ? 0 : i + block;
+    visit(std::span<const double>(rows).subspan(i, size));
+    i = i + 2 * size > rows.size() ? 0 : i + size;
   }
   state.SetItemsProcessed(state.iterations() * kBlock);
+}
+
+void CheckBlocks(benchmark::State& state, CollisionChecker& checker,
+                 const std::vector<Configuration>& configurations) {
+  std::vector<unsigned char> free(kBlock);
+  std::int64_t num_free = 0;
+  VisitBlocks(state, configurations, [&](std::span<const double> block) {
+    checker.CheckAll(block, kBlock, free);
+    num_free += std::count(free.begin(), free.end(), 1);
+  });
+  state.counters["free"] =
+      static_cast<double>(num_free) / static_cast<double>(state.iterations() * kBlock);
 }
 
 /// Edges from each free configuration towards the next, cut to at most `max_length` (L2, rad and
@@ -127,58 +140,37 @@ void CheckEdges(benchmark::State& state, Workload& work, double max_length) {
       static_cast<double>(edges.counters().configurations), benchmark::Counter::kIsRate);
 }
 
-/// Samples of free edges of length 1 (L2, rad and m): 32 of one edge, or 8 of each of 16 edges out
-/// of one configuration; all of them free.
-void CheckSamples(benchmark::State& state, Workload& work, int num_edges, int num_samples) {
-  const auto n = static_cast<std::size_t>(work.checker->space().size());
+/// 32 samples of each of 200 free edges of length 1 (L2, rad and m).
+void CheckUnitEdges(benchmark::State& state, Workload& work) {
+  CollisionChecker& checker = *work.checker;
   std::mt19937_64 generator(2);
   std::normal_distribution<double> normal;
-  struct Case {
-    Configuration start;
-    std::vector<double> motions;
-  };
   std::vector<MotionSample> samples;
-  for (int i = 0; i < num_samples; ++i) {
-    for (int edge = 0; edge < num_edges; ++edge) {
-      samples.push_back({edge, static_cast<double>(i + 1) / num_samples});
+  for (int i = 1; i <= 32; ++i) samples.push_back({i / 32.0});
+  struct Edge {
+    Configuration start;
+    Configuration motion;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t tries = 0; edges.size() < 200 && tries < 1'000'000; ++tries) {
+    const Configuration& start = work.free[tries % work.free.size()];
+    Configuration motion(start.size());
+    double squared = 0;
+    for (double& value : motion) {
+      value = normal(generator);
+      squared += value * value;
     }
+    Configuration end = start;
+    for (std::size_t j = 0; j < end.size(); ++j) end[j] += motion[j] /= std::sqrt(squared);
+    if (!checker.space().WithinLimits(end)) continue;
+    if (checker.CheckSamples(start, motion, samples).blocked != 0) continue;
+    edges.push_back({start, motion});
   }
-  const double length = num_edges == 1 ? 1.0 : 0.14;
-  std::vector<Case> cases;
-  for (std::size_t i = 0; cases.size() < 200; i = i + 1 == work.free.size() ? 0 : i + 1) {
-    Case one{work.free[i], {}};
-    for (int tries = 0;
-         tries < 50 * num_edges && one.motions.size() < n * static_cast<std::size_t>(num_edges);
-         ++tries) {
-      std::vector<double> motion(n);
-      double squared = 0;
-      for (double& value : motion) {
-        value = normal(generator);
-        squared += value * value;
-      }
-      for (double& value : motion) value *= length / std::sqrt(squared);
-      std::vector<MotionSample> along;
-      for (int k = 0; k < num_samples; ++k) {
-        along.push_back({0, static_cast<double>(k + 1) / num_samples});
-      }
-      Configuration end = one.start;
-      for (std::size_t j = 0; j < n; ++j) end[j] += motion[j];
-      if (!work.checker->space().WithinLimits(end)) continue;
-      if (work.checker->CheckSamples(one.start, motion, along, true).blocked != 0) continue;
-      one.motions.insert(one.motions.end(), motion.begin(), motion.end());
-    }
-    if (one.motions.size() == n * static_cast<std::size_t>(num_edges))
-      cases.push_back(std::move(one));
-  }
+  if (edges.empty()) throw InputError("hardly an edge of this problem is free");
   std::size_t i = 0;
   for (auto _ : state) {
-    for (std::size_t first = 0; first < samples.size(); first += 64) {
-      const auto block =
-          std::span(samples).subspan(first, std::min<std::size_t>(64, samples.size() - first));
-      benchmark::DoNotOptimize(
-          work.checker->CheckSamples(cases[i].start, cases[i].motions, block, false));
-    }
-    i = i + 1 == cases.size() ? 0 : i + 1;
+    benchmark::DoNotOptimize(checker.CheckSamples(edges[i].start, edges[i].motion, samples));
+    i = i + 1 == edges.size() ? 0 : i + 1;
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(samples.size()));
 }
@@ -214,20 +206,7 @@ void CheckAmongBoxes(benchmark::State& state, Workload& work, int num, bool edge
   if (edges) {
     CheckEdges(state, work, 1.0);
   } else {
-    std::vector<double> rows;
-    for (const Configuration& q : work.random) rows.insert(rows.end(), q.begin(), q.end());
-    std::vector<unsigned char> free(16);
-    const std::size_t block = 16 * work.random.front().size();
-    std::size_t i = 0;
-    std::int64_t num_free = 0;
-    for (auto _ : state) {
-      work.checker->CheckAll(std::span(rows).subspan(i, block), 16, free);
-      num_free += std::count(free.begin(), free.end(), 1);
-      i = i + 2 * block > rows.size() ? 0 : i + block;
-    }
-    state.SetItemsProcessed(state.iterations() * 16);
-    state.counters["free"] =
-        static_cast<double>(num_free) / static_cast<double>(state.iterations() * 16);
+    CheckBlocks(state, *work.checker, work.random);
   }
   work.checker->SetScene(work.problem.scene, work.base_positions);
 }
@@ -273,21 +252,13 @@ void Register(Workload* work) {
   benchmark::RegisterBenchmark("block/free", [work](benchmark::State& state) {
     CheckBlocks(state, *work->checker, work->free);
   });
-  benchmark::RegisterBenchmark(
-      "unit_edge", [work](benchmark::State& state) { CheckSamples(state, *work, 1, 32); });
-  benchmark::RegisterBenchmark(
-      "successors", [work](benchmark::State& state) { CheckSamples(state, *work, 16, 8); });
+  benchmark::RegisterBenchmark("unit_edge",
+                               [work](benchmark::State& state) { CheckUnitEdges(state, *work); });
   benchmark::RegisterBenchmark("distances/free", [work](benchmark::State& state) {
-    std::vector<double> rows;
-    for (const Configuration& q : work->free) rows.insert(rows.end(), q.begin(), q.end());
-    std::vector<double> distances(16);
-    const std::size_t block = 16 * work->free.front().size();
-    std::size_t i = 0;
-    for (auto _ : state) {
-      work->checker->FindDistances(std::span(rows).subspan(i, block), 16, 0.1, distances);
-      i = i + 2 * block > rows.size() ? 0 : i + block;
-    }
-    state.SetItemsProcessed(state.iterations() * 16);
+    std::vector<double> distances(kBlock);
+    VisitBlocks(state, work->free, [&](std::span<const double> block) {
+      work->checker->FindDistances(block, kBlock, 0.1, distances);
+    });
   });
   for (const int num : {10, 100, 1000, 10000}) {
     for (const bool edges : {false, true}) {

@@ -52,15 +52,7 @@ void CollisionChecker::RequireReady(std::span<const double> qs, int num) const {
 
 bool CollisionChecker::IsFree(std::span<const double> q) {
   RequireReady(q, 1);
-  ++num_checks_;
   return DoIsFree(q);
-}
-
-int CollisionChecker::FindCollision(std::span<const double> qs, int num) {
-  RequireReady(qs, num);
-  const int found = DoFindCollision(qs, num);
-  num_checks_ += found < 0 ? num : found + 1;
-  return found;
 }
 
 void CollisionChecker::CheckAll(std::span<const double> qs, int num,
@@ -70,46 +62,19 @@ void CollisionChecker::CheckAll(std::span<const double> qs, int num,
     throw InputError(fmt::format("collision checker: room for {} verdicts on {} configurations",
                                  free.size(), num));
   }
-  num_checks_ += num;
   DoCheckAll(qs, num, free);
 }
 
-void CollisionChecker::CheckAround(std::span<const double> qs, std::span<const double> half_widths,
-                                   int num, std::span<unsigned char> free) {
-  RequireReady(qs, num);
-  if (half_widths.size() != qs.size() || free.size() != static_cast<std::size_t>(num)) {
-    throw InputError(fmt::format(
-        "collision checker: {} half widths and room for {} verdicts for {} configurations",
-        half_widths.size(), free.size(), num));
-  }
-  for (double width : half_widths) {
-    if (!(width >= 0) || !std::isfinite(width)) {
-      throw InputError(fmt::format("collision checker: half width {} is not a length", width));
-    }
-  }
-  num_checks_ += num;
-  DoCheckAround(qs, half_widths, num, free);
-}
-
 SampleVerdicts CollisionChecker::CheckSamples(std::span<const double> start,
-                                              std::span<const double> motions,
-                                              std::span<const MotionSample> samples,
-                                              bool stop_at_first) {
+                                              std::span<const double> motion,
+                                              std::span<const MotionSample> samples) {
   RequireReady(start, 1);
-  const std::size_t n = group_->joints.size();
-  RequireReady(motions, static_cast<int>(motions.size() / n));
+  RequireReady(motion, 1);
   if (samples.size() > 64) {
     throw InputError(
         fmt::format("collision checker: {} samples given, at most 64 are taken", samples.size()));
   }
-  for (const MotionSample& sample : samples) {
-    if (sample.motion < 0 || static_cast<std::size_t>(sample.motion) >= motions.size() / n) {
-      throw InputError(fmt::format("collision checker: a sample of motion {} of {}", sample.motion,
-                                   motions.size() / n));
-    }
-  }
-  num_checks_ += static_cast<std::int64_t>(samples.size());
-  return DoCheckSamples(start, motions, samples, stop_at_first);
+  return DoCheckSamples(start, motion, samples);
 }
 
 void CollisionChecker::FindDistances(std::span<const double> qs, int num, double at_most,
@@ -120,77 +85,43 @@ void CollisionChecker::FindDistances(std::span<const double> qs, int num, double
         fmt::format("collision checker: room for {} distances of {} configurations, at most {} m",
                     distances.size(), num, at_most));
   }
-  num_checks_ += num;
   DoFindDistances(qs, num, at_most, distances);
 }
 
 std::optional<Contact> CollisionChecker::FindContact(std::span<const double> q) {
   RequireReady(q, 1);
-  ++num_checks_;
   return DoFindContact(q);
 }
 
 ClosestPair CollisionChecker::FindClosest(std::span<const double> q) {
   RequireReady(q, 1);
-  ++num_checks_;
   return DoFindClosest(q);
-}
-
-int CollisionChecker::DoFindCollision(std::span<const double> qs, int num) {
-  const std::size_t n = group_->joints.size();
-  for (int i = 0; i < num; ++i) {
-    if (!DoIsFree(qs.subspan(static_cast<std::size_t>(i) * n, n))) return i;
-  }
-  return -1;
 }
 
 void CollisionChecker::DoCheckAll(std::span<const double> qs, int num,
                                   std::span<unsigned char> free) {
   const std::size_t n = group_->joints.size();
-  for (int i = 0; i < num; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    free[index] = DoIsFree(qs.subspan(index * n, n)) ? 1 : 0;
-  }
-}
-
-void CollisionChecker::DoCheckAround(std::span<const double> qs,
-                                     std::span<const double> half_widths, int num,
-                                     std::span<unsigned char> free) {
-  const std::size_t n = group_->joints.size();
   for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
-    double motion = 0;
-    for (std::size_t j = 0; j < n; ++j) motion += half_widths[i * n + j] * motion_bound_.reach()[j];
-    const auto q = qs.subspan(i * n, n);
-    // Both bodies of a pair may move.
-    free[i] = motion == 0 ? DoIsFree(q) : DoFindClosest(q).distance_m > 2 * motion;
+    free[i] = DoIsFree(qs.subspan(i * n, n)) ? 1 : 0;
   }
 }
 
 SampleVerdicts CollisionChecker::DoCheckSamples(std::span<const double> start,
-                                                std::span<const double> motions,
-                                                std::span<const MotionSample> samples,
-                                                bool stop_at_first) {
+                                                std::span<const double> motion,
+                                                std::span<const MotionSample> samples) {
   const std::size_t n = group_->joints.size();
+  double motion_m = 0;  // bounds how far anything moves
+  for (std::size_t j = 0; j < n; ++j) motion_m += std::abs(motion[j]) * motion_bound_.reach()[j];
   std::vector<double> q(n);
-  std::vector<double> half_widths(n);
   SampleVerdicts verdicts;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const MotionSample& sample = samples[k];
-    const auto motion = motions.subspan(static_cast<std::size_t>(sample.motion) * n, n);
-    for (std::size_t j = 0; j < n; ++j) {
-      q[j] = start[j] + sample.position * motion[j];
-      half_widths[j] = sample.half_length * std::abs(motion[j]);
-    }
+    for (std::size_t j = 0; j < n; ++j) q[j] = start[j] + sample.position * motion[j];
     const std::uint64_t bit = std::uint64_t{1} << k;
-    unsigned char free = 1;
-    if (!DoIsFree(q)) {
-      verdicts.certain |= bit;
-      free = 0;
-      if (stop_at_first) return {verdicts.blocked | bit, verdicts.certain};
-    } else if (sample.half_length > 0) {
-      DoCheckAround(q, half_widths, 1, {&free, 1});
-    }
-    if (free == 0) verdicts.blocked |= bit;
+    if (!DoIsFree(q)) return {verdicts.blocked | bit, bit};
+    // Both bodies of a pair may move.
+    const double approach_m = 2 * sample.half_length * motion_m;
+    if (approach_m > 0 && !(DoFindClosest(q).distance_m > approach_m)) verdicts.blocked |= bit;
   }
   return verdicts;
 }

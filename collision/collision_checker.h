@@ -29,10 +29,8 @@ struct ClosestPair {
   std::string body_b;
 };
 
-/// A configuration on one of several straight joint motions out of one configuration, or a stretch
-/// of the motion.
+/// A configuration on a straight joint motion, or a stretch of the motion.
 struct MotionSample {
-  int motion;              ///< Index of the motion.
   double position;         ///< Fraction of the motion, in [0, 1].
   double half_length = 0;  ///< The stretch position +- half_length; 0 for the configuration alone.
 };
@@ -74,32 +72,22 @@ class CollisionChecker {
 
   /// True if nothing collides at q (n joints, group order, rad or m).
   bool IsFree(std::span<const double> q);
-  /// Index of a configuration in collision among `num` (row-major, num x n), -1 if all are free.
-  /// Which one, if several collide, is the engine's choice; engines may check them in any order or
-  /// at once.
-  int FindCollision(std::span<const double> qs, int num);
   /// free[i] = IsFree(configuration i), for `num` configurations (row-major, num x n).
   void CheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
-  /// Proves whole boxes of configurations free: free[i] is set only if no configuration q with
-  /// |q_j - qs_ij| <= half_widths_ij for every joint j is in collision, as far as the bounds on the
-  /// motion of the geometry tell (so it may stay unset for a box that is free). Widths: row-major,
-  /// num x n, rad or m, >= 0; with all of them 0 it tells what CheckAll tells.
-  void CheckAround(std::span<const double> qs, std::span<const double> half_widths, int num,
-                   std::span<unsigned char> free);
-  /// Checks samples of straight motions: sample k is the configuration start + position * motion
-  /// (n joints, rad or m; `motions`: signed, row-major, one row a motion), and a stretch about it
-  /// is free only if provably no configuration of it collides. At most 64 samples. With
-  /// `stop_at_first` the engine may return once one certain collision is found; the other verdicts
-  /// are then incomplete.
-  SampleVerdicts CheckSamples(std::span<const double> start, std::span<const double> motions,
-                              std::span<const MotionSample> samples, bool stop_at_first);
+  /// Checks samples of a straight motion: sample k is the configuration start + position * motion
+  /// (n joints, signed, rad or m), and a stretch about it is free only if provably no configuration
+  /// of it collides, as far as the bounds on the motion of the geometry tell (so it may count as
+  /// blocked though it is free). At most 64 samples. The engine may return once one certain
+  /// collision is found; the other verdicts are then incomplete.
+  SampleVerdicts CheckSamples(std::span<const double> start, std::span<const double> motion,
+                              std::span<const MotionSample> samples);
   /// Smaller of `at_most` (m, > 0) and the distance of the nearest pair, for `num` configurations;
   /// 0 or less in collision. Pairs of links that can never meet may be left out. An engine may end
   /// at a smaller distance of its own, of at least 0.5 m. May err downwards, by no more than the
   /// engine's tolerance where it is positive.
   void FindDistances(std::span<const double> qs, int num, double at_most,
                      std::span<double> distances);
-  /// Number of configurations that FindCollision handles at once; callers that choose how many to
+  /// Number of configurations or samples that are handled at once; callers that choose how many to
   /// hand over gain by multiples of it.
   virtual int BatchSize() const { return 1; }
   /// A pair of bodies in contact at q, nothing if free; the same q gives the same pair.
@@ -110,9 +98,6 @@ class CollisionChecker {
   /// Bound on the motion of the geometry this engine checks, for the scene set last (attached
   /// objects included).
   const MotionBound& motion_bound() const { return motion_bound_; }
-  /// Configurations checked since construction (by any of the functions above). FindCollision
-  /// counts those up to and including the one it returns.
-  std::int64_t num_checks() const { return num_checks_; }
 
  protected:
   CollisionChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
@@ -121,15 +106,12 @@ class CollisionChecker {
   /// Returns the bound on the motion of its geometry.
   virtual MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) = 0;
   virtual bool DoIsFree(std::span<const double> q) = 0;
-  virtual int DoFindCollision(std::span<const double> qs, int num);
+  /// The default asks DoIsFree.
   virtual void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
-  /// The default asks FindClosest.
-  virtual void DoCheckAround(std::span<const double> qs, std::span<const double> half_widths,
-                             int num, std::span<unsigned char> free);
-  /// The default asks DoIsFree and DoCheckAround.
+  /// The default asks DoIsFree and DoFindClosest.
   virtual SampleVerdicts DoCheckSamples(std::span<const double> start,
-                                        std::span<const double> motions,
-                                        std::span<const MotionSample> samples, bool stop_at_first);
+                                        std::span<const double> motion,
+                                        std::span<const MotionSample> samples);
   /// The default asks DoFindClosest.
   virtual void DoFindDistances(std::span<const double> qs, int num, double at_most,
                                std::span<double> distances);
@@ -143,7 +125,6 @@ class CollisionChecker {
   const PlanningGroup* group_;
   CollisionModel model_;
   MotionBound motion_bound_;
-  std::int64_t num_checks_ = 0;
   bool has_scene_ = false;
 };
 

@@ -121,148 +121,74 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
 
 bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const double> to,
                               bool from_is_free) {
-  RequireSize(to);
-  unsigned char valid = 0;
-  CheckEdges(from, to, 1, {&valid, 1}, from_is_free);
-  return valid != 0;
-}
-
-void EdgeChecker::CheckEdges(std::span<const double> from, std::span<const double> tos, int num,
-                             std::span<unsigned char> valid, bool from_is_free) {
   RequireSize(from);
-  const auto n = static_cast<std::size_t>(space().size());
-  const auto count = static_cast<std::size_t>(std::max(num, 0));
-  if (num < 0 || tos.size() != count * n || valid.size() != count) {
-    throw InputError(fmt::format("edge checker: {} values and room for {} verdicts for {} edges",
-                                 tos.size(), valid.size(), num));
-  }
+  RequireSize(to);
   const Stopwatch stopwatch(num_calls_++ % kTimedCalls == 0 ? &counters_.seconds : nullptr);
-  counters_.edges += num;
-  std::fill(valid.begin(), valid.end(), 0);
-  if (!space().WithinLimits(from)) return;
-  edges_.resize(count);
-  motions_.resize(count * n);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto to = tos.subspan(i * n, n);
-    edges_[i].open = space().WithinLimits(to);
-    valid[i] = edges_[i].open ? 1 : 0;
-    if (!edges_[i].open) {
-      std::fill_n(motions_.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
-      continue;
-    }
-    edges_[i].motion_m = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      const double motion = space().Difference(static_cast<int>(j), from[j], to[j]);
-      motions_[i * n + j] = motion;
-      edges_[i].motion_m += std::abs(motion) * checker_->motion_bound().reach()[j];
-    }
+  ++counters_.edges;
+  if (!space().WithinLimits(from) || !space().WithinLimits(to)) return false;
+  motion_.resize(from.size());
+  double motion_m = 0;
+  for (std::size_t j = 0; j < motion_.size(); ++j) {
+    motion_[j] = space().Difference(static_cast<int>(j), from[j], to[j]);
+    motion_m += std::abs(motion_[j]) * checker_->motion_bound().reach()[j];
   }
-  if (method_ == EdgeCheck::kFixed) {
-    CheckFixed(from, valid, from_is_free);
-  } else {
-    CheckCertified(from, valid);
-  }
+  return method_ == EdgeCheck::kFixed ? PassesFixed(from, motion_m, from_is_free)
+                                      : PassesCertified(from, motion_m);
 }
 
-SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from, bool stop_at_first) {
+SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
   counters_.configurations += static_cast<std::int64_t>(block_.size());
-  return checker_->CheckSamples(from, motions_, block_, stop_at_first);
+  return checker_->CheckSamples(from, motion_, block_);
 }
 
-void EdgeChecker::CheckFixed(std::span<const double> from, std::span<unsigned char> valid,
-                             bool from_is_free) {
-  for (Edge& edge : edges_) {
-    if (!edge.open) continue;
-    edge.num_parts = NumIntervals(edge.motion_m);
-    edge.next_part = 0;
-  }
+bool EdgeChecker::PassesFixed(std::span<const double> from, double motion_m, bool from_is_free) {
+  const std::int64_t num_parts = NumIntervals(motion_m);
   const auto batch = static_cast<std::size_t>(std::min(checker_->BatchSize(), kMaxBlock));
-  const bool alone = edges_.size() == 1;
-  bool start_is_due = !from_is_free;  // one sample serves all edges
-  bool is_first = true;
-  std::size_t turn = 0;
-  // The next edge that has samples left, each in turn; the number of edges if none has.
-  const auto next_edge = [&] {
-    for (std::size_t tried = 0; tried < edges_.size(); ++tried) {
-      const std::size_t edge = turn;
-      turn = turn + 1 == edges_.size() ? 0 : turn + 1;
-      if (edges_[edge].open) return edge;
-    }
-    return edges_.size();
-  };
-  while (true) {
+  std::int64_t part = 0;
+  bool start_is_due = !from_is_free;  // behind the far end
+  while (part >= 0 || start_is_due) {
     block_.clear();
-    while (block_.size() < batch) {
-      if (start_is_due && !is_first) {
-        block_.push_back({0, 0.0});
+    while (block_.size() < batch && (part >= 0 || start_is_due)) {
+      if (part != 0 && start_is_due) {
+        block_.push_back({0});
         start_is_due = false;
         continue;
       }
-      const std::size_t i = next_edge();
-      if (i == edges_.size()) break;
-      Edge& edge = edges_[i];
-      block_.push_back({static_cast<int>(i), SamplePosition(edge.next_part, edge.num_parts)});
-      edge.next_part = NextSample(edge.next_part, edge.num_parts);
-      if (edge.next_part < 0) edge.open = false;
-      is_first = false;
+      block_.push_back({SamplePosition(part, num_parts)});
+      part = NextSample(part, num_parts);
     }
-    if (block_.empty()) return;
-    SampleVerdicts verdicts = CheckBlock(from, alone);
-    for (; verdicts.blocked != 0; verdicts.blocked &= verdicts.blocked - 1) {
-      const MotionSample& sample =
-          block_[static_cast<std::size_t>(std::countr_zero(verdicts.blocked))];
-      if (sample.position == 0) {
-        std::fill(valid.begin(), valid.end(), 0);
-        return;
-      }
-      valid[static_cast<std::size_t>(sample.motion)] = 0;
-      edges_[static_cast<std::size_t>(sample.motion)].open = false;
-    }
+    if (CheckBlock(from).blocked != 0) return false;
   }
+  return true;
 }
 
-void EdgeChecker::CheckCertified(std::span<const double> from, std::span<unsigned char> valid) {
+bool EdgeChecker::PassesCertified(std::span<const double> from, double motion_m) {
   const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
+  // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
+  std::int64_t parts = NumIntervals(motion_m / kFirstStretch);
+  parts = (parts + batch - 1) / batch * batch;
   pending_.clear();
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    Edge& edge = edges_[i];
-    if (!edge.open) continue;
-    // Coarser than the fixed method: in open space few stretches do. One edge alone fills a block.
-    std::int64_t parts = NumIntervals(edge.motion_m / kFirstStretch);
-    if (edges_.size() == 1) parts = (parts + batch - 1) / batch * batch;
+  for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
+    // The sample at the far end of interval `part` stands for the interval.
     const double half_length = 0.5 / static_cast<double>(parts);
-    for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
-      // The sample at the far end of interval `part` stands for the interval.
-      pending_.push_back(
-          {static_cast<int>(i), SamplePosition(part, parts) - half_length, half_length});
-    }
+    pending_.push_back({SamplePosition(part, parts) - half_length, half_length});
   }
-  for (std::size_t next = 0; next < pending_.size();) {
-    block_.clear();
-    while (next < pending_.size() && static_cast<std::int64_t>(block_.size()) < batch) {
-      const MotionSample& stretch = pending_[next++];
-      if (edges_[static_cast<std::size_t>(stretch.motion)].open) block_.push_back(stretch);
-    }
-    if (block_.empty()) return;
-    const SampleVerdicts verdicts = CheckBlock(from, edges_.size() == 1);
+  for (std::size_t next = 0; next < pending_.size(); next += block_.size()) {
+    const auto size = std::min(static_cast<std::size_t>(batch), pending_.size() - next);
+    const auto begin = pending_.begin() + static_cast<std::ptrdiff_t>(next);
+    block_.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
+    const SampleVerdicts verdicts = CheckBlock(from);
+    if (verdicts.certain != 0) return false;
     for (std::uint64_t open = verdicts.blocked; open != 0; open &= open - 1) {
-      const int k = std::countr_zero(open);
-      const MotionSample stretch = block_[static_cast<std::size_t>(k)];
-      Edge& edge = edges_[static_cast<std::size_t>(stretch.motion)];
-      const bool certain = (verdicts.certain >> k & 1) != 0;
-      if (certain || 2 * stretch.half_length * edge.motion_m <= kCertifiedDepth) {
-        valid[static_cast<std::size_t>(stretch.motion)] = 0;
-        edge.open = false;
-        if (edges_.size() == 1) return;
-        continue;
-      }
+      const MotionSample& stretch = block_[static_cast<std::size_t>(std::countr_zero(open))];
+      if (2 * stretch.half_length * motion_m <= kCertifiedDepth) return false;
       const double half_length = stretch.half_length / kCuts;
       for (int cut = 0; cut < kCuts; ++cut) {
-        pending_.push_back(
-            {stretch.motion, stretch.position + (2 * cut + 1 - kCuts) * half_length, half_length});
+        pending_.push_back({stretch.position + (2 * cut + 1 - kCuts) * half_length, half_length});
       }
     }
   }
+  return true;
 }
 
 int EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {

@@ -52,11 +52,6 @@ class EdgeChecker {
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);
-  /// valid[i] = IsValidEdge(from, configuration i of `tos`, from_is_free) for `num` edges out of
-  /// one state (`tos`: row-major, num x n), several of which are checked at once where the engine
-  /// can.
-  void CheckEdges(std::span<const double> from, std::span<const double> tos, int num,
-                  std::span<unsigned char> valid, bool from_is_free = false);
   /// Number of even intervals an edge is divided into by the fixed method (samples - 1); at least
   /// 1.
   int NumIntervals(std::span<const double> from, std::span<const double> to) const;
@@ -64,19 +59,12 @@ class EdgeChecker {
   const Counters& counters() const { return counters_; }
 
  private:
-  /// An edge that is being checked.
-  struct Edge {
-    double motion_m;         ///< By the motion bound.
-    std::int64_t num_parts;  ///< Fixed: intervals.
-    std::int64_t next_part;
-    bool open;  ///< Neither refused nor out of samples.
-  };
-
   void RequireSize(std::span<const double> q) const;
   int NumIntervals(double motion_m) const;
-  void CheckFixed(std::span<const double> from, std::span<unsigned char> valid, bool from_is_free);
-  void CheckCertified(std::span<const double> from, std::span<unsigned char> valid);
-  SampleVerdicts CheckBlock(std::span<const double> from, bool stop_at_first);
+  // Of the edge motion_ out of `from`, on which nothing moves more than motion_m.
+  bool PassesFixed(std::span<const double> from, double motion_m, bool from_is_free);
+  bool PassesCertified(std::span<const double> from, double motion_m);
+  SampleVerdicts CheckBlock(std::span<const double> from);
 
   CollisionChecker* checker_;
   double edge_resolution_m_;
@@ -85,8 +73,7 @@ class EdgeChecker {
   std::int64_t num_calls_ = 0;
 
   // Scratch.
-  std::vector<Edge> edges_;
-  std::vector<double> motions_;        ///< By edge: its joints' signed motions.
+  std::vector<double> motion_;         ///< The edge's signed motion, by joint.
   std::vector<MotionSample> block_;    ///< To be checked at once.
   std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked.
 };

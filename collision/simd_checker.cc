@@ -54,8 +54,7 @@ SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, Collisi
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
   start_.resize(n);
-  exact_q_.resize(n);
-  exact_half_widths_.resize(n);
+  motion_.resize(n);
   for (const JointSpace::Joint& joint : space().joints()) {
     lower_.push_back(joint.continuous ? -kInfinity : joint.lower - JointSpace::kLimitTolerance);
     slides_.push_back(joint.prismatic ? 1 : 0);
@@ -240,14 +239,6 @@ FclChecker& SimdChecker::Exact() {
   return exact_;
 }
 
-bool SimdChecker::Fits(const double* q) const {
-  unsigned outside = 0;
-  for (std::size_t j = 0; j < lower_.size(); ++j) {
-    outside |= static_cast<unsigned>(q[j] < lower_[j]) | static_cast<unsigned>(q[j] > upper_[j]);
-  }
-  return outside == 0;
-}
-
 SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int num) {
   kernels::RowBlock block;
   block.num_joints = space().size();
@@ -259,9 +250,9 @@ SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int nu
   return kernels::PlaceRows(block, q_.data());
 }
 
-template <typename ExactIsFree>
+template <typename Judge>
 BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_widths,
-                                bool stop_at_first, ExactIsFree exact) {
+                                bool stop_at_first, Judge exact) {
   const LaneMask lanes = FirstLanes(num);
   if (always_collides_) return {lanes, lanes, 0};
   // Lanes of no meaning must hold numbers all the same: NaN would be slow, not wrong.
@@ -274,70 +265,33 @@ BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_width
   if (stop_at_first && verdict.certain != 0) return verdict;
   for (LaneMask open = (verdict.doubts & ~verdict.certain) | unfit; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
-    const LaneMask bit = LaneMask{1} << lane;
-    const bool in_collision = !exact(lane, false);
-    if (in_collision) verdict.certain |= bit;
-    if (in_collision || (half_widths != nullptr && !exact(lane, true))) verdict.hits |= bit;
-    if (in_collision && stop_at_first) break;
+    const SampleVerdicts judged = exact(lane);
+    verdict.hits |= static_cast<LaneMask>(judged.blocked) << lane;
+    verdict.certain |= static_cast<LaneMask>(judged.certain) << lane;
+    if (judged.certain != 0 && stop_at_first) break;
   }
   return verdict;
 }
 
-bool SimdChecker::DoIsFree(std::span<const double> q) { return DoFindCollision(q, 1) < 0; }
+SampleVerdicts SimdChecker::ExactVerdict(std::span<const double> q) {
+  const std::uint64_t collides = Exact().IsFree(q) ? 0 : 1;
+  return {collides, collides};
+}
 
-int SimdChecker::DoFindCollision(std::span<const double> qs, int num) {
-  const auto n = static_cast<std::size_t>(space().size());
-  for (int first = 0; first < num; first += kBlock) {
-    const int count = std::min(kBlock, num - first);
-    const auto row = [&](int lane) {
-      return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
-    };
-    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
-    const BlockVerdict verdict = Check(count, unfit, nullptr, true,
-                                       [&](int lane, bool) { return Exact().IsFree(row(lane)); });
-    if (verdict.certain != 0) return first + std::countr_zero(verdict.certain);
-  }
-  return -1;
+bool SimdChecker::DoIsFree(std::span<const double> q) {
+  const LaneMask unfit = SetLanes(q, 1);
+  return Check(1, unfit, nullptr, true, [&](int) { return ExactVerdict(q); }).certain == 0;
 }
 
 void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) {
   const auto n = static_cast<std::size_t>(space().size());
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
-    const auto row = [&](int lane) {
-      return qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
-    };
-    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
-    const BlockVerdict verdict = Check(count, unfit, nullptr, false,
-                                       [&](int lane, bool) { return Exact().IsFree(row(lane)); });
-    for (int lane = 0; lane < count; ++lane) {
-      At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
-    }
-  }
-}
-
-void SimdChecker::DoCheckAround(std::span<const double> qs, std::span<const double> half_widths,
-                                int num, std::span<unsigned char> free) {
-  const auto n = static_cast<std::size_t>(space().size());
-  for (int first = 0; first < num; first += kBlock) {
-    const int count = std::min(kBlock, num - first);
-    const auto row = [&](std::span<const double> values, int lane) {
-      return values.subspan(static_cast<std::size_t>(first + lane) * n, n);
-    };
-    const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
-    for (int lane = 0; lane < count; ++lane) {
-      const auto widths = row(half_widths, lane);
-      for (std::size_t j = 0; j < n; ++j) {
-        half_widths_[j * kBlock + static_cast<std::size_t>(lane)] = static_cast<float>(widths[j]);
-      }
-    }
-    const BlockVerdict verdict =
-        Check(count, unfit, half_widths_.data(), false, [&](int lane, bool around) {
-          unsigned char is_free = 0;
-          if (!around) return Exact().IsFree(row(qs, lane));
-          Exact().CheckAround(row(qs, lane), row(half_widths, lane), 1, {&is_free, 1});
-          return is_free != 0;
-        });
+    const auto rows = qs.subspan(static_cast<std::size_t>(first) * n);
+    const LaneMask unfit = SetLanes(rows, count);
+    const BlockVerdict verdict = Check(count, unfit, nullptr, false, [&](int lane) {
+      return ExactVerdict(rows.subspan(static_cast<std::size_t>(lane) * n, n));
+    });
     for (int lane = 0; lane < count; ++lane) {
       At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
     }
@@ -345,59 +299,42 @@ void SimdChecker::DoCheckAround(std::span<const double> qs, std::span<const doub
 }
 
 SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
-                                           std::span<const double> motions,
-                                           std::span<const MotionSample> samples,
-                                           bool stop_at_first) {
-  const auto n = static_cast<std::size_t>(space().size());
+                                           std::span<const double> motion,
+                                           std::span<const MotionSample> samples) {
+  const std::size_t n = start.size();
   kernels::SampleBlock block;
   block.num_joints = static_cast<int>(n);
   block.start = start_.data();
-  block.motions = motions_.data();
+  block.motion = motion_.data();
   block.slides = slides_.data();
-  block.one_motion = motions.size() == n;
-  for (std::size_t j = 0; j < n; ++j) start_[j] = Reduced(start[j], slides_[j] != 0);
-  motions_.resize(motions.size());
-  block.motions = motions_.data();
-  std::transform(motions.begin(), motions.end(), motions_.begin(),
-                 [](double motion) { return static_cast<float>(motion); });
   // Between ends within the limits everything is.
-  const bool start_fits = Fits(start.data());
-  fits_.resize(motions.size() / n);
-  for (std::size_t i = 0; i < fits_.size(); ++i) {
-    for (std::size_t j = 0; j < n; ++j) exact_q_[j] = start[j] + motions[i * n + j];
-    fits_[i] = start_fits && Fits(exact_q_.data()) ? 1 : 0;
+  bool fits = true;
+  for (std::size_t j = 0; j < n; ++j) {
+    start_[j] = Reduced(start[j], slides_[j] != 0);
+    motion_[j] = static_cast<float>(motion[j]);
+    const double end = start[j] + motion[j];
+    fits = fits && std::min(start[j], end) >= lower_[j] && std::max(start[j], end) <= upper_[j];
   }
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
     const int count = static_cast<int>(std::min<std::size_t>(kBlock, samples.size() - first));
+    const auto lanes = samples.subspan(first, static_cast<std::size_t>(count));
     bool around = false;
-    LaneMask unfit = 0;
     for (int lane = 0; lane < count; ++lane) {
-      const MotionSample& sample = samples[first + static_cast<std::size_t>(lane)];
-      block.motion[lane] = sample.motion;
+      const MotionSample& sample = At(lanes, lane);
       block.position[lane] = static_cast<float>(sample.position);
       block.half_length[lane] = static_cast<float>(sample.half_length);
       around = around || sample.half_length > 0;
-      if (At(fits_, sample.motion) == 0) unfit |= LaneMask{1} << lane;
     }
     kernels::PlaceSamples(block, q_.data(), half_widths_.data());
     const BlockVerdict verdict =
-        Check(count, unfit, around ? half_widths_.data() : nullptr, stop_at_first,
-              [&](int lane, bool stretch) {
-                const MotionSample& sample = samples[first + static_cast<std::size_t>(lane)];
-                for (std::size_t j = 0; j < n; ++j) {
-                  const double motion = motions[static_cast<std::size_t>(sample.motion) * n + j];
-                  exact_q_[j] = start[j] + sample.position * motion;
-                  exact_half_widths_[j] = sample.half_length * std::abs(motion);
-                }
-                if (!stretch) return Exact().IsFree(exact_q_);
-                unsigned char is_free = 0;
-                Exact().CheckAround(exact_q_, exact_half_widths_, 1, {&is_free, 1});
-                return is_free != 0;
+        Check(count, fits ? 0 : FirstLanes(count), around ? half_widths_.data() : nullptr, true,
+              [&](int lane) {
+                return Exact().CheckSamples(start, motion, {&At(lanes, lane), 1});
               });
     verdicts.blocked |= static_cast<std::uint64_t>(verdict.hits) << first;
     verdicts.certain |= static_cast<std::uint64_t>(verdict.certain) << first;
-    if (stop_at_first && verdict.certain != 0) break;
+    if (verdict.certain != 0) break;
   }
   return verdicts;
 }

@@ -43,12 +43,9 @@ class SimdChecker : public CollisionChecker {
  protected:
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
   bool DoIsFree(std::span<const double> q) override;
-  int DoFindCollision(std::span<const double> qs, int num) override;
   void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
-  void DoCheckAround(std::span<const double> qs, std::span<const double> half_widths, int num,
-                     std::span<unsigned char> free) override;
-  SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motions,
-                                std::span<const MotionSample> samples, bool stop_at_first) override;
+  SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
+                                std::span<const MotionSample> samples) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
                        std::span<double> distances) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
@@ -71,11 +68,12 @@ class SimdChecker : public CollisionChecker {
   /// Puts the first `num` configurations into lanes. Returns the lanes that the kernels cannot
   /// judge: what was left out because it cannot be reached is so within the limits only.
   LaneMask SetLanes(std::span<const double> rows, int num);
-  /// Checks the first `num` lanes; `exact(lane)` is the verdict of the FCL engine, asked for lanes
-  /// in `unfit` and where there are doubts.
-  template <typename ExactIsFree>
+  /// Checks the first `num` lanes; `exact(lane)` are the verdicts of the FCL engine (in bit 0),
+  /// asked for lanes in `unfit` and where there are doubts.
+  template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
-                              ExactIsFree exact);
+                              Judge exact);
+  SampleVerdicts ExactVerdict(std::span<const double> q);
 
   // Of the held positions.
   std::vector<double> held_;  ///< Full positions, the group's as 0, that the following are of.
@@ -105,13 +103,10 @@ class SimdChecker : public CollisionChecker {
   // Of the block at hand, [joint][kBlock].
   std::vector<float> q_;
   std::vector<float> half_widths_;
-  std::vector<float> start_, motions_;  ///< Of samples.
+  std::vector<float> start_, motion_;  ///< Of samples.
   /// Of the joints, kLimitTolerance added; infinite for continuous ones.
   std::vector<double> lower_, upper_;
   std::vector<unsigned char> slides_;  ///< By joint: prismatic.
-  std::vector<unsigned char> fits_;    ///< By motion: whether it ends within the limits.
-  std::vector<double> exact_q_;
-  std::vector<double> exact_half_widths_;
 };
 
 }  // namespace planbench

@@ -3,19 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include "common/error.h"
 
 namespace planbench {
 namespace {
-
-constexpr int kMaxBatch = 1024;
-constexpr std::array<std::string_view, 3> kClearanceNames = {"ignore", "prove", "adapt"};
 
 void ApplyByJoint(const YamlNode& node, const std::string& key,
                   std::map<std::string, double>* values) {
@@ -58,9 +52,8 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "tip_guide", "batch", "clearance",
-                  "verify_paths", "cost", "epsilon_initial", "epsilon_decrement", "epsilon_final",
-                  "memory_limit_mb"});
+                  "two_way", "crowding", "crowding_joints", "tip_guide", "verify_paths", "cost",
+                  "epsilon_initial", "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -76,19 +69,6 @@ void AraSettings::Apply(const YamlNode& node) {
     crowding_joints = joints->Strings();
   }
   tip_guide = NonNegative(node, "tip_guide", tip_guide);
-  if (const std::optional<YamlNode> value = node.Find("batch")) {
-    const long long number = value->Int();
-    if (number < 1 || number > kMaxBatch) value->Fail(fmt::format("must be 1 to {}", kMaxBatch));
-    batch = static_cast<int>(number);
-  }
-  if (const std::optional<YamlNode> value = node.Find("clearance")) {
-    const std::string name = value->String();
-    const auto* const found = std::find(kClearanceNames.begin(), kClearanceNames.end(), name);
-    if (found == kClearanceNames.end()) {
-      value->Fail("expected ignore, prove or adapt, found '" + name + "'");
-    }
-    clearance = static_cast<ClearanceUse>(found - kClearanceNames.begin());
-  }
   verify_paths = node.BoolOr("verify_paths", verify_paths);
   if (const std::optional<YamlNode> value = node.Find("cost")) {
     const std::string name = value->String();
@@ -124,8 +104,6 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
-      {"batch", fmt::format("{}", batch)},
-      {"clearance", std::string(kClearanceNames.at(static_cast<std::size_t>(clearance)))},
       {"verify_paths", fmt::format("{}", verify_paths)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},

@@ -17,15 +17,6 @@ enum class MoveCost {
   kUniform,   ///< 1, whatever its length; the motion to the goal its weighted length, at least 1.
 };
 
-/// What the clearance of a state is used for: CollisionChecker::CheckAround proves, in one call for
-/// a state, which joints can make their longest single move without a collision (a bur of free
-/// configuration space: Lacevic, Osmankovic, Ademovic, "Burs of free C-space", ICRA 2016).
-enum class ClearanceUse {
-  kIgnore,
-  kProve,  ///< Moves so proven are not checked.
-  kAdapt,  ///< That, and a joint without the proof also gets its short moves.
-};
-
 /// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
 struct AraSettings {
   /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
@@ -58,10 +49,6 @@ struct AraSettings {
   /// (TipDistance) adds to the heuristic in the order of the search, rad/m; >= 0. Does not touch
   /// the reported bound.
   double tip_guide = 3;
-  /// Edges out of a state that are checked in one call: the one that is asked for and the most
-  /// promising others; >= 1.
-  int batch = 1;
-  ClearanceUse clearance = ClearanceUse::kIgnore;
   /// Checks paths at half the edge resolution before they count. (Certified edges need no more.)
   bool verify_paths = true;
   MoveCost cost = MoveCost::kDistance;

@@ -44,8 +44,6 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
-  options.batch = settings.batch;
-  options.clearance = settings.clearance;
   options.verify_paths = settings.verify_paths;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
@@ -129,13 +127,8 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
     }
     std::vector<int> opposite = row;
     for (int& cells : opposite) cells = -cells;
-    const auto is_moved = [](int cells) { return cells != 0; };
-    const int only_joint =
-        std::count_if(row.begin(), row.end(), is_moved) == 1
-            ? static_cast<int>(std::find_if(row.begin(), row.end(), is_moved) - row.begin())
-            : -1;
-    moves_.push_back({row, std::sqrt(sum), are_long, only_joint});
-    moves_.push_back({std::move(opposite), std::sqrt(sum), are_long, only_joint});
+    moves_.push_back({row, std::sqrt(sum), are_long});
+    moves_.push_back({std::move(opposite), std::sqrt(sum), are_long});
   }
 }
 
@@ -183,9 +176,9 @@ bool ManipulationGraph::MoveFrom(StateId source, const Move& move) {
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
   // Cells of different hashes may share a count: it only guides.
   const double crowd =
-      visits_.empty() || !counting_ ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
+      visits_.empty() ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
   double detour = 0;
-  if (tip_distance_ && counting_) {
+  if (tip_distance_) {
     SelectSource(state);
     detour = unit_ * tip_weight_ * (*tip_distance_)(from_);
   }
@@ -197,7 +190,6 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     candidates->push_back({CostToGoal(unit_ * distance), 0, 0, kToNominalGoal});
   }
 
-  if (options_.clearance != ClearanceUse::kIgnore) FindFreeMoves(state);
   bool use_long = true;
   bool use_short = true;
   if (moves_depend_on_place_) {
@@ -209,47 +201,11 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   }
   for (std::size_t m = 0; m < moves_.size(); ++m) {
     const Move& move = moves_[m];
-    const bool offered = move.is_long ? use_long : use_short || IsShortMoveNearObstacle(move);
-    if (!offered || !MoveFrom(state, move)) continue;
+    if (!(move.is_long ? use_long : use_short) || !MoveFrom(state, move)) continue;
     const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
     candidates->push_back({move.cost, heuristic, static_cast<float>(crowd * (heuristic + detour)),
                            static_cast<std::uint16_t>(kFirstMove + m)});
   }
-}
-
-// Which joints can make their longest single move either way without a collision, by the clearance
-// of the state alone: free_joints_. Their moves are remembered as free.
-void ManipulationGraph::FindFreeMoves(StateId state) {
-  SelectSource(state);
-  const std::size_t n = from_.size();
-  if (axis_boxes_.empty()) {
-    axis_boxes_.assign(n * n, 0.0);
-    for (const Move& move : moves_) {
-      if (move.only_joint < 0) continue;
-      const auto j = static_cast<std::size_t>(move.only_joint);
-      double& half_width = axis_boxes_[j * n + j];
-      half_width = std::max(half_width, std::abs(move.cells[j]) * lattice_.step(move.only_joint));
-    }
-    free_joints_.resize(n);
-    copies_.resize(n * n);
-  }
-  for (std::size_t j = 0; j < n; ++j) {
-    std::copy(from_.begin(), from_.end(), copies_.begin() + static_cast<std::ptrdiff_t>(j * n));
-  }
-  edges_->checker().CheckAround(copies_, axis_boxes_, static_cast<int>(n), free_joints_);
-  for (std::size_t m = 0; m < moves_.size(); ++m) {
-    if (moves_[m].only_joint < 0) continue;
-    const auto action = static_cast<std::uint16_t>(kFirstMove + m);
-    if (free_joints_[static_cast<std::size_t>(moves_[m].only_joint)] != 0 &&
-        Recall(state, action) == Knowledge::kUnknown) {
-      Remember(state, action, Knowledge::kVerified);
-    }
-  }
-}
-
-bool ManipulationGraph::IsShortMoveNearObstacle(const Move& move) const {
-  return options_.clearance == ClearanceUse::kAdapt && !move.is_long && move.only_joint >= 0 &&
-         free_joints_[static_cast<std::size_t>(move.only_joint)] == 0;
 }
 
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
@@ -261,40 +217,11 @@ StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
 bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
   const Knowledge known = Recall(source, action);
   if (known != Knowledge::kUnknown) return known != Knowledge::kBlocked;
-  batch_.assign(1, {0, action});
-  if (options_.batch > 1) AddSiblings(source, action);
-  const std::size_t n = to_.size();
-  batch_ends_.resize(batch_.size() * n);
-  batch_valid_.resize(batch_.size());
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    if (batch_[i].action < kFirstMove) ++num_goal_connections_tried_;
-    SelectEdge(source, batch_[i].action);
-    std::copy(to_.begin(), to_.end(), batch_ends_.begin() + static_cast<std::ptrdiff_t>(i * n));
-  }
-  edges_->CheckEdges(from_, batch_ends_, static_cast<int>(batch_.size()), batch_valid_,
-                     /*from_is_free=*/true);
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    Remember(source, batch_[i].action, batch_valid_[i] ? Knowledge::kFree : Knowledge::kBlocked);
-  }
-  return batch_valid_.front() != 0;
-}
-
-// Adds to batch_ the most promising other moves out of a state that have not been checked.
-void ManipulationGraph::AddSiblings(StateId source, std::uint16_t action) {
-  if (action < kFirstMove) return;  // it is long enough to fill a block of the engine
-  candidates_.clear();
-  const bool count = std::exchange(counting_, false);
-  CandidateEdges(source, &candidates_);
-  counting_ = count;
-  for (const CandidateEdge& edge : candidates_) {
-    if (edge.action == action || edge.action < kFirstMove) continue;
-    if (Recall(source, edge.action) != Knowledge::kUnknown) continue;
-    batch_.push_back({edge.target_heuristic, edge.action});
-  }
-  const std::size_t size = std::min(batch_.size(), static_cast<std::size_t>(options_.batch));
-  std::partial_sort(batch_.begin() + 1, batch_.begin() + static_cast<std::ptrdiff_t>(size),
-                    batch_.end());
-  batch_.resize(size);
+  if (action < kFirstMove) ++num_goal_connections_tried_;
+  SelectEdge(source, action);
+  const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
+  Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
+  return valid;
 }
 
 bool ManipulationGraph::Verify(StateId source, std::uint16_t action) {

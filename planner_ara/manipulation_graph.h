@@ -27,8 +27,6 @@ struct ManipulationGraphOptions {
   double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
-  int batch = 1;  ///< See AraSettings::batch.
-  ClearanceUse clearance = ClearanceUse::kIgnore;
   bool verify_paths = true;          ///< See AraSettings::verify_paths.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
@@ -92,7 +90,6 @@ class ManipulationGraph {
     std::vector<int> cells;  // by joint
     double cost;
     bool is_long;
-    int only_joint;  // that it moves; -1 if there are several
   };
 
   void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
@@ -100,11 +97,8 @@ class ManipulationGraph {
                                 std::span<const Lattice::Coordinate> coordinates);
   void GoalConfiguration(std::uint16_t action, std::span<const double> from,
                          std::span<double> to) const;
-  void FindFreeMoves(StateId state);
-  bool IsShortMoveNearObstacle(const Move& move) const;
   void SelectSource(StateId state);
   bool MoveFrom(StateId source, const Move& move);
-  void AddSiblings(StateId source, std::uint16_t action);
   double CostToGoal(double distance) const;
   void SelectEdge(StateId source, std::uint16_t action);
   Knowledge Recall(StateId source, std::uint16_t action);
@@ -131,23 +125,6 @@ class ManipulationGraph {
   std::unique_ptr<TipDistance> tip_distance_;
   double tip_weight_ = 0;
   std::int64_t num_goal_connections_tried_ = 0;
-
-  // Scratch of FindFreeMoves: half widths of a box along each joint alone, the state n times.
-  std::vector<double> axis_boxes_;
-  std::vector<double> copies_;
-  std::vector<unsigned char> free_joints_;
-
-  // Scratch of IsValidEdge.
-  struct Sibling {
-    double heuristic;
-    std::uint16_t action;
-    auto operator<=>(const Sibling&) const = default;
-  };
-  std::vector<Sibling> batch_;
-  std::vector<double> batch_ends_;
-  std::vector<unsigned char> batch_valid_;
-  std::vector<CandidateEdge> candidates_;
-  bool counting_ = true;  // whether CandidateEdges counts a visit
 
   // The state whose edges are at hand.
   StateId source_ = kGoal;

@@ -684,16 +684,12 @@ LaneMask PlaceRowsImpl(const RowBlock& block, float* q) {
 
 void PlaceSamplesImpl(const SampleBlock& block, float* q, float* half_widths) {
   const Lanes d;
-  const hn::RebindToSigned<Lanes> di;
   const int width = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < kBlock; lane += width) {
     const V position = hn::LoadU(d, block.position + lane);
     const V half_length = hn::LoadU(d, block.half_length + lane);
-    const auto row = hn::Mul(hn::LoadU(di, block.motion + lane), hn::Set(di, block.num_joints));
     for (int j = 0; j < block.num_joints; ++j) {
-      const V motion = block.one_motion
-                           ? hn::Set(d, block.motions[j])
-                           : hn::GatherIndex(d, block.motions, hn::Add(row, hn::Set(di, j)));
+      const V motion = hn::Set(d, block.motion[j]);
       V value = hn::MulAdd(position, motion, hn::Set(d, block.start[j]));
       if (block.slides[j] == 0) {
         const V turns = hn::Round(hn::Mul(value, hn::Set(d, 0.15915494f)));

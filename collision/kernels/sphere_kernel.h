@@ -171,17 +171,15 @@ struct RowBlock {
 /// Writes them by [joint][kBlock]; returns the lanes of those outside of the limits.
 LaneMask PlaceRows(const RowBlock& block, float* q);
 
-/// Configurations on straight motions, as BlockQuery takes them.
+/// Configurations on a straight motion, as BlockQuery takes them.
 struct SampleBlock {
   int num_joints = 0;
   const float* start = nullptr;          ///< By joint, rad or m.
-  const float* motions = nullptr;        ///< One motion: by joint; several: [motion][joint].
+  const float* motion = nullptr;         ///< By joint.
   const std::uint8_t* slides = nullptr;  ///< By joint: prismatic; others are brought within +-pi.
-  /// By lane: index of the motion, fraction of it, half the length of the stretch about it.
-  std::int32_t motion[kBlock] = {};
+  /// By lane: fraction of the motion, half the length of the stretch about it.
   float position[kBlock] = {};
   float half_length[kBlock] = {};
-  bool one_motion = false;  ///< All lanes are of motion 0.
 };
 /// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock].
 void PlaceSamples(const SampleBlock& block, float* q, float* half_widths);

@@ -231,8 +231,7 @@ TEST(EdgeCheckerTest, Counts) {
   checker.collides = [](std::span<const double> q) { return q[0] == 0.25; };
   EXPECT_FALSE(edges.IsValidEdge(from, to));
   EXPECT_EQ(edges.counters().configurations, 1 + 9 + 8 + 4);
-  EXPECT_GE(edges.counters().seconds, 0);
-  EXPECT_EQ(checker.num_checks(), edges.counters().configurations);
+  EXPECT_EQ(static_cast<std::int64_t>(checker.asked.size()), edges.counters().configurations);
 }
 
 TEST(EdgeCheckerTest, ChecksStatesTogetherAsOneByOne) {

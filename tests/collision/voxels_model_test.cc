@@ -87,7 +87,7 @@ TEST(VoxelsModelTest, WithoutAGridOfItsOwnTheRobotIsCovered) {
   EXPECT_GT(num_blocked, 20);
 }
 
-TEST(VoxelsModelTest, ProvesBoxesOfConfigurations) {
+TEST(VoxelsModelTest, ProvesStretchesOfMotions) {
   const Robot arm = MakeTestArm();
   const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
   SimdChecker checker(arm, arm.groups.front(), CollisionModel::kVoxels);
@@ -98,15 +98,15 @@ TEST(VoxelsModelTest, ProvesBoxesOfConfigurations) {
   int num_proven = 0;
   for (int i = 0; i < 300; ++i) {
     const auto q = RandomConfiguration(space, &generator);
-    const std::vector<double> widths(q.size(), 0.02);
-    unsigned char free = 0;
-    checker.CheckAround(q, widths, 1, {&free, 1});
-    if (free == 0) continue;
+    std::vector<double> motion(q.size());
+    for (double& value : motion) value = 0.04 * unit(generator);
+    const MotionSample stretch{0.5, 0.5};
+    if (checker.CheckSamples(q, motion, {&stretch, 1}).blocked != 0) continue;
     ++num_proven;
-    for (int k = 0; k < 20; ++k) {
-      std::vector<double> near = q;
-      for (std::size_t j = 0; j < q.size(); ++j) near[j] += widths[j] * unit(generator);
-      EXPECT_TRUE(checker.IsFree(near));
+    for (int k = 0; k <= 20; ++k) {
+      std::vector<double> on_it = q;
+      for (std::size_t j = 0; j < q.size(); ++j) on_it[j] += k / 20.0 * motion[j];
+      EXPECT_TRUE(checker.IsFree(on_it));
     }
   }
   EXPECT_GT(num_proven, 20);

@@ -26,8 +26,6 @@ long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
 tip_guide: 1.5
-batch: 4
-clearance: adapt
 verify_paths: false
 crowding: 0.3
 crowding_joints: [lift]
@@ -47,8 +45,6 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
   EXPECT_EQ(settings.tip_guide, 1.5);
-  EXPECT_EQ(settings.batch, 4);
-  EXPECT_EQ(settings.clearance, ClearanceUse::kAdapt);
   EXPECT_FALSE(settings.verify_paths);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
@@ -122,8 +118,6 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"crowding: -0.1", {"ara.yaml:1: crowding:", "negative"}},
       {"crowding_joints: lift", {"ara.yaml:1: crowding_joints:", "sequence"}},
       {"tip_guide: -3", {"ara.yaml:1: tip_guide:", "negative"}},
-      {"batch: 0", {"ara.yaml:1: batch:", "1 to"}},
-      {"clearance: some", {"ara.yaml:1: clearance:", "ignore, prove or adapt", "some"}},
       {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
       {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
       {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},
