@@ -1,6 +1,6 @@
 #include "collision/collision_checker.h"
-#include "collision/fcl_checker.h"
-#include "collision/simd_checker.h"
+#include "collision/fcl/fcl_checker.h"
+#include "collision/simd/simd_checker.h"
 
 namespace planbench {
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "collision/voxel_grid.h"
+#include "collision/voxels/voxel_grid.h"
 #include "robot_model/group_kinematics.h"
 #include "scene/scene.h"
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "collision/fcl_shape.h"
+#include "collision/fcl/fcl_shape.h"
 #include "scene/pose.h"
 
 namespace planbench {

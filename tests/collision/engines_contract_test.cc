@@ -1,5 +1,5 @@
-#include "collision/fcl_checker.h"
-#include "collision/simd_checker.h"
+#include "collision/fcl/fcl_checker.h"
+#include "collision/simd/simd_checker.h"
 #include "tests/contract/collision_checker_contract.h"
 
 namespace planbench {
@@ -9,8 +9,8 @@ INSTANTIATE_TEST_SUITE_P(
     Engines, CollisionCheckerContract,
     testing::Values(CollisionEngine{"fcl",
                                     [](const Robot& robot, const PlanningGroup& group) {
-                                      return std::make_unique<FclChecker>(
-                                          robot, group, CollisionModel::kSpheres);
+                                      return std::make_unique<FclChecker>(robot, group,
+                                                                          CollisionModel::kSpheres);
                                     }},
                     CollisionEngine{"simd",
                                     [](const Robot& robot, const PlanningGroup& group) {

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "collision/simd_checker.h"
+#include "collision/simd/simd_checker.h"
 #include "robot_model/robot_folder.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/fcl_shape.h"
+#include "collision/fcl/fcl_shape.h"
 #include "tests/problem_generator/generator_support.h"
 
 namespace planbench {

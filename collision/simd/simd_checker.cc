@@ -1,4 +1,4 @@
-#include "collision/simd_checker.h"
+#include "collision/simd/simd_checker.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "collision/ball_tree.h"
 #include "collision/shape_check.h"
+#include "collision/simd/ball_tree.h"
 
 namespace planbench {
 namespace {

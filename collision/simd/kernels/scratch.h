@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/kernels/sphere_kernel.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 
 namespace planbench::kernels {
 

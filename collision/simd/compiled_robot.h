@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "collision/kernels/sphere_kernel.h"
 #include "collision/rigid_bodies.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 #include "robot_model/robot_folder.h"
 
 namespace planbench {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "collision/edge_checker.h"
-#include "collision/fcl_checker.h"
-#include "collision/simd_checker.h"
+#include "collision/fcl/fcl_checker.h"
+#include "collision/simd/simd_checker.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"

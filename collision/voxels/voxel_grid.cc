@@ -1,4 +1,4 @@
-#include "collision/voxel_grid.h"
+#include "collision/voxels/voxel_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "collision/ball_tree.h"
+#include "collision/simd/ball_tree.h"
 
 #include <algorithm>
 #include <cmath>

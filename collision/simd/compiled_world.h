@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "collision/compiled_robot.h"
-#include "collision/kernels/sphere_kernel.h"
 #include "collision/pair_rules.h"
+#include "collision/simd/compiled_robot.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 #include "scene/scene.h"
 
 namespace planbench {

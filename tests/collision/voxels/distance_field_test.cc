@@ -1,4 +1,4 @@
-#include "collision/distance_field.h"
+#include "collision/voxels/distance_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "collision/kernels/sphere_kernel.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,13 +6,13 @@
 // Vectors are members of a struct here, which instruction sets of unknown vector length refuse.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "collision/kernels/sphere_kernel.cc"
+#define HWY_TARGET_INCLUDE "collision/simd/kernels/sphere_kernel.cc"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 #include <hwy/highway.h>
 
-#include "collision/kernels/math-inl.h"
-#include "collision/kernels/scratch.h"
-#include "collision/kernels/solids-inl.h"
+#include "collision/simd/kernels/math-inl.h"
+#include "collision/simd/kernels/scratch.h"
+#include "collision/simd/kernels/solids-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {

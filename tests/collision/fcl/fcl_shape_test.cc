@@ -1,4 +1,4 @@
-#include "collision/fcl_shape.h"
+#include "collision/fcl/fcl_shape.h"
 
 #include <gtest/gtest.h>
 

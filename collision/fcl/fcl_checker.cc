@@ -1,4 +1,4 @@
-#include "collision/fcl_checker.h"
+#include "collision/fcl/fcl_checker.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
-#include "collision/compiled_world.h"
+#include "collision/simd/compiled_world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "collision/ball_tree.h"
 #include "collision/shape_check.h"
+#include "collision/simd/ball_tree.h"
 
 namespace planbench {
 namespace {

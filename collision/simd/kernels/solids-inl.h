@@ -8,7 +8,7 @@
 
 #include <hwy/highway.h>
 
-#include "collision/kernels/sphere_kernel.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/voxel_grid.h"
+#include "collision/voxels/voxel_grid.h"
 
 namespace planbench {
 

@@ -1,4 +1,4 @@
-#include "collision/compiled_robot.h"
+#include "collision/simd/compiled_robot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "collision/ball_tree.h"
+#include "collision/simd/ball_tree.h"
 #include "robot_model/motion_bound.h"
 
 namespace planbench {

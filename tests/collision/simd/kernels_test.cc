@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "collision/ball_tree.h"
-#include "collision/kernels/sphere_kernel.h"
-#include "collision/simd_checker.h"
+#include "collision/simd/ball_tree.h"
+#include "collision/simd/kernels/sphere_kernel.h"
+#include "collision/simd/simd_checker.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 

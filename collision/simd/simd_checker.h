@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
-#include "collision/compiled_robot.h"
-#include "collision/compiled_world.h"
-#include "collision/distance_field.h"
-#include "collision/fcl_checker.h"
+#include "collision/fcl/fcl_checker.h"
 #include "collision/rigid_bodies.h"
+#include "collision/simd/compiled_robot.h"
+#include "collision/simd/compiled_world.h"
+#include "collision/voxels/distance_field.h"
 
 namespace planbench {
 

@@ -1,4 +1,4 @@
-#include "collision/sphere_tree.h"
+#include "collision/fcl/sphere_tree.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

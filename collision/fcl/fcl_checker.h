@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
-#include "collision/fcl_shape.h"
+#include "collision/fcl/fcl_shape.h"
+#include "collision/fcl/sphere_tree.h"
 #include "collision/rigid_bodies.h"
-#include "collision/sphere_tree.h"
 
 namespace planbench {
 
