@@ -68,8 +68,8 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
       std::string heard;
       for (const NodeStatusMessage& node : registry_.Live()) {
         if (node.kind == NodeKind::kDriver) continue;
-        heard += (heard.empty() ? "" : ", ") + node.name + " (" +
-                 std::string(NodeKindName(node.kind)) + ")";
+        heard +=
+            (heard.empty() ? "" : ", ") + node.name + " (" + std::string(EnumName(node.kind)) + ")";
       }
       throw InputError(fmt::format("not on the bus within {} s: {}; heard: {}",
                                    options_.discovery_timeout_s, missing,
@@ -117,7 +117,7 @@ void Driver::CheckPlanners(const ProblemSetsMessage& served) {
           "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
           name, planner->robot_name, planner->robot_id, served.robot_name, served.robot_id));
     }
-    const std::string model(CollisionModelName(options_.collision_model));
+    const std::string model(EnumName(options_.collision_model));
     const auto& models = planner->collision_models;
     if (std::find(models.begin(), models.end(), model) == models.end()) {
       throw InputError(

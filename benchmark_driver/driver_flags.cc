@@ -79,7 +79,7 @@ void DriverFlags::AddTo(CLI::App* app) {
   app->add_option("--seed", options_.seed, "seed of the first trial")
       ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
       ->capture_default_str();
-  app->add_option("--collision-model", collision_model_, "spheres, voxels or meshes")
+  app->add_option("--collision-model", collision_model_, EnumChoices<CollisionModel>())
       ->capture_default_str();
   app->add_option(
       "--edge-resolution", options_.edge_resolution_m,
@@ -142,15 +142,15 @@ DriverOptions DriverFlags::Parse() const {
   }
   if (directions_ == "both") {
     options.directions = {Direction::kForward, Direction::kBackward};
-  } else if (const auto direction = ParseDirection(directions_)) {
+  } else if (const auto direction = ParseEnum<Direction>(directions_)) {
     options.directions = {*direction};
   } else {
     throw InputError("--directions " + directions_ + ": expected forward, backward or both");
   }
-  const auto model = ParseCollisionModel(collision_model_);
+  const auto model = ParseEnum<CollisionModel>(collision_model_);
   if (!model) {
-    throw InputError("--collision-model " + collision_model_ +
-                     ": expected spheres, voxels or meshes");
+    throw InputError("--collision-model " + collision_model_ + ": expected " +
+                     EnumChoices<CollisionModel>());
   }
   options.collision_model = *model;
   const auto require_positive = [](double value, const char* flag) {
@@ -170,9 +170,9 @@ DriverOptions DriverFlags::Parse() const {
     require_positive(options.edge_resolution_m, "--edge-resolution");
   }
   if (!edge_check_.empty()) {
-    options.edge_check = ParseEdgeCheck(edge_check_);
+    options.edge_check = ParseEnum<EdgeCheck>(edge_check_);
     if (!options.edge_check) {
-      throw InputError("--edge-check " + edge_check_ + ": expected fixed or certified");
+      throw InputError("--edge-check " + edge_check_ + ": expected " + EnumChoices<EdgeCheck>());
     }
   }
   if (options.referee_step_m != 0) require_positive(options.referee_step_m, "--referee-step");

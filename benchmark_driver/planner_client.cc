@@ -107,7 +107,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
       break;
     }
     if (ack_) {
-      using Verdict = PlanAckMessage::Verdict;
+      using Verdict = PlanAckVerdict;
       if (ack_->verdict == Verdict::kRefused) {
         answer.outcome = Outcome::kRefused;
         answer.message = ack_->message;

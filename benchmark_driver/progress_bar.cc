@@ -27,8 +27,7 @@ ProgressBar::~ProgressBar() { Show(true); }
 
 void ProgressBar::Count(const RunRecordMessage& record) {
   ++num_done_;
-  Tally& tally =
-      tallies_[record.planner + " " + std::string(DirectionName(record.request.direction))];
+  Tally& tally = tallies_[record.planner + " " + std::string(EnumName(record.request.direction))];
   ++tally.done;
   tally.solved += record.status == PlanStatus::kSolved;
 }

@@ -29,7 +29,7 @@ void RequireEmptyBus(Bus* bus) {
   registry.WaitUntil(
       [&] {
         for (const NodeStatusMessage& node : registry.Live()) {
-          heard = fmt::format("{} '{}' (host {}, pid {})", NodeKindName(node.kind), node.name,
+          heard = fmt::format("{} '{}' (host {}, pid {})", EnumName(node.kind), node.name,
                               node.host, node.pid);
         }
         return !heard.empty();

@@ -61,7 +61,7 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
             schedule.push_back({planner, set->name, index, direction, trial,
                                 options.seed + static_cast<std::uint64_t>(trial) - 1,
                                 fmt::format("{}/{}/{}/{}/{}/{}", run_id, set->name, index, planner,
-                                            DirectionName(direction), trial)});
+                                            EnumName(direction), trial)});
           }
         }
       }

@@ -311,11 +311,11 @@ int Main(int argc, char** argv) {
   app.add_option("--spheres", num_spheres, "Reduce the robot's spheres to this many");
   CLI11_PARSE(app, argc, argv);
 
-  const auto model = ParseCollisionModel(model_name);
+  const auto model = ParseEnum<CollisionModel>(model_name);
   if (!model) throw InputError(fmt::format("--model: unknown collision model '{}'", model_name));
   Workload work = Prepare(robot, problems, index);
   if (num_spheres > 0) ReduceSpheres(&work.robot, num_spheres);
-  work.edge_check = *ParseEdgeCheck(edge_check);
+  work.edge_check = *ParseEnum<EdgeCheck>(edge_check);
   AddConfigurations(&work, *model, engine == "exact");
   benchmark::AddCustomContext("problem", fmt::format("{} {}", problems, index));
   benchmark::AddCustomContext("engine", std::string(work.checker->EngineName()));

@@ -101,8 +101,8 @@ int Main(int argc, char** argv) {
   }
   for (int m = 0; m < 2; ++m) {
     fmt::print("{:9} accepted {:8}  colliding when rechecked {:6} ({:.4f} %)  deepest {:.2f} mm\n",
-               EdgeCheckName(m == 0 ? EdgeCheck::kCertified : EdgeCheck::kFixed),
-               tallies[m].accepted, tallies[m].colliding,
+               EnumName(m == 0 ? EdgeCheck::kCertified : EdgeCheck::kFixed), tallies[m].accepted,
+               tallies[m].colliding,
                100.0 * static_cast<double>(tallies[m].colliding) /
                    static_cast<double>(tallies[m].accepted),
                1000 * tallies[m].deepest_m);

@@ -131,7 +131,7 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     request.seed = flags.seed;
     request.collision_model = model;
     request.edge_resolution_m = flags.edge_resolution_m;
-    request.edge_check = ParseEdgeCheck(flags.edge_check);
+    request.edge_check = ParseEnum<EdgeCheck>(flags.edge_check);
     request.anytime = flags.anytime;
     request.simplify = flags.simplify;
     Run run{files.index, planner->Plan(request, problem.scene, nullptr), false, false};
@@ -240,7 +240,7 @@ void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& dir
   for (const Run& run : runs) {
     const PlanResult& result = run.result;
     *csv << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{},{},{:.6g},{:.6g}", set, direction,
-                        run.index, PlanStatusName(result.status), run.referee_valid ? 1 : 0,
+                        run.index, EnumName(result.status), run.referee_valid ? 1 : 0,
                         1e3 * result.planning_time_s, 1e3 * result.phases.collision_s,
                         result.path.size(), result.progress.size(), result.epsilon, result.cost);
     for (const auto& [name, value] : result.counters) *csv << fmt::format(",{}={}", name, value);
@@ -280,7 +280,7 @@ int Main(int argc, char** argv) {
   app.add_option("--csv", flags.csv, "File for a line a run");
   CLI11_PARSE(app, argc, argv);
 
-  const std::optional<CollisionModel> model = ParseCollisionModel(flags.model);
+  const std::optional<CollisionModel> model = ParseEnum<CollisionModel>(flags.model);
   if (!model) throw InputError("--model: unknown collision model '" + flags.model + "'");
   const Robot robot = LoadRobot(flags.robot);
   const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);

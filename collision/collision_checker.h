@@ -131,9 +131,8 @@ class CollisionChecker {
 /// The fastest engine for a model. A further engine has a folder of its own, derives from
 /// CollisionChecker, takes the pairs to check from PairRules (pair_rules.h) and the poses from
 /// RigidBodies (rigid_bodies.h), is instantiated in the contract suite
-/// (tests/collision/engines_contract_test.cc), and is returned from here for the model it serves,
-/// its name standing in AvailableCollisionModels() if the model is new. Throws InputError if it is
-/// not available, or if the robot lacks the geometry (spheres or mesh files).
+/// (tests/collision/engines_contract_test.cc), and is returned from here for the model it serves.
+/// Throws InputError if the robot lacks the geometry (spheres or mesh files).
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model);

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "common/enum_names.h"
 
 namespace planbench {
 
@@ -13,11 +10,9 @@ enum class CollisionModel {
   kVoxels,   ///< Robot spheres against a Euclidean distance field of the scene.
   kMeshes,   ///< Robot meshes against exact primitives and meshes.
 };
-
-/// "spheres", "voxels", "meshes".
-std::string_view CollisionModelName(CollisionModel model);
-std::optional<CollisionModel> ParseCollisionModel(std::string_view name);
-/// The models MakeCollisionChecker can build.
-const std::vector<CollisionModel>& AvailableCollisionModels();
+template <>
+struct EnumNames<CollisionModel> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"spheres", "voxels", "meshes"});
+};
 
 }  // namespace planbench

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/enum_names.h"
+
 namespace planbench {
 
 /// A YAML node that knows where it stands. Every access is checked, and every failure throws
@@ -48,6 +50,13 @@ class YamlNode {
   long long Int() const;          ///< A decimal integer.
   bool Bool() const;
   std::string String() const;
+  template <typename Value>  ///< One of the names of an enum (enum_names.h).
+  Value Enum() const {
+    const std::string name = String();
+    const std::optional<Value> value = ParseEnum<Value>(name);
+    if (!value) Fail("expected " + EnumChoices<Value>() + ", found '" + name + "'");
+    return *value;
+  }
   std::vector<double> Doubles() const;                   ///< A sequence of finite numbers.
   std::vector<double> Doubles(int expected_size) const;  ///< The same, of a given length.
   std::vector<std::string> Strings() const;

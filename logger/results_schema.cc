@@ -76,9 +76,9 @@ CREATE TABLE experiment_sessions (
 
 std::string ResultsSchema() {
   std::string sql = kOmplTables;
-  for (int i = 0; i < kNumPlanStatuses; ++i) {
+  for (int i = 0; i < kNumEnumValues<PlanStatus>; ++i) {
     sql += fmt::format("INSERT INTO enums VALUES ('status', {}, '{}');\n", i,
-                       PlanStatusName(static_cast<PlanStatus>(i)));
+                       EnumName(static_cast<PlanStatus>(i)));
   }
   sql +=
       "CREATE TABLE runs (\n"

@@ -97,7 +97,7 @@ std::vector<RunColumn> MakeRunColumns() {
       {"message", "TEXT", [](const Record& r) { return Text(r.message); }},
 
       {"direction", "TEXT",
-       [](const Record& r) { return Text(std::string(DirectionName(r.request.direction))); }},
+       [](const Record& r) { return Text(std::string(EnumName(r.request.direction))); }},
       {"problem_set", "TEXT", [](const Record& r) { return Text(r.problem_set); }},
       {"problem_index", "INTEGER", [](const Record& r) { return Int(r.problem_index); }},
       {"trial", "INTEGER", [](const Record& r) { return Int(r.trial); }},
@@ -108,15 +108,13 @@ std::vector<RunColumn> MakeRunColumns() {
       {"scene_id", "TEXT", [](const Record& r) { return Text(r.request.scene_id); }},
       {"start_time", "TEXT", [](const Record& r) { return Text(IsoTime(r.start_utime)); }},
       {"collision_model", "TEXT",
-       [](const Record& r) {
-         return Text(std::string(CollisionModelName(r.request.collision_model)));
-       }},
+       [](const Record& r) { return Text(std::string(EnumName(r.request.collision_model))); }},
       {"edge_resolution", "REAL",
        [](const Record& r) { return RealUnlessZero(r.request.edge_resolution_m); }},
       {"edge_check", "TEXT",
        [](const Record& r) {
          const auto& method = r.request.edge_check;
-         return Text(method ? std::string(EdgeCheckName(*method)) : "");
+         return Text(method ? std::string(EnumName(*method)) : "");
        }},
       {"time_limit", "REAL", [](const Record& r) { return Real(r.request.time_limit_s); }},
       {"anytime", "BOOLEAN", [](const Record& r) { return Bool(r.request.anytime); }},

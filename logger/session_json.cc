@@ -23,7 +23,7 @@ std::string Dump(const Json& json, int indent) {
 Json NodeJson(const NodeStatusMessage& node) {
   Json json;
   json["name"] = node.name;
-  json["kind"] = NodeKindName(node.kind);
+  json["kind"] = EnumName(node.kind);
   json["version"] = node.version;
   json["commit"] = node.commit;
   json["host"] = node.host;

@@ -146,7 +146,7 @@ std::vector<std::uint8_t> Encode(const CollisionRequestMessage& message) {
   wire.scene_id = message.scene_id;
   wire.group = message.group;
   wire.state = wire::ToWire(message.state);
-  wire.collision_model = CollisionModelName(message.collision_model);
+  wire.collision_model = EnumName(message.collision_model);
   wire.edge_resolution_m = message.edge_resolution_m;
   wire.with_distance = message.with_distance;
   std::size_t num_joints = 0;
@@ -234,7 +234,7 @@ std::vector<std::uint8_t> Encode(const PathCheckRequestMessage& message) {
   wire.goal = wire::ToWire(message.goal);
   wire.num_goals = wire::Count(wire.goal.size());
   wire.path = wire::ToWire(message.joint_names, message.path);
-  wire.collision_model = CollisionModelName(message.collision_model);
+  wire.collision_model = EnumName(message.collision_model);
   wire.step_m = message.step_m;
   wire.with_clearance = message.with_clearance;
   return wire::Pack(wire);

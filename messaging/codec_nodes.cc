@@ -18,20 +18,6 @@ std::int64_t NowUtime() {
       .count();
 }
 
-std::string_view NodeKindName(NodeKind kind) {
-  switch (kind) {
-    case NodeKind::kSceneServer:
-      return "scene server";
-    case NodeKind::kPlanner:
-      return "planner";
-    case NodeKind::kDriver:
-      return "driver";
-    case NodeKind::kLogger:
-      return "logger";
-  }
-  throw std::logic_error("no such node kind");
-}
-
 namespace wire {
 namespace {
 
@@ -94,8 +80,8 @@ NodeStatusMessage FromWire(const lcmt_node_status& wire, const Field& at) {
     at("name").Fail(error.what());
   }
   status.name = wire.name;
-  status.kind = EnumOf<NodeKind>(wire.kind, 4, at("kind"));
-  status.busy = EnumOf<int>(wire.state, 2, at("state")) == lcmt_node_status::STATE_BUSY;
+  status.kind = EnumOf<NodeKind>(wire.kind, at("kind"));
+  status.busy = Bool(wire.state, at("state"));
   status.request_id = wire.request_id;
   status.host = wire.host;
   status.pid = wire.pid;
@@ -148,7 +134,7 @@ std::vector<std::uint8_t> Encode(const ProblemSetsMessage& message) {
   wire.robot_name = message.robot_name;
   wire.robot_id = message.robot_id;
   wire.edge_resolution_m = message.edge_resolution_m;
-  wire.edge_check = EdgeCheckName(message.edge_check);
+  wire.edge_check = EnumName(message.edge_check);
   wire.has_meshes = message.has_meshes;
   for (const ProblemSetSummary& set : message.sets) wire.set.push_back(wire::SetToWire(set));
   wire.num_sets = wire::Count(wire.set.size());

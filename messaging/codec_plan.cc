@@ -49,9 +49,9 @@ lcmt_plan_request ToWire(const PlanRequest& request) {
   wire.direction = static_cast<std::int8_t>(request.direction);
   wire.time_limit_s = request.time_limit_s;
   wire.seed = static_cast<std::int64_t>(request.seed);
-  wire.collision_model = CollisionModelName(request.collision_model);
+  wire.collision_model = EnumName(request.collision_model);
   wire.edge_resolution_m = request.edge_resolution_m;
-  if (request.edge_check) wire.edge_check = EdgeCheckName(*request.edge_check);
+  if (request.edge_check) wire.edge_check = EnumName(*request.edge_check);
   wire.anytime = request.anytime;
   wire.simplify = request.simplify;
   wire.parameter = ToWire(request.parameters);
@@ -68,7 +68,7 @@ PlanRequest FromWire(const lcmt_plan_request& wire, const Field& at) {
   request.group = wire.group;
   request.start = FromWire(wire.start, at("start"));
   request.goal = FromWire(wire.goal, at, "goal");
-  request.direction = EnumOf<Direction>(wire.direction, 2, at("direction"));
+  request.direction = EnumOf<Direction>(wire.direction, at("direction"));
   request.time_limit_s = NonNegative(wire.time_limit_s, at("time_limit_s"));
   request.seed = static_cast<std::uint64_t>(wire.seed);
   request.collision_model = Model(wire.collision_model, at("collision_model"));
@@ -120,7 +120,7 @@ PlanResultMessage FromWire(const lcmt_plan_result& wire, const Field& at) {
   message.run_id = wire.run_id;
   message.request_id = wire.request_id;
   PlanResult& result = message.result;
-  result.status = EnumOf<PlanStatus>(wire.status, kNumPlanStatuses, at("status"));
+  result.status = EnumOf<PlanStatus>(wire.status, at("status"));
   result.message = wire.message;
   result.planning_time_s = NonNegative(wire.planning_time_s, at("planning_time_s"));
   result.total_time_s = NonNegative(wire.total_time_s, at("total_time_s"));
@@ -188,8 +188,7 @@ PlanAckMessage Decode(std::span<const std::uint8_t> bytes, const std::string& ch
   const auto message = wire::Unpack<lcmt_plan_ack>(bytes, channel);
   const Field at(channel, message.request_id);
   return {message.planner, wire::NotEmpty(message.request_id, at("request_id")),
-          wire::EnumOf<PlanAckMessage::Verdict>(message.verdict, 3, at("verdict")),
-          message.message};
+          wire::EnumOf<PlanAckVerdict>(message.verdict, at("verdict")), message.message};
 }
 
 template <>

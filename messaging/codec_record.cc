@@ -97,7 +97,7 @@ RunRecordMessage Decode(std::span<const std::uint8_t> bytes, const std::string& 
       static_cast<int>(wire::AtLeast(0, wire.problem_index, at("problem_index")));
   message.trial = static_cast<int>(wire::AtLeast(1, wire.trial, at("trial")));
   message.start_utime = wire.start_utime;
-  message.status = wire::EnumOf<PlanStatus>(wire.status, kNumPlanStatuses, at("status"));
+  message.status = wire::EnumOf<PlanStatus>(wire.status, at("status"));
   message.message = wire.message;
   message.roundtrip_time_s = wire::NonNegative(wire.roundtrip_time_s, at("roundtrip_time_s"));
   message.request = wire::FromWire(wire.request, at("request"));

@@ -21,8 +21,11 @@ struct DiscoverMessage {
 };
 
 enum class NodeKind { kSceneServer = 0, kPlanner = 1, kDriver = 2, kLogger = 3 };
-/// "scene server", "planner", "driver", "logger".
-std::string_view NodeKindName(NodeKind kind);
+template <>
+struct EnumNames<NodeKind> {
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"scene server", "planner", "driver", "logger"});
+};
 
 struct NodeStatusMessage {
   std::int64_t utime = 0;        ///< us since the Unix epoch.
@@ -92,11 +95,16 @@ struct SceneMessage {
   Scene scene;
 };
 
+enum class PlanAckVerdict { kAccepted = 0, kBusy = 1, kRefused = 2 };
+template <>
+struct EnumNames<PlanAckVerdict> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"ACCEPTED", "BUSY", "REFUSED"});
+};
+
 struct PlanAckMessage {
-  enum class Verdict { kAccepted = 0, kBusy = 1, kRefused = 2 };
   std::string planner;
   std::string request_id;
-  Verdict verdict = Verdict::kAccepted;
+  PlanAckVerdict verdict = PlanAckVerdict::kAccepted;
   std::string message;
 };
 

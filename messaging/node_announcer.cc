@@ -89,9 +89,9 @@ void NodeAnnouncer::OnStatus(const NodeStatusMessage& other) {
   constexpr std::int64_t kStaleAfterUs = 10'000'000;
   if (NowUtime() - other.utime > kStaleAfterUs || age_key(self_) < age_key(other)) return;
   const std::scoped_lock lock(mutex_);
-  displaced_by_ = "another session is on this LCM port: the " +
-                  std::string(NodeKindName(other.kind)) + " '" + other.name +
-                  "' is live already (host " + other.host + ", pid " + std::to_string(other.pid) +
+  displaced_by_ = "another session is on this LCM port: the " + std::string(EnumName(other.kind)) +
+                  " '" + other.name + "' is live already (host " + other.host + ", pid " +
+                  std::to_string(other.pid) +
                   "); choose another --name, or another port with --lcm-url";
 }
 

@@ -27,11 +27,11 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   status_.robot_name = planner_->robot().name;
   status_.robot_id = planner_->robot().content_id;
   status_.algorithm = description_.algorithm;
-  status_.planner_class = PlannerClassName(description_.planner_class);
+  status_.planner_class = EnumName(description_.planner_class);
   status_.can_backward = description_.backward;
   status_.can_anytime = description_.anytime;
   for (const CollisionModel model : description_.collision_models) {
-    status_.collision_models.emplace_back(CollisionModelName(model));
+    status_.collision_models.emplace_back(EnumName(model));
   }
   status_.settings = description_.settings;
 
@@ -87,7 +87,7 @@ std::string PlannerNode::ReasonToRefuse(const PlanRequest& request) const {
   }
   if (std::find(description_.collision_models.begin(), description_.collision_models.end(),
                 request.collision_model) == description_.collision_models.end()) {
-    return "the collision model '" + std::string(CollisionModelName(request.collision_model)) +
+    return "the collision model '" + std::string(EnumName(request.collision_model)) +
            "' is not offered here";
   }
   if (request.direction == Direction::kBackward && !description_.backward) {
@@ -99,13 +99,13 @@ std::string PlannerNode::ReasonToRefuse(const PlanRequest& request) const {
   return "";
 }
 
-void PlannerNode::Acknowledge(const std::string& request_id, PlanAckMessage::Verdict verdict,
+void PlannerNode::Acknowledge(const std::string& request_id, PlanAckVerdict verdict,
                               const std::string& message) {
   bus_->Publish(channels_.ack, PlanAckMessage{name_, request_id, verdict, message});
 }
 
 void PlannerNode::OnRequest(const PlanRequest& request) {
-  using Verdict = PlanAckMessage::Verdict;
+  using Verdict = PlanAckVerdict;
   std::unique_lock lock(mutex_);
   // One that was cancelled was not answered: a session that was interrupted asks again when it is
   // resumed.
@@ -149,7 +149,7 @@ void PlannerNode::OnRequest(const PlanRequest& request) {
 
 void PlannerNode::OnBadRequest(const MessageError& error) {
   if (error.request_id().empty()) throw error;
-  Acknowledge(error.request_id(), PlanAckMessage::Verdict::kRefused, error.what());
+  Acknowledge(error.request_id(), PlanAckVerdict::kRefused, error.what());
 }
 
 void PlannerNode::OnScene(const SceneMessage& message) {
@@ -209,9 +209,9 @@ void PlannerNode::Solve() {
     };
     lock.unlock();
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
-    const std::string said = fmt::format(
-        "{}: {} in {:.3f} ms{}{}", job.request.request_id, PlanStatusName(result.status),
-        result.planning_time_s * 1e3, result.message.empty() ? "" : ": ", result.message);
+    const std::string said = fmt::format("{}: {} in {:.3f} ms{}{}", job.request.request_id,
+                                         EnumName(result.status), result.planning_time_s * 1e3,
+                                         result.message.empty() ? "" : ": ", result.message);
     lock.lock();
     Finish(std::move(result));
     lock.unlock();

@@ -68,7 +68,7 @@ class PlannerNode {
   void Solve();
   void Tick();
   void Finish(PlanResult result);
-  void Acknowledge(const std::string& request_id, PlanAckMessage::Verdict verdict,
+  void Acknowledge(const std::string& request_id, PlanAckVerdict verdict,
                    const std::string& message);
 
   Bus* bus_;

@@ -58,13 +58,13 @@ const std::string& NotEmpty(const std::string& text, const Field& at) {
 }
 
 CollisionModel Model(const std::string& name, const Field& at) {
-  const auto model = ParseCollisionModel(name);
+  const auto model = ParseEnum<CollisionModel>(name);
   if (!model) at.Fail(fmt::format("no collision model '{}'", name));
   return *model;
 }
 
 EdgeCheck Method(const std::string& name, const Field& at) {
-  const auto method = ParseEdgeCheck(name);
+  const auto method = ParseEnum<EdgeCheck>(name);
   if (!method) at.Fail(fmt::format("no way to check edges '{}'", name));
   return *method;
 }

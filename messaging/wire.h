@@ -69,10 +69,9 @@ bool Bool(std::int8_t value, const Field& at);
 const std::string& NotEmpty(const std::string& text, const Field& at);
 CollisionModel Model(const std::string& name, const Field& at);
 EdgeCheck Method(const std::string& name, const Field& at);
-/// An enum whose values are 0 to count - 1.
 template <typename Enum>
-Enum EnumOf(std::int8_t value, int count, const Field& at) {
-  if (value < 0 || value >= count) {
+Enum EnumOf(std::int8_t value, const Field& at) {
+  if (value < 0 || value >= kNumEnumValues<Enum>) {
     at.Fail("no such value: " + std::to_string(value));
   }
   return static_cast<Enum>(value);

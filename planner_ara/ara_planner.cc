@@ -38,7 +38,7 @@ class AraPlanner : public Planner {
     description.planner_class = PlannerClass::kSampleThenSearch;
     description.backward = true;
     description.anytime = true;
-    description.collision_models = AvailableCollisionModels();
+    description.collision_models = EnumValues<CollisionModel>();
     description.settings = settings_.AsText();
     return description;
   }

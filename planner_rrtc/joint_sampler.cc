@@ -3,15 +3,12 @@
 #include <ompl/base/StateSpace.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "planner_rrtc/ompl_joint_space.h"
 
 namespace planbench {
 namespace {
-
-constexpr std::array<std::string_view, 2> kNames = {"uniform", "halton"};
 
 std::vector<std::uint64_t> FirstPrimes(std::size_t count) {
   std::vector<std::uint64_t> primes;
@@ -34,17 +31,6 @@ double RadicalInverse(std::uint64_t index, std::uint64_t base) {
 }
 
 }  // namespace
-
-std::string_view SamplerKindName(SamplerKind kind) {
-  return kNames.at(static_cast<std::size_t>(kind));
-}
-
-std::optional<SamplerKind> ParseSamplerKind(std::string_view name) {
-  for (const SamplerKind kind : {SamplerKind::kUniform, SamplerKind::kHalton}) {
-    if (SamplerKindName(kind) == name) return kind;
-  }
-  return std::nullopt;
-}
 
 JointSampler::JointSampler(const ompl::base::StateSpace* space, const JointSpace& joints,
                            SamplerKind kind, std::uint64_t seed, std::int64_t* num_samples)

@@ -4,11 +4,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <random>
-#include <string_view>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "robot_model/joint_space.h"
 
 namespace planbench {
@@ -21,9 +20,10 @@ enum class SamplerKind {
   /// (Cranley and Patterson, 1976): points spread more evenly than random ones.
   kHalton,
 };
-/// "uniform", "halton".
-std::string_view SamplerKindName(SamplerKind kind);
-std::optional<SamplerKind> ParseSamplerKind(std::string_view name);
+template <>
+struct EnumNames<SamplerKind> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"uniform", "halton"});
+};
 
 /// Sampler of an OmplJointSpace over the joints' limits, [-pi, pi) for continuous joints, that
 /// depends on `seed` only and not on OMPL's process-wide seed. Adds the number of its samples of

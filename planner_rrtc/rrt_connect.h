@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "planner_rrtc/edge_validity.h"
 #include "planner_rrtc/node_tree.h"
 #include "planner_rrtc/ompl_joint_space.h"
@@ -16,6 +17,10 @@ namespace planbench {
 enum class Extension {
   kStep,     ///< By one motion of at most the range: "EXTEND".
   kConnect,  ///< By one after the other until the sample or an obstacle is reached: "CONNECT".
+};
+template <>
+struct EnumNames<Extension> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"step", "connect"});
 };
 
 /// RRT-Connect (Kuffner and LaValle, "RRT-Connect: An Efficient Approach to Single-Query Path

@@ -270,7 +270,7 @@ PlannerDescription RrtcPlanner::Describe() const {
                                   : PlannerClass::kSamplingGuided;
   description.backward = true;
   description.anytime = settings_->ompl_algorithm != nullptr && settings_->ompl_algorithm->anytime;
-  description.collision_models = AvailableCollisionModels();
+  description.collision_models = EnumValues<CollisionModel>();
   description.settings = DescribeSettings(*settings_);
   return description;
 }

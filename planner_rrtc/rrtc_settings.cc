@@ -21,19 +21,6 @@ const OmplAlgorithm* ReadAlgorithm(const YamlNode& node) {
   return algorithm;
 }
 
-SamplerKind ReadSampler(const YamlNode& node) {
-  const std::optional<SamplerKind> kind = ParseSamplerKind(node.String());
-  if (!kind) node.Fail(fmt::format("expected uniform or halton, found '{}'", node.String()));
-  return *kind;
-}
-
-Extension ReadExtension(const YamlNode& node) {
-  const std::string name = node.String();
-  if (name == "connect") return Extension::kConnect;
-  if (name == "step") return Extension::kStep;
-  node.Fail(fmt::format("expected connect or step, found '{}'", name));
-}
-
 double ReadDomainRadius(const YamlNode& node) {
   const double radius = node.Double();
   if (radius < 0) node.Fail(fmt::format("must not be negative, found {}", radius));
@@ -48,9 +35,9 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   RrtcSettings settings = defaults;
   RrtConnect::Settings& rrt_connect = settings.rrt_connect;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
-  if (const auto value = node.Find("sampler")) settings.sampler = ReadSampler(*value);
+  if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
   if (const auto value = node.Find("range")) rrt_connect.range = value->PositiveDouble();
-  if (const auto value = node.Find("extension")) rrt_connect.extension = ReadExtension(*value);
+  if (const auto value = node.Find("extension")) rrt_connect.extension = value->Enum<Extension>();
   if (const auto value = node.Find("balance")) rrt_connect.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {
     rrt_connect.domain_radius = ReadDomainRadius(*value);
@@ -66,14 +53,13 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
 std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings) {
   std::map<std::string, std::string> text = {
       {"algorithm", std::string(settings.AlgorithmName())},
-      {"sampler", std::string(SamplerKindName(settings.sampler))},
+      {"sampler", std::string(EnumName(settings.sampler))},
       {"range", fmt::format("{}", settings.rrt_connect.range)}};
   if (settings.ompl_algorithm != nullptr) {
     for (const auto& [key, value] : settings.ompl_parameters) text["ompl." + key] = value;
     return text;
   }
-  const bool connect = settings.rrt_connect.extension == Extension::kConnect;
-  text["extension"] = connect ? "connect" : "step";
+  text["extension"] = EnumName(settings.rrt_connect.extension);
   text["balance"] = settings.rrt_connect.balance ? "true" : "false";
   text["domain_radius"] = fmt::format("{}", settings.rrt_connect.domain_radius);
   return text;

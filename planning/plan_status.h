@@ -1,7 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
+#include "common/enum_names.h"
 
 namespace planbench {
 
@@ -18,18 +17,20 @@ enum class PlanStatus {
   kInvalidPath = 8,  ///< The referee rejected the path (set by the driver).
   kMemoryLimit = 9,
 };
-inline constexpr int kNumPlanStatuses = 10;
-
-/// "SOLVED", "TIMED_OUT", ...
-std::string_view PlanStatusName(PlanStatus status);
-std::optional<PlanStatus> ParsePlanStatus(std::string_view name);
+template <>
+struct EnumNames<PlanStatus> {
+  static constexpr auto kNames = std::to_array<std::string_view>(
+      {"SOLVED", "TIMED_OUT", "EXHAUSTED", "START_INVALID", "GOAL_INVALID", "INVALID_REQUEST",
+       "CANCELLED", "NO_ANSWER", "INVALID_PATH", "MEMORY_LIMIT"});
+};
 
 enum class Direction {
   kForward = 0,   ///< Search from start to goal.
   kBackward = 1,  ///< Search from goal to start; the path is returned start to goal.
 };
-/// "forward", "backward".
-std::string_view DirectionName(Direction direction);
-std::optional<Direction> ParseDirection(std::string_view name);
+template <>
+struct EnumNames<Direction> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"forward", "backward"});
+};
 
 }  // namespace planbench

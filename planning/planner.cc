@@ -50,8 +50,7 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
   const std::vector<CollisionModel>& models = description.collision_models;
   if (std::find(models.begin(), models.end(), request.collision_model) == models.end()) {
     throw InputError(fmt::format("{}: {} does not offer collision model '{}'", origin,
-                                 description.algorithm,
-                                 CollisionModelName(request.collision_model)));
+                                 description.algorithm, EnumName(request.collision_model)));
   }
   if (request.direction == Direction::kBackward && !description.backward) {
     throw InputError(fmt::format("{}: {} cannot search backward", origin, description.algorithm));
@@ -104,18 +103,11 @@ void RequireSearchStatus(const std::string& algorithm, PlanStatus status) {
                                    PlanStatus::kExhausted, PlanStatus::kCancelled,
                                    PlanStatus::kMemoryLimit};
   if (std::find(kAllowed.begin(), kAllowed.end(), status) == kAllowed.end()) {
-    BrokenInvariant(algorithm,
-                    fmt::format("the search returned status {}", PlanStatusName(status)));
+    BrokenInvariant(algorithm, fmt::format("the search returned status {}", EnumName(status)));
   }
 }
 
 }  // namespace
-
-std::string_view PlannerClassName(PlannerClass planner_class) {
-  constexpr std::array<std::string_view, 4> kNames = {
-      "sample-then-search", "sampling-guided", "search-and-sample", "trajectory-optimisation"};
-  return kNames.at(static_cast<std::size_t>(planner_class));
-}
 
 CollisionChecker& Planner::CheckerFor(const PlanningGroup& group, CollisionModel model) {
   std::unique_ptr<CollisionChecker>& checker = checkers_[{group.name, model}];

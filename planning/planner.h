@@ -27,8 +27,11 @@ enum class PlannerClass {
   kSearchAndSample,
   kTrajectoryOptimisation,
 };
-/// "sample-then-search", "sampling-guided", "search-and-sample", "trajectory-optimisation".
-std::string_view PlannerClassName(PlannerClass planner_class);
+template <>
+struct EnumNames<PlannerClass> {
+  static constexpr auto kNames = std::to_array<std::string_view>(
+      {"sample-then-search", "sampling-guided", "search-and-sample", "trajectory-optimisation"});
+};
 
 /// What a planner says of itself.
 struct PlannerDescription {

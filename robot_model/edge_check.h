@@ -1,7 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
+#include "common/enum_names.h"
 
 namespace planbench {
 
@@ -10,9 +9,9 @@ enum class EdgeCheck {
   kFixed,      ///< At samples a fixed resolution apart; between them it may collide.
   kCertified,  ///< Proven free all along.
 };
-
-/// "fixed", "certified".
-std::string_view EdgeCheckName(EdgeCheck method);
-std::optional<EdgeCheck> ParseEdgeCheck(std::string_view name);
+template <>
+struct EnumNames<EdgeCheck> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"fixed", "certified"});
+};
 
 }  // namespace planbench

@@ -215,9 +215,7 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
     robot.edge_resolution_m = resolution->PositiveDouble();
   }
   if (const auto method = root.Find("edge_check")) {
-    const auto parsed = ParseEdgeCheck(method->String());
-    if (!parsed) method->Fail("expected fixed or certified, found '" + method->String() + "'");
-    robot.edge_check = *parsed;
+    robot.edge_check = method->Enum<EdgeCheck>();
   }
   if (const auto pairs = root.Find("allowed_pairs")) {
     robot.allowed_pairs = ReadAllowedPairs(*pairs, robot.model);

@@ -15,10 +15,7 @@ namespace planbench {
 namespace {
 
 CollisionModel ModelToJudgeWith(CollisionModel asked) {
-  const std::vector<CollisionModel>& available = AvailableCollisionModels();
-  const bool exact = asked != CollisionModel::kVoxels &&
-                     std::find(available.begin(), available.end(), asked) != available.end();
-  return exact ? asked : CollisionModel::kSpheres;
+  return asked == CollisionModel::kVoxels ? CollisionModel::kSpheres : asked;
 }
 
 /// Why the names cannot be those of the group's joints in some order; empty if they can.

@@ -21,8 +21,8 @@ NodeStatusMessage StatusOf(const std::string& name, const SceneService& service)
   NodeStatusMessage status = MakeNodeStatus(name, NodeKind::kSceneServer);
   status.robot_name = service.robot().name;
   status.robot_id = service.robot().content_id;
-  for (const CollisionModel model : AvailableCollisionModels()) {
-    status.collision_models.emplace_back(CollisionModelName(model));
+  for (const CollisionModel model : EnumValues<CollisionModel>()) {
+    status.collision_models.emplace_back(EnumName(model));
   }
   status.settings["robot"] = service.robot().folder.string();
   if (service.mesh_robot()) {

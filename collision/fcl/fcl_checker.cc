@@ -84,7 +84,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
     throw InputError(
         fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
                     model == CollisionModel::kSpheres ? "collision spheres" : "collision geometry",
-                    CollisionModelName(model)));
+                    EnumName(model)));
   }
 }
 

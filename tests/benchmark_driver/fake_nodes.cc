@@ -34,7 +34,7 @@ void FakePlanner::OnRequest(std::function<void(const PlanRequest&)> handler) {
   handler_ = std::move(handler);
 }
 
-void FakePlanner::Acknowledge(const PlanRequest& request, PlanAckMessage::Verdict verdict,
+void FakePlanner::Acknowledge(const PlanRequest& request, PlanAckVerdict verdict,
                               const std::string& message) {
   bus_->Publish(channels_.ack, PlanAckMessage{status.name, request.request_id, verdict, message});
 }
@@ -50,7 +50,7 @@ void FakePlanner::SendResult(const std::string& request_id, PlanResult result) {
 }
 
 void FakePlanner::Solve(const PlanRequest& request) {
-  Acknowledge(request, PlanAckMessage::Verdict::kAccepted);
+  Acknowledge(request, PlanAckVerdict::kAccepted);
   SendResult(request.request_id, SolvedResult());
 }
 

@@ -26,7 +26,7 @@ class FakePlanner {
 
   /// What to do with a request, on the bus thread. At first: accept it and send SolvedResult.
   void OnRequest(std::function<void(const PlanRequest&)> handler);
-  void Acknowledge(const PlanRequest& request, PlanAckMessage::Verdict verdict,
+  void Acknowledge(const PlanRequest& request, PlanAckVerdict verdict,
                    const std::string& message = "");
   void SendResult(const std::string& request_id, PlanResult result);
   void Solve(const PlanRequest& request);

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 using Outcome = PlannerClient::Outcome;
-using Verdict = PlanAckMessage::Verdict;
+using Verdict = PlanAckVerdict;
 
 class PlannerClientTest : public testing::Test {
  protected:

@@ -13,7 +13,7 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
-using AckVerdict = PlanAckMessage::Verdict;
+using AckVerdict = PlanAckVerdict;
 
 class RunExecutorTest : public testing::Test {
  protected:

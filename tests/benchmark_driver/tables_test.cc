@@ -133,7 +133,7 @@ TEST(FoldAttemptsTest, FailuresAreToldApart) {
     const auto forward = Attempt(c.forward, 1);
     const auto backward = Backward(c.backward, 1);
     EXPECT_EQ(FoldAttempts(&forward, &backward).kind, c.kind)
-        << PlanStatusName(c.forward) << " " << PlanStatusName(c.backward);
+        << EnumName(c.forward) << " " << EnumName(c.backward);
   }
 }
 

@@ -200,7 +200,7 @@ TEST_P(PlannerContract, TheTimeLimitEndsAHopelessSearch) {
   request.time_limit_s = 0.2;
   const PlanResult result = Make(planar_)->Plan(request, WallsScene(), nullptr);
   EXPECT_TRUE(result.status == PlanStatus::kTimedOut || result.status == PlanStatus::kExhausted)
-      << PlanStatusName(result.status) << ": " << result.message;
+      << EnumName(result.status) << ": " << result.message;
   EXPECT_TRUE(result.path.empty());
   EXPECT_FALSE(result.message.empty());
   EXPECT_LT(result.total_time_s, 10) << "far more than the slack of a busy machine";
@@ -218,7 +218,7 @@ TEST_P(PlannerContract, ACancelledSearchReturns) {
   const PlanResult result = planner->Plan(request, WallsScene(), &control);
   canceller.join();
   EXPECT_TRUE(result.status == PlanStatus::kCancelled || result.status == PlanStatus::kExhausted)
-      << PlanStatusName(result.status) << ": " << result.message;
+      << EnumName(result.status) << ": " << result.message;
   EXPECT_LT(result.total_time_s, 60);
 
   // And the planner is as good as before.

@@ -78,9 +78,9 @@ TEST_F(ResultsSchemaTest, StatusesAreNamedInEnums) {
       connection.Prepare("SELECT value, description FROM enums WHERE name = 'status'");
   int count = 0;
   for (; rows.Step(); ++count) {
-    EXPECT_EQ(rows.Text(1), PlanStatusName(static_cast<PlanStatus>(rows.Int(0))));
+    EXPECT_EQ(rows.Text(1), EnumName(static_cast<PlanStatus>(rows.Int(0))));
   }
-  EXPECT_EQ(count, kNumPlanStatuses);
+  EXPECT_EQ(count, kNumEnumValues<PlanStatus>);
 }
 
 TEST_F(ResultsSchemaTest, EveryColumnIsDocumented) {

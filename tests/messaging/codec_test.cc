@@ -109,13 +109,6 @@ TEST_F(Codec, ListsOfDifferentLengthsAreNotEncoded) {
   EXPECT_THROW(Encode(collision), std::logic_error);
 }
 
-TEST_F(Codec, NodeKindsHaveNames) {
-  EXPECT_EQ(NodeKindName(NodeKind::kSceneServer), "scene server");
-  EXPECT_EQ(NodeKindName(NodeKind::kPlanner), "planner");
-  EXPECT_EQ(NodeKindName(NodeKind::kDriver), "driver");
-  EXPECT_EQ(NodeKindName(NodeKind::kLogger), "logger");
-}
-
 TEST_F(Codec, SceneKeepsItsIdOverManyTrips) {
   SceneMessage message = Example<SceneMessage>();
   for (int trip = 0; trip < 3; ++trip) {

@@ -166,7 +166,7 @@ PlanRequest Example() {
 
 template <>
 PlanAckMessage Example() {
-  return {"ara", "r7", PlanAckMessage::Verdict::kRefused, "unknown joint"};
+  return {"ara", "r7", PlanAckVerdict::kRefused, "unknown joint"};
 }
 
 template <>

@@ -17,7 +17,7 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
-using Verdict = PlanAckMessage::Verdict;
+using Verdict = PlanAckVerdict;
 
 const Robot& PlanarRobot() {
   static const Robot robot = LoadPlanarRobot();

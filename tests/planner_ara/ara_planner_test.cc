@@ -191,7 +191,7 @@ TEST_F(AraPlannerTest, DescribesItself) {
   EXPECT_EQ(description.planner_class, PlannerClass::kSampleThenSearch);
   EXPECT_TRUE(description.backward);
   EXPECT_TRUE(description.anytime);
-  EXPECT_EQ(description.collision_models, AvailableCollisionModels());
+  EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings.at("epsilon_initial"), "10");
   EXPECT_EQ(description.settings.at("discretization"), "{elbow: 0.2, shoulder: 0.2, wrist: 0.2}");
 }

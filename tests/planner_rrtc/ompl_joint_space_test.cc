@@ -170,7 +170,7 @@ TEST_P(JointSamplerTest, SamplesNearAConfigurationStayNearAndWithinLimits) {
 
 INSTANTIATE_TEST_SUITE_P(Samplers, JointSamplerTest,
                          testing::Values(SamplerKind::kUniform, SamplerKind::kHalton),
-                         [](const auto& info) { return std::string(SamplerKindName(info.param)); });
+                         [](const auto& info) { return std::string(EnumName(info.param)); });
 
 TEST_F(OmplJointSpaceTest, HaltonsFirstCoordinateHalvesTheLargestGap) {
   std::int64_t num_samples = 0;

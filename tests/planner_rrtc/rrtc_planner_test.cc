@@ -94,7 +94,7 @@ TEST_F(RrtcPlannerTest, Describes) {
   EXPECT_EQ(description.planner_class, PlannerClass::kSamplingGuided);
   EXPECT_TRUE(description.backward);
   EXPECT_FALSE(description.anytime);
-  EXPECT_EQ(description.collision_models, AvailableCollisionModels());
+  EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings, (std::map<std::string, std::string>{{"algorithm", "RRT-Connect"},
                                                                       {"sampler", "uniform"},
                                                                       {"range", "1"},
