@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "benchmark_driver/published_study.h"
-#include "benchmark_driver/statistics.h"
+#include "results/statistics.h"
 
 namespace planbench {
 namespace {

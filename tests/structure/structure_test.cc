@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>>& MayInclude() {
     std::map<std::string, std::set<std::string>> rooms;
     rooms["common"] = {};
     rooms["geometry"] = {"common"};
+    rooms["results"] = {"common"};
     rooms["robot_model"] = {"common", "geometry"};
     rooms["scene"] = {"common", "geometry"};
     rooms["collision"] = {"common", "geometry", "robot_model", "scene"};
@@ -36,6 +37,7 @@ const std::map<std::string, std::set<std::string>>& MayInclude() {
       rooms[process] = rooms["messaging"];
       rooms[process].insert("messaging");
     }
+    rooms["benchmark_driver"].insert("results");
     return rooms;
   }();
   return rules;

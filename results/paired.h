@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "results/statistics.h"
+
+namespace planbench {
+
+/// How one contestant's times compare with another's on the same problems, problem by problem;
+/// infinite: not solved. Throws std::invalid_argument if there are not as many of both.
+struct Wins {
+  int won = 0;  ///< The first was faster, or alone in solving it.
+  int lost = 0;
+  int tied = 0;  ///< Equal, or solved by neither.
+
+  /// Share of the problems won, a tie half; NaN if there are none.
+  double Share() const;
+};
+Wins CountWins(const std::vector<double>& first, const std::vector<double>& second);
+
+/// Geometric mean of the ratios first / second with its interval.
+struct RatioEstimate {
+  double mean = 1;
+  Interval interval;
+};
+/// By the percentile bootstrap over the pairs (Efron), drawn with `seed`: equal seeds give equal
+/// intervals. Of the pairs in which both are finite; nothing if there are none. Throws
+/// std::invalid_argument for values that are not positive or numbers that differ.
+std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
+                                           const std::vector<double>& second, std::uint64_t seed,
+                                           int num_resamples = 10'000);
+
+}  // namespace planbench

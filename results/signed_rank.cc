@@ -1,0 +1,68 @@
+#include "results/signed_rank.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace planbench {
+namespace {
+
+/// P(the sum of the ranks with a positive sign is at most `sum`), each sign a fair coin. Ranks and
+/// sum are doubled, so that the means of ties are whole numbers.
+double ExactTail(const std::vector<int>& doubled_ranks, int doubled_sum) {
+  // probability[s]: that the signs so far give the sum s. Powers of two, so that nothing is lost
+  // to rounding.
+  std::vector<double> probability(static_cast<std::size_t>(doubled_sum) + 1, 0);
+  probability[0] = 1;
+  for (const int rank : doubled_ranks) {
+    for (int s = doubled_sum; s >= 0; --s) {
+      const auto at = static_cast<std::size_t>(s);
+      const double with = s >= rank ? probability[at - static_cast<std::size_t>(rank)] : 0;
+      probability[at] = (probability[at] + with) / 2;
+    }
+  }
+  double tail = 0;
+  for (const double p : probability) tail += p;
+  return tail;
+}
+
+}  // namespace
+
+SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
+  std::vector<double> sorted;
+  for (const double difference : differences) {
+    if (std::isnan(difference)) throw std::invalid_argument("signed ranks: a difference is NaN");
+    if (difference != 0) sorted.push_back(difference);
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](double a, double b) { return std::abs(a) < std::abs(b); });
+
+  SignedRankTest test;
+  test.num_differences = static_cast<int>(sorted.size());
+  const double n = test.num_differences;
+  std::vector<int> doubled_ranks;
+  double variance = n * (n + 1) * (2 * n + 1) / 24;
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    while (end < sorted.size() && std::abs(sorted[end]) == std::abs(sorted[begin])) ++end;
+    const auto ties = static_cast<double>(end - begin);
+    const int doubled_rank = static_cast<int>(begin + 1 + end);  // of ranks begin + 1 to end
+    variance -= (ties * ties * ties - ties) / 48;
+    for (std::size_t i = begin; i < end; ++i) {
+      (sorted[i] > 0 ? test.positive : test.negative) += doubled_rank / 2.0;
+      doubled_ranks.push_back(doubled_rank);
+    }
+  }
+  if (test.num_differences == 0) return test;
+
+  const double smaller = std::min(test.positive, test.negative);
+  if (test.num_differences <= kExactDifferences) {
+    test.p_value = std::min(1.0, 2 * ExactTail(doubled_ranks, static_cast<int>(2 * smaller)));
+  } else {
+    const double distance = std::max(0.0, n * (n + 1) / 4 - smaller - 0.5);
+    test.p_value = std::erfc(distance / std::sqrt(2 * variance));
+  }
+  return test;
+}
+
+}  // namespace planbench

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+namespace planbench {
+
+/// Wilcoxon's signed-rank test (1945) of paired differences: how probable ranks at least as
+/// one-sided are if either sign is as likely as the other.
+struct SignedRankTest {
+  int num_differences = 0;  ///< Other than zero, which are left out.
+  double positive = 0;      ///< Sum of the ranks of positive differences.
+  double negative = 0;
+  double p_value = 1;  ///< Two-sided.
+};
+
+/// Ties share the mean of their ranks. Differences may be infinite: these rank above all others.
+/// Exact, ties included, up to kExactDifferences; beyond, the normal approximation with the
+/// variance corrected for ties and the continuity correction. Throws std::invalid_argument for NaN.
+inline constexpr int kExactDifferences = 50;
+SignedRankTest TestSignedRanks(const std::vector<double>& differences);
+
+}  // namespace planbench
