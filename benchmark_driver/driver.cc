@@ -185,8 +185,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ = std::make_unique<ProgressBar>(num_runs_);
-  for (const RunRecordMessage& record : records_) progress_->AddEarlier(record);
+  progress_ = std::make_unique<ProgressBar>(num_runs_, records_);
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;

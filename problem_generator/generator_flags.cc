@@ -2,16 +2,18 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "common/exit_codes.h"
+#include "common/progress_line.h"
 #include "problem_generator/certifier.h"
 #include "problem_generator/problem_set_maker.h"
-#include "problem_generator/progress_line.h"
 
 namespace planbench {
 
@@ -87,9 +89,11 @@ int RunGenerator(const GeneratorFlags& flags) {
   std::iota(indices.begin(), indices.end(), 1);
   MadeProblems made;
   {
-    ProgressLine progress(spec.name, flags.count);
-    made = MakeProblems(spec, robot, flags.seed, indices, 0, threads,
-                        [&](int done) { progress.Show(done); });
+    std::optional<ProgressLine> progress;
+    if (isatty(STDERR_FILENO) == 1) progress.emplace(flags.count);
+    made = MakeProblems(spec, robot, flags.seed, indices, 0, threads, [&](int done) {
+      if (progress) progress->Show(done, spec.name);
+    });
   }
   WriteProblemSet(made.problems, flags.out);
   fmt::print("{}: {} problems with seed {} in {}\n", spec.name, flags.count, flags.seed,

@@ -18,33 +18,15 @@ RunRecordMessage Record(const std::string& planner, PlanStatus status) {
 TEST(ProgressBarTest, CountsRunsAndSuccessesByPlannerAndDirection) {
   testing::internal::CaptureStderr();
   {
-    ProgressBar bar(8);
-    bar.AddEarlier(Record("ara", PlanStatus::kSolved));
+    ProgressBar bar(8, {Record("ara", PlanStatus::kSolved)});
     bar.Add(Record("ara", PlanStatus::kTimedOut));
     bar.Add(Record("rrtc", PlanStatus::kSolved));
     RunRecordMessage backward = Record("rrtc", PlanStatus::kInvalidPath);
     backward.request.direction = Direction::kBackward;
     bar.Add(backward);
   }
-  const std::string shown = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(shown, HasSubstr("[##########..........] 4/8"));
-  EXPECT_THAT(shown, HasSubstr("ara forward 1/2"));
-  EXPECT_THAT(shown, HasSubstr("rrtc forward 1/1"));
-  EXPECT_THAT(shown, HasSubstr("rrtc backward 0/1"));
-  EXPECT_THAT(shown, HasSubstr("left)"));
-  EXPECT_EQ(shown.back(), '\n');
-}
-
-TEST(ProgressBarTest, ShowsTheEnd) {
-  testing::internal::CaptureStderr();
-  {
-    ProgressBar bar(1);
-    bar.Add(Record("ara", PlanStatus::kSolved));
-  }
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("[####################] 1/1"));
-  testing::internal::CaptureStderr();
-  { const ProgressBar nothing_to_do(0); }
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("0/0"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("] 4/8  ara forward 1/2  rrtc backward 0/1  rrtc forward 1/1  "));
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "common/progress_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace planbench {
+namespace {
+
+constexpr std::chrono::milliseconds kTerminalPeriod{100};
+constexpr std::chrono::seconds kLogPeriod{15};
+constexpr int kBarWidth = 20;
+
+std::string Duration(double seconds) {
+  const int whole = static_cast<int>(seconds);
+  return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+                       : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(int total, int done)
+    : total_(total), done_at_first_(done), done_(done), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() { Print(true); }
+
+void ProgressLine::Show(int done, const std::string& text) {
+  done_ = done;
+  text_ = text;
+  Print(false);
+}
+
+void ProgressLine::Print(bool last) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!last && now - shown_ < (on_terminal_ ? kTerminalPeriod : kLogPeriod)) return;
+  shown_ = now;
+  const int filled = total_ > 0 ? kBarWidth * done_ / total_ : kBarWidth;
+  const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
+  std::string line =
+      fmt::format("[{:.<{}}] {}/{}  {}  {}", std::string(static_cast<std::size_t>(filled), '#'),
+                  kBarWidth, done_, total_, text_, Duration(elapsed_s));
+  const int done_here = done_ - done_at_first_;
+  if (done_here > 0 && done_ < total_) {
+    line += fmt::format(" (about {} left)", Duration(elapsed_s / done_here * (total_ - done_)));
+  }
+  fmt::print(stderr, "{}{}{}", on_terminal_ ? "\r\033[K" : "", line,
+             last || !on_terminal_ ? "\n" : "");
+  std::fflush(stderr);
+}
+
+}  // namespace planbench
