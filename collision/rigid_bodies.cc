@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/at.h"
+
 namespace planbench {
 namespace {
 
@@ -19,6 +21,13 @@ Eigen::Isometry3d Pose::ToIsometry() const {
   X.linear() = rotation;
   X.translation() = translation;
   return X;
+}
+
+std::vector<double> HeldPositions(const RobotModel& model, const PlanningGroup& group,
+                                  std::span<const double> base_positions) {
+  std::vector<double> held(base_positions.begin(), base_positions.end());
+  for (const int joint : group.joints) At(held, At(model.joints(), joint).position_index) = 0;
+  return held;
 }
 
 RigidBodies::RigidBodies(const RobotModel& model, const PlanningGroup& group,

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "collision/balls.h"
 #include "robot_model/robot_model.h"
 
 namespace planbench {
@@ -26,10 +27,9 @@ struct Pose {
   Eigen::Isometry3d ToIsometry() const;
 };
 
-struct Ball {
-  Eigen::Vector3d center;  ///< m
-  double radius;           ///< m
-};
+/// Full positions with those of the group's joints at 0: where the other joints are held.
+std::vector<double> HeldPositions(const RobotModel& model, const PlanningGroup& group,
+                                  std::span<const double> base_positions);
 
 /// A robot as one planning group moves it, all other joints held: links that keep their relative
 /// pose form one rigid body, so that a robot of 25 links is moved by one transform per group joint.

@@ -8,13 +8,13 @@
 namespace planbench {
 
 MotionBound::MotionBound(const RobotModel& model, const PlanningGroup& group,
-                         std::span<const double> base_positions, std::span<const LinkBall> balls)
+                         std::span<const double> base_positions, std::span<const LinkSphere> balls)
     : reach_(group.joints.size(), 0.0) {
   std::vector<int> group_index(model.joints().size(), -1);
   for (std::size_t i = 0; i < group.joints.size(); ++i) {
     group_index[static_cast<std::size_t>(group.joints[i])] = static_cast<int>(i);
   }
-  for (const LinkBall& ball : balls) {
+  for (const LinkSphere& ball : balls) {
     SweptRegion region(ball.p_LS);
     int link = ball.link;
     while (model.links()[static_cast<std::size_t>(link)].parent_joint >= 0) {

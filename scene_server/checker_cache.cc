@@ -1,5 +1,7 @@
 #include "scene_server/checker_cache.h"
 
+#include "collision/rigid_bodies.h"
+
 namespace planbench {
 
 CollisionChecker& CheckerCache::Get(const PlanningGroup& group, CollisionModel model,
@@ -10,12 +12,7 @@ CollisionChecker& CheckerCache::Get(const PlanningGroup& group, CollisionModel m
   if (!entry.checker) entry.checker = MakeReferenceChecker(*robot_, group, model);
 
   // Where the group's own joints stand does not matter to the checker and must not cost a set-up.
-  const std::vector<double> defaults = robot_->model.DefaultPositions();
-  for (const int joint : group.joints) {
-    const auto index = static_cast<std::size_t>(
-        robot_->model.joints()[static_cast<std::size_t>(joint)].position_index);
-    base_positions[index] = defaults[index];
-  }
+  base_positions = HeldPositions(robot_->model, group, base_positions);
   if (entry.scene_id != scene_id || entry.base_positions != base_positions) {
     entry.scene_id.clear();  // stays so if the checker refuses the scene
     entry.checker->SetScene(*scene, base_positions);

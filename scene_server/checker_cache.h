@@ -31,7 +31,7 @@ class CheckerCache {
     std::unique_ptr<CollisionChecker> checker;
     std::string scene_id;                // empty: no scene set
     std::shared_ptr<const Scene> scene;  // kept alive for the checker
-    std::vector<double> base_positions;  // the group's at default
+    std::vector<double> base_positions;  // the group's at 0
   };
 
   const Robot* robot_;

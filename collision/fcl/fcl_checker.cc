@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "collision/at.h"
 #include "collision/pair_rules.h"
 #include "common/error.h"
 
@@ -17,11 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Culling may err towards "may touch" only; this absorbs the rounding of frames some metres apart.
 constexpr double kRoundingMargin = 1e-12;
-
-template <typename Container, typename Index>
-auto& At(Container& container, Index index) {
-  return container[static_cast<std::size_t>(index)];
-}
 
 inline bool BallMissesBox(const Eigen::Vector3d& center, double radius,
                           const Eigen::Vector3d& box_center, const Eigen::Vector3d& box_half_size) {
@@ -48,14 +44,16 @@ double BoxDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& box_cent
 
 FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
     : CollisionChecker(robot, group, model) {
+  std::vector<LinkSphere> balls;  // that cover the geometry
   for (int link = 0; link < robot.model.num_links(); ++link) {
-    LinkGeometry geometry{link, SphereTree(), {}, {}};
+    LinkGeometry geometry{link, SphereTree(), {}};
+    const std::size_t num_balls = balls.size();
     if (model == CollisionModel::kSpheres) {
       std::vector<Ball> spheres;
       for (const LinkSphere& sphere : robot.spheres) {
         if (sphere.link != link) continue;
         spheres.push_back({sphere.p_LS, sphere.radius});
-        geometry.balls.push_back({link, sphere.p_LS, sphere.radius});
+        balls.push_back(sphere);
       }
       geometry.spheres = SphereTree(std::move(spheres));
     } else {
@@ -70,15 +68,15 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
         geometry.shapes.emplace_back(FclShape(shape, urdf_link.name), X_LS);
         if (const auto* mesh = std::get_if<Mesh>(&shape)) {
           for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
-            geometry.balls.push_back({link, X_LS * vertex, 0});
+            balls.push_back({link, X_LS * vertex, 0});
           }
         } else {
           const BoundingSphere bound = ComputeBoundingSphere(shape);
-          geometry.balls.push_back({link, X_LS * bound.center, bound.radius});
+          balls.push_back({link, X_LS * bound.center, bound.radius});
         }
       }
     }
-    if (!geometry.balls.empty()) links_.push_back(std::move(geometry));
+    if (balls.size() > num_balls) links_.push_back(std::move(geometry));
   }
   if (links_.empty()) {
     throw InputError(
@@ -86,6 +84,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
                     model == CollisionModel::kSpheres ? "collision spheres" : "collision geometry",
                     EnumName(model)));
   }
+  geometry_bound_.emplace(robot.model, group, std::move(balls));
 }
 
 void FclChecker::AddGeometry(Geometry geometry) {
@@ -170,35 +169,7 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
   ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
   placed_at_.assign(geometries_.size(), -1);
   ListPairs(scene);
-  return BoundMotion(scene, base_positions);
-}
-
-MotionBound FclChecker::BoundMotion(const Scene& scene, std::span<const double> base_positions) {
-  // The vertices of a robot's meshes are many and their bound depends on the held joints only,
-  // which seldom change.
-  std::vector<double> held(base_positions.begin(), base_positions.end());
-  for (int joint : group().joints) {
-    At(held, At(robot().model.joints(), joint).position_index) = 0;
-  }
-  if (scene.attached.empty() && held == bound_at_) return links_bound_;
-
-  std::vector<LinkBall> balls;
-  for (const LinkGeometry& link : links_) {
-    balls.insert(balls.end(), link.balls.begin(), link.balls.end());
-  }
-  for (const AttachedObject& attached : scene.attached) {
-    const int link = robot().model.FindLink(attached.link);
-    for (const PlacedShape& placed : attached.object.shapes) {
-      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
-      balls.push_back({link, attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
-    }
-  }
-  MotionBound bound(robot().model, group(), base_positions, balls);
-  if (scene.attached.empty()) {
-    bound_at_ = std::move(held);
-    links_bound_ = bound;
-  }
-  return bound;
+  return geometry_bound_->Compute(scene, base_positions);
 }
 
 bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const Body& a,

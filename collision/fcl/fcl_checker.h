@@ -12,6 +12,7 @@
 #include "collision/collision_checker.h"
 #include "collision/fcl/fcl_shape.h"
 #include "collision/fcl/sphere_tree.h"
+#include "collision/geometry_bound.h"
 #include "collision/rigid_bodies.h"
 
 namespace planbench {
@@ -47,7 +48,6 @@ class FclChecker : public CollisionChecker {
     int link;
     SphereTree spheres;                             // spheres model
     std::vector<std::pair<FclShape, Pose>> shapes;  // meshes model, X_LS
-    std::vector<LinkBall> balls;                    // for the motion bound
   };
   /// A body: a link with geometry, an object, or an attached object.
   struct Body {
@@ -83,7 +83,6 @@ class FclChecker : public CollisionChecker {
                  const std::string& name);
   void AddGeometry(Geometry geometry);
   void ListPairs(const Scene& scene);
-  MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions);
   bool ChecksBodies(const class PairRules& rules, const Scene& scene, const Body& a,
                     const Body& b) const;
   bool OutOfReach(const Geometry& moving, const Geometry& carrier) const;
@@ -98,8 +97,7 @@ class FclChecker : public CollisionChecker {
   void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
 
   std::vector<LinkGeometry> links_;
-  std::vector<double> bound_at_;  // base positions (the group's as 0) that links_bound_ holds for
-  MotionBound links_bound_;       // without attached objects
+  std::optional<GeometryBound> geometry_bound_;
 
   // Of the scene set last.
   std::optional<RigidBodies> rigid_bodies_;

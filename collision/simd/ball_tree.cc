@@ -1,7 +1,7 @@
 #include "collision/simd/ball_tree.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace planbench {
@@ -19,23 +19,6 @@ Ball Enclosing(const std::vector<BallTree>& children) {
   return EnclosingBall(balls);
 }
 
-/// Cuts balls in two across the longest extent of their centres, at the middle ball.
-std::pair<std::vector<Ball>, std::vector<Ball>> Halve(std::vector<Ball> balls) {
-  Eigen::Vector3d low = balls.front().center;
-  Eigen::Vector3d high = low;
-  for (const Ball& ball : balls) {
-    low = low.cwiseMin(ball.center);
-    high = high.cwiseMax(ball.center);
-  }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  std::stable_sort(balls.begin(), balls.end(), [axis](const Ball& a, const Ball& b) {
-    return a.center[axis] < b.center[axis];
-  });
-  const auto middle = balls.begin() + static_cast<std::ptrdiff_t>(balls.size() / 2);
-  return {std::vector<Ball>(balls.begin(), middle), std::vector<Ball>(middle, balls.end())};
-}
-
 /// Cuts balls into up to kMaxChildren groups, always the group with the largest enclosing ball.
 std::vector<std::vector<Ball>> Partition(std::vector<Ball> balls) {
   std::vector<std::vector<Ball>> groups = {std::move(balls)};
@@ -51,8 +34,9 @@ std::vector<std::vector<Ball>> Partition(std::vector<Ball> balls) {
       }
     }
     if (largest == groups.end()) break;
-    auto [first, second] = Halve(std::move(*largest));
-    *largest = std::move(first);
+    const auto middle = largest->begin() + static_cast<std::ptrdiff_t>(Halve(*largest));
+    std::vector<Ball> second(middle, largest->end());
+    largest->erase(middle, largest->end());
     groups.push_back(std::move(second));
   }
   return groups;
@@ -72,28 +56,6 @@ std::vector<Ball> WithoutCovered(std::vector<Ball> balls) {
 }
 
 }  // namespace
-
-Ball EnclosingBall(std::span<const Ball> balls) {
-  Ball enclosing = balls.front();
-  const auto farthest = [&](const Eigen::Vector3d& center) {
-    return std::max_element(balls.begin(), balls.end(), [&](const Ball& a, const Ball& b) {
-      return (a.center - center).norm() + a.radius < (b.center - center).norm() + b.radius;
-    });
-  };
-  Eigen::Vector3d center = enclosing.center;
-  enclosing.radius = -1;
-  for (int i = 0; i < 200; ++i) {
-    const Ball& far = *farthest(center);
-    const Eigen::Vector3d to_far = far.center - center;
-    const double distance = to_far.norm();
-    const double radius = distance + far.radius;
-    if (enclosing.radius < 0 || radius < enclosing.radius) enclosing = {center, radius};
-    if (distance < 1e-12) break;
-    // Towards the far side of the farthest ball.
-    center += to_far * (radius / distance / (i + 2));
-  }
-  return enclosing;
-}
 
 BallTree::BallTree(std::vector<Ball> balls) {
   balls = WithoutCovered(std::move(balls));

@@ -1,16 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <span>
 #include <vector>
 
-#include "collision/rigid_bodies.h"
+#include "collision/balls.h"
 
 namespace planbench {
-
-/// A small ball that encloses all of the given ones (at least one): a 1.01-approximation by Badoiu
-/// and Clarkson's iteration (Optimal core-sets for balls, 2008).
-Ball EnclosingBall(std::span<const Ball> balls);
 
 /// A tree of balls with few children a node, for testing balls of one part of a robot against the
 /// same things: leaves are the given balls.

@@ -6,7 +6,9 @@
 #include <random>
 #include <utility>
 
+#include "collision/at.h"
 #include "collision/simd/ball_tree.h"
+#include "common/random.h"
 #include "robot_model/motion_bound.h"
 
 namespace planbench {
@@ -16,11 +18,6 @@ using kernels::Node;
 
 /// Motion bounds are rounded to single precision and summed there; this much more than covers it.
 constexpr double kBoundFactor = 1 + 1e-5;
-
-template <typename Container, typename Index>
-auto& At(Container& container, Index index) {
-  return container[static_cast<std::size_t>(index)];
-}
 
 /// What is tried to prove that two trees never meet.
 constexpr int kMaxProofJoints = 3;
@@ -53,9 +50,7 @@ void SetVector(const Eigen::Vector3d& v, float* values) {
 
 void SetBall(const Ball& ball, const Eigen::Matrix3d& R_CG, double padding, Node* node) {
   const Eigen::Vector3d p_C = R_CG * ball.center;
-  node->x = static_cast<float>(p_C.x());
-  node->y = static_cast<float>(p_C.y());
-  node->z = static_cast<float>(p_C.z());
+  SetVector(p_C, node->center);
   node->radius = static_cast<float>(ball.radius + padding);
 }
 
@@ -74,16 +69,18 @@ void Emit(const BallTree& tree, const Eigen::Matrix3d& R_CG, int index, std::vec
 }  // namespace
 
 CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
-                             const RigidBodies& rigid_bodies,
                              std::span<const double> base_positions)
-    : space_(&group.space) {
+    : model_(&robot.model),
+      group_(&group),
+      base_positions_(base_positions.begin(), base_positions.end()),
+      rigid_bodies_(robot.model, group, base_positions) {
   kernel.num_joints = group.space.size();
-  kernel.bodies.resize(static_cast<std::size_t>(rigid_bodies.size()));
+  kernel.bodies.resize(static_cast<std::size_t>(rigid_bodies_.size()));
   R_CG_.assign(kernel.bodies.size(), Eigen::Matrix3d::Identity());
-  for (int i = 1; i < rigid_bodies.size(); ++i) {
-    const RigidBodies::Mobility mobility = rigid_bodies.MobilityOf(i);
+  for (int i = 1; i < rigid_bodies_.size(); ++i) {
+    const RigidBodies::Mobility mobility = rigid_bodies_.MobilityOf(i);
     kernels::Body& body = At(kernel.bodies, i);
-    body.parent = rigid_bodies.Parent(i);
+    body.parent = rigid_bodies_.Parent(i);
     body.joint = mobility.group_index;
     body.prismatic = mobility.prismatic;
     const Eigen::Matrix3d& R_PC = At(R_CG_, body.parent);  // parent's frames: G to C
@@ -101,26 +98,26 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     At(R_CG_, i) = R_GC.transpose();
   }
 
-  for (int i = 0; i < rigid_bodies.size(); ++i) {
+  for (int i = 0; i < rigid_bodies_.size(); ++i) {
     std::vector<BallTree> trees;
     std::vector<CompiledTree> parts;
     std::vector<LinkSphere> body_spheres;
     for (int link = 0; link < robot.model.num_links(); ++link) {
-      if (rigid_bodies.BodyOf(link) != i) continue;
+      if (rigid_bodies_.BodyOf(link) != i) continue;
       std::vector<Ball> balls;
       std::vector<LinkSphere> spheres;
       for (const LinkSphere& sphere : robot.spheres) {
         if (sphere.link != link) continue;
-        balls.push_back({rigid_bodies.X_GL(link) * sphere.p_LS, sphere.radius});
+        balls.push_back({rigid_bodies_.X_GL(link) * sphere.p_LS, sphere.radius});
         spheres.push_back(sphere);
       }
       if (balls.empty()) continue;
       CompiledTree part;
       part.link = link;
       part.body = i;
-      part.reach = AddReach(robot, group, base_positions, spheres);
+      part.reach = AddReach(spheres);
       trees.emplace_back(std::move(balls));
-      part.reach_W = rigid_bodies.Reach(0, i, trees.back().ball());
+      part.reach_W = rigid_bodies_.Reach(0, i, trees.back().ball());
       parts.push_back(part);
       body_spheres.insert(body_spheres.end(), spheres.begin(), spheres.end());
     }
@@ -139,8 +136,8 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
         parts[k].root = static_cast<int>(kernel.nodes.size() + k);
       }
       Emit(tree, At(R_CG_, i), whole.root, &kernel.nodes);
-      whole.reach_W = rigid_bodies.Reach(0, i, tree.ball());
-      whole.reach = AddReach(robot, group, base_positions, body_spheres);
+      whole.reach_W = rigid_bodies_.Reach(0, i, tree.ball());
+      whole.reach = AddReach(body_spheres);
     }
     bodies.push_back(whole);
     links.insert(links.end(), parts.begin(), parts.end());
@@ -151,12 +148,8 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
   num_reaches_ = kernel.reaches.size();
 }
 
-int CompiledRobot::AddReach(const Robot& robot, const PlanningGroup& group,
-                            std::span<const double> base_positions,
-                            std::span<const LinkSphere> spheres) {
-  std::vector<LinkBall> balls;
-  for (const LinkSphere& s : spheres) balls.push_back({s.link, s.p_LS, s.radius});
-  const MotionBound bound(robot.model, group, base_positions, balls);
+int CompiledRobot::AddReach(std::span<const LinkSphere> spheres) {
+  const MotionBound bound(*model_, *group_, base_positions_, spheres);
   const int offset = static_cast<int>(kernel.reaches.size());
   for (double reach : bound.reach()) {
     kernel.reaches.push_back(static_cast<float>(reach * kBoundFactor));
@@ -164,18 +157,15 @@ int CompiledRobot::AddReach(const Robot& robot, const PlanningGroup& group,
   return offset;
 }
 
-CompiledTree CompiledRobot::AddBall(const Robot& robot, const PlanningGroup& group,
-                                    const RigidBodies& rigid_bodies,
-                                    std::span<const double> base_positions, int link,
-                                    const Ball& ball_L) {
+CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   CompiledTree tree;
   tree.link = link;
-  tree.body = rigid_bodies.BodyOf(link);
+  tree.body = rigid_bodies_.BodyOf(link);
   tree.root = static_cast<int>(kernel.nodes.size());
   const LinkSphere sphere{link, ball_L.center, ball_L.radius};
-  tree.reach = AddReach(robot, group, base_positions, {&sphere, 1});
-  const Ball ball_G{rigid_bodies.X_GL(link) * ball_L.center, ball_L.radius};
-  tree.reach_W = rigid_bodies.Reach(0, tree.body, ball_G);
+  tree.reach = AddReach({&sphere, 1});
+  const Ball ball_G{rigid_bodies_.X_GL(link) * ball_L.center, ball_L.radius};
+  tree.reach_W = rigid_bodies_.Reach(0, tree.body, ball_G);
   kernel.nodes.emplace_back();
   SetBall(ball_G, At(R_CG_, tree.body), kRadiusPadding, &kernel.nodes.back());
   return tree;
@@ -187,6 +177,11 @@ void CompiledRobot::Truncate() {
   kernel.reaches.resize(num_reaches_);
 }
 
+Ball CompiledRobot::BallOf(const Node& node, int body) const {
+  const Eigen::Vector3d p_C(node.center[0], node.center[1], node.center[2]);
+  return {At(R_CG_, body).transpose() * p_C, node.radius};
+}
+
 std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
   std::vector<Ball> leaves;
   std::vector<int> open = {tree.root};
@@ -195,18 +190,16 @@ std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
     open.pop_back();
     for (int i = 0; i < node.num_children; ++i) open.push_back(node.first_child + i);
     if (node.num_children > 0) continue;
-    const Eigen::Vector3d p_C(node.x, node.y, node.z);
-    leaves.push_back({At(R_CG_, tree.body).transpose() * p_C, node.radius});
+    leaves.push_back(BallOf(node, tree.body));
   }
   return leaves;
 }
 
-bool CompiledRobot::WithinReach(const RigidBodies& rigid_bodies, const CompiledTree& carrier,
-                                const CompiledTree& moving) const {
-  if (!rigid_bodies.Descends(moving.body, carrier.body)) return true;
+bool CompiledRobot::WithinReach(const CompiledTree& carrier, const CompiledTree& moving) const {
+  if (!rigid_bodies_.Descends(moving.body, carrier.body)) return true;
   const std::vector<Ball> fixed = LeavesOf(carrier);
   for (const Ball& leaf : LeavesOf(moving)) {
-    const Ball reach = rigid_bodies.Reach(carrier.body, moving.body, leaf);
+    const Ball reach = rigid_bodies_.Reach(carrier.body, moving.body, leaf);
     for (const Ball& ball : fixed) {
       if ((ball.center - reach.center).norm() - kRadiusPadding <= ball.radius + reach.radius) {
         return true;
@@ -216,8 +209,8 @@ bool CompiledRobot::WithinReach(const RigidBodies& rigid_bodies, const CompiledT
   return false;
 }
 
-bool CompiledRobot::ProvenApart(const RigidBodies& rigid_bodies, const CompiledTree& a,
-                                const CompiledTree& b, std::span<const float> reach) const {
+bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
+                                std::span<const float> reach) const {
   struct Box {
     std::vector<double> center, half_width;
   };
@@ -226,7 +219,7 @@ bool CompiledRobot::ProvenApart(const RigidBodies& rigid_bodies, const CompiledT
   for (std::size_t j = 0; j < reach.size(); ++j) {
     if (reach[j] == 0) continue;
     ++num_joints;
-    const JointSpace::Joint& joint = space_->joint(static_cast<int>(j));
+    const JointSpace::Joint& joint = group_->space.joint(static_cast<int>(j));
     all.center[j] = (joint.lower + joint.upper) / 2;
     all.half_width[j] = (joint.upper - joint.lower) / 2 + JointSpace::kLimitTolerance;
   }
@@ -234,12 +227,12 @@ bool CompiledRobot::ProvenApart(const RigidBodies& rigid_bodies, const CompiledT
 
   const std::vector<Ball> balls_a = LeavesOf(a);
   const std::vector<Ball> balls_b = LeavesOf(b);
-  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies.size()));
+  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies_.size()));
   std::vector<Box> open = {all};
   for (int i = 0; i < kMaxProofBoxes && !open.empty(); ++i) {
     const Box box = std::move(open.back());
     open.pop_back();
-    rigid_bodies.ComputePoses(box.center, X_WG);
+    rigid_bodies_.ComputePoses(box.center, X_WG);
     const double distance =
         LeastDistance(balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body), balls_b);
     if (distance <= 0) return false;
@@ -259,15 +252,14 @@ bool CompiledRobot::ProvenApart(const RigidBodies& rigid_bodies, const CompiledT
   return open.empty();
 }
 
-void CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree& a,
-                            const CompiledTree& b, bool doubtful) {
-  if (!WithinReach(rigid_bodies, a, b) || !WithinReach(rigid_bodies, b, a)) return;
+void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful) {
+  if (!WithinReach(a, b) || !WithinReach(b, a)) return;
   const int offset = static_cast<int>(kernel.reaches.size());
   kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
   // The joints between each and the nearest body that carries both.
   for (const auto& [tree, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (int body = tree->body; !rigid_bodies.Descends(other->body, body);
-         body = rigid_bodies.Parent(body)) {
+    for (int body = tree->body; !rigid_bodies_.Descends(other->body, body);
+         body = rigid_bodies_.Parent(body)) {
       const int joint = At(kernel.bodies, body).joint;
       At(kernel.reaches, offset + joint) = At(kernel.reaches, tree->reach + joint);
     }
@@ -276,18 +268,17 @@ void CompiledRobot::AddPair(const RigidBodies& rigid_bodies, const CompiledTree&
   if (doubtful) {
     kernel.pairs.push_back({a.root, b.root, a.body, b.body, doubtful, offset});
   } else {
-    AddProven(rigid_bodies, a, b, offset);
+    AddProven(a, b, offset);
   }
   if (kernel.pairs.size() == num_pairs) kernel.reaches.resize(static_cast<std::size_t>(offset));
 }
 
-void CompiledRobot::AddProven(const RigidBodies& rigid_bodies, const CompiledTree& a,
-                              const CompiledTree& b, int reach) {
+void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b, int reach) {
   const std::vector<float> weights(kernel.reaches.begin() + reach,
                                    kernel.reaches.begin() + reach + kernel.num_joints);
-  if (ProvenApart(rigid_bodies, a, b, weights)) return;
+  if (ProvenApart(a, b, weights)) return;
   const CompiledTree* split = nullptr;
-  if (UsuallyTouch(rigid_bodies, a, b)) {
+  if (UsuallyTouch(a, b)) {
     const Node& node_a = At(kernel.nodes, a.root);
     const Node& node_b = At(kernel.nodes, b.root);
     if (node_a.num_children > 0) split = &a;
@@ -304,31 +295,24 @@ void CompiledRobot::AddProven(const RigidBodies& rigid_bodies, const CompiledTre
   for (int i = 0; i < num; ++i) {
     CompiledTree child = *split;
     child.root = first + i;
-    AddProven(rigid_bodies, child, split == &a ? b : a, reach);
+    AddProven(child, split == &a ? b : a, reach);
   }
 }
 
-bool CompiledRobot::UsuallyTouch(const RigidBodies& rigid_bodies, const CompiledTree& a,
-                                 const CompiledTree& b) const {
-  const auto ball = [&](const CompiledTree& tree) {
-    const Node& node = At(kernel.nodes, tree.root);
-    const Eigen::Vector3d p_C(node.x, node.y, node.z);
-    return Ball{At(R_CG_, tree.body).transpose() * p_C, node.radius};
-  };
-  const Ball ball_a = ball(a);
-  const Ball ball_b = ball(b);
+bool CompiledRobot::UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const {
+  const Ball ball_a = BallOf(At(kernel.nodes, a.root), a.body);
+  const Ball ball_b = BallOf(At(kernel.nodes, b.root), b.body);
   std::mt19937_64 generator(1);
-  std::vector<double> q(static_cast<std::size_t>(space_->size()));
-  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies.size()));
+  std::vector<double> q(static_cast<std::size_t>(group_->space.size()));
+  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies_.size()));
   constexpr int kNumSamples = 64;
   int num_touching = 0;
   for (int i = 0; i < kNumSamples; ++i) {
     for (std::size_t j = 0; j < q.size(); ++j) {
-      const JointSpace::Joint& joint = space_->joint(static_cast<int>(j));
-      const double fraction = static_cast<double>(generator() >> 11) * 0x1p-53;
-      q[j] = joint.lower + fraction * (joint.upper - joint.lower);
+      const JointSpace::Joint& joint = group_->space.joint(static_cast<int>(j));
+      q[j] = joint.lower + UniformFraction(&generator) * (joint.upper - joint.lower);
     }
-    rigid_bodies.ComputePoses(q, X_WG);
+    rigid_bodies_.ComputePoses(q, X_WG);
     const double distance =
         (At(X_WG, a.body) * ball_a.center - At(X_WG, b.body) * ball_b.center).norm();
     num_touching += distance <= ball_a.radius + ball_b.radius ? 1 : 0;
@@ -337,7 +321,7 @@ bool CompiledRobot::UsuallyTouch(const RigidBodies& rigid_bodies, const Compiled
 }
 
 void CompiledRobot::AddPairs(
-    const RigidBodies& rigid_bodies, const CompiledTree& body_a, const CompiledTree& body_b,
+    const CompiledTree& body_a, const CompiledTree& body_b,
     const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks, double* distance) {
   const bool same = body_a.body == body_b.body;
   std::vector<const CompiledTree*> links_b;
@@ -367,9 +351,9 @@ void CompiledRobot::AddPairs(
       *distance = std::min(*distance, LeastDistance(LeavesOf(*a), Pose(), LeavesOf(*b)));
     }
   } else if (checks_all) {
-    AddPair(rigid_bodies, body_a, body_b, false);
+    AddPair(body_a, body_b, false);
   } else {
-    for (const auto& [a, b] : pairs) AddPair(rigid_bodies, *a, *b, false);
+    for (const auto& [a, b] : pairs) AddPair(*a, *b, false);
   }
 }
 

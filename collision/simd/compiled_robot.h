@@ -26,23 +26,21 @@ struct CompiledTree {
 /// A robot's spheres as the kernels take them, with joints outside the group held.
 struct CompiledRobot {
   /// `base_positions`: full positions, at which joints outside the group are held.
-  CompiledRobot(const Robot& robot, const PlanningGroup& group, const RigidBodies& bodies,
+  CompiledRobot(const Robot& robot, const PlanningGroup& group,
                 std::span<const double> base_positions);
 
-  /// A tree of one ball fixed to a body, given in the body's frame G, for something that is not a
+  /// A tree of one ball fixed to a link, given in the link's frame, for something that is not a
   /// sphere of the robot. Drops nothing that was added before; see Truncate.
-  CompiledTree AddBall(const Robot& robot, const PlanningGroup& group, const RigidBodies& bodies,
-                       std::span<const double> base_positions, int link, const Ball& ball_L);
+  CompiledTree AddBall(int link, const Ball& ball_L);
   /// Forgets added balls, and all pairs.
   void Truncate();
 
   /// A pair of trees of different bodies, unless they can never meet within the joint limits.
-  void AddPair(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
-               bool doubtful);
+  void AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful);
   /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
   /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs
   /// is stored there.
-  void AddPairs(const RigidBodies& bodies, const CompiledTree& body_a, const CompiledTree& body_b,
+  void AddPairs(const CompiledTree& body_a, const CompiledTree& body_b,
                 const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks,
                 double* distance);
 
@@ -51,26 +49,26 @@ struct CompiledRobot {
   std::vector<CompiledTree> bodies;  ///< Of every body that has spheres, in body order.
 
  private:
-  int AddReach(const Robot& robot, const PlanningGroup& group,
-               std::span<const double> base_positions, std::span<const LinkSphere> spheres);
+  int AddReach(std::span<const LinkSphere> spheres);
   /// In the body's frame G, enlarged.
+  Ball BallOf(const kernels::Node& node, int body) const;
   std::vector<Ball> LeavesOf(const CompiledTree& tree) const;
   /// False if `moving` never comes near `carrier` whatever the joints between them do.
-  bool WithinReach(const RigidBodies& bodies, const CompiledTree& carrier,
-                   const CompiledTree& moving) const;
+  bool WithinReach(const CompiledTree& carrier, const CompiledTree& moving) const;
   /// True if it is proven that the trees never meet within the limits: the joints between them are
   /// few, and their ranges can be covered with boxes over each of which the trees move less than
   /// they are apart.
-  bool ProvenApart(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
+  bool ProvenApart(const CompiledTree& a, const CompiledTree& b,
                    std::span<const float> reach) const;
-
   /// True if the trees' root balls touch at most configurations.
-  bool UsuallyTouch(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b) const;
+  bool UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const;
   /// Adds what of a pair is not proven apart; `reach`: offset, see TreePair.
-  void AddProven(const RigidBodies& bodies, const CompiledTree& a, const CompiledTree& b,
-                 int reach);
+  void AddProven(const CompiledTree& a, const CompiledTree& b, int reach);
 
-  const JointSpace* space_;
+  const RobotModel* model_;
+  const PlanningGroup* group_;
+  std::vector<double> base_positions_;
+  RigidBodies rigid_bodies_;
   std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
   std::size_t num_nodes_ = 0;          ///< Without added balls.
   std::size_t num_reaches_ = 0;

@@ -5,8 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "collision/at.h"
+#include "collision/balls.h"
 #include "collision/shape_check.h"
-#include "collision/simd/ball_tree.h"
 
 namespace planbench {
 namespace {
@@ -21,11 +22,6 @@ constexpr double kLargest = 20;
 constexpr double kSolidPadding = 2e-5;
 
 constexpr int kMaxLeafSolids = 4;
-
-template <typename Container, typename Index>
-auto& At(Container& container, Index index) {
-  return container[static_cast<std::size_t>(index)];
-}
 
 /// Whether a unit vector points along z, up to a rounding that moves nothing within `extent` (m) by
 /// more than a small part of the padding.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
-#include "collision/shape_check.h"
-#include "collision/simd/ball_tree.h"
+#include "collision/at.h"
 
 namespace planbench {
 namespace {
@@ -17,11 +17,6 @@ using kernels::BlockVerdict;
 using kernels::kBlock;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <typename Container, typename Index>
-auto& At(Container& container, Index index) {
-  return container[static_cast<std::size_t>(index)];
-}
 
 kernels::LaneMask FirstLanes(int num) {
   return static_cast<kernels::LaneMask>((std::uint64_t{1} << num) - 1);
@@ -33,221 +28,44 @@ float Reduced(double position, bool slides) {
   return static_cast<float>(std::remainder(position, 2 * std::numbers::pi));
 }
 
-/// A grid that no sphere leaves.
-VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
-  VoxelSettings settings;
-  settings.lower.setConstant(kInfinity);
-  settings.upper.setConstant(-kInfinity);
-  for (const CompiledTree& tree : robot.bodies) {
-    const Eigen::Vector3d extent = Eigen::Vector3d::Constant(tree.reach_W.radius);
-    settings.lower = settings.lower.cwiseMin(tree.reach_W.center - extent);
-    settings.upper = settings.upper.cwiseMax(tree.reach_W.center + extent);
-  }
-  return settings;
-}
-
 }  // namespace
 
 SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
-    : CollisionChecker(robot, group, model), exact_(robot, group, CollisionModel::kSpheres) {
+    : CollisionChecker(robot, group, model),
+      compiled_(robot, group, model),
+      exact_(robot, group, CollisionModel::kSpheres) {
   const auto n = static_cast<std::size_t>(group.space.size());
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
   start_.resize(n);
   motion_.resize(n);
   for (const JointSpace::Joint& joint : space().joints()) {
-    lower_.push_back(joint.continuous ? -kInfinity : joint.lower - JointSpace::kLimitTolerance);
-    slides_.push_back(joint.prismatic ? 1 : 0);
-    upper_.push_back(joint.continuous ? kInfinity : joint.upper + JointSpace::kLimitTolerance);
+    const double tolerance = joint.continuous ? kInfinity : JointSpace::kLimitTolerance;
+    joints_.slides.push_back(joint.prismatic ? 1 : 0);
+    joints_.lower.push_back(joint.lower - tolerance);
+    joints_.upper.push_back(joint.upper + tolerance);
   }
 }
 
 MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> base_positions) {
   exact_is_set_ = false;
-  const PairRules rules(robot(), scene);
-  for (const AttachedObject& attached : scene.attached) {
-    for (const PlacedShape& placed : attached.object.shapes) {
-      RequireSolid(placed.shape, attached.object.id);
-    }
-  }
-
-  std::vector<double> held(base_positions.begin(), base_positions.end());
-  for (int joint : group().joints) {
-    At(held, At(robot().model.joints(), joint).position_index) = 0;
-  }
-  const bool robot_holds = held == held_;
-  if (!robot_holds) {
-    held_.clear();
-    rigid_bodies_.emplace(robot().model, group(), base_positions);
-    compiled_.emplace(robot(), group(), *rigid_bodies_, base_positions);
-    links_bound_ = BoundMotion({}, base_positions);
-    if (model() == CollisionModel::kVoxels) {
-      field_ = std::make_unique<DistanceFieldBuilder>(
-          robot().voxels ? *robot().voxels : VoxelsWithinReach(*compiled_));
-    }
-    held_ = std::move(held);
-  }
-
-  const bool same_matrix = scene.allowed_collisions == scene_.allowed_collisions;
-  if (!same_matrix) scene_.allowed_collisions = scene.allowed_collisions;
-  scene_.objects = scene.objects;
-  scene_.attached = scene.attached;
-  base_positions_.assign(base_positions.begin(), base_positions.end());
-  if (!robot_holds || !same_matrix || !pairs_hold_ || !scene.attached.empty()) {
-    pairs_hold_ = false;
-    NoteAllowedNames(scene.allowed_collisions);
-    CompilePairs(rules, scene, base_positions);
-    pairs_hold_ = scene.attached.empty();
-  }
-  if (field_ == nullptr) {
-    world_.SetObjects(scene, *compiled_);
-  } else {
-    world_.SetObjects({}, *compiled_);
-    const DistanceField& field = field_->Rebuild(scene);
-    for (std::size_t k = 0; k < 3; ++k) {
-      grid_.origin[k] = field.origin[k];
-      grid_.size[k] = field.size[k];
-    }
-    grid_.resolution = field.resolution;
-    grid_.outside = field.outside;
-    grid_.values = field.values.data();
-    world_.kernel.grid = &grid_;
-  }
-  CompileTrees(rules, scene);
-  scratch_.Reset(compiled_->kernel, world_.kernel);
-  return scene.attached.empty() ? links_bound_ : BoundMotion(scene, base_positions);
-}
-
-MotionBound SimdChecker::BoundMotion(const Scene& scene,
-                                     std::span<const double> base_positions) const {
-  std::vector<LinkBall> balls;
-  for (const LinkSphere& s : robot().spheres) balls.push_back({s.link, s.p_LS, s.radius});
-  for (const AttachedObject& attached : scene.attached) {
-    const int link = robot().model.FindLink(attached.link);
-    for (const PlacedShape& placed : attached.object.shapes) {
-      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
-      balls.push_back({link, attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
-    }
-  }
-  return MotionBound(robot().model, group(), base_positions, balls);
-}
-
-void SimdChecker::NoteAllowedNames(const AllowedCollisionMatrix& matrix) {
-  allowed_names_.clear();
-  for (const auto& [names, allowed] : matrix.entries()) {
-    allowed_names_.insert(names.first);
-    allowed_names_.insert(names.second);
-  }
-}
-
-void SimdChecker::CompilePairs(const PairRules& rules, const Scene& scene,
-                               std::span<const double> base_positions) {
-  compiled_->Truncate();
-  links_collide_ = false;
-  links_distance_ = kInfinity;
-  const auto& links = compiled_->links;
-  const auto checks = [&](const CompiledTree& a, const CompiledTree& b) {
-    return rules.ChecksLinks(a.link, b.link);
-  };
-  for (const CompiledTree& a : compiled_->bodies) {
-    for (const CompiledTree& b : compiled_->bodies) {
-      if (b.body < a.body) continue;
-      compiled_->AddPairs(*rigid_bodies_, a, b, checks, &links_distance_);
-    }
-  }
-  links_collide_ = links_distance_ <= 0;
-
-  attached_.clear();
-  for (const AttachedObject& attached : scene.attached) {
-    std::vector<Ball> balls;
-    for (const PlacedShape& placed : attached.object.shapes) {
-      const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
-      balls.push_back({attached.object.X_WO * (placed.X_FS * bound.center), bound.radius});
-    }
-    if (balls.empty()) continue;
-    const CompiledTree tree = compiled_->AddBall(robot(), group(), *rigid_bodies_, base_positions,
-                                                 rules.LinkOf(attached), EnclosingBall(balls));
-    // Pairs of one body are the FCL engine's to judge, once; see CompileTrees.
-    for (const CompiledTree& link : links) {
-      if (link.body != tree.body && rules.ChecksAttachedWithLink(attached, link.link)) {
-        compiled_->AddPair(*rigid_bodies_, link, tree, true);
-      }
-    }
-    for (const CompiledTree& other : attached_) {
-      if (other.body != tree.body) compiled_->AddPair(*rigid_bodies_, other, tree, true);
-    }
-    attached_.push_back(tree);
-  }
-}
-
-void SimdChecker::CompileTrees(const PairRules& rules, const Scene& scene) {
-  // Objects that the matrix does not name count for every link, unless links allow by default.
-  const bool by_default = !scene.allowed_collisions.default_entries().empty();
-  std::vector<unsigned char> all(scene.objects.size(), 1);
-  std::vector<int> named;
-  for (std::size_t i = 0; field_ == nullptr && i < scene.objects.size(); ++i) {
-    if (by_default || allowed_names_.contains(scene.objects[i].id)) {
-      named.push_back(static_cast<int>(i));
-    }
-  }
-  const auto add = [&](const CompiledTree& tree) {
-    std::vector<unsigned char> checked = all;
-    for (int i : named) {
-      At(checked, i) = rules.ChecksLinkWithObject(tree.link, At(scene.objects, i)) ? 1 : 0;
-    }
-    world_.AddTree(tree, checked, false);
-  };
-  const auto add_all = [&](bool moving) {
-    for (const CompiledTree& tree : named.empty() ? compiled_->bodies : compiled_->links) {
-      if ((tree.body != 0) == moving) named.empty() ? world_.AddTree(tree, all, false) : add(tree);
-    }
-  };
-
-  // What does not move is judged here, once.
-  always_collides_ = links_collide_;
-  standing_distance_ = links_distance_;
-  if (field_ == nullptr) add_all(false);
-  if (!world_.kernel.trees.empty()) {
-    base_.num_joints = compiled_->kernel.num_joints;
-    base_.bodies.assign(1, kernels::Body());
-    base_.nodes = compiled_->kernel.nodes;
-    base_.reaches = compiled_->kernel.reaches;
-    base_scratch_.Reset(base_, world_.kernel);
-    BlockQuery query;
-    query.q = q_.data();
-    query.lanes = 1;
-    BlockVerdict verdict = kernels::CheckBlock(base_, world_.kernel, &base_scratch_, query);
-    float distances[kBlock];
-    kernels::BlockDistances(base_, world_.kernel, &base_scratch_, q_.data(),
-                            static_cast<float>(CompiledWorld::kMaxDistance), distances);
-    standing_distance_ = std::min(standing_distance_, static_cast<double>(distances[0]));
-    always_collides_ = always_collides_ || verdict.hits != 0;
-    if (verdict.doubts != 0) always_collides_ = always_collides_ || Exact().AlwaysCollides();
-    world_.kernel.trees.clear();
-    world_.kernel.candidates.clear();
-  }
-  add_all(true);
-  for (const CompiledTree& tree : attached_) world_.AddTree(tree, all, true);
-  if (!attached_.empty()) always_collides_ = always_collides_ || Exact().AlwaysCollides();
+  compiled_.Set(scene, base_positions);
+  const CompiledScene::Standing& standing = compiled_.standing();
+  always_collides_ = standing.collide || (standing.doubtful && Exact().AlwaysCollides());
+  scratch_.Reset(compiled_.robot(), compiled_.world());
+  return compiled_.motion_bound();
 }
 
 FclChecker& SimdChecker::Exact() {
   if (!exact_is_set_) {
-    exact_.SetScene(scene_, base_positions_);
+    exact_.SetScene(compiled_.scene(), compiled_.base_positions());
     exact_is_set_ = true;
   }
   return exact_;
 }
 
 SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int num) {
-  kernels::RowBlock block;
-  block.num_joints = space().size();
-  block.num_rows = num;
-  block.rows = rows.data();
-  block.slides = slides_.data();
-  block.lower = lower_.data();
-  block.upper = upper_.data();
-  return kernels::PlaceRows(block, q_.data());
+  return kernels::PlaceRows(joints_, rows.data(), num, q_.data());
 }
 
 template <typename Judge>
@@ -261,7 +79,8 @@ BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_width
   query.half_widths = half_widths;
   query.lanes = lanes & ~unfit;
   query.stop_at_first = stop_at_first;
-  BlockVerdict verdict = kernels::CheckBlock(compiled_->kernel, world_.kernel, &scratch_, query);
+  BlockVerdict verdict =
+      kernels::CheckBlock(compiled_.robot(), compiled_.world(), &scratch_, query);
   if (stop_at_first && verdict.certain != 0) return verdict;
   for (LaneMask open = (verdict.doubts & ~verdict.certain) | unfit; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
@@ -303,17 +122,16 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
                                            std::span<const MotionSample> samples) {
   const std::size_t n = start.size();
   kernels::SampleBlock block;
-  block.num_joints = static_cast<int>(n);
   block.start = start_.data();
   block.motion = motion_.data();
-  block.slides = slides_.data();
   // Between ends within the limits everything is.
   bool fits = true;
   for (std::size_t j = 0; j < n; ++j) {
-    start_[j] = Reduced(start[j], slides_[j] != 0);
+    start_[j] = Reduced(start[j], joints_.slides[j] != 0);
     motion_[j] = static_cast<float>(motion[j]);
     const double end = start[j] + motion[j];
-    fits = fits && std::min(start[j], end) >= lower_[j] && std::max(start[j], end) <= upper_[j];
+    fits = fits && std::min(start[j], end) >= joints_.lower[j] &&
+           std::max(start[j], end) <= joints_.upper[j];
   }
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
@@ -326,7 +144,7 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
       block.half_length[lane] = static_cast<float>(sample.half_length);
       around = around || sample.half_length > 0;
     }
-    kernels::PlaceSamples(block, q_.data(), half_widths_.data());
+    kernels::PlaceSamples(joints_, block, q_.data(), half_widths_.data());
     const BlockVerdict verdict =
         Check(count, fits ? 0 : FirstLanes(count), around ? half_widths_.data() : nullptr, true,
               [&](int lane) {
@@ -342,12 +160,13 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
 void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
                                   std::span<double> distances) {
   const auto n = static_cast<std::size_t>(space().size());
-  const double limit = std::min({at_most, CompiledWorld::kMaxDistance, standing_distance_});
+  const double limit =
+      std::min({at_most, CompiledWorld::kMaxDistance, compiled_.standing().distance_m});
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
     const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
     float block[kBlock];
-    kernels::BlockDistances(compiled_->kernel, world_.kernel, &scratch_, q_.data(),
+    kernels::BlockDistances(compiled_.robot(), compiled_.world(), &scratch_, q_.data(),
                             static_cast<float>(limit), block);
     for (int lane = 0; lane < count; ++lane) {
       const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
@@ -359,10 +178,10 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
 }
 
 double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const double> q) {
-  kernels::SphereRobot robot = compiled_->kernel;
+  kernels::SphereRobot robot = compiled_.robot();
   robot.pairs.clear();
   kernels::SphereWorld world;
-  world.grid = &grid_;
+  world.grid = compiled_.world().grid;
   world.trees.push_back({tree.root, tree.body, false, tree.reach, 0, 0, 0, -1});
   kernels::SphereScratch scratch;
   scratch.Reset(robot, world);
@@ -375,7 +194,7 @@ double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const doub
 
 std::pair<double, std::string> SimdChecker::NearestToField(std::span<const double> q) {
   std::pair<double, std::string> nearest = {kInfinity, ""};
-  for (const CompiledTree& tree : compiled_->links) {
+  for (const CompiledTree& tree : compiled_.links()) {
     if (tree.body == 0) continue;
     const double distance = FieldDistance(tree, q);
     if (distance < nearest.first) {
@@ -386,7 +205,7 @@ std::pair<double, std::string> SimdChecker::NearestToField(std::span<const doubl
 }
 
 std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
-  if (field_ != nullptr) {
+  if (model() == CollisionModel::kVoxels) {
     if (DoIsFree(q)) return std::nullopt;
     // What is not the field's is the robot's own, or an attached object's.
     const auto [distance, link] = NearestToField(q);
@@ -400,10 +219,10 @@ std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
 }
 
 ClosestPair SimdChecker::DoFindClosest(std::span<const double> q) {
-  if (field_ == nullptr) return Exact().FindClosest(q);
-  Scene without_objects = scene_;
+  if (model() != CollisionModel::kVoxels) return Exact().FindClosest(q);
+  Scene without_objects = compiled_.scene();
   without_objects.objects.clear();
-  exact_.SetScene(without_objects, base_positions_);
+  exact_.SetScene(without_objects, compiled_.base_positions());
   exact_is_set_ = false;
   ClosestPair closest = exact_.FindClosest(q);
   const auto [distance, link] = NearestToField(q);

@@ -1,19 +1,15 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "collision/collision_checker.h"
 #include "collision/fcl/fcl_checker.h"
-#include "collision/rigid_bodies.h"
-#include "collision/simd/compiled_robot.h"
-#include "collision/simd/compiled_world.h"
-#include "collision/voxels/distance_field.h"
+#include "collision/simd/compiled_scene.h"
+#include "collision/simd/kernels/sphere_kernel.h"
 
 namespace planbench {
 
@@ -54,17 +50,8 @@ class SimdChecker : public CollisionChecker {
  private:
   using LaneMask = kernels::LaneMask;
 
-  void CompilePairs(const PairRules& rules, const Scene& scene,
-                    std::span<const double> base_positions);
-  void CompileTrees(const PairRules& rules, const Scene& scene);
-  /// The distance of a tree from the field alone, at most kMaxDistance.
-  double FieldDistance(const CompiledTree& tree, std::span<const double> q);
-  std::pair<double, std::string> NearestToField(std::span<const double> q);
-  void NoteAllowedNames(const AllowedCollisionMatrix& matrix);
-  MotionBound BoundMotion(const Scene& scene, std::span<const double> base_positions) const;
   FclChecker& Exact();
-
-  bool Fits(const double* q) const;
+  SampleVerdicts ExactVerdict(std::span<const double> q);
   /// Puts the first `num` configurations into lanes. Returns the lanes that the kernels cannot
   /// judge: what was left out because it cannot be reached is so within the limits only.
   LaneMask SetLanes(std::span<const double> rows, int num);
@@ -73,40 +60,21 @@ class SimdChecker : public CollisionChecker {
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact);
-  SampleVerdicts ExactVerdict(std::span<const double> q);
+  /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.
+  double FieldDistance(const CompiledTree& tree, std::span<const double> q);
+  std::pair<double, std::string> NearestToField(std::span<const double> q);
 
-  // Of the held positions.
-  std::vector<double> held_;  ///< Full positions, the group's as 0, that the following are of.
-  std::optional<RigidBodies> rigid_bodies_;
-  std::optional<CompiledRobot> compiled_;
-  MotionBound links_bound_;  ///< Without attached objects.
-
-  // Of the scene.
-  Scene scene_;
-  std::vector<double> base_positions_;
-  bool pairs_hold_ = false;  ///< The pairs are those of scene_, which has nothing attached.
-  std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
-  std::vector<CompiledTree> attached_;
-  bool links_collide_ = false;  ///< Links that do not move relative to each other.
-  double links_distance_ = 0;   ///< Of the nearest such, m.
+  kernels::Joints joints_;  ///< Limits with kLimitTolerance added; infinite for continuous ones.
+  CompiledScene compiled_;
   bool always_collides_ = false;
-  double standing_distance_ = 0;  ///< Of pairs that do not move relative to each other, m.
-  CompiledWorld world_;
-  std::unique_ptr<DistanceFieldBuilder> field_;  ///< Voxels.
-  kernels::DistanceGrid grid_;                   ///< Refers to field_.
-  kernels::SphereScratch scratch_;
-  kernels::SphereRobot base_;  ///< What of the robot does not move.
-  kernels::SphereScratch base_scratch_;
   FclChecker exact_;
-  bool exact_is_set_ = false;
+  bool exact_is_set_ = false;  ///< exact_ has the scene.
 
-  // Of the block at hand, [joint][kBlock].
-  std::vector<float> q_;
-  std::vector<float> half_widths_;
-  std::vector<float> start_, motion_;  ///< Of samples.
-  /// Of the joints, kLimitTolerance added; infinite for continuous ones.
-  std::vector<double> lower_, upper_;
-  std::vector<unsigned char> slides_;  ///< By joint: prismatic.
+  // Scratch.
+  kernels::SphereScratch scratch_;
+  std::vector<float> q_;            ///< Of the block at hand, [joint][kBlock].
+  std::vector<float> half_widths_;  ///< Likewise.
+  std::vector<float> start_, motion_;
 };
 
 }  // namespace planbench

@@ -36,9 +36,7 @@ class ScriptedChecker : public CollisionChecker {
 
  protected:
   MotionBound DoSetScene(const Scene&, std::span<const double> base_positions) override {
-    std::vector<LinkBall> balls;
-    for (const LinkSphere& s : robot().spheres) balls.push_back({s.link, s.p_LS, s.radius});
-    return MotionBound(robot().model, group(), base_positions, balls);
+    return MotionBound(robot().model, group(), base_positions, robot().spheres);
   }
   bool DoIsFree(std::span<const double> q) override {
     asked.emplace_back(q.begin(), q.end());

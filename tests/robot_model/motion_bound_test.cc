@@ -20,16 +20,12 @@ struct Fixture {
   RobotModel model;
   PlanningGroup group;
   std::vector<double> held;
-  std::vector<LinkBall> balls;
+  std::vector<LinkSphere> balls;
 };
 
 Fixture FetchFixture() {
   const Robot fetch = LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots/fetch");
-  Fixture fixture{fetch.model, fetch.Group(""), fetch.model.DefaultPositions(), {}};
-  for (const LinkSphere& sphere : fetch.spheres) {
-    fixture.balls.push_back({sphere.link, sphere.p_LS, sphere.radius});
-  }
-  return fixture;
+  return {fetch.model, fetch.Group(""), fetch.model.DefaultPositions(), fetch.spheres};
 }
 
 // A chain of random joints about random axes, some held, a few balls on each link.
@@ -72,7 +68,7 @@ double SampledMotion(const Fixture& fixture, const GroupKinematics& from, const 
                      std::mt19937* random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   double largest = 0;
-  for (const LinkBall& ball : fixture.balls) {
+  for (const LinkSphere& ball : fixture.balls) {
     const Vector3d direction(unit(*random), unit(*random), unit(*random));
     const Vector3d p_L = ball.p_LS + ball.radius * direction.normalized();
     largest = std::max(largest, (to.X_BL(ball.link) * p_L - from.X_BL(ball.link) * p_L).norm());
@@ -95,7 +91,7 @@ double SampledReach(const Fixture& fixture, const GroupKinematics& kinematics, i
   const Isometry3d& X_BC = kinematics.X_BL(j.child_link);
   const Vector3d axis = X_BC.linear() * j.axis_J;
   double largest = 0;
-  for (const LinkBall& ball : fixture.balls) {
+  for (const LinkSphere& ball : fixture.balls) {
     if (!Carries(fixture.model, joint, ball.link)) continue;
     const Vector3d offset = kinematics.X_BL(ball.link) * ball.p_LS - X_BC.translation();
     largest = std::max(largest, offset.cross(axis).norm() + ball.radius);
@@ -183,7 +179,7 @@ TEST(MotionBound, IsExactForAPlanarArm) {
       <axis xyz="0 0 1"/></joint></robot>)",
                                                 "planar");
   const PlanningGroup all = model.MakeGroup("all", {"one", "two", "three"}, "d");
-  const std::vector<LinkBall> tip = {{model.FindLink("d"), Vector3d(0.2, 0, 3), 0.05}};
+  const std::vector<LinkSphere> tip = {{model.FindLink("d"), Vector3d(0.2, 0, 3), 0.05}};
   const MotionBound bound(model, all, model.DefaultPositions(), tip);
   EXPECT_NEAR(bound.reach()[0], 0.5 + 0.25 + 0.2 + 0.05, 1e-5);
   EXPECT_EQ(bound.reach()[1], 1);
@@ -202,7 +198,7 @@ TEST(MotionBound, IsExactForAPlanarArm) {
 
 TEST(MotionBound, JointsThatCarryNothingHaveNoReach) {
   Fixture fetch = FetchFixture();
-  std::erase_if(fetch.balls, [&](const LinkBall& ball) {
+  std::erase_if(fetch.balls, [&](const LinkSphere& ball) {
     return ball.link != fetch.model.FindLink("shoulder_lift_link");
   });
   const MotionBound bound(fetch.model, fetch.group, fetch.held, fetch.balls);

@@ -3,12 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 // The vectorised sphere engine's inner part: plain arrays of floats in, bit masks out. A block of
 // kBlock configurations is checked at once, one SIMD lane a configuration, with the widest
 // instructions of the machine it runs on (Highway's run-time dispatch). What it is given has been
-// compiled from the robot and the scene by SimdChecker; rounding is covered there, by padding.
+// compiled from the robot and the scene by CompiledScene; rounding is covered there, by padding.
 
 namespace planbench::kernels {
 
@@ -31,7 +32,8 @@ struct Body {
 /// A ball of a tree, in its body's frame (m): a sphere of the robot if it has no children, else it
 /// encloses all of its descendants. Children stand next to each other.
 struct Node {
-  float x, y, z, radius;
+  float center[3];
+  float radius;
   std::int32_t first_child;
   std::int32_t num_children;
 };
@@ -112,7 +114,7 @@ struct SphereWorld {
   std::vector<std::int32_t> candidates;
   std::vector<BvhNode> bvh;
   std::vector<std::int32_t> bvh_solids;
-  const DistanceGrid* grid = nullptr;  ///< Tested with every tree, if any.
+  std::optional<DistanceGrid> grid;  ///< Tested with every tree, if any.
 };
 
 /// Memory of one thread, and the order in which tests are made: those that hit move to the front.
@@ -159,30 +161,27 @@ BlockVerdict CheckBlock(const SphereRobot& robot, const SphereWorld& world, Sphe
 void BlockDistances(const SphereRobot& robot, const SphereWorld& world, SphereScratch* scratch,
                     const float* q, float at_most, float* distances);
 
-/// Configurations given as rows of num_joints values (rad or m), up to kBlock of them.
-struct RowBlock {
-  int num_joints = 0;
-  int num_rows = 0;
-  const double* rows = nullptr;
-  const std::uint8_t* slides = nullptr;  ///< See SampleBlock.
-  const double* lower = nullptr;         ///< Limits, by joint.
-  const double* upper = nullptr;
+/// The group's joints, as configurations are put into lanes.
+struct Joints {
+  std::vector<std::uint8_t> slides;  ///< Prismatic; others are brought within +-pi.
+  std::vector<double> lower, upper;  ///< Limits, rad or m.
+  int size() const { return static_cast<int>(slides.size()); }
 };
-/// Writes them by [joint][kBlock]; returns the lanes of those outside of the limits.
-LaneMask PlaceRows(const RowBlock& block, float* q);
+
+/// Writes up to kBlock configurations, given as rows (rad or m), by [joint][kBlock]; returns the
+/// lanes of those outside of the limits.
+LaneMask PlaceRows(const Joints& joints, const double* rows, int num_rows, float* q);
 
 /// Configurations on a straight motion, as BlockQuery takes them.
 struct SampleBlock {
-  int num_joints = 0;
-  const float* start = nullptr;          ///< By joint, rad or m.
-  const float* motion = nullptr;         ///< By joint.
-  const std::uint8_t* slides = nullptr;  ///< By joint: prismatic; others are brought within +-pi.
+  const float* start = nullptr;   ///< By joint, rad or m.
+  const float* motion = nullptr;  ///< By joint.
   /// By lane: fraction of the motion, half the length of the stretch about it.
   float position[kBlock] = {};
   float half_length[kBlock] = {};
 };
 /// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock].
-void PlaceSamples(const SampleBlock& block, float* q, float* half_widths);
+void PlaceSamples(const Joints& joints, const SampleBlock& block, float* q, float* half_widths);
 
 /// Sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
 void BlockSinCos(const float* angles, float* sines, float* cosines);

@@ -1,0 +1,53 @@
+#include "collision/balls.h"
+
+#include <algorithm>
+
+namespace planbench {
+
+Ball EnclosingBall(std::span<const Ball> balls) {
+  Ball enclosing = balls.front();
+  const auto farthest = [&](const Eigen::Vector3d& center) {
+    return std::max_element(balls.begin(), balls.end(), [&](const Ball& a, const Ball& b) {
+      return (a.center - center).norm() + a.radius < (b.center - center).norm() + b.radius;
+    });
+  };
+  Eigen::Vector3d center = enclosing.center;
+  enclosing.radius = -1;
+  for (int i = 0; i < 200; ++i) {
+    const Ball& far = *farthest(center);
+    const Eigen::Vector3d to_far = far.center - center;
+    const double distance = to_far.norm();
+    const double radius = distance + far.radius;
+    if (enclosing.radius < 0 || radius < enclosing.radius) enclosing = {center, radius};
+    if (distance < 1e-12) break;
+    // Towards the far side of the farthest ball.
+    center += to_far * (radius / distance / (i + 2));
+  }
+  return enclosing;
+}
+
+std::size_t Halve(std::span<Ball> balls) {
+  Eigen::Vector3d low = balls.front().center;
+  Eigen::Vector3d high = low;
+  for (const Ball& ball : balls) {
+    low = low.cwiseMin(ball.center);
+    high = high.cwiseMax(ball.center);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  std::stable_sort(balls.begin(), balls.end(), [axis](const Ball& a, const Ball& b) {
+    return a.center[axis] < b.center[axis];
+  });
+  return balls.size() / 2;
+}
+
+std::vector<Ball> BallsAround(const SceneObject& object) {
+  std::vector<Ball> balls;
+  for (const PlacedShape& placed : object.shapes) {
+    const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
+    balls.push_back({object.X_WO * (placed.X_FS * bound.center), bound.radius});
+  }
+  return balls;
+}
+
+}  // namespace planbench

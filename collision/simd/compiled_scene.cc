@@ -1,0 +1,181 @@
+#include "collision/simd/compiled_scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "collision/at.h"
+#include "collision/balls.h"
+#include "collision/rigid_bodies.h"
+#include "collision/shape_check.h"
+
+namespace planbench {
+namespace {
+
+using kernels::kBlock;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A grid that no sphere leaves.
+VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
+  VoxelSettings settings;
+  settings.lower.setConstant(kInfinity);
+  settings.upper.setConstant(-kInfinity);
+  for (const CompiledTree& tree : robot.bodies) {
+    const Eigen::Vector3d extent = Eigen::Vector3d::Constant(tree.reach_W.radius);
+    settings.lower = settings.lower.cwiseMin(tree.reach_W.center - extent);
+    settings.upper = settings.upper.cwiseMax(tree.reach_W.center + extent);
+  }
+  return settings;
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model)
+    : robot_(&robot),
+      group_(&group),
+      model_(model),
+      geometry_bound_(robot.model, group, robot.spheres) {}
+
+void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions) {
+  const PairRules rules(*robot_, scene);
+  for (const AttachedObject& attached : scene.attached) {
+    for (const PlacedShape& placed : attached.object.shapes) {
+      RequireSolid(placed.shape, attached.object.id);
+    }
+  }
+
+  std::vector<double> held = HeldPositions(robot_->model, *group_, base_positions);
+  const bool robot_holds = held == held_;
+  if (!robot_holds) {
+    held_.clear();
+    compiled_robot_.emplace(*robot_, *group_, base_positions);
+    if (model_ == CollisionModel::kVoxels) {
+      field_ = std::make_unique<DistanceFieldBuilder>(
+          robot_->voxels ? *robot_->voxels : VoxelsWithinReach(*compiled_robot_));
+    }
+    held_ = std::move(held);
+  }
+
+  const bool same_matrix = scene.allowed_collisions == scene_.allowed_collisions;
+  if (!same_matrix) scene_.allowed_collisions = scene.allowed_collisions;
+  scene_.objects = scene.objects;
+  scene_.attached = scene.attached;
+  base_positions_.assign(base_positions.begin(), base_positions.end());
+  if (!robot_holds || !same_matrix || !pairs_hold_ || !scene.attached.empty()) {
+    pairs_hold_ = false;
+    CompilePairs(rules);
+    pairs_hold_ = scene.attached.empty();
+  }
+  if (field_ == nullptr) {
+    world_.SetObjects(scene_, *compiled_robot_);
+  } else {
+    world_.SetObjects({}, *compiled_robot_);
+    SetGrid();
+  }
+  CompileTrees(rules);
+  motion_bound_ = geometry_bound_.Compute(scene_, base_positions);
+}
+
+void CompiledScene::SetGrid() {
+  const DistanceField& field = field_->Rebuild(scene_);
+  kernels::DistanceGrid& grid = world_.kernel.grid.emplace();
+  for (std::size_t k = 0; k < 3; ++k) {
+    grid.origin[k] = field.origin[k];
+    grid.size[k] = field.size[k];
+  }
+  grid.resolution = field.resolution;
+  grid.outside = field.outside;
+  grid.values = field.values.data();
+}
+
+void CompiledScene::CompilePairs(const PairRules& rules) {
+  allowed_names_.clear();
+  for (const auto& [names, allowed] : scene_.allowed_collisions.entries()) {
+    allowed_names_.insert(names.first);
+    allowed_names_.insert(names.second);
+  }
+
+  compiled_robot_->Truncate();
+  links_distance_ = kInfinity;
+  const auto checks = [&](const CompiledTree& a, const CompiledTree& b) {
+    return rules.ChecksLinks(a.link, b.link);
+  };
+  for (const CompiledTree& a : compiled_robot_->bodies) {
+    for (const CompiledTree& b : compiled_robot_->bodies) {
+      if (b.body >= a.body) compiled_robot_->AddPairs(a, b, checks, &links_distance_);
+    }
+  }
+
+  attached_.clear();
+  for (const AttachedObject& attached : scene_.attached) {
+    const std::vector<Ball> balls = BallsAround(attached.object);
+    if (balls.empty()) continue;
+    const CompiledTree tree =
+        compiled_robot_->AddBall(rules.LinkOf(attached), EnclosingBall(balls));
+    // Pairs of one body are the exact engine's to judge, once; see Set.
+    for (const CompiledTree& link : compiled_robot_->links) {
+      if (link.body != tree.body && rules.ChecksAttachedWithLink(attached, link.link)) {
+        compiled_robot_->AddPair(link, tree, true);
+      }
+    }
+    for (const CompiledTree& other : attached_) {
+      if (other.body != tree.body) compiled_robot_->AddPair(other, tree, true);
+    }
+    attached_.push_back(tree);
+  }
+}
+
+void CompiledScene::CompileTrees(const PairRules& rules) {
+  // Objects that the matrix does not name count for every link, unless links allow by default.
+  const bool by_default = !scene_.allowed_collisions.default_entries().empty();
+  const std::vector<unsigned char> all(scene_.objects.size(), 1);
+  std::vector<int> named;
+  for (std::size_t i = 0; field_ == nullptr && i < scene_.objects.size(); ++i) {
+    if (by_default || allowed_names_.contains(scene_.objects[i].id)) {
+      named.push_back(static_cast<int>(i));
+    }
+  }
+  std::vector<unsigned char> checked = all;
+  const auto add_all = [&](bool moving) {
+    for (const CompiledTree& tree :
+         named.empty() ? compiled_robot_->bodies : compiled_robot_->links) {
+      if ((tree.body != 0) != moving) continue;
+      for (int i : named) {
+        At(checked, i) = rules.ChecksLinkWithObject(tree.link, At(scene_.objects, i)) ? 1 : 0;
+      }
+      world_.AddTree(tree, checked, false);
+    }
+  };
+
+  standing_ = {links_distance_ <= 0, !attached_.empty(), links_distance_};
+  if (field_ == nullptr) add_all(false);
+  if (!world_.kernel.trees.empty()) {
+    JudgeStandingTrees();
+    world_.kernel.trees.clear();
+    world_.kernel.candidates.clear();
+  }
+  add_all(true);
+  for (const CompiledTree& tree : attached_) world_.AddTree(tree, all, true);
+}
+
+void CompiledScene::JudgeStandingTrees() {
+  base_.num_joints = robot().num_joints;
+  base_.bodies.assign(1, kernels::Body());
+  base_.nodes = robot().nodes;
+  base_.reaches = robot().reaches;
+  base_scratch_.Reset(base_, world());
+  const float no_joints[kBlock] = {};
+  kernels::BlockQuery query;
+  query.q = no_joints;
+  query.lanes = 1;
+  const kernels::BlockVerdict verdict = kernels::CheckBlock(base_, world(), &base_scratch_, query);
+  float distances[kBlock];
+  kernels::BlockDistances(base_, world(), &base_scratch_, no_joints,
+                          static_cast<float>(CompiledWorld::kMaxDistance), distances);
+  standing_.distance_m = std::min(standing_.distance_m, static_cast<double>(distances[0]));
+  standing_.collide = standing_.collide || verdict.hits != 0;
+  standing_.doubtful = standing_.doubtful || verdict.doubts != 0;
+}
+
+}  // namespace planbench

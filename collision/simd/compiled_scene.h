@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "collision/collision_model.h"
+#include "collision/geometry_bound.h"
+#include "collision/pair_rules.h"
+#include "collision/simd/compiled_robot.h"
+#include "collision/simd/compiled_world.h"
+#include "collision/simd/kernels/sphere_kernel.h"
+#include "collision/voxels/distance_field.h"
+#include "robot_model/robot_folder.h"
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// A robot in a scene as the kernels take it: what a check reads. Only Set changes it; between
+/// calls of Set any number of threads may check against it, each with scratch of its own. Holds
+/// references to the robot and the group.
+class CompiledScene {
+ public:
+  /// Pairs of bodies that do not move relative to each other.
+  struct Standing {
+    bool collide = false;
+    bool doubtful = false;  ///< Some of them are for the exact engine to judge.
+    double distance_m = 0;  ///< Of the nearest; at most CompiledWorld::kMaxDistance or infinite.
+  };
+
+  /// `model`: kSpheres or kVoxels.
+  CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model);
+
+  /// Compiles anew; what depends on the held joints or the allowed-collision matrix alone is kept
+  /// while they stay. Throws InputError as PairRules and RequireSolid do, and for a voxel grid that
+  /// is too large.
+  void Set(const Scene& scene, std::span<const double> base_positions);
+
+  /// What was set last.
+  const Scene& scene() const { return scene_; }
+  const std::vector<double>& base_positions() const { return base_positions_; }
+
+  const kernels::SphereRobot& robot() const { return compiled_robot_->kernel; }
+  const kernels::SphereWorld& world() const { return world_.kernel; }
+  /// Of every link that has spheres, in link order.
+  const std::vector<CompiledTree>& links() const { return compiled_robot_->links; }
+  const Standing& standing() const { return standing_; }
+  const MotionBound& motion_bound() const { return motion_bound_; }
+
+ private:
+  void CompilePairs(const PairRules& rules);
+  void CompileTrees(const PairRules& rules);
+  void JudgeStandingTrees();
+  void SetGrid();
+
+  const Robot* robot_;
+  const PlanningGroup* group_;
+  CollisionModel model_;
+  GeometryBound geometry_bound_;
+
+  // Of the held positions.
+  std::vector<double> held_;  ///< That the following are of.
+  std::optional<CompiledRobot> compiled_robot_;
+  std::unique_ptr<DistanceFieldBuilder> field_;  ///< Voxels.
+
+  // Of the scene.
+  Scene scene_;  ///< Its objects, what is attached, and the matrix.
+  std::vector<double> base_positions_;
+  bool pairs_hold_ = false;  ///< The pairs are those of scene_, which has nothing attached.
+  std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
+  std::vector<CompiledTree> attached_;
+  double links_distance_ = 0;  ///< Of links that do not move relative to each other, m.
+  CompiledWorld world_;
+  Standing standing_;
+  MotionBound motion_bound_;
+
+  // To judge what does not move, once.
+  kernels::SphereRobot base_;  ///< What of the robot does not move.
+  kernels::SphereScratch base_scratch_;
+};
+
+}  // namespace planbench

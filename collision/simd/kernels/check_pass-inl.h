@@ -1,0 +1,263 @@
+// Included once per instruction set, see sphere_kernel.cc.
+#if defined(PLANBENCH_KERNELS_CHECK_PASS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANBENCH_KERNELS_CHECK_PASS_INL_H_
+#undef PLANBENCH_KERNELS_CHECK_PASS_INL_H_
+#else
+#define PLANBENCH_KERNELS_CHECK_PASS_INL_H_
+#endif
+
+#include <limits>
+#include <utility>
+
+#include "collision/simd/kernels/nearby-inl.h"
+#include "collision/simd/kernels/placement-inl.h"
+#include "collision/simd/kernels/solids-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planbench::kernels::HWY_NAMESPACE {
+
+/// The verdict pass. kAround: with half widths.
+template <bool kAround>
+class CheckPass {
+ public:
+  CheckPass(const SphereRobot& robot, const SphereWorld& world, SphereScratch::Buffers* buffers,
+            const BlockQuery& query, int lane, M alive)
+      : robot_(robot),
+        world_(world),
+        buffers_(*buffers),
+        query_(query),
+        lane_(lane),
+        placement_(robot, buffers, query.q, lane),
+        alive_(alive),
+        hits_(hn::FirstN(Lanes(), 0)),
+        certain_(hn::FirstN(Lanes(), 0)),
+        doubts_(hn::FirstN(Lanes(), 0)) {}
+
+  void Run() {
+    auto& order = buffers_.order;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const int test = order[i];
+      const int num_trees = static_cast<int>(world_.trees.size());
+      const bool found = test < num_trees
+                             ? TestWorld(world_.trees[static_cast<std::size_t>(test)])
+                             : TestPair(robot_.pairs[static_cast<std::size_t>(test - num_trees)]);
+      if (!found) continue;
+      // One step to the front at a time: what hits often comes early.
+      if (i > 0) std::swap(order[i], order[i - 1]);
+      if ((query_.stop_at_first && !None(certain_)) || None(alive_)) return;
+    }
+  }
+
+  static LaneMask Bits(M mask) {
+    alignas(64) std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Lanes(), mask, bits);
+    return static_cast<LaneMask>(bits[0]) | static_cast<LaneMask>(bits[1]) << 8;
+  }
+  LaneMask hits() const { return Bits(hits_); }
+  LaneMask certain() const { return Bits(certain_); }
+  LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
+
+ private:
+  /// Upper bound of the motion of a tree relative to what it is tested against, over the box.
+  HWY_INLINE V Motion(int reach) const {
+    V sum = Zero();
+    if constexpr (kAround) {
+      const float* weights = robot_.reaches.data() + reach;
+      for (int j = 0; j < robot_.num_joints; ++j) {
+        if (weights[j] == 0) continue;
+        const V half_width = hn::LoadU(Lanes(), query_.half_widths + j * kBlock + lane_);
+        sum = hn::MulAdd(Fill(weights[j]), half_width, sum);
+      }
+    }
+    return sum;
+  }
+
+  /// Radius grown by the motion; lanes not proven free already matter no more but for certainty.
+  HWY_INLINE V Grown(float radius, V motion) const {
+    if constexpr (kAround) return Fill(radius) + hn::IfThenZeroElse(hits_, motion);
+    return Fill(radius);
+  }
+
+  /// Takes note of balls (of one node, or the sum of a pair) of a radius that come within `grown`.
+  /// Returns true to stop.
+  HWY_INLINE bool Note(V squared, float radius, M touching, bool doubtful) {
+    touching = hn::And(touching, alive_);
+    if (None(touching)) return false;
+    if (doubtful) {
+      doubts_ = hn::Or(doubts_, touching);
+      return false;
+    }
+    hits_ = hn::Or(hits_, touching);
+    M certain = touching;
+    if constexpr (kAround) {
+      certain = hn::And(certain, hn::Le(squared, Fill(radius * radius)));
+      if (None(certain)) return false;
+    }
+    certain_ = hn::Or(certain_, certain);
+    alive_ = hn::AndNot(certain, alive_);
+    return query_.stop_at_first || None(alive_);
+  }
+
+  bool TestWorld(const WorldTree& tree) {
+    if (tree.num_candidates == 0 && !world_.grid) return false;
+    const M before = certain_;
+    placement_.PlaceRoot(tree.root, tree.body);
+    const V motion = Motion(tree.reach);
+    doubtful_ = tree.doubtful;
+    if (world_.grid) VisitGrid(tree.root, tree.body, motion);
+    if (tree.num_candidates >= 0) {
+      if (tree.num_candidates > 0) {
+        VisitWorld(tree.root, tree.body, motion, world_.candidates.data() + tree.first_candidate,
+                   tree.num_candidates, buffers_.lists.data());
+      }
+    } else {
+      std::int32_t* list = buffers_.lists.data();
+      const V reach = Grown(placement_.node(tree.root).radius, motion);
+      const int num = ListNear(world_, placement_.Position(tree.root), reach, alive_, list);
+      if (num > 0) VisitWorld(tree.root, tree.body, motion, list, num, list + num);
+    }
+    return !None(hn::AndNot(before, certain_));
+  }
+
+  /// Tests a subtree against the solids of a list; `free_list` is memory for further lists. Returns
+  /// true to stop.
+  bool VisitWorld(int index, int body, V motion, const std::int32_t* list, int num,
+                  std::int32_t* free_list) {
+    const Node& node = placement_.node(index);
+    const Points p = placement_.Position(index);
+    if (node.num_children == 0) return TestLeaf(node, p, motion, list, num);
+    const V reach = Squared(Grown(node.radius, motion));
+    int num_near = 0;
+    for (int i = 0; i < num; ++i) {
+      const V squared = SquaredDistance(world_.solids[static_cast<std::size_t>(list[i])], p);
+      free_list[num_near] = list[i];
+      num_near += None(hn::And(alive_, hn::Le(squared, reach))) ? 0 : 1;
+    }
+    if (num_near == 0) return false;
+    placement_.PlaceChildren(index, body);
+    for (int i = 0; i < node.num_children; ++i) {
+      if (VisitWorld(node.first_child + i, body, motion, free_list, num_near,
+                     free_list + num_near)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
+                           int num) {
+    const V reach = Squared(Grown(node.radius, motion));
+    V least = Fill(std::numeric_limits<float>::max());
+    for (int i = 0; i < num; ++i) {
+      const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+      const V squared = SquaredDistance(solid, p);
+      if (HWY_UNLIKELY(solid.doubtful)) {
+        Note(squared, node.radius, hn::Le(squared, reach), true);
+      } else {
+        least = hn::Min(least, squared);
+      }
+    }
+    return Note(least, node.radius, hn::Le(least, reach), doubtful_);
+  }
+
+  bool VisitGrid(int index, int body, V motion) {
+    const Node& node = placement_.node(index);
+    const Points p = placement_.Position(index);
+    const DistanceGrid& grid = *world_.grid;
+    // Nothing is known of what a ball of balls outside of the grid has inside of it.
+    const bool exact = node.num_children == 0 && !kAround;
+    const V distance = GridDistance(grid, p, exact ? grid.outside : 0.0f);
+    const V grown = Grown(node.radius, motion);
+    if (node.num_children == 0) {
+      if constexpr (kAround) {
+        // The value of another cell may be less by the slack: boxes of configurations allow for it.
+        const V limit = grown + hn::IfThenZeroElse(hits_, Fill(GridSlack(grid)));
+        hits_ = hn::Or(hits_, hn::And(alive_, hn::Lt(distance, limit)));
+        // Note compares squares; what is certain is compared here.
+        const M certain = hn::Lt(GridDistance(grid, p, grid.outside), Fill(node.radius));
+        return Note(Zero(), node.radius, certain, doubtful_);
+      }
+      return Note(Zero(), node.radius, hn::Lt(distance, grown), doubtful_);
+    }
+    const V limit = grown + Fill(GridSlack(grid));
+    if (None(hn::And(alive_, hn::Lt(distance, limit)))) return false;
+    placement_.PlaceChildren(index, body);
+    for (int i = 0; i < node.num_children; ++i) {
+      if (VisitGrid(node.first_child + i, body, motion)) return true;
+    }
+    return false;
+  }
+
+  bool TestPair(const TreePair& pair) {
+    placement_.PlaceRoot(pair.root_a, pair.body_a);
+    placement_.PlaceRoot(pair.root_b, pair.body_b);
+    doubtful_ = pair.doubtful;
+    const V motion = Motion(pair.reach);
+    const M before = certain_;
+    const Node& node_a = placement_.node(pair.root_a);
+    const Node& node_b = placement_.node(pair.root_b);
+    const float radius = node_a.radius + node_b.radius;
+    const V squared =
+        SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
+    const M touching = Within(squared, Grown(radius, motion));
+    if (None(touching)) return false;
+    if (node_a.num_children == 0 && node_b.num_children == 0) {
+      Note(squared, radius, touching, doubtful_);
+    } else {
+      VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion);
+    }
+    return !None(hn::AndNot(before, certain_));
+  }
+
+  HWY_INLINE M Within(V squared, V grown) const {
+    return hn::And(alive_, hn::Le(squared, Squared(grown)));
+  }
+
+  /// Two balls that touch, not both of them leaves. Returns true to stop.
+  bool VisitPair(int a, int body_a, int b, int body_b, V motion) {
+    {
+      // The larger one is replaced by its children.
+      const Node& node_a = placement_.node(a);
+      const Node& node_b = placement_.node(b);
+      if (node_a.num_children == 0 || (node_b.num_children != 0 && node_a.radius < node_b.radius)) {
+        std::swap(a, b);
+        std::swap(body_a, body_b);
+      }
+    }
+    const Node& large = placement_.node(a);
+    const Node& small = placement_.node(b);
+    placement_.PlaceChildren(a, body_a);
+    const Points p = placement_.Position(b);
+    for (int i = 0; i < large.num_children; ++i) {
+      const int child = large.first_child + i;
+      const Node& node = placement_.node(child);
+      const float radius = node.radius + small.radius;
+      const V squared = SquaredNorm(placement_.Position(child) - p);
+      const M touching = Within(squared, Grown(radius, motion));
+      if (None(touching)) continue;
+      if (node.num_children == 0 && small.num_children == 0) {
+        if (Note(squared, radius, touching, doubtful_)) return true;
+      } else if (VisitPair(child, body_a, b, body_b, motion)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const SphereRobot& robot_;
+  const SphereWorld& world_;
+  SphereScratch::Buffers& buffers_;
+  const BlockQuery& query_;
+  int lane_;
+  Placement placement_;
+  M alive_;  ///< Lanes whose verdict is not certain yet.
+  M hits_;   ///< See BlockVerdict.
+  M certain_;
+  M doubts_;
+  bool doubtful_ = false;  ///< Of the test at hand.
+};
+
+}  // namespace planbench::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,34 @@
+#include "collision/simd/kernels/scratch.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace planbench::kernels {
+
+SphereScratch::SphereScratch() : buffers_(std::make_unique<Buffers>()) {}
+SphereScratch::~SphereScratch() = default;
+SphereScratch::SphereScratch(SphereScratch&&) noexcept = default;
+SphereScratch& SphereScratch::operator=(SphereScratch&&) noexcept = default;
+
+void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
+  Buffers& b = *buffers_;
+  if (b.num_bodies < robot.bodies.size()) {
+    b.num_bodies = robot.bodies.size();
+    b.poses = hwy::AllocateAligned<float>(b.num_bodies * 12 * kBlock);
+    std::fill_n(b.poses.get(), 12 * kBlock, 0.0f);
+    for (int k : {0, 4, 8}) std::fill_n(b.poses.get() + k * kBlock, kBlock, 1.0f);
+  }
+  if (b.num_nodes < robot.nodes.size()) {
+    b.num_nodes = robot.nodes.size();
+    b.positions = hwy::AllocateAligned<float>(b.num_nodes * 3 * kBlock);
+  }
+  b.placed.assign(2 * robot.nodes.size(), 0);
+  b.placement = 0;
+  b.order.resize(world.trees.size() + robot.pairs.size());
+  std::iota(b.order.begin(), b.order.end(), 0);
+  b.all_solids.resize(world.solids.size());
+  std::iota(b.all_solids.begin(), b.all_solids.end(), 0);
+  b.lists.resize(world.solids.size() * static_cast<std::size_t>(kMaxDepth));
+}
+
+}  // namespace planbench::kernels
