@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "common/error.h"
+#include "common/utime.h"
 #include "messaging/node_announcer.h"
 
 namespace planbench {

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "common/error.h"
+#include "common/utime.h"
 
 namespace planbench {
 namespace {

@@ -19,6 +19,7 @@ struct Contact {
   std::string body_a;  ///< A link or attached object.
   std::string body_b;
   double depth_m = 0;  ///< Depth of the deepest pair of their shapes, >= 0.
+  bool operator==(const Contact&) const = default;
 };
 
 /// The two nearest bodies.

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "common/error.h"
+#include "common/utime.h"
 
 namespace planbench {
 namespace {

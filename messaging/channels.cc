@@ -7,13 +7,15 @@
 
 namespace planbench {
 
+bool IsNodeName(std::string_view name) {
+  return !name.empty() && name.size() <= 40 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+}
+
 void RequireNodeName(const std::string& name) {
-  const bool characters_ok = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  if (name.empty() || name.size() > 40 || !characters_ok) {
-    throw InputError("'" + name +
-                     "' cannot name a node: 1 to 40 letters, digits, '_' or '-' are needed");
+  if (!IsNodeName(name)) {
+    throw InputError("'" + name + "' cannot name a node: " + kNodeNameRule);
   }
 }
 

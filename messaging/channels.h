@@ -34,11 +34,14 @@ struct PlannerChannels {
   std::string result_ack;  ///< PLAN_RESULT_ACK_<PLANNER>
   std::string cancel;      ///< PLAN_CANCEL_<PLANNER>
 
-  /// Throws InputError unless the name is 1 to 40 characters of [A-Za-z0-9_-].
+  /// Throws InputError unless the name can name a node.
   explicit PlannerChannels(const std::string& planner);
 };
 
-/// Throws InputError unless `name` can name a node: 1 to 40 characters of [A-Za-z0-9_-].
+/// What a node's name must be.
+inline constexpr char kNodeNameRule[] = "1 to 40 letters, digits, '_' or '-' are needed";
+bool IsNodeName(std::string_view name);
+/// Throws InputError unless `name` can name a node.
 void RequireNodeName(const std::string& name);
 
 }  // namespace planbench

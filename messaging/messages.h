@@ -18,6 +18,7 @@ namespace planbench {
 
 struct DiscoverMessage {
   std::string sender;
+  bool operator==(const DiscoverMessage&) const = default;
 };
 
 enum class NodeKind { kSceneServer = 0, kPlanner = 1, kDriver = 2, kLogger = 3 };
@@ -46,11 +47,13 @@ struct NodeStatusMessage {
   bool can_anytime = false;
   std::vector<std::string> collision_models;
   std::map<std::string, std::string> settings;
+  bool operator==(const NodeStatusMessage&) const = default;
 };
 
 struct ProblemSetSummary {
   std::string name;
   std::vector<int> indices;  ///< Ascending.
+  bool operator==(const ProblemSetSummary&) const = default;
 };
 
 struct ProblemSetsMessage {
@@ -61,12 +64,14 @@ struct ProblemSetsMessage {
   EdgeCheck edge_check = EdgeCheck::kFixed;  ///< The robot's default.
   bool has_meshes = false;
   std::vector<ProblemSetSummary> sets;
+  bool operator==(const ProblemSetsMessage&) const = default;
 };
 
 struct ProblemRequestMessage {
   std::string request_id;
   std::string problem_set;
   int problem_index = 0;
+  bool operator==(const ProblemRequestMessage&) const = default;
 };
 
 struct ProblemMessage {
@@ -80,11 +85,13 @@ struct ProblemMessage {
   JointState start;  ///< Every joint the problem names.
   std::vector<JointGoal> goal;
   double time_limit_s = 0;
+  bool operator==(const ProblemMessage&) const = default;
 };
 
 struct SceneRequestMessage {
   std::string request_id;
   std::string scene_id;
+  bool operator==(const SceneRequestMessage&) const = default;
 };
 
 struct SceneMessage {
@@ -106,12 +113,14 @@ struct PlanAckMessage {
   std::string request_id;
   PlanAckVerdict verdict = PlanAckVerdict::kAccepted;
   std::string message;
+  bool operator==(const PlanAckMessage&) const = default;
 };
 
 struct PlanProgressMessage {
   std::string planner;
   std::string request_id;
   PlanProgress progress;
+  bool operator==(const PlanProgressMessage&) const = default;
 };
 
 struct PlanResultMessage {
@@ -120,10 +129,12 @@ struct PlanResultMessage {
   std::string request_id;
   std::vector<std::string> joint_names;  ///< Of the paths' waypoints; empty if there is no path.
   PlanResult result;
+  bool operator==(const PlanResultMessage&) const = default;
 };
 
 struct PlanCancelMessage {
   std::string request_id;
+  bool operator==(const PlanCancelMessage&) const = default;
 };
 
 struct AckMessage {
@@ -131,12 +142,14 @@ struct AckMessage {
   std::string sender;
   bool ok = true;
   std::string message;
+  bool operator==(const AckMessage&) const = default;
 };
 
 /// A straight joint motion.
 struct EdgeQuery {
   Configuration from;
   Configuration to;
+  bool operator==(const EdgeQuery&) const = default;
 };
 
 struct CollisionRequestMessage {
@@ -149,6 +162,7 @@ struct CollisionRequestMessage {
   bool with_distance = false;
   std::vector<Configuration> states;  ///< Group order; all of one size.
   std::vector<EdgeQuery> edges;
+  bool operator==(const CollisionRequestMessage&) const = default;
 };
 
 struct CollisionVerdict {
@@ -161,6 +175,7 @@ struct CollisionVerdict {
   double distance_m = 0;  ///< May be infinite: nothing to collide with.
   std::string nearest_a;
   std::string nearest_b;
+  bool operator==(const CollisionVerdict&) const = default;
 };
 
 struct CollisionReplyMessage {
@@ -170,6 +185,7 @@ struct CollisionReplyMessage {
   std::string engine;
   std::vector<CollisionVerdict> states;
   std::vector<CollisionVerdict> edges;
+  bool operator==(const CollisionReplyMessage&) const = default;
 };
 
 struct PathCheckRequestMessage {
@@ -183,6 +199,7 @@ struct PathCheckRequestMessage {
   CollisionModel collision_model = CollisionModel::kSpheres;
   double step_m = 0;
   bool with_clearance = false;
+  bool operator==(const PathCheckRequestMessage&) const = default;
 };
 
 struct PathCheckReplyMessage {
@@ -194,6 +211,7 @@ struct PathCheckReplyMessage {
   std::optional<PathVerdict> verdict;  ///< With the geometry of the request's collision model.
   std::optional<PathVerdict>
       mesh_verdict;  ///< With the referee's mesh robot, if the server has one.
+  bool operator==(const PathCheckReplyMessage&) const = default;
 };
 
 struct SessionMessage {
@@ -212,6 +230,7 @@ struct SessionMessage {
   std::string robot_id;
   std::map<std::string, std::string> settings;
   std::vector<NodeStatusMessage> nodes;
+  bool operator==(const SessionMessage&) const = default;
 };
 
 struct RunRecordMessage {
@@ -232,6 +251,7 @@ struct RunRecordMessage {
   PlanResultMessage result;
   PathCheckReplyMessage path_check;
   PathCheckReplyMessage simplified_check;
+  bool operator==(const RunRecordMessage&) const = default;
 };
 
 }  // namespace planbench

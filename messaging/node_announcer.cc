@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/error.h"
+#include "common/utime.h"
 #include "common/version.h"
 #include "messaging/channels.h"
 

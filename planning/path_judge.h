@@ -23,6 +23,7 @@ struct PathVerdict {
   double clearance_min_m = 0;   ///< Over samples; 0 unless asked for and valid.
   double clearance_mean_m = 0;  ///< Mean over samples, each weighted by the motion it stands for.
   int num_samples = 0;
+  bool operator==(const PathVerdict&) const = default;
 };
 
 /// Judges a path by an engine of the caller's choice, independently of the planner: waypoints

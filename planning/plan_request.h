@@ -31,6 +31,7 @@ struct PlanRequest {
   bool anytime = false;  ///< Keep improving until the time limit; else stop at the first solution.
   bool simplify = true;  ///< Run the shared shortcutting pass on the path.
   std::map<std::string, std::string> parameters;  ///< Planner settings for this request only.
+  bool operator==(const PlanRequest&) const = default;
 };
 
 }  // namespace planbench

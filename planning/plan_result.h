@@ -20,6 +20,7 @@ struct PlanProgress {
   double epsilon = 0;    ///< Proven suboptimality bound; 0 if the planner gives none.
   double cost = 0;       ///< In the planner's own unit.
   std::int64_t expansions = 0;
+  bool operator==(const PlanProgress&) const = default;
 };
 
 /// Where the time up to the end of the search (PlanResult::total_time_s) went, s. That is the
@@ -31,6 +32,7 @@ struct PhaseTimes {
   double guidance_s = 0;        ///< Heuristic or nearest neighbours, where the planner can tell.
   double search_s = 0;          ///< The rest.
   double simplification_s = 0;  ///< After planning; no part of the planning time.
+  bool operator==(const PhaseTimes&) const = default;
 };
 
 struct PlanResult {
@@ -50,6 +52,7 @@ struct PlanResult {
   double peak_memory_mb =
       0;  ///< Peak resident memory of the process during the request, MiB. (Since the start
           ///< of the process where the kernel forbids resetting it.)
+  bool operator==(const PlanResult&) const = default;
 };
 
 }  // namespace planbench

@@ -14,6 +14,7 @@ namespace planbench {
 struct JointState {
   std::vector<std::string> names;
   std::vector<double> positions;
+  bool operator==(const JointState&) const = default;
 };
 
 /// Goal of one joint: position in [position - tolerance_below, position + tolerance_above].
@@ -22,6 +23,7 @@ struct JointGoal {
   double position = 0;         ///< rad or m
   double tolerance_above = 0;  ///< >= 0
   double tolerance_below = 0;  ///< >= 0
+  bool operator==(const JointGoal&) const = default;
 };
 
 /// Box that the request allows the robot to move in, in `frame`, m.

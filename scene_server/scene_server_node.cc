@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/error.h"
+#include "common/utime.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 

@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "common/utime.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
 #include "tests/support/private_bus.h"

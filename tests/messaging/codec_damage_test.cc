@@ -3,8 +3,6 @@
 #include <random>
 
 #include "messaging/wire.h"
-#include "planbench/lcmt_scene.hpp"
-#include "planbench/lcmt_session.hpp"
 #include "tests/messaging/allocation_meter.h"
 #include "tests/messaging/codec_fixture.h"
 

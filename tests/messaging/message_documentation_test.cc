@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
+
+#include "messaging/messages.h"
 
 namespace planbench {
 namespace {
@@ -44,6 +47,41 @@ TEST(MessageDocumentation, EveryTypeIsMentioned) {
     if (entry.path().extension() == ".lcm") types.insert(entry.path().stem());
   }
   EXPECT_EQ(mentioned, types);
+}
+
+/// The constants of an lcmt_ type whose names begin with `prefix`, as NAME -> value.
+std::map<std::string, int> Constants(const std::string& type, const std::string& prefix) {
+  const std::string text = Read("lcmtypes/" + type + ".lcm");
+  std::map<std::string, int> constants;
+  for (const std::string& list : FindAll(text, "const int8_t ([^;]*);")) {
+    const std::regex regex("([A-Z_]+) = (\\d+)");
+    for (std::sregex_iterator it(list.begin(), list.end(), regex), end; it != end; ++it) {
+      const std::string name = (*it)[1];
+      if (name.starts_with(prefix)) {
+        constants[name.substr(prefix.size())] = std::stoi((*it)[2]);
+      }
+    }
+  }
+  return constants;
+}
+
+/// The names of an enum as NAME_OF_VALUE -> value.
+template <typename Enum>
+std::map<std::string, int> Names() {
+  std::map<std::string, int> names;
+  for (const Enum value : EnumValues<Enum>()) {
+    std::string name(EnumName(value));
+    for (char& c : name) c = c == ' ' ? '_' : static_cast<char>(std::toupper(c));
+    names[name] = static_cast<int>(value);
+  }
+  return names;
+}
+
+TEST(MessageDocumentation, ConstantsAreTheEnums) {
+  EXPECT_EQ(Constants("lcmt_plan_result", ""), Names<PlanStatus>());
+  EXPECT_EQ(Constants("lcmt_plan_request", ""), Names<Direction>());
+  EXPECT_EQ(Constants("lcmt_plan_ack", ""), Names<PlanAckVerdict>());
+  EXPECT_EQ(Constants("lcmt_node_status", "KIND_"), Names<NodeKind>());
 }
 
 }  // namespace

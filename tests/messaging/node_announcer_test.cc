@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "common/utime.h"
 #include "messaging/channels.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
