@@ -14,6 +14,7 @@
 #include "benchmark_driver/tables.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/record_log.h"
 
@@ -64,9 +65,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   std::filesystem::path session_folder;
   if (options.launch) {
     RequireKnownPlanners(options);
-    if (!lcm_url_given) {
-      url = fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort());
-    }
+    if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = !options.resume.empty() ? options.resume
                      : !options.out.empty()  ? options.out
                                              : std::filesystem::path("sessions") / run_id;

@@ -1,11 +1,9 @@
 #include "benchmark_driver/supervisor.h"
 
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <sys/prctl.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,7 +12,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <random>
 #include <stdexcept>
 
 #include "common/error.h"
@@ -217,26 +214,6 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
       std::this_thread::sleep_for(kPoll);
     }
   }
-}
-
-int FreeUdpPort() {
-  std::random_device random;
-  std::uniform_int_distribution<int> any_port(20000, 32000);  // below Linux's ephemeral range
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    const int port = any_port(random);
-    const int socket_fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    if (socket_fd < 0) break;
-    sockaddr_in address = {};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_ANY);
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    // Without SO_REUSEADDR this fails if anybody, LCM included, has the port.
-    const bool free =
-        bind(socket_fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-    close(socket_fd);
-    if (free) return port;
-  }
-  throw std::runtime_error("no free UDP port found");
 }
 
 }  // namespace planbench

@@ -70,7 +70,4 @@ class Supervisor {
       thread_;  // starts every child: the kernel's death signal is tied to the starting thread
 };
 
-/// A free UDP port, chosen at random among those that nobody has bound.
-int FreeUdpPort();
-
 }  // namespace planbench

@@ -104,13 +104,6 @@ void WarnIfReceiveBufferIsCapped(const std::string& url) {
 
 }  // namespace
 
-std::string ResolveLcmUrl(const std::string& flag) {
-  if (!flag.empty()) return flag;
-  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
-  return from_environment != nullptr && *from_environment != '\0' ? from_environment
-                                                                  : kDefaultLcmUrl;
-}
-
 std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime) {
   const std::int64_t age_us = NowUtime() - utime;
   return std::chrono::steady_clock::now() -

@@ -12,13 +12,6 @@
 
 namespace planbench {
 
-/// The default LCM URL. Its receive buffer keeps large messages from being dropped
-/// (lcmtypes/README.md).
-inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-
-/// `flag` if not empty, else $LCM_DEFAULT_URL if set, else kDefaultLcmUrl.
-std::string ResolveLcmUrl(const std::string& flag);
-
 /// A moment just past, us since the Unix epoch, on the steady clock; now, if it seems to lie ahead.
 std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime);
 

@@ -10,7 +10,7 @@
 #include "common/error.h"
 #include "common/version.h"
 #include "geometry/mesh_loader.h"
-#include "messaging/bus.h"
+#include "messaging/lcm_url.h"
 
 namespace planbench {
 namespace {
@@ -38,7 +38,7 @@ Program::Program(const std::string& name, const std::string& description)
     : name_(name), app_(description, name) {
   app_.set_version_flag("--version", name + " " + Version() + " (" + Commit() + ")");
   app_.add_option("--lcm-url", lcm_url_flag_,
-                  "LCM bus; default $LCM_DEFAULT_URL, else " + std::string(kDefaultLcmUrl));
+                  "LCM bus; default $LCM_DEFAULT_URL, else " + LcmUrl());
   app_.get_formatter()->column_width(40);
 }
 

@@ -3,9 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -235,20 +233,6 @@ TEST_F(SupervisorTest, ChildrenEndWithTheirParent) {
   kill(parent, SIGKILL);
   waitpid(parent, nullptr, 0);
   EXPECT_TRUE(WaitUntil([&] { return !IsRunning(child); }));
-}
-
-TEST(FreeUdpPortTest, CanBeBound) {
-  const int port = FreeUdpPort();
-  EXPECT_GT(port, 1023);
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  ASSERT_GE(fd, 0);
-  sockaddr_in address = {};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  EXPECT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  for (int i = 0; i < 200; ++i) EXPECT_NE(FreeUdpPort(), port);
-  close(fd);
 }
 
 }  // namespace

@@ -275,18 +275,5 @@ TEST(BusTest, GoesOnAfterSignals) {
   sigaction(SIGUSR1, &before, nullptr);
 }
 
-TEST(BusTest, UrlComesFromFlagElseEnvironmentElseDefault) {
-  const char* set = std::getenv("LCM_DEFAULT_URL");
-  const std::optional<std::string> before = set ? std::optional<std::string>(set) : std::nullopt;
-  unsetenv("LCM_DEFAULT_URL");
-  EXPECT_EQ(ResolveLcmUrl(""), kDefaultLcmUrl);
-  setenv("LCM_DEFAULT_URL", "", 1);
-  EXPECT_EQ(ResolveLcmUrl(""), kDefaultLcmUrl);
-  setenv("LCM_DEFAULT_URL", "memq://", 1);
-  EXPECT_EQ(ResolveLcmUrl(""), "memq://");
-  EXPECT_EQ(ResolveLcmUrl("udpm://"), "udpm://");
-  before ? setenv("LCM_DEFAULT_URL", before->c_str(), 1) : unsetenv("LCM_DEFAULT_URL");
-}
-
 }  // namespace
 }  // namespace planbench

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
-#include "messaging/bus.h"
+#include "messaging/lcm_url.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {

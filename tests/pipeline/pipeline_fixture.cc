@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "benchmark_driver/supervisor.h"
 #include "common/sqlite.h"
+#include "tests/support/private_bus.h"
 
 namespace planbench {
 namespace {
@@ -21,8 +21,7 @@ std::string ValueText(const SqliteValue& value) {
 }  // namespace
 
 PipelineTest::PipelineTest()
-    : url_(fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort())),
-      mark_("PLANBENCH_TEST=" + folder_.path().string()) {}
+    : url_(PrivateUdpUrl()), mark_("PLANBENCH_TEST=" + folder_.path().string()) {}
 
 PipelineTest::~PipelineTest() {
   processes_.clear();

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "benchmark_driver/supervisor.h"
 #include "tests/pipeline/pipeline_fixture.h"
+#include "tests/support/private_bus.h"
 
 namespace planbench {
 namespace {
@@ -26,8 +26,7 @@ TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
   recorder->Signal(SIGTERM);
   ASSERT_TRUE(recorder->Wait().has_value());
 
-  const std::string replay_url =
-      fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", FreeUdpPort());
+  const std::string replay_url = PrivateUdpUrl();
   ChildProcess* second_logger =
       Start({Program("logger"), "--out", replayed.string(), "--lcm-url", replay_url});
   ASSERT_TRUE(WaitUntil([&] { return Query(replayed, "SELECT count(*) FROM runs") == 0; }))
