@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "common/name_value.h"
 #include "messaging/channels.h"
 
 namespace planbench {
@@ -37,16 +38,6 @@ int ParseIndex(const std::string& text, const std::string& whole) {
     throw InputError("--problems-range " + whole + ": '" + text + "' is no problem index");
   }
   return value;
-}
-
-/// "NAME=REST".
-std::pair<std::string, std::string> SplitAssignment(const std::string& text,
-                                                    const std::string& flag) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-    throw InputError(flag + " " + text + ": expected NAME=VALUE");
-  }
-  return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 }  // namespace
@@ -177,16 +168,17 @@ DriverOptions DriverFlags::Parse() const {
   }
   if (options.referee_step_m != 0) require_positive(options.referee_step_m, "--referee-step");
   for (const std::string& command : planner_commands_) {
-    const auto [name, line] = SplitAssignment(command, "--planner-command");
+    const auto [name, line] = SplitNameValue(command, "--planner-command");
     if (!options.planner_commands.emplace(name, line).second) {
       throw InputError("--planner-command: '" + name + "' is given twice");
     }
   }
   for (const std::string& setting : planner_settings_) {
-    const std::size_t dot = setting.find('.');
-    const std::size_t equals = setting.find('=');
-    if (dot == 0 || equals == std::string::npos || dot >= equals || dot + 1 == equals) {
-      throw InputError("--set " + setting + ": expected NAME.KEY=VALUE");
+    constexpr char kForm[] = "NAME.KEY=VALUE";
+    const std::string key = SplitNameValue(setting, "--set", kForm).first;
+    const std::size_t dot = key.find('.');
+    if (dot == 0 || dot == std::string::npos || dot + 1 == key.size()) {
+      throw InputError("--set '" + setting + "': expected " + kForm);
     }
     options.planner_settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
   }

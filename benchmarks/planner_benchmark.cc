@@ -29,6 +29,7 @@
 #include "planner_rrtc/rrtc_planner.h"
 #include "planning/path_judge.h"
 #include "planning/path_metrics.h"
+#include "planning/planner_settings.h"
 #include "planning/resolve.h"
 #include "scene/moveit_yaml.h"
 
@@ -81,23 +82,9 @@ double Mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-YamlNode LoadSettings(const Flags& flags, const Robot& robot) {
-  if (!flags.config.empty()) return YamlNode::LoadFile(flags.config);
-  const auto named = robot.planner_settings.find(flags.planner);
-  if (named != robot.planner_settings.end()) return YamlNode::LoadFile(named->second.string());
-  return YamlNode::Parse("", flags.planner + " settings");
-}
-
 std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
-  YamlNode settings = LoadSettings(flags, robot);
-  for (const std::string& text : flags.overrides) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      throw InputError("--set " + text + ": expected KEY=VALUE");
-    }
-    const std::string key = text.substr(0, equals);
-    settings.Override(key, text.substr(equals + 1), "--set " + key);
-  }
+  const YamlNode settings =
+      LoadPlannerSettings(robot, flags.planner, flags.config, flags.overrides);
   if (flags.planner == "ara") return MakeAraPlanner(robot, settings);
   if (flags.planner == "rrtc") return MakeRrtcPlanner(robot, settings);
   throw InputError("--planner: expected ara or rrtc, found '" + flags.planner + "'");

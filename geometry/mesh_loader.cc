@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/name_value.h"
 
 namespace planbench {
 namespace {
@@ -129,15 +130,11 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
 }
 
 std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {
-  const std::size_t equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
-    throw InputError(fmt::format("--package-path '{}': expected NAME=DIR", argument));
-  }
-  const std::string name = argument.substr(0, equals);
+  const auto [name, folder_name] = SplitNameValue(argument, "--package-path", "NAME=DIR");
   if (name.find('/') != std::string::npos) {
     throw InputError(fmt::format("--package-path '{}': a package name has no '/'", argument));
   }
-  const fs::path folder = argument.substr(equals + 1);
+  const fs::path folder = folder_name;
   std::error_code error;
   if (!fs::is_directory(folder, error)) {
     throw InputError(fmt::format("--package-path '{}': no folder {}", argument, folder.string()));

@@ -2,35 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
-#include "common/error.h"
 #include "messaging/planner_node.h"
 #include "messaging/program.h"
+#include "planning/planner_settings.h"
 
 namespace planbench {
-namespace {
-
-YamlNode SettingsFile(const Robot& robot, const std::string& planner, const std::string& config) {
-  if (!config.empty()) return YamlNode::LoadFile(config);
-  const auto named = robot.planner_settings.find(planner);
-  if (named != robot.planner_settings.end()) return YamlNode::LoadFile(named->second.string());
-  return YamlNode::Parse("", "settings of planner " + planner);  // its own defaults
-}
-
-YamlNode LoadSettings(const Robot& robot, const std::string& planner, const std::string& config,
-                      const std::vector<std::string>& overrides) {
-  YamlNode settings = SettingsFile(robot, planner, config);
-  for (const std::string& text : overrides) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      throw InputError("--set " + text + ": expected KEY=VALUE");
-    }
-    const std::string key = text.substr(0, equals);
-    settings.Override(key, text.substr(equals + 1), "--set " + key);
-  }
-  return settings;
-}
-
-}  // namespace
 
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory, const std::vector<SettingFlag>& setting_flags) {
@@ -58,7 +34,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   return program.Run(argc, argv, [&] {
     const Robot robot = LoadRobot(robot_folder, ParsePackagePaths(package_paths));
     std::unique_ptr<Planner> solver =
-        factory(robot, LoadSettings(robot, planner, config, overrides));
+        factory(robot, LoadPlannerSettings(robot, planner, config, overrides));
     Bus bus(program.lcm_url());
     PlannerNode node(&bus, name, std::move(solver));
     bus.Start();
