@@ -1,9 +1,14 @@
 #include "benchmark_driver/launcher.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <map>
+#include <set>
+#include <string_view>
 
 #include "common/error.h"
+#include "common/sibling_program.h"
 
 namespace planbench {
 namespace {
@@ -25,30 +30,31 @@ while :; do
   kill -0 "$child" 2>/dev/null || exit "$code"
 done)";
 
-const std::map<std::string, std::string>& OwnPlanners() {
-  static const std::map<std::string, std::string> programs = {{"ara", "planner_ara"},
-                                                              {"rrtc", "planner_rrtc"}};
-  return programs;
+constexpr std::string_view kPlannerPrefix = "planner_";
+
+/// Names of the planners whose programs are in `folder`, ascending.
+std::set<std::string> PlannersIn(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with(kPlannerPrefix)) names.insert(file.substr(kPlannerPrefix.size()));
+  }
+  return names;
 }
 
-std::string Program(const std::string& name) {
-  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const std::filesystem::path program = here / name;
-  if (!std::filesystem::exists(program)) {
-    throw InputError("the program " + program.string() + " is missing; build all of planbench");
-  }
-  return program.string();
-}
+std::string Program(const std::string& name) { return SiblingProgram(name).string(); }
 
 }  // namespace
 
-void RequireKnownPlanners(const DriverOptions& options) {
-  std::string known;
-  for (const auto& [name, program] : OwnPlanners()) known += (known.empty() ? "" : ", ") + name;
+void RequireKnownPlanners(const DriverOptions& options,
+                          const std::filesystem::path& program_folder) {
+  const std::set<std::string> known = PlannersIn(program_folder);
   for (const std::string& planner : options.planners) {
-    if (OwnPlanners().count(planner) == 0 && options.planner_commands.count(planner) == 0) {
-      throw InputError("--planners: unknown planner '" + planner + "'; known are: " + known +
-                       "; others are started by --planner-command " + planner + "=COMMAND");
+    if (!known.contains(planner) && !options.planner_commands.contains(planner)) {
+      throw InputError(
+          fmt::format("--planners: unknown planner '{0}'; known are: {1}; others are started by "
+                      "--planner-command {0}=COMMAND",
+                      planner, fmt::join(known, ", ")));
     }
   }
   const auto require_chosen = [&](const std::string& name, const char* flag) {
@@ -106,8 +112,9 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
       start(planner, {"/bin/sh", "-c", kRunCommand, "sh", command->second});
       continue;
     }
-    std::vector<std::string> arguments = with_packages(
-        {Program(OwnPlanners().at(planner)), "--robot", options.robot.string(), "--name", planner});
+    std::vector<std::string> arguments =
+        with_packages({Program(std::string(kPlannerPrefix) + planner), "--robot",
+                       options.robot.string(), "--name", planner});
     for (const auto& [name, setting] : options.planner_settings) {
       if (name == planner) arguments.insert(arguments.end(), {"--set", setting});
     }

@@ -8,9 +8,10 @@
 
 namespace planbench {
 
-/// Checks that every planner has a program: one of planbench's own or a --planner-command. Throws
-/// InputError.
-void RequireKnownPlanners(const DriverOptions& options);
+/// Checks that every planner has a program: planner_NAME in `program_folder`, or a
+/// --planner-command. Throws InputError.
+void RequireKnownPlanners(const DriverOptions& options,
+                          const std::filesystem::path& program_folder);
 
 /// Starts scene server, planners and logger as children on the bus `lcm_url`, with their output in
 /// <session>/logs/. The programs are those beside this one.

@@ -14,6 +14,7 @@
 #include "benchmark_driver/tables.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "common/sibling_program.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/record_log.h"
@@ -64,7 +65,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   std::string url = lcm_url;
   std::filesystem::path session_folder;
   if (options.launch) {
-    RequireKnownPlanners(options);
+    RequireKnownPlanners(options, ProgramFolder());
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = !options.resume.empty() ? options.resume
                      : !options.out.empty()  ? options.out

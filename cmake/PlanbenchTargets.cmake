@@ -1,6 +1,10 @@
-# planbench_library(NAME SOURCES ... [LINK ...]): a static library of one room, target planbench_NAME.
-# planbench_program(NAME SOURCES ... [LINK ...]): a program in bin/.
-# planbench_test(NAME SOURCES ... [LINK ...]): a GoogleTest program, its cases discovered by CTest.
+# planbench_rooms([EXCEPT ...]): adds every folder here that has a CMakeLists.txt; their order does not matter.
+# planbench_library(NAME SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a static library of one room, target planbench_NAME.
+# planbench_program(NAME SOURCES ... [LINK ...]): a program in bin/, which the target planbench_programs builds.
+# planbench_planner(NAME SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a planner: the library planbench_planner_NAME, and
+#   of it and main.cc the program planner_NAME, which `benchmark_driver --launch` finds by that name.
+# planbench_test(NAME SOURCES ... [LINK ...]): a GoogleTest program in tests/, its cases discovered by CTest.
+# planbench_benchmark(NAME [LINK ...]): a program in benchmarks/, made of NAME.cc.
 
 add_library(planbench_options INTERFACE)
 target_include_directories(planbench_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -18,6 +22,20 @@ if(PLANBENCH_SANITIZE)
   endif()
 endif()
 
+# What ./run needs, without the tests.
+add_custom_target(planbench_programs)
+
+function(planbench_rooms)
+  cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
+  file(GLOB lists RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS */CMakeLists.txt)
+  foreach(list ${lists})
+    get_filename_component(room ${list} DIRECTORY)
+    if(NOT room IN_LIST ARG_EXCEPT)
+      add_subdirectory(${room})
+    endif()
+  endforeach()
+endfunction()
+
 function(planbench_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(planbench_${name} STATIC ${ARG_SOURCES})
@@ -29,6 +47,15 @@ function(planbench_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE planbench_options ${ARG_LINK})
+  add_dependencies(planbench_programs ${name})
+endfunction()
+
+function(planbench_planner name)
+  planbench_library(planner_${name} ${ARGN})
+  target_link_libraries(planbench_planner_${name} PUBLIC planbench_planning)
+  planbench_program(planner_${name}
+    SOURCES main.cc
+    LINK planbench_planner_${name} planbench_messaging)
 endfunction()
 
 function(planbench_test name)
@@ -45,4 +72,14 @@ function(planbench_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+function(planbench_benchmark name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  add_executable(${name} ${name}.cc)
+  target_link_libraries(${name} PRIVATE planbench_options ${ARG_LINK})
+  target_compile_definitions(${name} PRIVATE PLANBENCH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
+  # Older build folders have it in bin/, where planner_benchmark would be taken for a planner.
+  file(REMOVE ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name})
 endfunction()

@@ -90,15 +90,6 @@ std::vector<int> UnsolvedIn(const fs::path& session, const std::vector<int>& ind
 
 }  // namespace
 
-fs::path DriverBesideThisProgram() {
-  const fs::path driver = fs::read_symlink("/proc/self/exe").parent_path() / "benchmark_driver";
-  if (!fs::exists(driver)) {
-    throw InputError("--certify: the program " + driver.string() +
-                     " is missing; build all of planbench");
-  }
-  return driver;
-}
-
 Certification CertifyProblemSet(
     const fs::path& folder, std::vector<int> indices, const CertifierOptions& options,
     const std::function<void(const std::vector<int>& indices, int attempt)>& replace) {

@@ -22,9 +22,6 @@ struct Certification {
   std::vector<int> unsolved;    ///< Problems nobody solved in the last round; empty: certified.
 };
 
-/// benchmark_driver beside the running program. Throws InputError if it is not there.
-std::filesystem::path DriverBesideThisProgram();
-
 /// Lets the live planners loose on the problems `indices` of the set in `folder`, both directions,
 /// and has those that none of them solves (with a path that the referee finds valid) replaced by
 /// `replace(indices, attempt)`, attempt counting from 1; then on the replacements, and so on until

@@ -12,6 +12,7 @@
 
 #include "common/exit_codes.h"
 #include "common/progress_line.h"
+#include "common/sibling_program.h"
 #include "problem_generator/certifier.h"
 #include "problem_generator/problem_set_maker.h"
 
@@ -77,7 +78,7 @@ int RunGenerator(const GeneratorFlags& flags) {
   RequireProblemFolder(flags.out, flags.replace);
   CertifierOptions certifier;
   if (flags.certify) {
-    certifier.driver = DriverBesideThisProgram();
+    certifier.driver = SiblingProgram("benchmark_driver");
     certifier.robot = flags.robot;
     certifier.time_limit_s = flags.certify_time_s;
     certifier.max_rounds = flags.certify_rounds;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -13,32 +14,44 @@ DriverOptions WithPlanners(std::vector<std::string> planners) {
   return options;
 }
 
-TEST(RequireKnownPlannersTest, OwnPlannersAndCommandsAreKnown) {
+class RequireKnownPlannersTest : public testing::Test {
+ protected:
+  RequireKnownPlannersTest() {
+    for (const char* program : {"planner_rrtc", "planner_ara", "logger"})
+      programs_.Write(program, "");
+  }
+  void Require(const DriverOptions& options) { RequireKnownPlanners(options, programs_.path()); }
+
+ private:
+  TemporaryFolder programs_;
+};
+
+TEST_F(RequireKnownPlannersTest, OwnPlannersAndCommandsAreKnown) {
   DriverOptions options = WithPlanners({"ara", "rrtc", "mine"});
   options.planner_commands = {{"mine", "./mine"}};
   options.planner_settings = {{"ara", "epsilon=1"}};
-  EXPECT_NO_THROW(RequireKnownPlanners(options));
+  EXPECT_NO_THROW(Require(options));
 }
 
-TEST(RequireKnownPlannersTest, UnknownPlannerIsNamedWithThoseKnown) {
+TEST_F(RequireKnownPlannersTest, UnknownPlannerIsNamedWithThoseKnown) {
   ExpectInputError(
-      [] {
-        RequireKnownPlanners(WithPlanners({"ara", "prm"}));
+      [&] {
+        Require(WithPlanners({"ara", "prm"}));
       },
       {"--planners", "'prm'", "ara, rrtc", "--planner-command prm="});
 }
 
-TEST(RequireKnownPlannersTest, CommandsAndSettingsMustBeOfChosenPlanners) {
+TEST_F(RequireKnownPlannersTest, CommandsAndSettingsMustBeOfChosenPlanners) {
   DriverOptions options = WithPlanners({"ara"});
   options.planner_commands = {{"mine", "./mine"}};
-  ExpectInputError([&] { RequireKnownPlanners(options); }, {"--planner-command", "'mine'"});
+  ExpectInputError([&] { Require(options); }, {"--planner-command", "'mine'"});
   options = WithPlanners({"ara"});
   options.planner_settings = {{"rrtc", "range=1"}};
-  ExpectInputError([&] { RequireKnownPlanners(options); }, {"--set", "'rrtc'"});
+  ExpectInputError([&] { Require(options); }, {"--set", "'rrtc'"});
   options = WithPlanners({"mine"});
   options.planner_commands = {{"mine", "./mine"}};
   options.planner_settings = {{"mine", "range=1"}};
-  ExpectInputError([&] { RequireKnownPlanners(options); }, {"--set", "'mine'"});
+  ExpectInputError([&] { Require(options); }, {"--set", "'mine'"});
 }
 
 }  // namespace
