@@ -1,9 +1,6 @@
 #pragma once
 
-#include <ompl/base/StateSampler.h>
-
 #include <cstdint>
-#include <memory>
 #include <random>
 #include <vector>
 
@@ -25,28 +22,22 @@ struct EnumNames<SamplerKind> {
   static constexpr auto kNames = std::to_array<std::string_view>({"uniform", "halton"});
 };
 
-/// Sampler of an OmplJointSpace over the joints' limits, [-pi, pi) for continuous joints, that
-/// depends on `seed` only and not on OMPL's process-wide seed. Adds the number of its samples of
-/// the whole space to *num_samples.
-class JointSampler final : public ompl::base::StateSampler {
+/// Configurations within the joints' limits, [-pi, pi) for continuous joints, that depend on `seed`
+/// only.
+class JointSampler {
  public:
-  JointSampler(const ompl::base::StateSpace* space, const JointSpace& joints, SamplerKind kind,
-               std::uint64_t seed, std::int64_t* num_samples);
+  JointSampler(const JointSpace& joints, SamplerKind kind, std::uint64_t seed);
 
-  void sampleUniform(ompl::base::State* state) override;
-  void sampleUniformNear(ompl::base::State* state, const ompl::base::State* near,
-                         double distance) override;
-  void sampleGaussian(ompl::base::State* state, const ompl::base::State* mean,
-                      double std_dev) override;
+  /// Writes the next one to q (n values).
+  void Sample(double* q);
+  /// For whoever draws more than whole configurations.
+  std::mt19937_64* generator() { return &generator_; }
 
  private:
-  double Uniform01() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
-
   SamplerKind kind_;
   std::vector<double> lower_;
   std::vector<double> extent_;
   std::mt19937_64 generator_;
-  std::int64_t* num_samples_;
   // Of Halton's sequence:
   std::uint64_t index_ = 0;
   std::vector<std::uint64_t> bases_;

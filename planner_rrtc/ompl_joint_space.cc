@@ -7,8 +7,9 @@
 #include <new>
 #include <numbers>
 #include <ostream>
+#include <random>
 
-#include "planner_rrtc/joint_sampler.h"
+#include "common/random.h"
 
 namespace planbench {
 namespace {
@@ -57,6 +58,36 @@ class FirstJointsProjection final : public ob::ProjectionEvaluator {
   const JointSpace& joints_;
 };
 
+/// A JointSampler for OMPL. Adds the number of its samples of the whole space to *num_samples.
+class OmplSampler final : public ob::StateSampler {
+ public:
+  OmplSampler(const ob::StateSpace* space, JointSampler sampler, std::int64_t* num_samples)
+      : ob::StateSampler(space), sampler_(std::move(sampler)), num_samples_(num_samples) {}
+
+  void sampleUniform(ob::State* state) override {
+    ++*num_samples_;
+    sampler_.Sample(OmplPositions(state));
+  }
+  void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
+    for (unsigned int j = 0; j < space_->getDimension(); ++j) {
+      const double offset = distance * (2 * UniformFraction(sampler_.generator()) - 1);
+      OmplPositions(state)[j] = OmplPositions(near)[j] + offset;
+    }
+    space_->enforceBounds(state);
+  }
+  void sampleGaussian(ob::State* state, const ob::State* mean, double std_dev) override {
+    std::normal_distribution<double> normal(0, std_dev);
+    for (unsigned int j = 0; j < space_->getDimension(); ++j) {
+      OmplPositions(state)[j] = OmplPositions(mean)[j] + normal(*sampler_.generator());
+    }
+    space_->enforceBounds(state);
+  }
+
+ private:
+  JointSampler sampler_;
+  std::int64_t* num_samples_;
+};
+
 }  // namespace
 
 double* OmplPositions(ob::State* state) {
@@ -74,6 +105,12 @@ OmplJointSpace::OmplJointSpace(const JointSpace& joints) : joints_(joints), flat
 
 OmplJointSpace::~OmplJointSpace() {
   for (ob::State* state : free_states_) DeleteState(state);
+}
+
+void OmplJointSpace::SeedSamplers(SamplerKind kind, std::uint64_t seed) {
+  sampler_kind_ = kind;
+  next_seed_ = seed;
+  num_samples_ = 0;
 }
 
 void OmplJointSpace::SetPositions(ob::State* state, const std::vector<double>& q) const {
@@ -142,8 +179,8 @@ void OmplJointSpace::interpolate(const ob::State* from, const ob::State* to, dou
 }
 
 ob::StateSamplerPtr OmplJointSpace::allocDefaultStateSampler() const {
-  return std::make_shared<JointSampler>(this, joints_, SamplerKind::kUniform, /*seed=*/1,
-                                        &num_default_samples_);
+  return std::make_shared<OmplSampler>(this, JointSampler(joints_, sampler_kind_, next_seed_++),
+                                       &num_samples_);
 }
 
 ob::State* OmplJointSpace::allocState() const {

@@ -3,10 +3,12 @@
 #include <ompl/base/StateSpace.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <vector>
 
 #include "planner_rrtc/flat_joints.h"
+#include "planner_rrtc/joint_sampler.h"
 #include "robot_model/joint_space.h"
 
 namespace planbench {
@@ -16,7 +18,8 @@ namespace planbench {
 /// spends more time in virtual calls than a collision checker needs for a configuration. States
 /// that are freed are kept for the next one asked for. Positions of continuous joints must be kept
 /// in [-pi, pi]. Its default projection, for the planners that need one, is onto the first three
-/// joints (all, if there are fewer), those that carry the others.
+/// joints (all, if there are fewer), those that carry the others. Its samplers are JointSamplers
+/// and do not depend on OMPL's process-wide seed.
 ///
 /// Not thread-safe, unlike OMPL's own spaces. `joints` must outlive it.
 class OmplJointSpace final : public ompl::base::StateSpace {
@@ -26,6 +29,11 @@ class OmplJointSpace final : public ompl::base::StateSpace {
 
   const JointSpace& joints() const { return joints_; }
   const FlatJoints& flat_joints() const { return flat_; }
+  /// The first sampler allocated from here on has this seed, every further one the next. Begins to
+  /// count samples.
+  void SeedSamplers(SamplerKind kind, std::uint64_t seed);
+  /// Configurations drawn from the whole space by all samplers since they were seeded.
+  std::int64_t num_samples() const { return num_samples_; }
   /// Positions with continuous joints wrapped.
   void SetPositions(ompl::base::State* state, const std::vector<double>& q) const;
 
@@ -42,7 +50,6 @@ class OmplJointSpace final : public ompl::base::StateSpace {
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
-  /// A uniform JointSampler of a fixed seed; searches set an allocator of their own.
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
@@ -54,7 +61,9 @@ class OmplJointSpace final : public ompl::base::StateSpace {
   const JointSpace& joints_;
   FlatJoints flat_;
   mutable std::vector<ompl::base::State*> free_states_;
-  mutable std::int64_t num_default_samples_ = 0;
+  SamplerKind sampler_kind_ = SamplerKind::kUniform;
+  mutable std::uint64_t next_seed_ = 1;
+  mutable std::int64_t num_samples_ = 0;
 };
 
 /// The positions of a state of such a space.

@@ -1,69 +1,34 @@
 #pragma once
 
-#include <ompl/base/Planner.h>
-
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "common/enum_names.h"
-#include "planner_rrtc/edge_validity.h"
+#include "planner_rrtc/flat_joints.h"
+#include "planner_rrtc/goal_sampler.h"
+#include "planner_rrtc/joint_sampler.h"
 #include "planner_rrtc/node_tree.h"
-#include "planner_rrtc/ompl_joint_space.h"
+#include "planner_rrtc/rrtc_settings.h"
+#include "planning/planner.h"
 
 namespace planbench {
 
-/// How a tree grows towards a sample.
-enum class Extension {
-  kStep,     ///< By one motion of at most the range: "EXTEND".
-  kConnect,  ///< By one after the other until the sample or an obstacle is reached: "CONNECT".
-};
-template <>
-struct EnumNames<Extension> {
-  static constexpr auto kNames = std::to_array<std::string_view>({"step", "connect"});
-};
-
 /// RRT-Connect (Kuffner and LaValle, "RRT-Connect: An Efficient Approach to Single-Query Path
-/// Planning", ICRA 2000) as a planner of OMPL, for spaces that are OmplJointSpaces and motions that
-/// an EdgeMotionValidator judges. What ompl::geometric::RRTConnect does state by state and node by
-/// node, it does over flat arrays that it keeps from one problem to the next:
+/// Planning", ICRA 2000) over flat arrays that are kept from one query to the next.
 ///
 /// Where a search is stuck almost every extension fails, and almost every failure is a collision at
 /// the extension's far end. So the extensions towards the next samples are prepared together and
 /// their far ends are checked in one batch; they are then taken in order, and when one changes a
 /// tree the ones after it are prepared anew. The result is that of one sample at a time.
-class RrtConnect final : public ompl::base::Planner {
+class RrtConnect {
  public:
-  struct Settings {
-    /// Longest motion added to a tree, joint-space L2.
-    double range = 1;
-    /// Of the tree that draws the sample; the other one always connects.
-    Extension extension = Extension::kConnect;
-    /// Grow the smaller tree (as Kuffner and LaValle's "balanced" variant); else they take turns.
-    bool balance = true;
-    /// Dynamic domain (Yershova, Jaillet, Simeon and LaValle, ICRA 2005): a node that failed to
-    /// extend takes samples within this distance only, which shrinks with further failures and
-    /// grows with successes (Jaillet, Yershova, LaValle and Simeon, IROS 2005), but not below the
-    /// range. 0: off.
-    double domain_radius = 0;
-  };
+  /// `joints` must outlive it.
+  explicit RrtConnect(const JointSpace& joints);
 
-  struct Counters {
-    std::int64_t iterations = 0;     ///< Samples taken.
-    std::int64_t out_of_domain = 0;  ///< Of them, refused by the dynamic domain.
-    double nearest_s = 0;            ///< Time for nearest neighbours.
-  };
-
-  RrtConnect(const ompl::base::SpaceInformationPtr& si, const Settings& settings);
-  ~RrtConnect() override;
-
-  void set_settings(const Settings& settings) { settings_ = settings; }
-  const Counters& counters() const { return counters_; }
-  int NumStates(int tree) const { return trees_[tree].nodes.size(); }
-
-  void setup() override;
-  void clear() override;
-  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
+  /// Counters: iterations (samples taken), states_start_tree, states_goal_tree and, with a dynamic
+  /// domain, out_of_domain (samples that it refused). Guidance is the time for nearest neighbours.
+  SearchResult Search(const RrtcSettings& settings, const SearchQuery& query);
 
  private:
   static constexpr int kStart = 0;
@@ -83,33 +48,43 @@ class RrtConnect final : public ompl::base::Planner {
     bool end_is_valid = false;
   };
 
-  const FlatJoints& flat() const { return space_->flat_joints(); }
-  std::size_t At(int k) const { return static_cast<std::size_t>(k) * flat().size(); }
+  /// Ends of a way from start to goal: nodes at the same place, one of each tree.
+  struct Meeting {
+    int start_node = -1;
+    int goal_node = -1;
+  };
 
+  std::size_t At(int k) const { return static_cast<std::size_t>(k) * flat_.size(); }
+  int NumStates(int tree) const { return trees_[tree].nodes.size(); }
+
+  void Clear();
   int Add(int tree, const double* q, int parent);
   bool IsValidEdge(const double* from, const double* to);
   bool InDomain(const Candidate& candidate) const;
-  /// Adds the problem's starts and first goal; what is wrong with them, if anything.
-  ompl::base::PlannerStatus AddEnds();
-  void AddGoals();
+  void AddGoal(GoalSampler* goals);
   /// The tree whose turn comes after `last`'s.
   int NextTree(int last) const;
+  /// Grows the trees until they meet or the query says stop.
+  std::optional<Meeting> Grow(const SearchQuery& query, JointSampler* sampler, GoalSampler* goals);
   /// Prepares extensions towards the next `num` samples. `last`: the tree extended before them.
-  void Prepare(int num, int last);
+  void Prepare(JointSampler* sampler, int num, int last);
   /// Takes the k-th extension prepared. The last node added, -1 if none; `reached` (n values)
   /// becomes its configuration.
   int Extend(int k, double* reached);
   /// Grows `tree` towards q. The node from which q is reached, -1 if it is not.
   int Connect(int tree, const double* q);
-  void AddSolution(int start_node, int goal_node);
+  Path PathThrough(const Meeting& meeting) const;
 
-  Settings settings_;
-  Counters counters_;
-  const OmplJointSpace* space_;
-  EdgeMotionValidator* motions_ = nullptr;
-  ompl::base::StateSamplerPtr sampler_;
-  ompl::base::State* sample_state_;
+  const JointSpace& joints_;
+  FlatJoints flat_;
   Tree trees_[2];
+  // Of the query being served:
+  const RrtcSettings* settings_ = nullptr;
+  EdgeChecker* edges_ = nullptr;
+  std::int64_t num_iterations_ = 0;
+  std::int64_t num_out_of_domain_ = 0;
+  int num_goals_drawn_ = 0;
+  double nearest_s_ = 0;
   /// Samples drawn and not taken yet, the first of which have candidates and ends.
   int num_drawn_ = 0;
   std::vector<double> samples_;

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <optional>
 #include <vector>
+
+#include "planner_rrtc/ompl_algorithms.h"
 
 namespace planbench {
 namespace {
@@ -29,18 +30,21 @@ double ReadDomainRadius(const YamlNode& node) {
 
 }  // namespace
 
+std::string_view RrtcSettings::AlgorithmName() const {
+  return ompl_algorithm != nullptr ? ompl_algorithm->name : kRrtConnect;
+}
+
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
   node.AllowOnly(
       {"algorithm", "sampler", "range", "extension", "balance", "domain_radius", "ompl"});
   RrtcSettings settings = defaults;
-  RrtConnect::Settings& rrt_connect = settings.rrt_connect;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
-  if (const auto value = node.Find("range")) rrt_connect.range = value->PositiveDouble();
-  if (const auto value = node.Find("extension")) rrt_connect.extension = value->Enum<Extension>();
-  if (const auto value = node.Find("balance")) rrt_connect.balance = value->Bool();
+  if (const auto value = node.Find("range")) settings.range = value->PositiveDouble();
+  if (const auto value = node.Find("extension")) settings.extension = value->Enum<Extension>();
+  if (const auto value = node.Find("balance")) settings.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {
-    rrt_connect.domain_radius = ReadDomainRadius(*value);
+    settings.domain_radius = ReadDomainRadius(*value);
   }
   if (const auto value = node.Find("ompl")) {
     for (const std::string& key : value->Keys()) {
@@ -51,17 +55,16 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
 }
 
 std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings) {
-  std::map<std::string, std::string> text = {
-      {"algorithm", std::string(settings.AlgorithmName())},
-      {"sampler", std::string(EnumName(settings.sampler))},
-      {"range", fmt::format("{}", settings.rrt_connect.range)}};
+  std::map<std::string, std::string> text = {{"algorithm", std::string(settings.AlgorithmName())},
+                                             {"sampler", std::string(EnumName(settings.sampler))},
+                                             {"range", fmt::format("{}", settings.range)}};
   if (settings.ompl_algorithm != nullptr) {
     for (const auto& [key, value] : settings.ompl_parameters) text["ompl." + key] = value;
     return text;
   }
-  text["extension"] = EnumName(settings.rrt_connect.extension);
-  text["balance"] = settings.rrt_connect.balance ? "true" : "false";
-  text["domain_radius"] = fmt::format("{}", settings.rrt_connect.domain_radius);
+  text["extension"] = EnumName(settings.extension);
+  text["balance"] = settings.balance ? "true" : "false";
+  text["domain_radius"] = fmt::format("{}", settings.domain_radius);
   return text;
 }
 

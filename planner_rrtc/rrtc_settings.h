@@ -2,32 +2,52 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "common/yaml.h"
 #include "planner_rrtc/joint_sampler.h"
-#include "planner_rrtc/ompl_algorithms.h"
-#include "planner_rrtc/rrt_connect.h"
 
 namespace planbench {
 
-/// Settings of planner_rrtc.
+struct OmplAlgorithm;
+
+/// How a tree of RRT-Connect grows towards a sample.
+enum class Extension {
+  kStep,     ///< By one motion of at most the range: "EXTEND".
+  kConnect,  ///< By one after the other until the sample or an obstacle is reached: "CONNECT".
+};
+
+template <>
+struct EnumNames<Extension> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"step", "connect"});
+};
+
+/// Settings of planner_rrtc, each by its name.
 struct RrtcSettings {
   /// Name of our own planner among the algorithms.
   static constexpr std::string_view kRrtConnect = "RRT-Connect";
 
-  /// `algorithm`: RRT-Connect (RrtConnect), or the name of a planner of OMPL; null: RRT-Connect.
+  /// `algorithm`: kRrtConnect, or the name of a planner of OMPL; null: kRrtConnect.
   const OmplAlgorithm* ompl_algorithm = nullptr;
-  /// `sampler`: uniform or halton.
   SamplerKind sampler = SamplerKind::kUniform;
-  /// `range`, `extension` (connect or step), `balance`, `domain_radius`. The range holds for every
-  /// algorithm that grows trees by motions of a limited length, the others for RRT-Connect.
-  RrtConnect::Settings rrt_connect;
+  /// Longest motion added to a tree, joint-space L2, of every algorithm that has such a limit.
+  double range = 1;
+
+  // Of RRT-Connect:
+  /// Of the tree that draws the sample; the other one always connects.
+  Extension extension = Extension::kConnect;
+  /// Grow the smaller tree (as Kuffner and LaValle's "balanced" variant); else they take turns.
+  bool balance = true;
+  /// Dynamic domain (Yershova, Jaillet, Simeon and LaValle, ICRA 2005): a node that failed to
+  /// extend takes samples within this distance only, which shrinks with further failures and grows
+  /// with successes (Jaillet, Yershova, LaValle and Simeon, IROS 2005), but not below the range.
+  /// 0: off.
+  double domain_radius = 0;
+
   /// `ompl`: a map of parameters of OMPL's planner, by OMPL's names.
   std::map<std::string, std::string> ompl_parameters;
 
-  std::string_view AlgorithmName() const {
-    return ompl_algorithm != nullptr ? ompl_algorithm->name : kRrtConnect;
-  }
+  std::string_view AlgorithmName() const;
 };
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for

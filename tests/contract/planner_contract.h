@@ -17,7 +17,7 @@
 #include "planning/path_metrics.h"
 #include "planning/planner.h"
 #include "planning/resolve.h"
-#include "support/planning_problems.h"
+#include "tests/support/planning_problems.h"
 
 namespace planbench {
 

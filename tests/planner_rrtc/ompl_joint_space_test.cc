@@ -9,10 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <set>
 #include <vector>
-
-#include "planner_rrtc/joint_sampler.h"
 
 namespace planbench {
 namespace {
@@ -113,76 +110,46 @@ TEST_F(OmplJointSpaceTest, ProjectsOntoTheFirstJoints) {
   EXPECT_EQ(projected, Eigen::Vector3d(1, 0.5, 0.3));
 }
 
-class JointSamplerTest : public OmplJointSpaceTest,
-                         public testing::WithParamInterface<SamplerKind> {
+class OmplSamplerTest : public OmplJointSpaceTest, public testing::WithParamInterface<SamplerKind> {
  protected:
-  std::vector<std::vector<double>> Draw(std::uint64_t seed, int count) {
-    JointSampler sampler(space_.get(), joints_, GetParam(), seed, &num_samples_);
+  std::vector<double> DrawFirst(const ob::StateSamplerPtr& sampler) {
     ob::ScopedState<> state(space_);
-    std::vector<std::vector<double>> samples;
-    for (int i = 0; i < count; ++i) {
-      sampler.sampleUniform(state.get());
-      EXPECT_TRUE(space_->satisfiesBounds(state.get()));
-      samples.emplace_back(OmplPositions(state.get()), OmplPositions(state.get()) + 4);
-    }
-    return samples;
+    sampler->sampleUniform(state.get());
+    return {OmplPositions(state.get()), OmplPositions(state.get()) + 4};
   }
-
-  std::int64_t num_samples_ = 0;
 };
 
-TEST_P(JointSamplerTest, SpreadsItsSamplesEvenlyOverTheLimits) {
-  const std::vector<std::vector<double>> samples = Draw(3, 4000);
-  EXPECT_EQ(num_samples_, 4000);
-  for (int j = 0; j < joints_.size(); ++j) {
-    const JointSpace::Joint& joint = joints_.joint(j);
-    std::vector<int> counts(8);
-    for (const std::vector<double>& q : samples) {
-      const double fraction =
-          (q[static_cast<std::size_t>(j)] - joint.lower) / (joint.upper - joint.lower);
-      ++counts.at(static_cast<std::size_t>(fraction * 8));
-    }
-    for (const int count : counts) EXPECT_NEAR(count, 500, 100) << joint.name;
-  }
-}
-
-TEST_P(JointSamplerTest, DependsOnItsSeedOnly) {
-  const std::vector<std::vector<double>> once = Draw(5, 10);
+TEST_P(OmplSamplerTest, SeedsCountUpAndSamplesAreCounted) {
+  space_->SeedSamplers(GetParam(), 5);
+  const std::vector<double> first = DrawFirst(space_->allocStateSampler());
+  const std::vector<double> second = DrawFirst(space_->allocStateSampler());
+  EXPECT_EQ(space_->num_samples(), 2);
+  space_->SeedSamplers(GetParam(), 6);
+  EXPECT_EQ(space_->num_samples(), 0);
+  EXPECT_EQ(DrawFirst(space_->allocStateSampler()), second);
+  space_->SeedSamplers(GetParam(), 5);
   ompl::RNG().uniform01();  // Another generator in between does not matter.
-  EXPECT_EQ(Draw(5, 10), once);
-  EXPECT_NE(Draw(6, 10), once);
-  EXPECT_NE(Draw(5 + (std::uint64_t{1} << 40), 10), once) << "the upper half of a seed counts too";
+  EXPECT_EQ(DrawFirst(space_->allocStateSampler()), first);
 }
 
-TEST_P(JointSamplerTest, SamplesNearAConfigurationStayNearAndWithinLimits) {
-  JointSampler sampler(space_.get(), joints_, GetParam(), 1, &num_samples_);
+TEST_P(OmplSamplerTest, SamplesNearAConfigurationStayNearAndWithinLimits) {
+  space_->SeedSamplers(GetParam(), 1);
+  const ob::StateSamplerPtr sampler = space_->allocStateSampler();
   const ob::ScopedState<> center = State({3.1, 1.95, 0.2, 0});
   ob::ScopedState<> state(space_);
   for (int i = 0; i < 200; ++i) {
-    sampler.sampleUniformNear(state.get(), center.get(), 0.1);
+    sampler->sampleUniformNear(state.get(), center.get(), 0.1);
     EXPECT_TRUE(space_->satisfiesBounds(state.get()));
     EXPECT_LE(space_->distance(center.get(), state.get()), 0.1 * 2 + 1e-9);
-    sampler.sampleGaussian(state.get(), center.get(), 0.1);
+    sampler->sampleGaussian(state.get(), center.get(), 0.1);
     EXPECT_TRUE(space_->satisfiesBounds(state.get()));
     EXPECT_LE(space_->distance(center.get(), state.get()), 2);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Samplers, JointSamplerTest,
+INSTANTIATE_TEST_SUITE_P(Samplers, OmplSamplerTest,
                          testing::Values(SamplerKind::kUniform, SamplerKind::kHalton),
                          [](const auto& info) { return std::string(EnumName(info.param)); });
-
-TEST_F(OmplJointSpaceTest, HaltonsFirstCoordinateHalvesTheLargestGap) {
-  std::int64_t num_samples = 0;
-  JointSampler sampler(space_.get(), joints_, SamplerKind::kHalton, 1, &num_samples);
-  ob::ScopedState<> state(space_);
-  std::set<long> cells;  // of 64 equal ones along the first joint: each is met once in 64 samples
-  for (int i = 0; i < 64; ++i) {
-    sampler.sampleUniform(state.get());
-    cells.insert(std::lround(std::floor((OmplPositions(state.get())[0] + kPi) / (2 * kPi) * 64)));
-  }
-  EXPECT_GE(cells.size(), 63u);  // the sequence begins at its second point
-}
 
 }  // namespace
 }  // namespace planbench

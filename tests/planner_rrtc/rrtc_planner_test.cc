@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "contract/planner_contract.h"
 #include "planner_rrtc/ompl_algorithms.h"
 #include "scene/moveit_yaml.h"
-#include "support/expect_input_error.h"
-#include "support/shared_data.h"
+#include "tests/contract/planner_contract.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/shared_data.h"
 
 namespace planbench {
 namespace {
@@ -156,7 +156,8 @@ TEST_F(RrtcPlannerTest, ARangeHoldsForItsRequestOnly) {
 }
 
 TEST_F(RrtcPlannerTest, SeedsDecideThePath) {
-  for (const std::string settings : {"", "algorithm: RRT", "sampler: halton"}) {
+  for (const std::string settings :
+       {"", "algorithm: RRT", "algorithm: BITstar", "sampler: halton"}) {
     const Path one = Solve(settings, 1).path;
     EXPECT_EQ(Solve(settings, 1).path, one) << settings;
     EXPECT_NE(Solve(settings, 2).path, one) << settings;
@@ -186,6 +187,27 @@ TEST_F(RrtcPlannerTest, CountsItsTreesAndIterations) {
   EXPECT_NEAR(result.phases.setup_s + result.phases.collision_s + result.phases.guidance_s +
                   result.phases.search_s,
               result.planning_time_s, 1e-9);
+}
+
+TEST_F(RrtcPlannerTest, MotionsAreWithinTheRange) {
+  const JointSpace& space = robot_.groups.front().space;
+  for (const std::string extension : {"step", "connect"}) {
+    const Path path = Solve("{range: 0.3, extension: " + extension + "}").path;
+    ASSERT_FALSE(path.empty());
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      EXPECT_LE(space.Distance(path[i - 1], path[i]), 0.3 + 1e-6);
+    }
+  }
+}
+
+TEST_F(RrtcPlannerTest, ADynamicDomainTurnsSamplesAway) {
+  // Stretched between two posts: most motions out of either end collide.
+  const PlanResult result =
+      MakeRrtcPlanner(robot_, Settings("{range: 0.5, extension: step, domain_radius: 0.6}"))
+          ->Plan(MakeRequest(robot_, {0.25, 0, 0}, {-0.25, 0, 0}), PostsScene(), nullptr);
+  ASSERT_EQ(result.status, PlanStatus::kSolved);
+  EXPECT_GT(result.counters.at("out_of_domain"), 0);
+  EXPECT_LT(result.counters.at("out_of_domain"), result.counters.at("iterations"));
 }
 
 TEST_F(RrtcPlannerTest, SolvesPublishedProblems) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "planning/planner.h"
+
+namespace planbench {
+
+/// What came of a search that ended without a path.
+inline SearchResult StoppedSearch(const SearchQuery& query) {
+  SearchResult result;
+  result.status = query.Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
+  result.message = query.Cancelled() ? "cancelled" : "no path was found within the time limit";
+  return result;
+}
+
+}  // namespace planbench
