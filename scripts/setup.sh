@@ -1,4 +1,4 @@
-# Sourced by ./run and ./test: installs packages, makes sure that LCM can multicast, builds. Prints what it does.
+# Sourced by ./run, ./test and ./check: installs packages, makes sure that LCM can multicast, builds. Prints what it does.
 
 say() { printf '==> %s\n' "$*"; }
 die() {
@@ -17,12 +17,13 @@ as_root() {
   fi
 }
 
-# Installs the packages of packages.txt that are missing.
+# Installs the packages of packages.txt, and of further lists, that are missing.
+# install_packages [LIST ...]
 install_packages() {
   local wanted missing=() package
   command -v dpkg-query >/dev/null 2>&1 ||
-    die "packages are installed with apt (Debian, Ubuntu); on other systems install the equivalents of packages.txt and call with PLANBENCH_SKIP_INSTALL=1"
-  wanted=$(grep -vE '^[[:space:]]*(#|$)' packages.txt)
+    die "packages are installed with apt (Debian, Ubuntu); on other systems install the equivalents of packages*.txt and call with PLANBENCH_SKIP_INSTALL=1"
+  wanted=$(grep -hvE '^[[:space:]]*(#|$)' packages.txt "$@")
   for package in $wanted; do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
   done
@@ -50,20 +51,27 @@ ensure_receive_buffer() {
     say "could not raise it: messages that get lost will be sent again"
 }
 
+# prepare [LIST ...]: further lists of packages
 prepare() {
-  if [ "${PLANBENCH_SKIP_INSTALL:-0}" != 1 ]; then install_packages; fi
+  if [ "${PLANBENCH_SKIP_INSTALL:-0}" != 1 ]; then install_packages "$@"; fi
   ensure_multicast
   ensure_receive_buffer
 }
 
-# build PRESET TARGET
-build() {
-  local preset=$1 target=$2 jobs memory_gib
-  # The largest files need about 2 GiB of memory to compile.
+# How many compilers to run at once: the largest files need about 2 GiB of memory each.
+num_jobs() {
+  local jobs memory_gib
   memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
   jobs=$(nproc)
   [ $((memory_gib / 2)) -lt "$jobs" ] && jobs=$((memory_gib / 2))
   [ "$jobs" -lt 1 ] && jobs=1
+  echo "$jobs"
+}
+
+# build PRESET TARGET
+build() {
+  local preset=$1 target=$2 jobs
+  jobs=$(num_jobs)
   say "building the preset '$preset' with $jobs jobs"
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" --target "$target" -j "$jobs"
