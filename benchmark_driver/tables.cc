@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
-#include <tuple>
 
 #include "benchmark_driver/published_study.h"
 #include "results/statistics.h"
@@ -217,46 +218,78 @@ std::string TimeTable(const Groups& groups) {
       published_note);
 }
 
-double CounterOr0(const RunRecordMessage& record, const std::string& name) {
-  const auto found = record.result.result.counters.find(name);
-  return found == record.result.result.counters.end() ? 0 : found->second;
+/// A column of the table of effort and quality: a median over solved runs.
+struct EffortColumn {
+  std::string heading;
+  std::function<std::optional<double>(const RunRecordMessage&)> read;  ///< Nothing: left out.
+  std::function<std::string(double)> format;
+};
+
+std::vector<EffortColumn> EffortColumns() {
+  using Record = RunRecordMessage;
+  const auto decimals = [](int count) {
+    return [count](double value) { return Number(value, count); };
+  };
+  const auto counter = [](const char* name) {
+    return [name](const Record& record) {
+      const auto& counters = record.result.result.counters;
+      const auto found = counters.find(name);
+      return found == counters.end() ? 0 : found->second;
+    };
+  };
+  std::vector<EffortColumn> columns = {
+      {"bus ms",
+       [](const Record& record) {
+         const PlanResult& result = record.result.result;
+         return record.roundtrip_time_s - result.total_time_s - result.phases.simplification_s;
+       },
+       Milliseconds},
+      {"simplify ms",
+       [](const Record& record) { return record.result.result.phases.simplification_s; },
+       Milliseconds},
+      {"checking %",
+       [](const Record& record) -> std::optional<double> {
+         const PlanResult& result = record.result.result;
+         if (result.total_time_s == 0) return std::nullopt;
+         return 100 * result.phases.collision_s / result.total_time_s;
+       },
+       decimals(0)},
+      {"edges", counter("edges_checked"), decimals(0)},
+      {"configurations", counter("configurations_checked"), decimals(0)},
+  };
+  for (const PathMeasure& measure : PathMeasures()) {
+    const auto add = [&](const char* heading, PathCheckReplyMessage Record::*check) {
+      if (heading == nullptr) return;
+      const auto read = [&measure, check](const Record& record) -> std::optional<double> {
+        const auto& verdict = (record.*check).verdict;
+        auto value = verdict ? FindMeasure(verdict->measures, measure.name) : std::nullopt;
+        if (value) *value *= measure.column.scale;
+        return value;
+      };
+      columns.push_back({heading, read, decimals(measure.column.decimals)});
+    };
+    add(measure.column.heading, &Record::path_check);
+    add(measure.column.heading_simplified, &Record::simplified_check);
+  }
+  return columns;
 }
 
 std::string EffortTable(const Groups& groups) {
-  TextTable table("Effort and quality over the solved runs, medians",
-                  {"set", "planner", "bus ms", "simplify ms", "checking %", "edges",
-                   "configurations", "length", "simplified", "tip m", "clearance mm"},
-                  2);
+  const std::vector<EffortColumn> columns = EffortColumns();
+  std::vector<std::string> header = {"set", "planner"};
+  for (const EffortColumn& column : columns) header.push_back(column.heading);
+  TextTable table("Effort and quality over the solved runs, medians", std::move(header), 2);
   for (const auto& [key, group] : groups) {
-    std::vector<double> bus, simplify, checking, edges, configurations, length, simplified, tip,
-        clearance;
-    for (const RunRecordMessage* record : group.records) {
-      if (!Solved(record)) continue;
-      const PlanResult& result = record->result.result;
-      bus.push_back(record->roundtrip_time_s - result.total_time_s -
-                    result.phases.simplification_s);
-      simplify.push_back(result.phases.simplification_s);
-      if (result.total_time_s > 0) {
-        checking.push_back(100 * result.phases.collision_s / result.total_time_s);
+    std::vector<std::string> row = {key.first, key.second};
+    for (const EffortColumn& column : columns) {
+      std::vector<double> values;
+      for (const RunRecordMessage* record : group.records) {
+        if (!Solved(record)) continue;
+        if (const auto value = column.read(*record)) values.push_back(*value);
       }
-      edges.push_back(CounterOr0(*record, "edges_checked"));
-      configurations.push_back(CounterOr0(*record, "configurations_checked"));
-      if (const auto& verdict = record->path_check.verdict) {
-        length.push_back(verdict->length);
-        tip.push_back(verdict->tip_travel_m);
-        // A valid path's is 0 all along only if it was not measured.
-        if (verdict->clearance_mean_m > 0) clearance.push_back(verdict->clearance_min_m * 1e3);
-      }
-      if (const auto& verdict = record->simplified_check.verdict) {
-        simplified.push_back(verdict->length);
-      }
+      row.push_back(column.format(Summarize(std::move(values)).median));
     }
-    const auto median = [](std::vector<double>& values) { return Summarize(values).median; };
-    table.Add({key.first, key.second, Milliseconds(median(bus)), Milliseconds(median(simplify)),
-               Number(median(checking), 0), Number(median(edges), 0),
-               Number(median(configurations), 0), Number(median(length), 2),
-               Number(median(simplified), 2), Number(median(tip), 2),
-               Number(median(clearance), 1)});
+    table.Add(std::move(row));
   }
   return table.Format(
       "  bus: driver's round trip less the planner's own time. checking: share of collision "

@@ -28,7 +28,7 @@
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
 #include "planning/path_judge.h"
-#include "planning/path_metrics.h"
+#include "planning/path_measures.h"
 #include "planning/planner_settings.h"
 #include "planning/resolve.h"
 #include "scene/moveit_yaml.h"

@@ -1,7 +1,9 @@
 #include "logger/run_columns.h"
 
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "logger/utc_time.h"
 
@@ -30,22 +32,38 @@ SqliteValue Real(double value) {
 /// For fields whose 0 means "none".
 SqliteValue RealUnlessZero(double value) { return value == 0 ? SqliteValue(kNull) : Real(value); }
 
-/// A field of the planner's answer: NULL if none came, so that a run without an answer does not
-/// look like one that took no time.
-template <typename Get>
-SqliteValue OfAnswer(const Record& record, Get get) {
-  const bool answered = record.status != PlanStatus::kNoAnswer && !record.result.request_id.empty();
-  return answered ? SqliteValue(get(record.result.result)) : SqliteValue(kNull);
+using Check = PathCheckReplyMessage Record::*;
+using Verdict = std::optional<PathVerdict> PathCheckReplyMessage::*;
+
+/// Of the planner's answer: NULL if none came, so that a run without an answer does not look like
+/// one that took no time.
+RunColumn OfAnswer(std::string name, const char* type,
+                   std::function<SqliteValue(const PlanResult&)> get) {
+  return {std::move(name), type, [get = std::move(get)](const Record& r) {
+            const bool answered = r.status != PlanStatus::kNoAnswer && !r.result.request_id.empty();
+            return answered ? get(r.result.result) : SqliteValue(kNull);
+          }};
 }
 
-SqliteValue Time(const Record& record, double PhaseTimes::*phase) {
-  return OfAnswer(record, [&](const PlanResult& result) { return Real(result.phases.*phase); });
+RunColumn Time(std::string name, double PlanResult::*time) {
+  return OfAnswer(std::move(name), "REAL", [time](const PlanResult& p) { return Real(p.*time); });
 }
 
-SqliteValue Counter(const Record& record, const char* name) {
-  return OfAnswer(record, [&](const PlanResult& result) -> SqliteValue {
-    const auto found = result.counters.find(name);
-    if (found == result.counters.end()) return kNull;
+RunColumn Time(std::string name, double PhaseTimes::*phase) {
+  return OfAnswer(std::move(name), "REAL",
+                  [phase](const PlanResult& p) { return Real(p.phases.*phase); });
+}
+
+/// A number of which 0 means that there is none.
+RunColumn Quantity(std::string name, double PlanResult::*value) {
+  return OfAnswer(std::move(name), "REAL",
+                  [value](const PlanResult& p) { return RealUnlessZero(p.*value); });
+}
+
+RunColumn Counter(const char* name) {
+  return OfAnswer(name, "INTEGER", [name](const PlanResult& p) -> SqliteValue {
+    const auto found = p.counters.find(name);
+    if (found == p.counters.end()) return kNull;
     // INTEGER columns hold exact counts; what is none stays what it is.
     constexpr double kExact = 9007199254740992.0;  // 2^53
     const double value = found->second;
@@ -56,42 +74,52 @@ SqliteValue Counter(const Record& record, const char* name) {
   });
 }
 
-SqliteValue NumWaypoints(const Path& path) {
-  return path.empty() ? SqliteValue(kNull) : Int(static_cast<std::int64_t>(path.size()));
+RunColumn NumWaypoints(std::string name, Path PlanResult::*path) {
+  return {std::move(name), "INTEGER", [path](const Record& r) {
+            const auto count = static_cast<std::int64_t>((r.result.result.*path).size());
+            return count == 0 ? SqliteValue(kNull) : Int(count);
+          }};
 }
 
-SqliteValue Valid(const std::optional<PathVerdict>& verdict) {
-  return verdict ? Bool(verdict->valid) : SqliteValue(kNull);
+RunColumn Valid(std::string name, Check check, Verdict verdict) {
+  return {std::move(name), "BOOLEAN", [=](const Record& r) {
+            const auto& found = r.*check.*verdict;
+            return found ? Bool(found->valid) : SqliteValue(kNull);
+          }};
 }
 
 /// Why a path is not valid, or could not be judged.
-SqliteValue Reason(const PathCheckReplyMessage& check, const std::optional<PathVerdict>& verdict) {
-  if (verdict) return Text(verdict->reason);
-  return check.ok ? SqliteValue(kNull) : Text(check.message);
+RunColumn Reason(std::string name, Check check, Verdict verdict) {
+  return {std::move(name), "TEXT", [=](const Record& r) {
+            const auto& found = r.*check.*verdict;
+            if (found) return Text(found->reason);
+            const bool not_judged = verdict == &PathCheckReplyMessage::verdict && !(r.*check).ok;
+            return not_judged ? Text((r.*check).message) : SqliteValue(kNull);
+          }};
 }
 
-SqliteValue Measure(const PathCheckReplyMessage& check, double PathVerdict::*measure) {
-  return check.verdict ? Real(*check.verdict.*measure) : SqliteValue(kNull);
-}
-
-/// Clearances are only measured on valid paths and when asked for; both are 0 otherwise.
-SqliteValue Clearance(const PathCheckReplyMessage& check, double PathVerdict::*measure) {
-  const std::optional<PathVerdict>& verdict = check.verdict;
-  if (!verdict || !verdict->valid) return kNull;
-  if (verdict->clearance_min_m == 0 && verdict->clearance_mean_m == 0) return kNull;
-  return Measure(check, measure);
+RunColumn Measure(std::string name, Check check, const char* measure) {
+  return {std::move(name), "REAL", [=](const Record& r) {
+            const auto& verdict = (r.*check).verdict;
+            if (!verdict) return SqliteValue(kNull);
+            const auto value = FindMeasure(verdict->measures, measure);
+            return value ? Real(*value) : SqliteValue(kNull);
+          }};
 }
 
 std::vector<RunColumn> MakeRunColumns() {
-  return {
-      {"time", "REAL",
-       [](const Record& r) {
-         return OfAnswer(r, [](const PlanResult& p) { return Real(p.planning_time_s); });
-       }},
-      {"memory", "REAL",
-       [](const Record& r) {
-         return OfAnswer(r, [](const PlanResult& p) { return RealUnlessZero(p.peak_memory_mb); });
-       }},
+  constexpr Check kRaw = &Record::path_check;
+  constexpr Check kSimplified = &Record::simplified_check;
+  constexpr Verdict kOwn = &PathCheckReplyMessage::verdict;
+  constexpr Verdict kMesh = &PathCheckReplyMessage::mesh_verdict;
+  std::vector<RunColumn> columns;
+  const auto add = [&](std::vector<RunColumn> more) {
+    columns.insert(columns.end(), std::make_move_iterator(more.begin()),
+                   std::make_move_iterator(more.end()));
+  };
+  add({
+      Time("time", &PlanResult::planning_time_s),
+      Quantity("memory", &PlanResult::peak_memory_mb),
       {"solved", "BOOLEAN", [](const Record& r) { return Bool(r.status == PlanStatus::kSolved); }},
       {"status", "ENUM", [](const Record& r) { return Int(static_cast<int>(r.status)); }},
       {"message", "TEXT", [](const Record& r) { return Text(r.message); }},
@@ -121,84 +149,41 @@ std::vector<RunColumn> MakeRunColumns() {
 
       {"roundtrip_time", "REAL",
        [](const Record& r) { return RealUnlessZero(r.roundtrip_time_s); }},
-      {"total_time", "REAL",
-       [](const Record& r) {
-         return OfAnswer(r, [](const PlanResult& p) { return Real(p.total_time_s); });
-       }},
-      {"setup_time", "REAL", [](const Record& r) { return Time(r, &PhaseTimes::setup_s); }},
-      {"collision_time", "REAL", [](const Record& r) { return Time(r, &PhaseTimes::collision_s); }},
-      {"guidance_time", "REAL", [](const Record& r) { return Time(r, &PhaseTimes::guidance_s); }},
-      {"search_time", "REAL", [](const Record& r) { return Time(r, &PhaseTimes::search_s); }},
-      {"simplification_time", "REAL",
-       [](const Record& r) { return Time(r, &PhaseTimes::simplification_s); }},
+      Time("total_time", &PlanResult::total_time_s),
+      Time("setup_time", &PhaseTimes::setup_s),
+      Time("collision_time", &PhaseTimes::collision_s),
+      Time("guidance_time", &PhaseTimes::guidance_s),
+      Time("search_time", &PhaseTimes::search_s),
+      Time("simplification_time", &PhaseTimes::simplification_s),
+  });
+  for (const PathMeasure& measure : PathMeasures()) {
+    add({Measure(measure.name, kRaw, measure.name),
+         Measure(std::string(measure.name) + "_simplified", kSimplified, measure.name)});
+  }
+  add({
+      NumWaypoints("num_waypoints", &PlanResult::path),
+      NumWaypoints("num_waypoints_simplified", &PlanResult::simplified_path),
 
-      {"path_length", "REAL",
-       [](const Record& r) { return Measure(r.path_check, &PathVerdict::length); }},
-      {"path_length_simplified", "REAL",
-       [](const Record& r) { return Measure(r.simplified_check, &PathVerdict::length); }},
-      {"tip_travel", "REAL",
-       [](const Record& r) { return Measure(r.path_check, &PathVerdict::tip_travel_m); }},
-      {"tip_travel_simplified", "REAL",
-       [](const Record& r) { return Measure(r.simplified_check, &PathVerdict::tip_travel_m); }},
-      {"smoothness", "REAL",
-       [](const Record& r) { return Measure(r.path_check, &PathVerdict::smoothness); }},
-      {"smoothness_simplified", "REAL",
-       [](const Record& r) { return Measure(r.simplified_check, &PathVerdict::smoothness); }},
-      {"clearance", "REAL",
-       [](const Record& r) { return Clearance(r.path_check, &PathVerdict::clearance_min_m); }},
-      {"clearance_simplified", "REAL",
-       [](const Record& r) {
-         return Clearance(r.simplified_check, &PathVerdict::clearance_min_m);
-       }},
-      {"clearance_mean", "REAL",
-       [](const Record& r) { return Clearance(r.path_check, &PathVerdict::clearance_mean_m); }},
-      {"clearance_mean_simplified", "REAL",
-       [](const Record& r) {
-         return Clearance(r.simplified_check, &PathVerdict::clearance_mean_m);
-       }},
-      {"num_waypoints", "INTEGER",
-       [](const Record& r) { return NumWaypoints(r.result.result.path); }},
-      {"num_waypoints_simplified", "INTEGER",
-       [](const Record& r) { return NumWaypoints(r.result.result.simplified_path); }},
-
-      {"referee_valid", "BOOLEAN", [](const Record& r) { return Valid(r.path_check.verdict); }},
-      {"referee_reason", "TEXT",
-       [](const Record& r) { return Reason(r.path_check, r.path_check.verdict); }},
+      Valid("referee_valid", kRaw, kOwn),
+      Reason("referee_reason", kRaw, kOwn),
       {"referee_engine", "TEXT", [](const Record& r) { return Text(r.path_check.engine); }},
       {"referee_step", "REAL", [](const Record& r) { return RealUnlessZero(r.path_check.step_m); }},
-      {"simplified_valid", "BOOLEAN",
-       [](const Record& r) { return Valid(r.simplified_check.verdict); }},
-      {"simplified_reason", "TEXT",
-       [](const Record& r) { return Reason(r.simplified_check, r.simplified_check.verdict); }},
-      {"mesh_valid", "BOOLEAN", [](const Record& r) { return Valid(r.path_check.mesh_verdict); }},
-      {"mesh_reason", "TEXT",
-       [](const Record& r) {
-         return r.path_check.mesh_verdict ? Text(r.path_check.mesh_verdict->reason)
-                                          : SqliteValue(kNull);
-       }},
-      {"mesh_valid_simplified", "BOOLEAN",
-       [](const Record& r) { return Valid(r.simplified_check.mesh_verdict); }},
-      {"mesh_reason_simplified", "TEXT",
-       [](const Record& r) {
-         return r.simplified_check.mesh_verdict ? Text(r.simplified_check.mesh_verdict->reason)
-                                                : SqliteValue(kNull);
-       }},
+      Valid("simplified_valid", kSimplified, kOwn),
+      Reason("simplified_reason", kSimplified, kOwn),
+      Valid("mesh_valid", kRaw, kMesh),
+      Reason("mesh_reason", kRaw, kMesh),
+      Valid("mesh_valid_simplified", kSimplified, kMesh),
+      Reason("mesh_reason_simplified", kSimplified, kMesh),
 
-      {"epsilon", "REAL",
-       [](const Record& r) {
-         return OfAnswer(r, [](const PlanResult& p) { return RealUnlessZero(p.epsilon); });
-       }},
-      {"cost", "REAL",
-       [](const Record& r) {
-         return OfAnswer(r, [](const PlanResult& p) { return RealUnlessZero(p.cost); });
-       }},
-      {"edges_checked", "INTEGER", [](const Record& r) { return Counter(r, "edges_checked"); }},
-      {"configurations_checked", "INTEGER",
-       [](const Record& r) { return Counter(r, "configurations_checked"); }},
-      {"iterations", "INTEGER", [](const Record& r) { return Counter(r, "iterations"); }},
-      {"expansions", "INTEGER", [](const Record& r) { return Counter(r, "expansions"); }},
-      {"states", "INTEGER", [](const Record& r) { return Counter(r, "states"); }},
-  };
+      Quantity("epsilon", &PlanResult::epsilon),
+      Quantity("cost", &PlanResult::cost),
+      Counter("edges_checked"),
+      Counter("configurations_checked"),
+      Counter("iterations"),
+      Counter("expansions"),
+      Counter("states"),
+  });
+  return columns;
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Fields<std::pair<std::string, double>> {
   static constexpr const char* kKey = "name";
   static void List(auto& io, auto& entry, auto& w) {
     io.Field("name", entry.first, w.name, kNotEmpty);
-    io.Field("value", entry.second, w.value);
+    io.Field("value", entry.second, w.value, kDistance);  // Measures of paths may be distances.
   }
 };
 template <>
@@ -458,11 +458,7 @@ struct Fields<PathVerdict> {
     if constexpr (Io::kReads) {
       if (!contact.body_a.empty()) v.contact = std::move(contact);
     }
-    io.Field("length", v.length, w.length, kNonNegative);
-    io.Field("tip_travel_m", v.tip_travel_m, w.tip_travel_m, kNonNegative);
-    io.Field("smoothness", v.smoothness, w.smoothness);
-    io.Field("clearance_min_m", v.clearance_min_m, w.clearance_min_m, kDistance);
-    io.Field("clearance_mean_m", v.clearance_mean_m, w.clearance_mean_m, kDistance);
+    io.List("measure", v.measures, w.measure, w.num_measures);
     io.Field("num_samples", v.num_samples, w.num_samples, kAtLeast<0>);
   }
 };

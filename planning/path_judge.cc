@@ -2,46 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "common/error.h"
-#include "planning/path_metrics.h"
-#include "robot_model/group_kinematics.h"
+#include "planning/path_samples.h"
 
 namespace planbench {
 namespace {
 
 constexpr double kEndTolerance = 1e-6;  // rad or m
-
-/// Even intervals between samples such that nothing moves more than step_m over one.
-int NumIntervals(const CollisionChecker& checker, const Configuration& from,
-                 const Configuration& to, double step_m) {
-  const double motion_m = checker.motion_bound().Between(checker.space(), from, to);
-  return std::max(1, static_cast<int>(std::ceil(motion_m / step_m)));
-}
-
-/// Calls visit(segment, fraction, q, motion_m) for every sample in order: all of the first edge,
-/// then of each edge all but its first, which ended the edge before. motion_m bounds the motion
-/// since the sample before. Stops when visit returns false.
-template <typename Visit>
-void VisitSamples(const CollisionChecker& checker, const Path& path, double step_m, Visit visit) {
-  const JointSpace& space = checker.space();
-  if (!visit(0, 0.0, path.front(), 0.0)) return;
-  Configuration q(path.front().size());
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const int intervals = NumIntervals(checker, path[i - 1], path[i], step_m);
-    const double motion_m = checker.motion_bound().Between(space, path[i - 1], path[i]) / intervals;
-    for (int s = 1; s <= intervals; ++s) {
-      const double fraction = static_cast<double>(s) / intervals;
-      space.Interpolate(path[i - 1], path[i], fraction, q);
-      if (!visit(static_cast<int>(i) - 1, fraction, q, motion_m)) return;
-    }
-  }
-}
 
 void Reject(PathVerdict* verdict, const std::string& reason, int segment, double fraction) {
   verdict->reason = reason;
@@ -134,46 +105,6 @@ bool JudgeCollisions(CollisionChecker* checker, const Path& path, double step_m,
   return free;
 }
 
-double TipTravel(const CollisionChecker& checker, const Path& path, double step_m,
-                 std::span<const double> base_positions) {
-  GroupKinematics kinematics(checker.robot().model, checker.group(), base_positions);
-  double travel_m = 0;
-  std::optional<Eigen::Vector3d> previous;
-  VisitSamples(checker, path, step_m, [&](int, double, const Configuration& q, double) {
-    kinematics.Update(q);
-    const Eigen::Vector3d p_BT = kinematics.X_BL(checker.group().tip_link).translation();
-    if (previous) travel_m += (p_BT - *previous).norm();
-    previous = p_BT;
-    return true;
-  });
-  return travel_m;
-}
-
-void MeasureClearance(CollisionChecker* checker, const Path& path, double step_m,
-                      PathVerdict* verdict) {
-  double minimum_m = std::numeric_limits<double>::infinity();
-  double first_m = 0;
-  double previous_m = 0;
-  double weighted_sum = 0;
-  double weight = 0;
-  bool first = true;
-  VisitSamples(*checker, path, step_m, [&](int, double, const Configuration& q, double motion_m) {
-    const double clearance_m = checker->FindClosest(q).distance_m;
-    minimum_m = std::min(minimum_m, clearance_m);
-    if (first) {
-      first_m = clearance_m;
-      first = false;
-    } else {
-      weighted_sum += motion_m * (previous_m + clearance_m) / 2;
-      weight += motion_m;
-    }
-    previous_m = clearance_m;
-    return true;
-  });
-  verdict->clearance_min_m = minimum_m;
-  verdict->clearance_mean_m = weight > 0 ? weighted_sum / weight : first_m;
-}
-
 }  // namespace
 
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
@@ -191,15 +122,12 @@ PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<con
   }
   PathVerdict verdict;
   if (!JudgeWaypoints(space, path, &verdict)) return verdict;
-  verdict.length = PathLength(space, path);
-  verdict.smoothness = PathSmoothness(space, path);
+  verdict.valid = JudgeEnds(space, path, start, goal, &verdict) &&
+                  JudgeCollisions(checker, path, step_m, &verdict);
   const std::vector<double> default_positions = checker->robot().model.DefaultPositions();
-  verdict.tip_travel_m = TipTravel(*checker, path, step_m,
-                                   base_positions.empty() ? default_positions : base_positions);
-  if (!JudgeEnds(space, path, start, goal, &verdict)) return verdict;
-  if (!JudgeCollisions(checker, path, step_m, &verdict)) return verdict;
-  verdict.valid = true;
-  if (with_clearance) MeasureClearance(checker, path, step_m, &verdict);
+  PathSurvey survey(checker, path, step_m,
+                    base_positions.empty() ? default_positions : base_positions);
+  verdict.measures = TakeMeasures(&survey, with_clearance && verdict.valid);
   return verdict;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "collision/collision_checker.h"
-#include "planning/plan_result.h"
+#include "planning/path_measures.h"
 #include "planning/planner.h"
 
 namespace planbench {
@@ -17,12 +17,8 @@ struct PathVerdict {
   int segment = -1;     ///< Where: segment index, -1 if it is not a matter of place.
   double fraction = 0;  ///< Where on the segment, [0, 1].
   std::optional<Contact> contact;
-  double length = 0;            ///< See PathLength.
-  double tip_travel_m = 0;      ///< Travel of the tip link's origin, summed over samples.
-  double smoothness = 0;        ///< See PathSmoothness.
-  double clearance_min_m = 0;   ///< Over samples; 0 unless asked for and valid.
-  double clearance_mean_m = 0;  ///< Mean over samples, each weighted by the motion it stands for.
-  int num_samples = 0;
+  MeasuredValues measures;  ///< Of paths of configurations; clearances if valid and asked for.
+  int num_samples = 0;      ///< Found free, or the first that is not.
   bool operator==(const PathVerdict&) const = default;
 };
 
@@ -31,9 +27,8 @@ struct PathVerdict {
 /// 1e-6); every edge sampled so that no point of the geometry moves more than `step_m` between
 /// samples, all samples free. An empty path is invalid. `base_positions` (full positions, those the
 /// checker's scene was set with) only serve the tip's travel; empty: the model's default positions,
-/// which is as good unless a held joint lies between the group's joints. Clearances are infinite
-/// where there is no pair of bodies to check. Throws InputError for a step that is not positive and
-/// for a start or goal of the wrong size.
+/// which is as good unless a held joint lies between the group's joints. Throws InputError for a
+/// step that is not positive and for a start or goal of the wrong size.
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
                       const GoalBox& goal, double step_m, bool with_clearance,
                       std::span<const double> base_positions = {});

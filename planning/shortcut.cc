@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "planning/path_metrics.h"
+#include "planning/path_measures.h"
 
 namespace planbench {
 namespace {

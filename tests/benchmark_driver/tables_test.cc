@@ -196,13 +196,10 @@ TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
   EXPECT_EQ(FormatTables(session), text);
 }
 
-PathVerdict Valid(double length, double tip_travel_m, double clearance_m) {
+PathVerdict Valid(MeasuredValues measures) {
   PathVerdict verdict;
   verdict.valid = true;
-  verdict.length = length;
-  verdict.tip_travel_m = tip_travel_m;
-  verdict.clearance_min_m = clearance_m;
-  verdict.clearance_mean_m = 2 * clearance_m;
+  verdict.measures = std::move(measures);
   return verdict;
 }
 
@@ -215,8 +212,9 @@ TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
     result.phases.simplification_s = 0.02 * i;
     result.counters = {{"edges_checked", 10 * i}, {"configurations_checked", 1000 * i}};
     record.roundtrip_time_s = 0.12 * i + 0.0005;
-    record.path_check.verdict = Valid(i, 0.5 * i, 0.01 * i);
-    record.simplified_check.verdict = Valid(0.75 * i, 0.4 * i, 0.01 * i);
+    record.path_check.verdict =
+        Valid({{"path_length", i}, {"tip_travel", 0.5 * i}, {"clearance", 0.01 * i}});
+    record.simplified_check.verdict = Valid({{"path_length", 0.75 * i}});
     records.push_back(record);
   }
   RunRecordMessage failed = OfProblem(4, Attempt(PlanStatus::kTimedOut, 60));
@@ -231,32 +229,33 @@ TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
 
 TEST(TablesTest, ClearanceMayBeInfiniteOrNotMeasured) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto clearance = [](const std::vector<double>& clearances) {
+  const auto clearance = [](const std::vector<MeasuredValues>& measures) {
     std::vector<RunRecordMessage> records;
-    for (const double value : clearances) {
+    for (const MeasuredValues& values : measures) {
       records.push_back(
           OfProblem(static_cast<int>(records.size()), Attempt(PlanStatus::kSolved, 1)));
-      records.back().path_check.verdict = Valid(1, 1, value);
+      records.back().path_check.verdict = Valid(values);
     }
     const std::string row = Row(records, kEffort, "box ara");
     return row.substr(row.rfind(' ') + 1);
   };
-  EXPECT_EQ(clearance({0.01, 0.02, kInfinity}), "20.0");
-  EXPECT_EQ(clearance({kInfinity, kInfinity}), "inf");
-  EXPECT_EQ(clearance({0, 0}), "-");
+  const MeasuredValues infinite = {{"clearance", kInfinity}};
+  EXPECT_EQ(clearance({{{"clearance", 0.01}}, {{"clearance", 0.02}}, infinite}), "20.0");
+  EXPECT_EQ(clearance({infinite, infinite, {}}), "inf");
+  EXPECT_EQ(clearance({{}, {}}), "-");
 }
 
 TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 3; ++i) {
     records.push_back(OfProblem(i, Attempt(PlanStatus::kSolved, 1)));
-    records.back().path_check.mesh_verdict = Valid(1, 1, 1);
+    records.back().path_check.mesh_verdict = Valid({});
     records.back().path_check.mesh_verdict->valid = i == 1;
   }
-  records[0].simplified_check.mesh_verdict = Valid(1, 1, 1);
+  records[0].simplified_check.mesh_verdict = Valid({});
   // A path that the referee rejects on the planners' own model counts for nothing.
   records.push_back(OfProblem(4, Attempt(PlanStatus::kInvalidPath, 1)));
-  records.back().path_check.mesh_verdict = Valid(1, 1, 1);
+  records.back().path_check.mesh_verdict = Valid({});
   EXPECT_EQ(Row(records, kMeshes, "box ara"), "3 1 1 1");
 }
 

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "planning/path_judge.h"
-#include "planning/path_metrics.h"
+#include "planning/path_measures.h"
 #include "planning/planner.h"
 #include "planning/resolve.h"
 #include "tests/support/planning_problems.h"

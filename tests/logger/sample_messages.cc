@@ -99,26 +99,20 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
   check.step_m = 0.001;
   PathVerdict verdict;
   verdict.valid = true;
-  verdict.length = 1.25;
-  verdict.tip_travel_m = 0.5;
-  verdict.smoothness = 0.125;
-  verdict.clearance_min_m = 0.02;
-  verdict.clearance_mean_m = 0.04;
+  // 1, 2, 3, ... on the raw path, half as much on the simplified one.
+  for (const PathMeasure& measure : PathMeasures()) {
+    verdict.measures[measure.name] = static_cast<double>(verdict.measures.size() + 1);
+  }
   verdict.num_samples = 300;
   check.verdict = verdict;
   verdict.valid = false;
   verdict.reason = "elbow hits board at segment 1";
   verdict.segment = 1;
-  verdict.clearance_min_m = verdict.clearance_mean_m = 0;
   check.mesh_verdict = verdict;
 
   PathCheckReplyMessage& simplified = record.simplified_check;
   simplified = check;
-  simplified.verdict->length = 1.0;
-  simplified.verdict->tip_travel_m = 0.375;
-  simplified.verdict->smoothness = 0.0625;
-  simplified.verdict->clearance_min_m = 0.01;
-  simplified.verdict->clearance_mean_m = 0.03;
+  for (auto& [name, value] : simplified.verdict->measures) value /= 2;
   simplified.mesh_verdict->valid = true;
   simplified.mesh_verdict->reason = "";
   simplified.mesh_verdict->segment = -1;

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "common/error.h"
-#include "planning/path_metrics.h"
+#include "planning/path_measures.h"
 #include "support/planning_problems.h"
 
 namespace planbench {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/path_judge.h"
-#include "planning/path_metrics.h"
+#include "planning/path_measures.h"
 #include "support/planning_problems.h"
 
 namespace planbench {

@@ -65,11 +65,11 @@ TEST_F(PathCheck, AcceptsAValidPath) {
   EXPECT_EQ(reply.step_m, 0.01);
   ASSERT_TRUE(reply.verdict);
   EXPECT_TRUE(reply.verdict->valid) << reply.verdict->reason;
-  EXPECT_NEAR(reply.verdict->length, 0.4 + 2 + 0.4, 1e-12);
+  EXPECT_NEAR(reply.verdict->measures.at("path_length"), 0.4 + 2 + 0.4, 1e-12);
   // The tip is the finger, 0.05 m out, as the scene's state has it.
-  EXPECT_NEAR(reply.verdict->tip_travel_m, 0.4 + 2 * 0.55 + 0.4, 1e-3);
+  EXPECT_NEAR(reply.verdict->measures.at("tip_travel"), 0.4 + 2 * 0.55 + 0.4, 1e-3);
   EXPECT_GT(reply.verdict->num_samples, 100);
-  EXPECT_EQ(reply.verdict->clearance_min_m, 0);  // not asked for
+  EXPECT_FALSE(reply.verdict->measures.contains("clearance"));  // not asked for
   EXPECT_FALSE(reply.mesh_verdict);
 }
 
@@ -79,8 +79,8 @@ TEST_F(PathCheck, GivesClearanceWhenAsked) {
   const PathVerdict verdict = Judge(request);
   ASSERT_TRUE(verdict.valid) << verdict.reason;
   // Straight above the can: the arm's axis at 0.5 m, less the radius, over a can of 0.2 m.
-  EXPECT_NEAR(verdict.clearance_min_m, 0.25, 1e-3);
-  EXPECT_GT(verdict.clearance_mean_m, verdict.clearance_min_m);
+  EXPECT_NEAR(verdict.measures.at("clearance"), 0.25, 1e-3);
+  EXPECT_GT(verdict.measures.at("clearance_mean"), verdict.measures.at("clearance"));
 }
 
 TEST_F(PathCheck, FinerStepTakesMoreSamples) {
@@ -129,7 +129,7 @@ TEST_F(PathCheck, TakesJointsInAnyOrder) {
   for (Configuration& q : request.path) std::swap(q[0], q[1]);
   const PathVerdict verdict = Judge(request);
   EXPECT_TRUE(verdict.valid) << verdict.reason;
-  EXPECT_NEAR(verdict.length, 2.8, 1e-12);
+  EXPECT_NEAR(verdict.measures.at("path_length"), 2.8, 1e-12);
 }
 
 TEST_F(PathCheck, RejectsWaypointsOfOtherJoints) {
@@ -215,9 +215,10 @@ TEST_F(MeshPathCheck, GivesBothVerdicts) {
   ASSERT_TRUE(reply.ok) << reply.message;
   ASSERT_TRUE(reply.mesh_verdict);
   EXPECT_TRUE(reply.mesh_verdict->valid) << reply.mesh_verdict->reason;
-  EXPECT_EQ(reply.mesh_verdict->length, reply.verdict->length);
-  EXPECT_GT(reply.verdict->clearance_min_m, 0);
-  EXPECT_EQ(reply.mesh_verdict->clearance_min_m, 0);
+  EXPECT_EQ(reply.mesh_verdict->measures.at("path_length"),
+            reply.verdict->measures.at("path_length"));
+  EXPECT_GT(reply.verdict->measures.at("clearance"), 0);
+  EXPECT_FALSE(reply.mesh_verdict->measures.contains("clearance"));
 }
 
 TEST_F(MeshPathCheck, RejectsWaypointsOfOtherJointsWithBoth) {
