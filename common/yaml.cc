@@ -1,5 +1,6 @@
 #include "common/yaml.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -122,11 +123,7 @@ std::vector<std::string> YamlNode::Keys() const {
 void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
   const auto require_known = [&](const std::string& key, const YamlNode& at) {
     if (std::find(known.begin(), known.end(), key) != known.end()) return;
-    std::string names;
-    for (const std::string_view name : known) {
-      names += (names.empty() ? "" : ", ") + std::string(name);
-    }
-    at.Fail("unknown key '" + key + "'; known are: " + names);
+    at.Fail(fmt::format("unknown key '{}'; known are: {}", key, fmt::join(known, ", ")));
   };
   Keys();  // Throws unless this is a map with plain keys.
   std::set<std::string> seen;

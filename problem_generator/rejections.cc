@@ -1,5 +1,7 @@
 #include "problem_generator/rejections.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -20,11 +22,10 @@ std::string Rejections::Summary() const {
   std::vector<std::pair<std::string, long>> sorted(by_reason.begin(), by_reason.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::string text;
-  for (const auto& [reason, count] : sorted) {
-    text += (text.empty() ? "" : ", ") + reason + " " + std::to_string(count);
-  }
-  return text.empty() ? "nothing" : text;
+  if (sorted.empty()) return "nothing";
+  std::vector<std::string> counts;
+  for (const auto& [reason, count] : sorted) counts.push_back(fmt::format("{} {}", reason, count));
+  return fmt::format("{}", fmt::join(counts, ", "));
 }
 
 std::string Rejections::MostFrequentPlace() const {

@@ -43,18 +43,17 @@ std::vector<fs::path> SetFolders(const fs::path& folder) {
 }  // namespace
 
 std::string DescribeIndices(const std::vector<ProblemFiles>& problems) {
-  std::string text;
+  std::vector<std::string> ranges;
   for (std::size_t i = 0; i < problems.size();) {
     std::size_t last = i;
     while (last + 1 < problems.size() && problems[last + 1].index == problems[last].index + 1) {
       ++last;
     }
-    if (!text.empty()) text += ", ";
-    text += last == i ? fmt::format("{}", problems[i].index)
-                      : fmt::format("{}-{}", problems[i].index, problems[last].index);
+    ranges.push_back(last == i ? fmt::format("{}", problems[i].index)
+                               : fmt::format("{}-{}", problems[i].index, problems[last].index));
     i = last + 1;
   }
-  return text;
+  return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
 ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& folders)
@@ -83,9 +82,10 @@ void ProblemLibrary::AddSet(const fs::path& folder) {
 ServedProblem ProblemLibrary::Find(const std::string& set_name, int index) {
   const auto set = sets_.find(set_name);
   if (set == sets_.end()) {
-    std::string known;
-    for (const auto& [name, other] : sets_) known += (known.empty() ? "" : ", ") + name;
-    throw InputError(fmt::format("no problem set '{}'; known are: {}", set_name, known));
+    std::vector<std::string> known;
+    for (const auto& [name, other] : sets_) known.push_back(name);
+    throw InputError(
+        fmt::format("no problem set '{}'; known are: {}", set_name, fmt::join(known, ", ")));
   }
   const ProblemFiles* files = set->second.Find(index);
   if (files == nullptr) {
