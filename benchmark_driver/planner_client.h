@@ -1,50 +1,42 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "benchmark_driver/request_exchange.h"
 #include "messaging/bus.h"
 #include "messaging/channels.h"
 #include "messaging/node_registry.h"
 
 namespace planbench {
 
-/// Sends requests to one planner and waits for their results, whatever happens to it meanwhile. One
-/// request at a time.
+/// Sends requests to one planner and waits for their results, whatever happens to it meanwhile:
+/// RequestExchange on a bus. One request at a time.
 class PlannerClient {
  public:
-  /// Silence after which a live planner counts as not answering: no acknowledgement at all, or no
-  /// result that long after the time limit.
-  static constexpr std::chrono::seconds kAckTimeout{10};
-  static constexpr std::chrono::seconds kResultGrace{15};
-  /// How long an interrupted request is cancelled again and again without a result to it.
-  static constexpr std::chrono::seconds kCancelPatience{1};
-
-  enum class Outcome { kResult, kRefused, kNoAnswer, kInterrupted };
-  struct Answer {
-    Outcome outcome = Outcome::kNoAnswer;
-    PlanResultMessage result;     ///< kResult only.
-    std::string message;          ///< Why, for the other outcomes.
-    double roundtrip_time_s = 0;  ///< Request sent -> result arrived, or given up.
-  };
+  using Outcome = RequestExchange::Outcome;
+  using Answer = RequestExchange::Answer;
 
   PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner);
 
   const std::string& planner() const { return planner_; }
 
-  /// Waits until the planner is live, sends the request until it is acknowledged (or while it is
-  /// busy), and waits for the result, which it acknowledges. A planner that dies, restarts or falls
-  /// silent meanwhile is a kNoAnswer; `interrupted` (asked every 50 ms) cancels the request, again
-  /// until the planner answers or kCancelPatience is over.
+  /// Waits until the planner is live and asks it until the request has come to its end. A planner
+  /// that dies or restarts meanwhile gives no answer; `interrupted` (asked every 50 ms) cancels the
+  /// request.
   Answer Solve(const PlanRequest& request, const std::function<bool()>& interrupted);
 
  private:
+  using TimePoint = RequestExchange::TimePoint;
+
   std::optional<NodeStatusMessage> WaitUntilLive(const std::function<bool()>& interrupted);
+  void Add(RequestExchange::Event event);
+  /// The next message; nothing if none has come by then.
+  std::optional<RequestExchange::Event> NextMessage(TimePoint until);
 
   Bus* bus_;
   NodeRegistry* registry_;
@@ -53,11 +45,8 @@ class PlannerClient {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::string request_id_;  // of the request under way
-  std::optional<PlanAckMessage> ack_;
-  std::optional<PlanResultMessage> result_;
-  std::string unusable_result_;  // why, if one came that could not be read
-  std::chrono::steady_clock::time_point result_arrival_;
+  bool asking_ = false;
+  std::deque<RequestExchange::Event> messages_;  // since the request under way began
   Subscription acks_;
   Subscription results_;
 };

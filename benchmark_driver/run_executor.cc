@@ -1,5 +1,6 @@
 #include "benchmark_driver/run_executor.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "common/error.h"
@@ -16,10 +17,15 @@ constexpr std::chrono::seconds kServerPatience{10};
 }  // namespace
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions)
-    : registry_(registry),
+    : process_id_(fmt::format("{:x}", NowUtime())),
+      registry_(registry),
       conditions_(std::move(conditions)),
       problems_(bus, channel::kProblemRequest, channel::kProblem),
       path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply) {}
+
+std::string RunExecutor::AttemptId(const ScheduledRun& run) const {
+  return run.request_id + "@" + process_id_;
+}
 
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
@@ -55,7 +61,7 @@ std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
 std::optional<ProblemMessage> RunExecutor::FetchProblem(const ScheduledRun& run,
                                                         const std::function<bool()>& interrupted) {
   ProblemRequestMessage request;
-  request.request_id = run.request_id;
+  request.request_id = AttemptId(run);
   request.problem_set = run.problem_set;
   request.problem_index = run.problem_index;
   std::optional<ProblemMessage> problem =
@@ -106,7 +112,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.problem_index = run.problem_index;
   record.trial = run.trial;
   record.request.run_id = conditions_.run_id;
-  record.request.request_id = run.request_id;
+  record.request.request_id = AttemptId(run);
   record.request.scene_id = problem->scene_id;
   record.request.robot_id = conditions_.robot_id;
   record.request.group = problem->group;
@@ -145,7 +151,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.message = answer.result.result.message;
   if (record.status != PlanStatus::kSolved) return record;
 
-  const auto check = Judge(run.request_id, record.result.result.path, record, run, interrupted);
+  const auto check =
+      Judge(record.request.request_id, record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
   record.path_check = *check;
   if (!check->ok || !check->verdict || !check->verdict->valid) {
@@ -157,8 +164,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   }
   if (!record.result.result.simplified_path.empty()) {
     const auto simplified_check =
-        Judge(run.request_id + "/simplified", record.result.result.simplified_path, record, run,
-              interrupted);
+        Judge(record.request.request_id + "/simplified", record.result.result.simplified_path,
+              record, run, interrupted);
     if (!simplified_check) return std::nullopt;
     record.simplified_check = *simplified_check;
   }

@@ -51,6 +51,11 @@ class RunExecutor {
                                  std::chrono::milliseconds retry_period,
                                  const std::function<bool()>& interrupted);
 
+  /// The id of this process's attempt at a run. A planner or scene server that outlives a driver
+  /// remembers the answers of attempts that are over.
+  std::string AttemptId(const ScheduledRun& run) const;
+
+  std::string process_id_;
   NodeRegistry* registry_;
   RunConditions conditions_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;

@@ -4,7 +4,7 @@
 
 namespace planbench {
 
-/// "0.1.0".
+/// "0.2.0", say.
 std::string Version();
 /// The commit this was built from, "-dirty" appended if the tree had changes; "unknown" outside a
 /// checkout.

@@ -29,7 +29,6 @@ PlannerChannels::PlannerChannels(const std::string& planner) {
   ack = "PLAN_ACK_" + suffix;
   progress = "PLAN_PROGRESS_" + suffix;
   result = "PLAN_RESULT_" + suffix;
-  result_ack = "PLAN_RESULT_ACK_" + suffix;
   cancel = "PLAN_CANCEL_" + suffix;
 }
 

@@ -27,12 +27,11 @@ inline constexpr char kRunRecordAck[] = "RUN_RECORD_ACK";
 /// The channels of one planner: the prefix, '_', and the planner's name in upper case with '-' as
 /// '_'.
 struct PlannerChannels {
-  std::string request;     ///< PLAN_REQUEST_<PLANNER>
-  std::string ack;         ///< PLAN_ACK_<PLANNER>
-  std::string progress;    ///< PLAN_PROGRESS_<PLANNER>
-  std::string result;      ///< PLAN_RESULT_<PLANNER>
-  std::string result_ack;  ///< PLAN_RESULT_ACK_<PLANNER>
-  std::string cancel;      ///< PLAN_CANCEL_<PLANNER>
+  std::string request;   ///< PLAN_REQUEST_<PLANNER>
+  std::string ack;       ///< PLAN_ACK_<PLANNER>
+  std::string progress;  ///< PLAN_PROGRESS_<PLANNER>
+  std::string result;    ///< PLAN_RESULT_<PLANNER>
+  std::string cancel;    ///< PLAN_CANCEL_<PLANNER>
 
   /// Throws InputError unless the name can name a node.
   explicit PlannerChannels(const std::string& planner);

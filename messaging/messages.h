@@ -102,16 +102,16 @@ struct SceneMessage {
   Scene scene;
 };
 
-enum class PlanAckVerdict { kAccepted = 0, kBusy = 1, kRefused = 2 };
+enum class PlanAckVerdict { kWorking = 0, kBusy = 1, kRefused = 2 };
 template <>
 struct EnumNames<PlanAckVerdict> {
-  static constexpr auto kNames = std::to_array<std::string_view>({"ACCEPTED", "BUSY", "REFUSED"});
+  static constexpr auto kNames = std::to_array<std::string_view>({"WORKING", "BUSY", "REFUSED"});
 };
 
 struct PlanAckMessage {
   std::string planner;
   std::string request_id;
-  PlanAckVerdict verdict = PlanAckVerdict::kAccepted;
+  PlanAckVerdict verdict = PlanAckVerdict::kWorking;
   std::string message;
   bool operator==(const PlanAckMessage&) const = default;
 };

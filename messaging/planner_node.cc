@@ -12,8 +12,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kSceneRequestPeriod{250};
-constexpr std::chrono::milliseconds kFirstResultPeriod{200};
-constexpr std::chrono::milliseconds kLongestResultPeriod{2000};
 
 }  // namespace
 
@@ -42,8 +40,6 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
       channel::kScene, [this](const SceneMessage& message) { OnScene(message); });
   cancels_ = bus->Subscribe<PlanCancelMessage>(
       channels_.cancel, [this](const PlanCancelMessage& message) { OnCancel(message); });
-  result_acks_ = bus->Subscribe<AckMessage>(
-      channels_.result_ack, [this](const AckMessage& message) { OnResultAck(message); });
   announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return Status(); });
   // Last: it may not be left running if the rest cannot be made.
   solver_ = std::thread([this] { Solve(); });
@@ -64,7 +60,7 @@ void PlannerNode::Run(const std::function<bool()>& stop) {
   while (!stop()) {
     {
       const std::scoped_lock lock(mutex_);
-      Tick();
+      AskForScene();
     }
     announcer_->ThrowIfDisplaced();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -104,32 +100,29 @@ void PlannerNode::Acknowledge(const std::string& request_id, PlanAckVerdict verd
   bus_->Publish(channels_.ack, PlanAckMessage{name_, request_id, verdict, message});
 }
 
-void PlannerNode::OnRequest(const PlanRequest& request) {
-  using Verdict = PlanAckVerdict;
-  std::unique_lock lock(mutex_);
-  // One that was cancelled was not answered: a session that was interrupted asks again when it is
-  // resumed.
-  outcomes_.remove_if([&](const Outcome& outcome) {
-    return outcome.message.request_id == request.request_id &&
-           outcome.message.result.status == PlanStatus::kCancelled;
-  });
-  for (const Outcome& outcome : outcomes_) {
-    if (outcome.message.request_id == request.request_id) {
-      Acknowledge(request.request_id, Verdict::kAccepted, "");
-      bus_->Publish(channels_.result, outcome.message);
-      return;
-    }
+bool PlannerNode::SendResultOf(const std::string& request_id) {
+  for (const auto& [id, result] : results_) {
+    if (id != request_id) continue;
+    bus_->PublishBytes(channels_.result, result);
+    return true;
   }
-  if (job_ && job_->request.request_id == request.request_id && !job_->control.cancelled) {
-    Acknowledge(request.request_id, Verdict::kAccepted, "");
+  return false;
+}
+
+void PlannerNode::OnRequest(const PlanRequest& request) {
+  std::unique_lock lock(mutex_);
+  if (SendResultOf(request.request_id)) return;
+  if (job_ && job_->request.request_id == request.request_id) {
+    Acknowledge(request.request_id, PlanAckVerdict::kWorking, "");
     return;
   }
   if (job_) {
-    Acknowledge(request.request_id, Verdict::kBusy, "working on " + job_->request.request_id);
+    Acknowledge(request.request_id, PlanAckVerdict::kBusy,
+                "working on " + job_->request.request_id);
     return;
   }
   if (const std::string reason = ReasonToRefuse(request); !reason.empty()) {
-    Acknowledge(request.request_id, Verdict::kRefused, reason);
+    Acknowledge(request.request_id, PlanAckVerdict::kRefused, reason);
     return;
   }
   auto job = std::make_unique<Job>();
@@ -140,11 +133,11 @@ void PlannerNode::OnRequest(const PlanRequest& request) {
     if (id == request.scene_id) job->scene = scene;
   }
   job_ = std::move(job);
-  Tick();
+  AskForScene();
   lock.unlock();
   changed_.notify_all();
   // Last: the driver waits for the result, not for this.
-  Acknowledge(request.request_id, Verdict::kAccepted, "");
+  Acknowledge(request.request_id, PlanAckVerdict::kWorking, "");
 }
 
 void PlannerNode::OnBadRequest(const MessageError& error) {
@@ -178,13 +171,8 @@ void PlannerNode::OnCancel(const PlanCancelMessage& message) {
   if (job_ && job_->request.request_id == message.request_id) {
     job_->control.cancelled = true;
     changed_.notify_all();
-  }
-}
-
-void PlannerNode::OnResultAck(const AckMessage& message) {
-  const std::scoped_lock lock(mutex_);
-  for (Outcome& outcome : outcomes_) {
-    if (outcome.message.request_id == message.id) outcome.acknowledged = true;
+  } else {
+    SendResultOf(message.request_id);  // lost, or on its way
   }
 }
 
@@ -221,39 +209,25 @@ void PlannerNode::Solve() {
 }
 
 void PlannerNode::Finish(PlanResult result) {
-  Outcome outcome;
-  outcome.message.planner = name_;
-  outcome.message.run_id = job_->request.run_id;
-  outcome.message.request_id = job_->request.request_id;
+  PlanResultMessage message;
+  message.planner = name_;
+  message.run_id = job_->request.run_id;
+  message.request_id = job_->request.request_id;
   if (!result.path.empty()) {
     for (const JointSpace::Joint& joint :
          planner_->robot().Group(job_->request.group).space.joints()) {
-      outcome.message.joint_names.push_back(joint.name);
+      message.joint_names.push_back(joint.name);
     }
   }
-  outcome.message.result = std::move(result);
-  outcome.ready = Clock::now();
-  outcome.period = kFirstResultPeriod;
-  outcome.next_send = outcome.ready + outcome.period;
+  message.result = std::move(result);
   job_.reset();
-  bus_->Publish(channels_.result, outcome.message);
-  outcomes_.push_back(std::move(outcome));
-  if (outcomes_.size() > kResultCacheSize) outcomes_.pop_front();
+  results_.emplace_back(message.request_id, Encode(message));
+  if (results_.size() > kResultCacheSize) results_.pop_front();
+  bus_->PublishBytes(channels_.result, results_.back().second);
 }
 
-void PlannerNode::Tick() {
+void PlannerNode::AskForScene() {
   const Clock::time_point now = Clock::now();
-  for (Outcome& outcome : outcomes_) {
-    if (outcome.acknowledged || now < outcome.next_send) continue;
-    if (now - outcome.ready > kResultTimeout) {
-      spdlog::warn("nobody acknowledged the result of {}", outcome.message.request_id);
-      outcome.acknowledged = true;  // given up; still answered when asked again
-      continue;
-    }
-    bus_->Publish(channels_.result, outcome.message);
-    outcome.period = std::min(2 * outcome.period, kLongestResultPeriod);
-    outcome.next_send = now + outcome.period;
-  }
   if (!job_ || job_->scene || job_->control.cancelled) return;
   if (now - job_->accepted > kSceneTimeout) {
     PlanResult result;

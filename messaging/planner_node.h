@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <list>
 #include <map>
 #include <memory>
@@ -10,6 +11,8 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "messaging/bus.h"
 #include "messaging/channels.h"
@@ -18,11 +21,11 @@
 
 namespace planbench {
 
-/// A planner as a process on the bus: takes requests one at a time, acknowledges them at once
-/// (accepted, busy, refused and why), fetches scenes it lacks, solves on a thread of its own so
-/// that heartbeats and cancellation work meanwhile, and repeats the result until it is
-/// acknowledged. A repeated request is answered from the cache, unless it was cancelled: then it is
-/// solved.
+/// A planner as a process on the bus: takes requests one at a time, fetches scenes it lacks, and
+/// solves on a thread of its own, so that heartbeats and cancellation work meanwhile. Who asks
+/// repeats the request, or its cancellation, until the result comes; each repetition is answered at
+/// once: with the result, which is remembered, or with what is being done (working, busy with
+/// another, refused and why).
 class PlannerNode {
  public:
   /// Results and scenes kept.
@@ -30,8 +33,6 @@ class PlannerNode {
   static constexpr std::size_t kSceneCacheSize = 16;
   /// How long a scene is asked for before the request fails.
   static constexpr std::chrono::seconds kSceneTimeout{10};
-  /// How long an unacknowledged result is repeated.
-  static constexpr std::chrono::seconds kResultTimeout{60};
 
   /// Goes live. `name` must be free on the bus.
   PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner);
@@ -50,23 +51,16 @@ class PlannerNode {
     std::chrono::steady_clock::time_point next_scene_request;
     PlanControl control;
   };
-  struct Outcome {
-    PlanResultMessage message;
-    bool acknowledged = false;
-    std::chrono::steady_clock::time_point ready;
-    std::chrono::steady_clock::time_point next_send;
-    std::chrono::milliseconds period;
-  };
-
   void OnRequest(const PlanRequest& request);
   void OnBadRequest(const MessageError& error);
   void OnScene(const SceneMessage& message);
   void OnCancel(const PlanCancelMessage& message);
-  void OnResultAck(const AckMessage& message);
   NodeStatusMessage Status() const;
   std::string ReasonToRefuse(const PlanRequest& request) const;
   void Solve();
-  void Tick();
+  void AskForScene();
+  /// Publishes the result of a request again; false if there is none.
+  bool SendResultOf(const std::string& request_id);
   void Finish(PlanResult result);
   void Acknowledge(const std::string& request_id, PlanAckVerdict verdict,
                    const std::string& message);
@@ -82,14 +76,13 @@ class PlannerNode {
   std::condition_variable changed_;
   bool stopping_ = false;
   std::unique_ptr<Job> job_;
-  std::list<Outcome> outcomes_;
+  std::list<std::pair<std::string, std::vector<std::uint8_t>>> results_;  // encoded, by request
   std::list<std::pair<std::string, std::shared_ptr<const Scene>>> scenes_;
 
   std::unique_ptr<NodeAnnouncer> announcer_;
   Subscription requests_;
   Subscription scene_messages_;
   Subscription cancels_;
-  Subscription result_acks_;
   std::thread solver_;
 };
 

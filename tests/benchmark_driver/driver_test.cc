@@ -123,7 +123,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   Driver driver(&bus_, options, {}, "run", earlier);
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
-  EXPECT_EQ(Ids(planner.requests()), std::set<std::string>{"run/cans/1/arm/backward/1"});
+  EXPECT_EQ(Ids(logger.records()), std::set<std::string>{"run/cans/1/arm/backward/1"});
   EXPECT_EQ(driver.records().size(), 3u);
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
 }

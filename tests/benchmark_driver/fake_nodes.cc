@@ -13,7 +13,6 @@ FakePlanner::FakePlanner(Bus* bus, const std::string& name)
       handler_([this](const PlanRequest& request) { Solve(request); }),
       requests_(bus, channels_.request),
       cancels_(bus, channels_.cancel),
-      result_acks_(bus, channels_.result_ack),
       subscription_(
           bus->Subscribe<PlanRequest>(channels_.request, [this](const PlanRequest& request) {
             const std::scoped_lock lock(mutex_);
@@ -50,7 +49,6 @@ void FakePlanner::SendResult(const std::string& request_id, PlanResult result) {
 }
 
 void FakePlanner::Solve(const PlanRequest& request) {
-  Acknowledge(request, PlanAckVerdict::kAccepted);
   SendResult(request.request_id, SolvedResult());
 }
 

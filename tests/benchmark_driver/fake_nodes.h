@@ -24,11 +24,12 @@ class FakePlanner {
  public:
   explicit FakePlanner(Bus* bus, const std::string& name = "arm");
 
-  /// What to do with a request, on the bus thread. At first: accept it and send SolvedResult.
+  /// What to do with a request, on the bus thread. At first: Solve.
   void OnRequest(std::function<void(const PlanRequest&)> handler);
   void Acknowledge(const PlanRequest& request, PlanAckVerdict verdict,
                    const std::string& message = "");
   void SendResult(const std::string& request_id, PlanResult result);
+  /// Sends SolvedResult.
   void Solve(const PlanRequest& request);
   static PlanResult SolvedResult();
 
@@ -39,7 +40,6 @@ class FakePlanner {
 
   MessageCollector<PlanRequest>& requests() { return requests_; }
   MessageCollector<PlanCancelMessage>& cancels() { return cancels_; }
-  MessageCollector<AckMessage>& result_acks() { return result_acks_; }
 
   /// What it announces. To be changed before Restart().
   NodeStatusMessage status;
@@ -51,7 +51,6 @@ class FakePlanner {
   std::function<void(const PlanRequest&)> handler_;
   MessageCollector<PlanRequest> requests_;
   MessageCollector<PlanCancelMessage> cancels_;
-  MessageCollector<AckMessage> result_acks_;
   Subscription subscription_;
   std::unique_ptr<NodeAnnouncer> announcer_;
 };

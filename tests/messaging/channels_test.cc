@@ -13,14 +13,13 @@ TEST(ChannelsTest, CarryThePlannersNameInUpperCase) {
   EXPECT_EQ(channels.ack, "PLAN_ACK_ARA_FINE_2");
   EXPECT_EQ(channels.progress, "PLAN_PROGRESS_ARA_FINE_2");
   EXPECT_EQ(channels.result, "PLAN_RESULT_ARA_FINE_2");
-  EXPECT_EQ(channels.result_ack, "PLAN_RESULT_ACK_ARA_FINE_2");
   EXPECT_EQ(channels.cancel, "PLAN_CANCEL_ARA_FINE_2");
 }
 
 TEST(ChannelsTest, LongestNameFitsLcmsChannelLength) {
   const PlannerChannels channels(std::string(40, 'x'));
-  for (const std::string& name : {channels.request, channels.ack, channels.progress,
-                                  channels.result, channels.result_ack, channels.cancel}) {
+  for (const std::string& name :
+       {channels.request, channels.ack, channels.progress, channels.result, channels.cancel}) {
     EXPECT_LE(name.size(), 63u);
   }
 }

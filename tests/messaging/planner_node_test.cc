@@ -77,9 +77,6 @@ class PlannerNodeTest : public testing::Test {
   }
   void Send(const PlanRequest& request) { bus_.Publish(channels_.request, request); }
   void Cancel(const std::string& id) { bus_.Publish(channels_.cancel, PlanCancelMessage{id}); }
-  void AcknowledgeResult(const std::string& id) {
-    bus_.Publish(channels_.result_ack, AckMessage{id, "test", true, ""});
-  }
   /// Sends a request and returns its first acknowledgement.
   PlanAckMessage SendForAck(const PlanRequest& request) {
     MessageCollector<PlanAckMessage> acks(&bus_, channels_.ack);
@@ -149,7 +146,7 @@ TEST_F(PlannerNodeTest, AcceptsSolvesAndSendsTheResult) {
   StartSceneServer();
   const PlanAckMessage ack = SendForAck(Request("a"));
   EXPECT_EQ(ack.planner, "arm");
-  EXPECT_EQ(ack.verdict, Verdict::kAccepted);
+  EXPECT_EQ(ack.verdict, Verdict::kWorking);
   const PlanResultMessage result = ResultOf("a");
   EXPECT_EQ(result.planner, "arm");
   EXPECT_EQ(result.run_id, "run");
@@ -196,7 +193,7 @@ TEST_F(PlannerNodeTest, IsBusyWithOneRequestAtATime) {
   EXPECT_THAT(ack.message, HasSubstr("a"));
   hold_ = false;
   ResultOf("a");
-  EXPECT_EQ(SendForAck(Request("b")).verdict, Verdict::kAccepted);
+  EXPECT_EQ(SendForAck(Request("b")).verdict, Verdict::kWorking);
   ResultOf("b");
 }
 
@@ -245,7 +242,7 @@ TEST_F(PlannerNodeTest, RefusesWhatItCannotDoAndSaysWhy) {
 
   request = Request("any robot");
   request.robot_id.clear();
-  EXPECT_EQ(SendForAck(request).verdict, Verdict::kAccepted);
+  EXPECT_EQ(SendForAck(request).verdict, Verdict::kWorking);
 }
 
 TEST_F(PlannerNodeTest, RefusesAMalformedRequestByItsId) {
@@ -284,34 +281,31 @@ TEST_F(PlannerNodeTest, RepeatedRequestIsNoSecondSolve) {
   StartSceneServer();
   Send(Request("a"));
   ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
-  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);  // while it is solved
+  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kWorking);
+  EXPECT_EQ(NumResultsOf("a"), 0);
   hold_ = false;
-  ResultOf("a");
-  AcknowledgeResult("a");
-  const std::size_t before = NumResultsOf("a");
-  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);  // and after
-  EXPECT_TRUE(WaitForResultsOf("a", before + 1));
+  const PlanResultMessage result = ResultOf("a");
+  Send(Request("a"));
+  ASSERT_TRUE(WaitForResultsOf("a", 2));
+  EXPECT_TRUE(results_.messages().back() == result);
   EXPECT_EQ(num_searches_, 1);
 }
 
-TEST_F(PlannerNodeTest, ResultIsRepeatedUntilItIsAcknowledged) {
+TEST_F(PlannerNodeTest, RemembersTheLastResults) {
   StartNode();
   StartSceneServer();
-  Send(Request("a"));
-  ASSERT_TRUE(WaitForResultsOf("a", 3));
-  AcknowledgeResult("a");
-  // Acknowledged at once, this one is never repeated, while a third one is three times. (The
-  // period doubles; repetitions of all results are sent in one go, the first request's first.)
-  Send(Request("b"));
-  ResultOf("b");
-  AcknowledgeResult("b");
-  Send(Request("c"));
-  ResultOf("c");
-  const std::size_t num_a = NumResultsOf("a");
-  const std::size_t num_b = NumResultsOf("b");
-  ASSERT_TRUE(WaitForResultsOf("c", 4));  // 1.4 s; "a" would be due after 0.8 s
-  EXPECT_EQ(NumResultsOf("a"), num_a);
-  EXPECT_EQ(NumResultsOf("b"), num_b);
+  const auto id = [](std::size_t i) { return "r" + std::to_string(i); };
+  for (std::size_t i = 0; i <= PlannerNode::kResultCacheSize; ++i) {
+    Send(Request(id(i)));
+    ResultOf(id(i));
+  }
+  const int num_searches = num_searches_;
+  Send(Request(id(1)));
+  ASSERT_TRUE(WaitForResultsOf(id(1), 2));
+  EXPECT_EQ(num_searches_, num_searches);
+  Send(Request(id(0)));  // forgotten
+  ASSERT_TRUE(WaitForResultsOf(id(0), 2));
+  EXPECT_EQ(num_searches_, num_searches + 1);
 }
 
 TEST_F(PlannerNodeTest, ProgressIsPublished) {
@@ -352,7 +346,7 @@ TEST_F(PlannerNodeTest, CancelEndsTheWaitForTheScene) {
   EXPECT_EQ(num_searches_, 0);
 }
 
-TEST_F(PlannerNodeTest, CancelledRequestIsSolvedWhenItComesAgain) {
+TEST_F(PlannerNodeTest, CancelledRequestStaysCancelled) {
   hold_ = true;
   StartNode();
   StartSceneServer();
@@ -360,10 +354,20 @@ TEST_F(PlannerNodeTest, CancelledRequestIsSolvedWhenItComesAgain) {
   ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
   Cancel("a");
   ResultOf("a", PlanStatus::kCancelled);
-  hold_ = false;
-  EXPECT_EQ(SendForAck(Request("a")).verdict, Verdict::kAccepted);
-  EXPECT_EQ(ResultOf("a").result.path.size(), 2u);
-  EXPECT_EQ(num_searches_, 2);
+  Send(Request("a"));  // repeated before the cancellation, and late
+  ASSERT_TRUE(WaitForResultsOf("a", 2));
+  EXPECT_EQ(results_.messages().back().result.status, PlanStatus::kCancelled);
+  EXPECT_EQ(num_searches_, 1);
+}
+
+TEST_F(PlannerNodeTest, CancellationOfASolvedRequestBringsItsResult) {
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ResultOf("a");
+  Cancel("a");
+  ASSERT_TRUE(WaitForResultsOf("a", 2));
+  EXPECT_EQ(results_.messages().back().result.status, PlanStatus::kSolved);
 }
 
 TEST_F(PlannerNodeTest, EndsWhileSolving) {

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// One request to one planner, from the first time it is sent to its end, as a state machine: told
+/// what happens and when, it says what to do. The request is repeated until its result comes, which
+/// the planner remembers; once it is cancelled, the cancellation is repeated instead.
+class RequestExchange {
+ public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  /// What a lost request or a lost result costs.
+  static constexpr std::chrono::milliseconds kRepeatPeriod{250};
+  /// Silence after which a live planner counts as not answering.
+  static constexpr std::chrono::seconds kAckPatience{10};
+  /// How long beyond the time limit the planner may work on the requests of others, ...
+  static constexpr std::chrono::seconds kBusyPatience{60};
+  /// ... on this one until it is cancelled, and then until the planner is given up.
+  static constexpr std::chrono::seconds kResultPatience{15};
+  /// How long an interrupted request is cancelled without a result to it.
+  static constexpr std::chrono::seconds kCancelPatience{1};
+
+  enum class Outcome { kResult, kRefused, kNoAnswer, kInterrupted };
+  struct Answer {
+    Outcome outcome = Outcome::kNoAnswer;
+    PlanResultMessage result = {};  ///< kResult only.
+    std::string message = {};       ///< Why, for kRefused and kNoAnswer.
+    double roundtrip_time_s = 0;    ///< Request sent -> result arrived, or given up.
+  };
+
+  /// Nothing but that time has passed.
+  struct Tick {};
+  struct ArrivedResult {
+    PlanResultMessage message;
+    TimePoint arrival;  ///< At this process; not after `now`.
+  };
+  /// A result that cannot be used; its request_id may be empty.
+  struct UnusableResult {
+    std::string request_id;
+    std::string why;
+  };
+  /// The caller wants no result any more.
+  struct Interruption {};
+  /// The process that had the request will not answer it.
+  struct PlannerLost {
+    std::string why;
+  };
+  using Event =
+      std::variant<Tick, PlanAckMessage, ArrivedResult, UnusableResult, Interruption, PlannerLost>;
+
+  /// What to do, the sending at once.
+  struct Step {
+    bool send_request = false;
+    bool send_cancel = false;
+    std::optional<Answer> answer;  ///< The end; nothing is to be sent.
+  };
+
+  RequestExchange(std::string request_id, double time_limit_s, TimePoint now);
+
+  /// Messages about other requests change nothing. Not to be called after the end.
+  Step Take(TimePoint now, const Event& event);
+  /// When the next thing is to be sent, if nothing else happens.
+  TimePoint NextSend() const { return next_send_; }
+
+ private:
+  bool Ours(const std::string& request_id) const { return request_id == request_id_; }
+  bool Cancelling() const { return cancelled_ || interrupted_; }
+  Answer End(Outcome outcome, std::string message, TimePoint now) const;
+  std::optional<Answer> Hear(TimePoint now, const Event& event);
+  std::optional<Answer> LosePatience(TimePoint now);
+
+  std::string request_id_;
+  std::chrono::steady_clock::duration time_limit_;
+  TimePoint begun_;
+  TimePoint sent_;  // the first time since the planner was last busy with others
+  bool was_busy_ = true;
+  TimePoint next_send_;
+  TimePoint last_ack_;
+  std::string unusable_result_;         // why one was that may have been ours
+  std::optional<TimePoint> working_;    // since when we know the planner to be
+  std::optional<TimePoint> cancelled_;  // because it was overdue
+  std::optional<TimePoint> interrupted_;
+};
+
+}  // namespace planbench
