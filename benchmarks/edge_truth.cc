@@ -32,15 +32,14 @@ struct Tally {
 /// if it finds none.
 double Depth(const EdgeChecker& fine, CollisionChecker* exact, std::span<const double> from,
              std::span<const double> to) {
-  const int intervals = fine.NumIntervals(from, to);
-  std::vector<double> q(from.size());
   double depth = 0;
-  for (int k = 0; k <= intervals; ++k) {
-    fine.space().Interpolate(from, to, static_cast<double>(k) / intervals, q);
-    if (exact->IsFree(q)) continue;
-    depth = std::max(
-        depth, std::max(-exact->FindClosest(q).distance_m, std::numeric_limits<double>::min()));
-  }
+  fine.VisitSamples(from, to, [&](double, std::span<const double> q) {
+    if (!exact->IsFree(q)) {
+      depth = std::max(
+          depth, std::max(-exact->FindClosest(q).distance_m, std::numeric_limits<double>::min()));
+    }
+    return true;
+  });
   return depth;
 }
 
@@ -71,8 +70,8 @@ int Main(int argc, char** argv) {
   fast->SetScene(problem.scene, base);
   exact->SetScene(problem.scene, base);
   EdgeChecker certified(fast.get(), robot.edge_resolution_m, EdgeCheck::kCertified);
-  EdgeChecker fixed(fast.get(), robot.edge_resolution_m);
-  EdgeChecker fine(fast.get(), robot.edge_resolution_m / 64);
+  EdgeChecker fixed(fast.get(), robot.edge_resolution_m, EdgeCheck::kFixed);
+  EdgeChecker fine(fast.get(), robot.edge_resolution_m / 64, EdgeCheck::kFixed);
 
   std::mt19937_64 generator(1);
   const JointSpace& space = group.space;

@@ -6,7 +6,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "common/error.h"
 
@@ -142,7 +141,7 @@ SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
 }
 
 bool EdgeChecker::PassesFixed(std::span<const double> from, double motion_m, bool from_is_free) {
-  const std::int64_t num_parts = NumIntervals(motion_m);
+  const std::int64_t num_parts = RequireFewIntervals(NumIntervals(motion_m));
   const auto batch = static_cast<std::size_t>(std::min(checker_->BatchSize(), kMaxBlock));
   std::int64_t part = 0;
   bool start_is_due = !from_is_free;  // behind the far end
@@ -165,7 +164,7 @@ bool EdgeChecker::PassesFixed(std::span<const double> from, double motion_m, boo
 bool EdgeChecker::PassesCertified(std::span<const double> from, double motion_m) {
   const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
   // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
-  std::int64_t parts = NumIntervals(motion_m / kFirstStretch);
+  std::int64_t parts = RequireFewIntervals(NumIntervals(motion_m / kFirstStretch));
   parts = (parts + batch - 1) / batch * batch;
   pending_.clear();
   for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
@@ -191,19 +190,23 @@ bool EdgeChecker::PassesCertified(std::span<const double> from, double motion_m)
   return true;
 }
 
-int EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {
+double EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {
   RequireSize(from);
   RequireSize(to);
   return NumIntervals(checker_->motion_bound().Between(space(), from, to));
 }
 
-int EdgeChecker::NumIntervals(double motion_m) const {
-  const double intervals = std::ceil(motion_m / edge_resolution_m_);
-  if (!(intervals < std::numeric_limits<int>::max() / 2)) {
+double EdgeChecker::NumIntervals(double motion_m) const {
+  return std::max(1.0, std::ceil(motion_m / edge_resolution_m_));
+}
+
+std::int64_t EdgeChecker::RequireFewIntervals(double intervals) const {
+  constexpr double kMost = 1 << 30;
+  if (!(intervals < kMost)) {
     throw InputError(fmt::format("edge resolution {} m divides an edge into too many parts",
                                  edge_resolution_m_));
   }
-  return std::max(1, static_cast<int>(intervals));
+  return static_cast<std::int64_t>(intervals);
 }
 
 }  // namespace planbench

@@ -37,8 +37,7 @@ class EdgeChecker {
 
   /// The checker must outlive this and have its scene set. Throws InputError unless
   /// edge_resolution_m > 0.
-  EdgeChecker(CollisionChecker* checker, double edge_resolution_m,
-              EdgeCheck method = EdgeCheck::kFixed);
+  EdgeChecker(CollisionChecker* checker, double edge_resolution_m, EdgeCheck method);
 
   const JointSpace& space() const { return checker_->space(); }
   CollisionChecker& checker() const { return *checker_; }
@@ -52,15 +51,32 @@ class EdgeChecker {
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);
-  /// Number of even intervals an edge is divided into by the fixed method (samples - 1); at least
-  /// 1.
-  int NumIntervals(std::span<const double> from, std::span<const double> to) const;
+
+  /// Number of even intervals that the fixed method divides an edge into (its samples - 1), at
+  /// least 1: a whole number, of any size.
+  double NumIntervals(std::span<const double> from, std::span<const double> to) const;
+  /// Calls visit(fraction, q) at the samples of the fixed method in order, both ends included,
+  /// until it returns false; returns whether it never did. For callers that want more of an edge
+  /// than its validity; limits are theirs to check.
+  template <typename Visit>
+  bool VisitSamples(std::span<const double> from, std::span<const double> to, Visit visit) const {
+    const std::int64_t intervals = RequireFewIntervals(NumIntervals(from, to));
+    std::vector<double> q(from.size());
+    for (std::int64_t i = 0; i <= intervals; ++i) {
+      const double fraction = static_cast<double>(i) / static_cast<double>(intervals);
+      space().Interpolate(from, to, fraction, q);
+      if (!visit(fraction, q)) return false;
+    }
+    return true;
+  }
 
   const Counters& counters() const { return counters_; }
 
  private:
   void RequireSize(std::span<const double> q) const;
-  int NumIntervals(double motion_m) const;
+  double NumIntervals(double motion_m) const;
+  /// Throws InputError for more than can be counted.
+  std::int64_t RequireFewIntervals(double intervals) const;
   // Of the edge motion_ out of `from`, on which nothing moves more than motion_m.
   bool PassesFixed(std::span<const double> from, double motion_m, bool from_is_free);
   bool PassesCertified(std::span<const double> from, double motion_m);

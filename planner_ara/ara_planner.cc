@@ -88,7 +88,6 @@ class AraPlanner : public Planner {
         {"expansions", static_cast<double>(counts.expansions)},
         {"states", static_cast<double>(counts.states)},
         {"edges_generated", static_cast<double>(counts.edges_generated)},
-        {"edges_refuted", static_cast<double>(counts.edges_refuted)},
         {"goal_connections_tried", static_cast<double>(counts.goal_connections_tried)},
         {"search_iterations", static_cast<double>(counts.iterations)},
         {"found_backward", search.found_backward() ? 1.0 : 0.0},

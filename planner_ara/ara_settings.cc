@@ -52,8 +52,8 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 void AraSettings::Apply(const YamlNode& node) {
   node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
                   "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "tip_guide", "verify_paths", "cost",
-                  "epsilon_initial", "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
+                  "two_way", "crowding", "crowding_joints", "tip_guide", "cost", "epsilon_initial",
+                  "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -69,7 +69,6 @@ void AraSettings::Apply(const YamlNode& node) {
     crowding_joints = joints->Strings();
   }
   tip_guide = NonNegative(node, "tip_guide", tip_guide);
-  verify_paths = node.BoolOr("verify_paths", verify_paths);
   if (const std::optional<YamlNode> value = node.Find("cost")) {
     const std::string name = value->String();
     if (name == "distance") {
@@ -104,7 +103,6 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
-      {"verify_paths", fmt::format("{}", verify_paths)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},
       {"epsilon_decrement", fmt::format("{}", epsilon.decrement)},

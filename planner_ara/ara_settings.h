@@ -49,8 +49,6 @@ struct AraSettings {
   /// (TipDistance) adds to the heuristic in the order of the search, rad/m; >= 0. Does not touch
   /// the reported bound.
   double tip_guide = 3;
-  /// Checks paths at half the edge resolution before they count. (Certified edges need no more.)
-  bool verify_paths = true;
   MoveCost cost = MoveCost::kDistance;
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
   double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.

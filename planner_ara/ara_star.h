@@ -109,18 +109,6 @@ class AraStar {
   /// cheaper one are dropped, and the search converges when it has none left.
   void SetUpperBound(double cost) { upper_bound_ = std::min(upper_bound_, cost); }
 
-  /// Begins again from the start because edges that the search has followed have turned out not to
-  /// be valid. Without them no path is cheaper, so what is proven stays.
-  void Restart() {
-    nodes_ = ChunkedArray<Node>();
-    open_ = EdgeHeap();
-    incons_.clear();
-    epsilon_ = 0;
-    started_ = false;
-    Touch(goal_);
-    Touch(start_).g = 0;
-  }
-
   /// Cost of the best path known, infinity without one. (Path() may be cheaper by what has not been
   /// propagated yet.)
   double goal_cost() const { return nodes_[goal_].g; }

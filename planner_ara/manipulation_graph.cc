@@ -44,7 +44,6 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
-  options.verify_paths = settings.verify_paths;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
   if (!settings.crowding_joints.empty()) {
@@ -61,7 +60,6 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
 ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double> start,
                                      const GoalBox& goal, ManipulationGraphOptions options)
     : edges_(edges),
-      fine_edges_(&edges->checker(), edges->edge_resolution_m() / 2),
       goal_(goal),
       options_(std::move(options)),
       lattice_(edges->space(), start, options_.discretization),
@@ -221,15 +219,6 @@ bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
   SelectEdge(source, action);
   const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
   Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
-  return valid;
-}
-
-bool ManipulationGraph::Verify(StateId source, std::uint16_t action) {
-  if (!options_.verify_paths || edges_->method() == EdgeCheck::kCertified) return true;
-  if (Recall(source, action) == Knowledge::kVerified) return true;
-  SelectEdge(source, action);
-  const bool valid = fine_edges_.IsValidEdge(from_, to_, /*from_is_free=*/true);
-  Remember(source, action, valid ? Knowledge::kVerified : Knowledge::kBlocked);
   return valid;
 }
 

@@ -27,7 +27,6 @@ struct ManipulationGraphOptions {
   double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
-  bool verify_paths = true;          ///< See AraSettings::verify_paths.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
 };
@@ -61,9 +60,6 @@ class ManipulationGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
-  /// True if a valid edge is so at half the edge resolution, too, or need not be, or is certified;
-  /// if not, it is valid no longer.
-  bool Verify(StateId source, std::uint16_t action);
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
   /// Joint distance to the goal box in the unit of the costs.
@@ -84,7 +80,7 @@ class ManipulationGraph {
  private:
   enum Action : std::uint16_t { kToNearestGoal = 0, kToNominalGoal = 1, kFirstMove = 2 };
   // Of an edge, two bits each.
-  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2, kVerified = 3 };
+  enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
 
   struct Move {
     std::vector<int> cells;  // by joint
@@ -106,7 +102,6 @@ class ManipulationGraph {
   double CountVisit(StateId state);
 
   EdgeChecker* edges_;
-  EdgeChecker fine_edges_;
   GoalBox goal_;
   ManipulationGraphOptions options_;
   Lattice lattice_;

@@ -85,9 +85,8 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
     // In the order of the guide a search that has a path is at its end, but has proven nothing yet.
     side->converged = outcome == ImproveOutcome::kExhausted ||
                       (outcome == ImproveOutcome::kConverged && order == EdgeOrder::kHeuristic);
-    const double cost_before = cost_;
-    if (side->search.goal_cost() < cost_) TakePath(side);
-    if (cost_ < cost_before) {
+    if (side->search.goal_cost() < cost_) {
+      TakePath(*side);
       const double bound = ProveBound();
       on_solution(bound);
       if (bound <= epsilon) return ImproveOutcome::kConverged;
@@ -97,22 +96,10 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
   return cost_ < kInfinity ? ImproveOutcome::kConverged : ImproveOutcome::kExhausted;
 }
 
-void TwoWaySearch::TakePath(Side* side) {
-  const std::vector<PathStep> steps = side->search.Path();
-  bool valid = true;
-  for (std::size_t i = 1; i < steps.size(); ++i) {
-    if (side->graph.Verify(steps[i - 1].state, steps[i].action)) continue;
-    valid = false;
-    ++edges_refuted_;
-  }
-  if (!valid) {
-    side->search.Restart();
-    side->converged = false;
-    return;
-  }
-  cost_ = side->search.goal_cost();
-  path_ = side->graph.Configurations(steps);
-  found_backward_ = side != sides_.front().get();
+void TwoWaySearch::TakePath(const Side& side) {
+  cost_ = side.search.goal_cost();
+  path_ = side.graph.Configurations(side.search.Path());
+  found_backward_ = &side != sides_.front().get();
   if (found_backward_) std::reverse(path_.begin(), path_.end());
   for (const auto& other : sides_) other->search.SetUpperBound(cost_);
 }
@@ -134,7 +121,6 @@ TwoWaySearch::Counts TwoWaySearch::counts() const {
     counts.goal_connections_tried += side->graph.num_goal_connections_tried();
     counts.iterations = std::max<std::int64_t>(counts.iterations, side->search.num_iterations());
   }
-  counts.edges_refuted = edges_refuted_;
   return counts;
 }
 

@@ -18,9 +18,6 @@ namespace planbench {
 /// less work goes next, so that the better direction finds its path in twice the work it would need
 /// alone, whichever it is. Neither follows edges that cannot lead to a path cheaper than the best
 /// of both.
-///
-/// Every path is verified at half the edge resolution before it counts; an edge that fails is taken
-/// out of its lattice, whose search begins again with what it knows of the other edges.
 class TwoWaySearch {
  public:
   /// What the searches have done, both together.
@@ -29,8 +26,7 @@ class TwoWaySearch {
     std::int64_t states = 0;
     std::int64_t edges_generated = 0;
     std::int64_t goal_connections_tried = 0;
-    std::int64_t iterations = 0;     ///< Of the search that had the most.
-    std::int64_t edges_refuted = 0;  ///< Edges of paths that verification took out.
+    std::int64_t iterations = 0;  ///< Of the search that had the most.
   };
 
   /// `start` and the goal's nominal point are valid. The edge checker must outlive this. Throws
@@ -64,7 +60,7 @@ class TwoWaySearch {
  private:
   struct Side;
   Side* NextSide() const;
-  void TakePath(Side* side);
+  void TakePath(const Side& side);
 
   EdgeChecker* edges_;
   bool guided_;
@@ -72,7 +68,6 @@ class TwoWaySearch {
   double cost_ = std::numeric_limits<double>::infinity();
   Path path_;
   bool found_backward_ = false;
-  std::int64_t edges_refuted_ = 0;
 };
 
 }  // namespace planbench

@@ -45,7 +45,8 @@ ProblemGenerator::Result ProblemGenerator::Generate(int k, int attempt) {
       result.rejections.Add(query.name + ": goal too near to the start", query.goal.where);
       continue;
     }
-    if (EdgeChecker(checker_.get(), robot_->edge_resolution_m).IsValidEdge(*start, *goal)) {
+    if (EdgeChecker(checker_.get(), robot_->edge_resolution_m, EdgeCheck::kFixed)
+            .IsValidEdge(*start, *goal)) {
       result.rejections.Add(query.name + ": straight motion is free", query.goal.where);
       continue;
     }

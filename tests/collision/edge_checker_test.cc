@@ -71,9 +71,10 @@ TEST(EdgeCheckerTest, RefusesResolutionsThatAreNotLengths) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
   for (double resolution : {0.0, -0.1, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    ExpectInputError([&] { EdgeChecker(&checker, resolution); }, {"edge resolution"});
+    ExpectInputError([&] { EdgeChecker(&checker, resolution, EdgeCheck::kCertified); },
+                     {"edge resolution"});
   }
-  EdgeChecker tiny(&checker, 1e-300);
+  EdgeChecker tiny(&checker, 1e-300, EdgeCheck::kFixed);
   const std::vector<double> from = {0, 0};
   const std::vector<double> to = {1, 0};
   ExpectInputError([&] { tiny.IsValidEdge(from, to); }, {"edge resolution"});
@@ -82,7 +83,7 @@ TEST(EdgeCheckerTest, RefusesResolutionsThatAreNotLengths) {
 TEST(EdgeCheckerTest, DividesEdgesByTheMotionBound) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  const EdgeChecker edges(&checker, 0.05);
+  const EdgeChecker edges(&checker, 0.05, EdgeCheck::kFixed);
   const std::vector<double> origin = {0, 0};
   EXPECT_EQ(edges.NumIntervals(origin, origin), 1);
   EXPECT_EQ(edges.NumIntervals(origin, std::vector<double>{0.04, 0}), 1);
@@ -94,18 +95,15 @@ TEST(EdgeCheckerTest, NoPointMovesFurtherThanTheResolutionBetweenSamples) {
   const Robot arm = MakeTestArm();
   ScriptedChecker checker(arm, 1);
   const double resolution = 0.02;
-  const EdgeChecker edges(&checker, resolution);
+  const EdgeChecker edges(&checker, resolution, EdgeCheck::kFixed);
   const auto& space = checker.space();
   const auto base = arm.model.DefaultPositions();
   std::mt19937_64 generator(1);
   for (int i = 0; i < 20; ++i) {
     const auto from = RandomConfiguration(space, &generator);
     const auto to = RandomConfiguration(space, &generator);
-    const int intervals = edges.NumIntervals(from, to);
     std::vector<Eigen::Isometry3d> before;
-    for (int k = 0; k <= intervals; ++k) {
-      std::vector<double> q(from.size());
-      space.Interpolate(from, to, static_cast<double>(k) / intervals, q);
+    edges.VisitSamples(from, to, [&](double, std::span<const double> q) {
       const auto poses = ComputeLinkPoses(arm.model, WithGroupAt(arm, checker.group(), base, q));
       for (const LinkSphere& sphere : arm.spheres) {
         if (before.empty()) break;
@@ -119,14 +117,32 @@ TEST(EdgeCheckerTest, NoPointMovesFurtherThanTheResolutionBetweenSamples) {
         }
       }
       before = poses;
-    }
+      return true;
+    });
   }
+}
+
+TEST(EdgeCheckerTest, VisitsItsSamplesInOrder) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  const EdgeChecker edges(&checker, 0.25, EdgeCheck::kFixed);
+  const std::vector<double> from = {0, 0};
+  const std::vector<double> to = {1, 0};
+  std::vector<double> fractions;
+  EXPECT_TRUE(edges.VisitSamples(from, to, [&](double fraction, std::span<const double> q) {
+    EXPECT_EQ(q[0], fraction);
+    fractions.push_back(fraction);
+    return true;
+  }));
+  EXPECT_THAT(fractions, testing::ElementsAre(0, 0.25, 0.5, 0.75, 1));
+  EXPECT_FALSE(edges.VisitSamples(
+      from, to, [](double fraction, std::span<const double>) { return fraction < 0.5; }));
 }
 
 TEST(EdgeCheckerTest, ContinuousJointsGoTheShortWay) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.05);
+  EdgeChecker edges(&checker, 0.05, EdgeCheck::kFixed);
   const std::vector<double> from = {0.5, 3.0};
   const std::vector<double> to = {0.5, -3.0};
   EXPECT_EQ(edges.NumIntervals(from, to), 6);  // 0.283 rad x 1 m
@@ -139,7 +155,7 @@ TEST(EdgeCheckerTest, ContinuousJointsGoTheShortWay) {
 TEST(EdgeCheckerTest, HoldsBothEndsToTheLimits) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.05);
+  EdgeChecker edges(&checker, 0.05, EdgeCheck::kFixed);
   const std::vector<double> inside = {0.9, 0};
   const std::vector<double> outside = {1.1, 0};
   EXPECT_TRUE(edges.IsValidState(inside));
@@ -154,7 +170,7 @@ TEST(EdgeCheckerTest, HoldsBothEndsToTheLimits) {
 TEST(EdgeCheckerTest, RefusesConfigurationsOfTheWrongSize) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.05);
+  EdgeChecker edges(&checker, 0.05, EdgeCheck::kFixed);
   const std::vector<double> right = {0, 0};
   const std::vector<double> wrong = {0, 0, 0};
   ExpectInputError([&] { edges.IsValidState(wrong); }, {"3 values", "2 joints"});
@@ -169,10 +185,10 @@ TEST(EdgeCheckerTest, FindsACollisionAtAnySample) {
   const std::vector<double> to = {0.7, -1.1};
   for (int batch : {1, 8}) {
     ScriptedChecker checker(robot, batch);
-    EdgeChecker edges(&checker, 0.05);
+    EdgeChecker edges(&checker, 0.05, EdgeCheck::kFixed);
     EXPECT_TRUE(edges.IsValidEdge(from, to));
     const auto samples = checker.asked;
-    ASSERT_EQ(static_cast<int>(samples.size()), edges.NumIntervals(from, to) + 1);
+    ASSERT_EQ(static_cast<double>(samples.size()), edges.NumIntervals(from, to) + 1);
     for (const auto& blocked : samples) {
       checker.collides = [&](std::span<const double> q) {
         return std::equal(q.begin(), q.end(), blocked.begin());
@@ -190,7 +206,7 @@ TEST(EdgeCheckerTest, SamplesTheSameConfigurationsWhateverTheBatch) {
   std::vector<std::vector<double>> one_by_one;
   for (int batch : {1, 3, 8, 64, 1000}) {
     ScriptedChecker checker(robot, batch);
-    EdgeChecker edges(&checker, 0.03);
+    EdgeChecker edges(&checker, 0.03, EdgeCheck::kFixed);
     EXPECT_TRUE(edges.IsValidEdge(from, to));
     auto asked = checker.asked;
     std::sort(asked.begin(), asked.end());
@@ -205,7 +221,7 @@ TEST(EdgeCheckerTest, SamplesTheSameConfigurationsWhateverTheBatch) {
 TEST(EdgeCheckerTest, SpreadsItsSamples) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.125);
+  EdgeChecker edges(&checker, 0.125, EdgeCheck::kFixed);
   EXPECT_TRUE(edges.IsValidEdge(std::vector<double>{0, 0}, std::vector<double>{1, 0}));
   std::vector<double> slides;
   for (const auto& q : checker.asked) slides.push_back(q[0]);
@@ -215,7 +231,7 @@ TEST(EdgeCheckerTest, SpreadsItsSamples) {
 TEST(EdgeCheckerTest, Counts) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.125);
+  EdgeChecker edges(&checker, 0.125, EdgeCheck::kFixed);
   const std::vector<double> from = {0, 0};
   const std::vector<double> to = {1, 0};
   EXPECT_TRUE(edges.IsValidState(from));
@@ -235,7 +251,7 @@ TEST(EdgeCheckerTest, Counts) {
 TEST(EdgeCheckerTest, ChecksStatesTogetherAsOneByOne) {
   const Robot robot = MakePendulum();
   ScriptedChecker checker(robot, 1);
-  EdgeChecker edges(&checker, 0.125);
+  EdgeChecker edges(&checker, 0.125, EdgeCheck::kFixed);
   checker.collides = [](std::span<const double> q) { return q[0] == 0.25; };
   const double nan = std::nan("");
   const std::vector<double> states = {2, 0, 0.5, 0, 0.25, 0, nan, 0, 1, 0, 0.25, 1, 0.75, 9, -1, 0};

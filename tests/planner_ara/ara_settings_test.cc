@@ -26,7 +26,6 @@ long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
 tip_guide: 1.5
-verify_paths: false
 crowding: 0.3
 crowding_joints: [lift]
 cost: uniform
@@ -45,7 +44,6 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
   EXPECT_EQ(settings.tip_guide, 1.5);
-  EXPECT_FALSE(settings.verify_paths);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
   EXPECT_EQ(settings.cost, MoveCost::kUniform);

@@ -211,32 +211,6 @@ TEST(AraStar, AnUpperBoundEndsTheSearchOfDearerPaths) {
   }
 }
 
-TEST(AraStar, BeginsAgainWithoutAnEdgeThatTurnedOutInvalid) {
-  int num_detours = 0;
-  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
-    SCOPED_TRACE(seed);
-    ExplicitGraph graph = RandomGraph(seed, kGoal);
-    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
-    if (search.ImprovePath(2, kNever) != ImproveOutcome::kConverged) continue;
-    const double bound_before = search.goal_cost() / search.ProveBound();
-    const std::vector<PathStep> path = search.Path();
-    const std::size_t middle = path.size() / 2;
-    graph.edges[path[middle - 1].state][path[middle].action].valid = false;
-    search.Restart();
-    EXPECT_EQ(search.goal_cost(), kInfinity);
-    EXPECT_TRUE(search.Path().empty());
-    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
-    EXPECT_LE(bound_before, optimum + 1e-9);
-    const ImproveOutcome outcome = search.ImprovePath(1, kNever);
-    EXPECT_EQ(outcome == ImproveOutcome::kExhausted, optimum == kInfinity);
-    if (optimum == kInfinity) continue;
-    ++num_detours;
-    EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
-    EXPECT_NEAR(CostOf(graph, search.Path()), optimum, 1e-9);
-  }
-  EXPECT_GT(num_detours, 50);
-}
-
 // Start 0, goal 1. State 2 is cheap to reach by way of 3, but the inflated heuristic of 3 lets the
 // search come to 2 directly first; when 3 is expanded in turn, 2 is closed and must wait.
 ExplicitGraph GraphWithLateImprovement() {

@@ -33,7 +33,8 @@ class ManipulationGraphTest : public testing::Test {
  protected:
   ManipulationGraphTest() {
     checker_->SetScene(PostsScene(), std::vector<double>(4, 0.0));
-    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m);
+    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m,
+                                           EdgeCheck::kCertified);
   }
 
   static ManipulationGraphOptions Options(double cell = 0.3) {

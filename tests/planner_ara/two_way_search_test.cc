@@ -25,7 +25,8 @@ class TwoWaySearchTest : public testing::Test {
  protected:
   TwoWaySearchTest() {
     checker_->SetScene(PostsScene(), std::vector<double>(4, 0.0));
-    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m);
+    edges_ = std::make_unique<EdgeChecker>(checker_.get(), robot_.edge_resolution_m,
+                                           EdgeCheck::kCertified);
     options_.discretization.assign(3, 0.3);
     options_.weights.assign(3, 1.0);
     options_.primitives.short_moves = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -33,9 +34,8 @@ class TwoWaySearchTest : public testing::Test {
     options_.crowded_joints.assign(3, true);
   }
 
-  // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm, over edges
-  // that are valid at the edge resolution (and at half of it, where `verified`).
-  double Optimum(const Configuration& start, const Configuration& goal, bool verified) {
+  // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm.
+  double Optimum(const Configuration& start, const Configuration& goal) {
     ManipulationGraph graph(edges_.get(), start, Point(goal), options_);
     std::vector<double> costs(2, kInfinity);
     costs[ManipulationGraph::kStart] = 0;
@@ -52,7 +52,6 @@ class TwoWaySearchTest : public testing::Test {
         const StateId t = graph.Target(s, edge.action);
         if (t >= costs.size()) costs.resize(t + 1, kInfinity);
         if (costs[s] + edge.cost >= costs[t] || !graph.IsValidEdge(s, edge.action)) continue;
-        if (verified && !graph.Verify(s, edge.action)) continue;
         costs[t] = costs[s] + edge.cost;
         queue.push({-costs[t], t});
       }
@@ -64,10 +63,9 @@ class TwoWaySearchTest : public testing::Test {
     ASSERT_FALSE(path.empty());
     EXPECT_EQ(path.front(), kLeft_);
     EXPECT_EQ(path.back(), kRight_);
-    EdgeChecker fine(checker_.get(), robot_.edge_resolution_m / 2);
     double length = 0;
     for (std::size_t i = 1; i < path.size(); ++i) {
-      EXPECT_TRUE(fine.IsValidEdge(path[i - 1], path[i])) << i;
+      EXPECT_TRUE(edges_->IsValidEdge(path[i - 1], path[i])) << i;
       length += edges_->space().Distance(path[i - 1], path[i]);
     }
     EXPECT_LE(length, cost + 1e-9);
@@ -83,8 +81,8 @@ class TwoWaySearchTest : public testing::Test {
 };
 
 TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
-  const double forward = Optimum(kLeft_, kRight_, true);
-  const double backward = Optimum(kRight_, kLeft_, true);
+  const double forward = Optimum(kLeft_, kRight_);
+  const double backward = Optimum(kRight_, kLeft_);
   ASSERT_TRUE(std::isfinite(forward));
   ASSERT_TRUE(std::isfinite(backward));
   struct Guide {
@@ -116,24 +114,8 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
   TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, false);
   ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
-  EXPECT_NEAR(search.cost(), Optimum(kLeft_, kRight_, true), 1e-9);
+  EXPECT_NEAR(search.cost(), Optimum(kLeft_, kRight_), 1e-9);
   EXPECT_FALSE(search.found_backward());
-}
-
-TEST_F(TwoWaySearchTest, PathsAreVerifiedAtHalfTheResolution) {
-  // So coarse a resolution that moves are checked at their ends alone.
-  edges_ = std::make_unique<EdgeChecker>(checker_.get(), 0.4);
-  const double coarse = Optimum(kLeft_, kRight_, false);
-  const double fine = Optimum(kLeft_, kRight_, true);
-  ASSERT_LT(coarse, fine - 1e-6);  // some edge of the coarse optimum is refuted
-  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, false);
-  ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
-  EXPECT_NEAR(search.cost(), fine, 1e-9);
-  EXPECT_GT(search.counts().edges_refuted, 0);
-  EdgeChecker half(checker_.get(), 0.2);
-  for (std::size_t i = 1; i < search.path().size(); ++i) {
-    EXPECT_TRUE(half.IsValidEdge(search.path()[i - 1], search.path()[i]));
-  }
 }
 
 TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {

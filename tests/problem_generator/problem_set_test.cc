@@ -101,7 +101,8 @@ TEST_F(ProblemSetTest, WrittenSetsReadBackWithStartsAndGoalsAsSpecified) {
         EXPECT_GE(checker->FindClosest(end).distance_m, spec.clearance_m - 1e-9);
       }
       EXPECT_GE(group.space.Distance(start, goal), spec.min_joint_distance);
-      EXPECT_FALSE(EdgeChecker(checker.get(), fetch_.edge_resolution_m).IsValidEdge(start, goal));
+      EXPECT_FALSE(EdgeChecker(checker.get(), fetch_.edge_resolution_m, EdgeCheck::kFixed)
+                       .IsValidEdge(start, goal));
     }
   }
 }

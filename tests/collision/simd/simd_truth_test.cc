@@ -130,8 +130,8 @@ TEST(SimdTruthTest, EdgesAtFixedSamples) {
   for (const World& world : FetchWorlds()) {
     SCOPED_TRACE(world.what);
     Comparison comparison(world.robot, world.scene, world.base_positions);
-    EdgeChecker exact_edges(&comparison.exact(), world.robot.edge_resolution_m);
-    EdgeChecker fast_edges(&comparison.fast(), world.robot.edge_resolution_m);
+    EdgeChecker exact_edges(&comparison.exact(), world.robot.edge_resolution_m, EdgeCheck::kFixed);
+    EdgeChecker fast_edges(&comparison.fast(), world.robot.edge_resolution_m, EdgeCheck::kFixed);
     const JointSpace& space = comparison.fast().space();
     std::mt19937_64 generator(3);
     int num_valid = 0;
@@ -147,12 +147,10 @@ TEST(SimdTruthTest, EdgesAtFixedSamples) {
       ++num_disputed;
       EXPECT_TRUE(valid) << "errs towards free";
       double clearance = std::numeric_limits<double>::infinity();
-      const int intervals = exact_edges.NumIntervals(from, to);
-      std::vector<double> q(from.size());
-      for (int k = 0; k <= intervals; ++k) {
-        space.Interpolate(from, to, static_cast<double>(k) / intervals, q);
+      exact_edges.VisitSamples(from, to, [&](double, std::span<const double> q) {
         clearance = std::min(clearance, comparison.exact().FindClosest(q).distance_m);
-      }
+        return true;
+      });
       EXPECT_LE(clearance, kBand_m);
     }
     EXPECT_GT(num_valid, kNum / 10);
@@ -166,8 +164,8 @@ TEST(SimdTruthTest, CertifiedEdgesAreFreeAllAlong) {
     Comparison comparison(world.robot, world.scene, world.base_positions);
     const double resolution = world.robot.edge_resolution_m;
     EdgeChecker certified(&comparison.fast(), resolution, EdgeCheck::kCertified);
-    EdgeChecker fixed(&comparison.fast(), resolution);
-    EdgeChecker fine(&comparison.exact(), resolution / 16);
+    EdgeChecker fixed(&comparison.fast(), resolution, EdgeCheck::kFixed);
+    EdgeChecker fine(&comparison.exact(), resolution / 16, EdgeCheck::kFixed);
     const JointSpace& space = comparison.fast().space();
     std::mt19937_64 generator(4);
     int num_valid = 0;
