@@ -124,15 +124,22 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
   RequireSize(to);
   const Stopwatch stopwatch(num_calls_++ % kTimedCalls == 0 ? &counters_.seconds : nullptr);
   ++counters_.edges;
-  if (!space().WithinLimits(from) || !space().WithinLimits(to)) return false;
+  return space().WithinLimits(from) && space().WithinLimits(to) &&
+         !FindBlocked(from, to, from_is_free);
+}
+
+std::optional<double> EdgeChecker::FindBlocked(std::span<const double> from,
+                                               std::span<const double> to, bool from_is_free) {
+  RequireSize(from);
+  RequireSize(to);
   motion_.resize(from.size());
   double motion_m = 0;
   for (std::size_t j = 0; j < motion_.size(); ++j) {
     motion_[j] = space().Difference(static_cast<int>(j), from[j], to[j]);
     motion_m += std::abs(motion_[j]) * checker_->motion_bound().reach()[j];
   }
-  return method_ == EdgeCheck::kFixed ? PassesFixed(from, motion_m, from_is_free)
-                                      : PassesCertified(from, motion_m);
+  return method_ == EdgeCheck::kFixed ? FindBlockedSample(from, motion_m, from_is_free)
+                                      : FindBlockedStretch(from, motion_m);
 }
 
 SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
@@ -140,7 +147,8 @@ SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
   return checker_->CheckSamples(from, motion_, block_);
 }
 
-bool EdgeChecker::PassesFixed(std::span<const double> from, double motion_m, bool from_is_free) {
+std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> from, double motion_m,
+                                                     bool from_is_free) {
   const std::int64_t num_parts = RequireFewIntervals(NumIntervals(motion_m));
   const auto batch = static_cast<std::size_t>(std::min(checker_->BatchSize(), kMaxBlock));
   std::int64_t part = 0;
@@ -156,12 +164,14 @@ bool EdgeChecker::PassesFixed(std::span<const double> from, double motion_m, boo
       block_.push_back({SamplePosition(part, num_parts)});
       part = NextSample(part, num_parts);
     }
-    if (CheckBlock(from).blocked != 0) return false;
+    const std::uint64_t blocked = CheckBlock(from).blocked;
+    if (blocked != 0) return block_[static_cast<std::size_t>(std::countr_zero(blocked))].position;
   }
-  return true;
+  return std::nullopt;
 }
 
-bool EdgeChecker::PassesCertified(std::span<const double> from, double motion_m) {
+std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> from,
+                                                      double motion_m) {
   const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
   // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
   std::int64_t parts = RequireFewIntervals(NumIntervals(motion_m / kFirstStretch));
@@ -177,17 +187,19 @@ bool EdgeChecker::PassesCertified(std::span<const double> from, double motion_m)
     const auto begin = pending_.begin() + static_cast<std::ptrdiff_t>(next);
     block_.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
     const SampleVerdicts verdicts = CheckBlock(from);
-    if (verdicts.certain != 0) return false;
+    if (verdicts.certain != 0) {
+      return block_[static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;
+    }
     for (std::uint64_t open = verdicts.blocked; open != 0; open &= open - 1) {
       const MotionSample& stretch = block_[static_cast<std::size_t>(std::countr_zero(open))];
-      if (2 * stretch.half_length * motion_m <= kCertifiedDepth) return false;
+      if (2 * stretch.half_length * motion_m <= kCertifiedDepth) return stretch.position;
       const double half_length = stretch.half_length / kCuts;
       for (int cut = 0; cut < kCuts; ++cut) {
         pending_.push_back({stretch.position + (2 * cut + 1 - kCuts) * half_length, half_length});
       }
     }
   }
-  return true;
+  return std::nullopt;
 }
 
 double EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {

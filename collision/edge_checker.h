@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,10 @@ class EdgeChecker {
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);
+  /// A fraction of the edge at which it is in collision or, certified, not proven free; nothing if
+  /// it is free. Limits are the caller's to check.
+  std::optional<double> FindBlocked(std::span<const double> from, std::span<const double> to,
+                                    bool from_is_free = false);
 
   /// Number of even intervals that the fixed method divides an edge into (its samples - 1), at
   /// least 1: a whole number, of any size.
@@ -78,8 +83,9 @@ class EdgeChecker {
   /// Throws InputError for more than can be counted.
   std::int64_t RequireFewIntervals(double intervals) const;
   // Of the edge motion_ out of `from`, on which nothing moves more than motion_m.
-  bool PassesFixed(std::span<const double> from, double motion_m, bool from_is_free);
-  bool PassesCertified(std::span<const double> from, double motion_m);
+  std::optional<double> FindBlockedSample(std::span<const double> from, double motion_m,
+                                          bool from_is_free);
+  std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
   SampleVerdicts CheckBlock(std::span<const double> from);
 
   CollisionChecker* checker_;

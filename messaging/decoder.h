@@ -157,6 +157,8 @@ class Decoder {
     } else if constexpr (requires { typename Value::value_type; } &&
                          std::is_same_v<Wire, std::string> && !std::is_same_v<Value, Wire>) {
       if (!wire.empty()) value = ReadEnum<typename Value::value_type>(name, wire);
+    } else if constexpr (std::is_same_v<Value, std::optional<Wire>>) {
+      if (wire != 0) value = wire;
     } else if constexpr (std::is_arithmetic_v<Value>) {
       value = static_cast<Value>(wire);
     } else {

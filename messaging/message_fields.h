@@ -369,6 +369,7 @@ struct Fields<CollisionRequestMessage> {
     io.Field("state", v.state, w.state);
     io.Field("collision_model", v.collision_model, w.collision_model);
     io.Field("edge_resolution_m", v.edge_resolution_m, w.edge_resolution_m, kNonNegative);
+    io.Field("edge_check", v.edge_check, w.edge_check);
     io.Field("with_distance", v.with_distance, w.with_distance);
     std::vector<Configuration> from, to;
     std::size_t num_joints = 0;

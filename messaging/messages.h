@@ -158,7 +158,8 @@ struct CollisionRequestMessage {
   std::string group;
   JointState state;
   CollisionModel collision_model = CollisionModel::kSpheres;
-  double edge_resolution_m = 0;
+  std::optional<double> edge_resolution_m;  ///< None: the robot's.
+  std::optional<EdgeCheck> edge_check;      ///< None: the robot's.
   bool with_distance = false;
   std::vector<Configuration> states;  ///< Group order; all of one size.
   std::vector<EdgeQuery> edges;

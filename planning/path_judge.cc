@@ -84,24 +84,22 @@ bool JudgeEnds(const JointSpace& space, const Path& path, std::span<const double
   return true;
 }
 
-bool JudgeCollisions(CollisionChecker* checker, const Path& path, double step_m,
-                     PathVerdict* verdict) {
+bool JudgeCollisions(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
+  CollisionChecker& checker = edges.checker();
   bool free = true;
-  VisitSamples(
-      *checker, path, step_m, [&](int segment, double fraction, const Configuration& q, double) {
-        ++verdict->num_samples;
-        if (checker->IsFree(q)) return true;
-        free = false;
-        verdict->contact = checker->FindContact(q);
-        const std::string bodies =
-            verdict->contact ? fmt::format("'{}' and '{}', {:.4f} m deep", verdict->contact->body_a,
-                                           verdict->contact->body_b, verdict->contact->depth_m)
-                             : "no contact found";
-        Reject(verdict,
-               fmt::format("collision on segment {} at {:.3f}: {}", segment, fraction, bodies),
-               segment, fraction);
-        return false;
-      });
+  VisitSamples(edges, path, [&](int segment, double fraction, const Configuration& q, double) {
+    ++verdict->num_samples;
+    if (checker.IsFree(q)) return true;
+    free = false;
+    verdict->contact = checker.FindContact(q);
+    const std::string bodies =
+        verdict->contact ? fmt::format("'{}' and '{}', {:.4f} m deep", verdict->contact->body_a,
+                                       verdict->contact->body_b, verdict->contact->depth_m)
+                         : "no contact found";
+    Reject(verdict, fmt::format("collision on segment {} at {:.3f}: {}", segment, fraction, bodies),
+           segment, fraction);
+    return false;
+  });
   return free;
 }
 
@@ -120,13 +118,13 @@ PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<con
     throw InputError(
         fmt::format("path check: start and goal must have {} positions each", space.size()));
   }
+  const EdgeChecker edges(checker, step_m, EdgeCheck::kFixed);
   PathVerdict verdict;
   if (!JudgeWaypoints(space, path, &verdict)) return verdict;
-  verdict.valid = JudgeEnds(space, path, start, goal, &verdict) &&
-                  JudgeCollisions(checker, path, step_m, &verdict);
+  verdict.valid =
+      JudgeEnds(space, path, start, goal, &verdict) && JudgeCollisions(edges, path, &verdict);
   const std::vector<double> default_positions = checker->robot().model.DefaultPositions();
-  PathSurvey survey(checker, path, step_m,
-                    base_positions.empty() ? default_positions : base_positions);
+  PathSurvey survey(edges, path, base_positions.empty() ? default_positions : base_positions);
   verdict.measures = TakeMeasures(&survey, with_clearance && verdict.valid);
   return verdict;
 }

@@ -83,11 +83,11 @@ MeasuredValues TakeMeasures(PathSurvey* path, bool with_clearance) {
 }
 
 double PathSurvey::TipTravel() const {
-  const PlanningGroup& group = checker_->group();
-  GroupKinematics kinematics(checker_->robot().model, group, base_positions_);
+  const PlanningGroup& group = edges_->checker().group();
+  GroupKinematics kinematics(edges_->checker().robot().model, group, base_positions_);
   double travel_m = 0;
   std::optional<Eigen::Vector3d> previous;
-  VisitSamples(*checker_, *path_, step_m_, [&](int, double, const Configuration& q, double) {
+  VisitSamples(*edges_, *path_, [&](int, double, const Configuration& q, double) {
     kinematics.Update(q);
     const Eigen::Vector3d p_BT = kinematics.X_BL(group.tip_link).translation();
     if (previous) travel_m += (p_BT - *previous).norm();
@@ -103,17 +103,16 @@ const PathSurvey::Clearance& PathSurvey::clearance() {
   std::optional<double> previous_m;
   double weighted_sum = 0;
   double weight = 0;
-  VisitSamples(*checker_, *path_, step_m_,
-               [&](int, double, const Configuration& q, double motion_m) {
-                 const double clearance_m = checker_->FindClosest(q).distance_m;
-                 minimum_m = std::min(minimum_m, clearance_m);
-                 if (previous_m) {
-                   weighted_sum += motion_m * (*previous_m + clearance_m) / 2;
-                   weight += motion_m;
-                 }
-                 previous_m = clearance_m;
-                 return true;
-               });
+  VisitSamples(*edges_, *path_, [&](int, double, const Configuration& q, double motion_m) {
+    const double clearance_m = edges_->checker().FindClosest(q).distance_m;
+    minimum_m = std::min(minimum_m, clearance_m);
+    if (previous_m) {
+      weighted_sum += motion_m * (*previous_m + clearance_m) / 2;
+      weight += motion_m;
+    }
+    previous_m = clearance_m;
+    return true;
+  });
   // A path that moves nothing has the clearance of where it stands.
   return clearance_.emplace(Clearance{minimum_m, weight > 0 ? weighted_sum / weight : minimum_m});
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "collision/collision_checker.h"
+#include "collision/edge_checker.h"
 #include "planning/plan_result.h"
 
 namespace planbench {
@@ -13,14 +13,12 @@ namespace planbench {
 /// A path whose measures are taken, in the scene that the checker holds.
 class PathSurvey {
  public:
-  /// The path has waypoints, all of the group's size; `step_m` is the largest motion of any point
-  /// between samples; `base_positions`: full positions that held joints have. Refers to all of
-  /// them.
-  PathSurvey(CollisionChecker* checker, const Path& path, double step_m,
-             std::span<const double> base_positions)
-      : checker_(checker), path_(&path), step_m_(step_m), base_positions_(base_positions) {}
+  /// The path has waypoints, all of the group's size, and is sampled as `edges` says;
+  /// `base_positions`: full positions that held joints have. Refers to all of them.
+  PathSurvey(const EdgeChecker& edges, const Path& path, std::span<const double> base_positions)
+      : edges_(&edges), path_(&path), base_positions_(base_positions) {}
 
-  const JointSpace& space() const { return checker_->space(); }
+  const JointSpace& space() const { return edges_->space(); }
   const Path& path() const { return *path_; }
 
   /// Travel of the tip link's origin, summed over samples, m.
@@ -36,9 +34,8 @@ class PathSurvey {
   const Clearance& clearance();
 
  private:
-  CollisionChecker* checker_;
+  const EdgeChecker* edges_;
   const Path* path_;
-  double step_m_;
   std::span<const double> base_positions_;
   std::optional<Clearance> clearance_;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,23 +55,29 @@ CollisionVerdict JudgeState(CollisionChecker* checker, const Configuration& q, b
   return verdict;
 }
 
-CollisionVerdict JudgeEdge(const EdgeChecker& edges, const EdgeQuery& edge) {
-  const JointSpace& space = edges.space();
+CollisionVerdict JudgeEdge(EdgeChecker* edges, const EdgeQuery& edge) {
+  const JointSpace& space = edges->space();
   CollisionVerdict verdict;
   verdict.within_limits = space.WithinLimits(edge.from) && space.WithinLimits(edge.to);
-  const int intervals = edges.NumIntervals(edge.from, edge.to);
-  Configuration q(edge.from.size());
-  for (int i = 0; i <= intervals && verdict.free; ++i) {
-    const double fraction = static_cast<double>(i) / intervals;
-    space.Interpolate(edge.from, edge.to, fraction, q);
-    CheckCollision(&edges.checker(), q, fraction, &verdict);
+  // Whatever the method, a first sample in collision tells most.
+  edges->VisitSamples(edge.from, edge.to, [&](double fraction, const Configuration& q) {
+    CheckCollision(&edges->checker(), q, fraction, &verdict);
+    return verdict.free;
+  });
+  if (!verdict.free || edges->method() == EdgeCheck::kFixed) return verdict;
+  if (const std::optional<double> blocked = edges->FindBlocked(edge.from, edge.to)) {
+    Configuration q(edge.from.size());
+    space.Interpolate(edge.from, edge.to, *blocked, q);
+    CheckCollision(&edges->checker(), q, *blocked, &verdict);
+    verdict.free = false;
+    verdict.fraction = *blocked;
   }
   return verdict;
 }
 
 double CountSamples(const EdgeChecker& edges, const std::vector<EdgeQuery>& queries) {
   double samples = 0;
-  for (const EdgeQuery& edge : queries) samples += edges.NumIntervals(edge.from, edge.to) + 1.0;
+  for (const EdgeQuery& edge : queries) samples += edges.NumIntervals(edge.from, edge.to) + 1;
   return samples;
 }
 
@@ -80,14 +87,13 @@ CollisionReplyMessage CollisionService::Answer(const CollisionRequestMessage& re
                                                const std::shared_ptr<const Scene>& scene) {
   const PlanningGroup& group = robot_->Group(request.group);
   RequireSizes(request, group);
-  const double resolution_m =
-      request.edge_resolution_m == 0 ? robot_->edge_resolution_m : request.edge_resolution_m;
+  const double resolution_m = request.edge_resolution_m.value_or(robot_->edge_resolution_m);
 
   const std::scoped_lock lock(mutex_);
   CollisionChecker& checker = checkers_.Get(
       group, request.collision_model, request.scene_id, scene,
       FullPositions(robot_->model, request.state.names, request.state.positions, "state"));
-  const EdgeChecker edges(&checker, resolution_m);
+  EdgeChecker edges(&checker, resolution_m, request.edge_check.value_or(robot_->edge_check));
   if (CountSamples(edges, request.edges) > kMaxSamples) {
     throw InputError(
         fmt::format("edge_resolution_m: at {} m these edges have more than {:.0f} samples",
@@ -100,7 +106,7 @@ CollisionReplyMessage CollisionService::Answer(const CollisionRequestMessage& re
   for (const Configuration& q : request.states) {
     reply.states.push_back(JudgeState(&checker, q, request.with_distance));
   }
-  for (const EdgeQuery& edge : request.edges) reply.edges.push_back(JudgeEdge(edges, edge));
+  for (const EdgeQuery& edge : request.edges) reply.edges.push_back(JudgeEdge(&edges, edge));
   return reply;
 }
 

@@ -18,9 +18,10 @@ class CollisionService {
 
   explicit CollisionService(const Robot& robot) : robot_(&robot), checkers_(robot) {}
 
-  /// One verdict for every state and edge. Edges are sampled as EdgeChecker samples them, from
-  /// their beginning on; the first sample in collision gives contact and fraction. States outside
-  /// the joint limits are checked for collision all the same. Throws InputError naming the field.
+  /// One verdict for every state and edge. Edges are checked as EdgeChecker does it by the method
+  /// asked for; the first of the fixed method's samples in collision gives contact and fraction, if
+  /// there is one: where a proof alone fails, a fraction only. States outside the joint limits are
+  /// checked for collision all the same. Throws InputError naming the field.
   CollisionReplyMessage Answer(const CollisionRequestMessage& request,
                                const std::shared_ptr<const Scene>& scene);
 

@@ -70,7 +70,8 @@ class TakeMeasuresTest : public testing::Test {
   MeasuredValues Take(const Path& path, const Scene& scene, double step_m = 0.01) {
     const std::vector<double> positions = robot_.model.DefaultPositions();
     checker_->SetScene(scene, positions);
-    PathSurvey survey(checker_.get(), path, step_m, positions);
+    const EdgeChecker edges(checker_.get(), step_m, EdgeCheck::kFixed);
+    PathSurvey survey(edges, path, positions);
     return TakeMeasures(&survey, /*with_clearance=*/true);
   }
   /// Beyond the hand's last sphere (at 1.15 m, radius 0.04), facing the middle of the motion.
@@ -114,7 +115,8 @@ TEST_F(TakeMeasuresTest, ClearancesAreInfiniteWhereThereIsNothingToCollideWith) 
   const auto checker = MakeCollisionChecker(robot, robot.groups.front(), CollisionModel::kSpheres);
   const std::vector<double> positions = robot.model.DefaultPositions();
   checker->SetScene(EmptyPlanarScene(), positions);
-  PathSurvey survey(checker.get(), straight_, 0.01, positions);
+  const EdgeChecker edges(checker.get(), 0.01, EdgeCheck::kFixed);
+  PathSurvey survey(edges, straight_, positions);
   const MeasuredValues values = TakeMeasures(&survey, true);
   EXPECT_EQ(values.at("clearance"), std::numeric_limits<double>::infinity());
   EXPECT_EQ(values.at("clearance_mean"), std::numeric_limits<double>::infinity());
@@ -123,7 +125,8 @@ TEST_F(TakeMeasuresTest, ClearancesAreInfiniteWhereThereIsNothingToCollideWith) 
 TEST_F(TakeMeasuresTest, TakesEachUnlessItIsAClearanceNotAskedFor) {
   EXPECT_EQ(Take(straight_, Wall()).size(), PathMeasures().size());
   const std::vector<double> positions = robot_.model.DefaultPositions();
-  PathSurvey survey(checker_.get(), straight_, 0.01, positions);
+  const EdgeChecker edges(checker_.get(), 0.01, EdgeCheck::kFixed);
+  PathSurvey survey(edges, straight_, positions);
   const MeasuredValues values = TakeMeasures(&survey, /*with_clearance=*/false);
   for (const PathMeasure& measure : PathMeasures()) {
     EXPECT_EQ(FindMeasure(values, measure.name).has_value(), !measure.is_clearance) << measure.name;

@@ -80,6 +80,7 @@ TEST_F(CollisionAnswer, GivesTheDistanceWhenAsked) {
 TEST_F(CollisionAnswer, EdgeTellsWhereItFirstTouches) {
   CollisionRequestMessage request = Request();
   request.edge_resolution_m = 0.001;
+  request.edge_check = EdgeCheck::kFixed;
   request.edges = {
       {{-1, 0}, {1, 0}}, {{-1, 0}, {-1, 0.5}}, {{-1, 0.5}, {1, 0.5}}, {{-1, 0.5}, {-1, 0.7}}};
   const CollisionReplyMessage reply = world_.service().AnswerCollision(request);
@@ -95,6 +96,29 @@ TEST_F(CollisionAnswer, EdgeTellsWhereItFirstTouches) {
   EXPECT_TRUE(reply.edges[2].free);
   EXPECT_TRUE(reply.edges[2].within_limits);
   EXPECT_FALSE(reply.edges[3].within_limits);
+}
+
+TEST_F(CollisionAnswer, EdgesAreCheckedAsAsked) {
+  // Past the can, which the arm touches within 0.2 rad of the middle: not at samples this far
+  // apart.
+  CollisionRequestMessage request = Request();
+  request.edge_resolution_m = 0.4;
+  request.edges = {{{-0.3, 0}, {0.35, 0}}, {{1, 0}, {2, 0}}};
+  request.edge_check = EdgeCheck::kFixed;
+  const CollisionReplyMessage fixed = world_.service().AnswerCollision(request);
+  ASSERT_TRUE(fixed.ok) << fixed.message;
+  EXPECT_TRUE(fixed.edges[0].free);
+  EXPECT_TRUE(fixed.edges[1].free);
+  for (const std::optional<EdgeCheck> method :
+       {std::optional<EdgeCheck>(), std::optional(EdgeCheck::kCertified)}) {
+    request.edge_check = method;  // none: the robot's, which is certified
+    const CollisionReplyMessage proven = world_.service().AnswerCollision(request);
+    ASSERT_TRUE(proven.ok) << proven.message;
+    EXPECT_FALSE(proven.edges[0].free);
+    EXPECT_EQ(proven.edges[0].body_b, "can");
+    EXPECT_NEAR(-0.3 + 0.65 * proven.edges[0].fraction, 0, 0.21);
+    EXPECT_TRUE(proven.edges[1].free);
+  }
 }
 
 TEST_F(CollisionAnswer, EdgeInCollisionAtItsBeginningIsAtFractionZero) {
