@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -37,88 +38,103 @@ std::string NewRunId() {
                      random() & 0xffffU);
 }
 
-Driver::Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> settings,
-               std::string run_id, std::vector<RunRecordMessage> earlier)
+Driver::Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> flags,
+               EarlierSession earlier)
     : bus_(bus),
       options_(std::move(options)),
-      settings_(std::move(settings)),
-      run_id_(std::move(run_id)),
+      flags_(std::move(flags)),
+      earlier_(std::move(earlier)),
       start_utime_(NowUtime()),
       registry_(bus),
       recorder_(bus, &registry_),
-      records_(std::move(earlier)) {}
+      records_(std::move(earlier_.runs)) {}
+
+std::string Driver::Missing(bool need_logger) const {
+  std::vector<std::string> missing;
+  if (registry_.Live(NodeKind::kSceneServer).empty() || !registry_.ProblemSets()) {
+    missing.emplace_back("a scene server");
+  }
+  for (const std::string& planner : options_.planners) {
+    if (registry_.Find(planner, NodeKind::kPlanner)) continue;
+    missing.push_back("a planner named '" + planner + "'");
+  }
+  if (need_logger && registry_.Live(NodeKind::kLogger).empty()) missing.emplace_back("a logger");
+  return fmt::format("{}", fmt::join(missing, ", "));
+}
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   const auto deadline = std::chrono::steady_clock::now() +
                         std::chrono::duration<double>(options_.discovery_timeout_s);
   while (true) {
     watch();
-    std::string missing;
-    const auto miss = [&](const std::string& what) {
-      missing += (missing.empty() ? "" : ", ") + what;
-    };
-    if (registry_.Live(NodeKind::kSceneServer).empty() || !registry_.ProblemSets()) {
-      miss("a scene server");
-    }
-    for (const std::string& planner : options_.planners) {
-      if (!registry_.Find(planner, NodeKind::kPlanner)) miss("a planner named '" + planner + "'");
-    }
-    if (need_logger && registry_.Live(NodeKind::kLogger).empty()) miss("a logger");
+    const std::string missing = Missing(need_logger);
     if (missing.empty()) break;
     if (std::chrono::steady_clock::now() >= deadline) {
-      std::string heard;
+      std::vector<std::string> heard;
       for (const NodeStatusMessage& node : registry_.Live()) {
         if (node.kind == NodeKind::kDriver) continue;
-        heard +=
-            (heard.empty() ? "" : ", ") + node.name + " (" + std::string(EnumName(node.kind)) + ")";
+        heard.push_back(fmt::format("{} ({})", node.name, EnumName(node.kind)));
       }
+      if (heard.empty()) heard.emplace_back("nobody");
       throw InputError(fmt::format("not on the bus within {} s: {}; heard: {}",
-                                   options_.discovery_timeout_s, missing,
-                                   heard.empty() ? "nobody" : heard));
+                                   options_.discovery_timeout_s, missing, fmt::join(heard, ", ")));
     }
     registry_.Discover("driver");
     registry_.WaitUntil([] { return false; }, std::chrono::milliseconds(200));
   }
   served_ = *registry_.ProblemSets();
-  CheckPlanners(served_);
+  CheckPlanners();
   if (!need_logger && registry_.Live(NodeKind::kLogger).empty()) {
     spdlog::error("no logger is live: NOTHING WILL BE RECORDED");
   }
 
-  schedule_ = MakeSchedule(options_, served_, run_id_);
+  schedule_ = MakeSchedule(options_, served_);
+  CompleteConditions();
+  for (const SessionMessage& session : earlier_.sessions) {
+    RequireSameConditions(session, Session(false));
+  }
   std::set<std::string> done;
   for (const RunRecordMessage& record : records_) done.insert(record.request_id);
-  std::erase_if(schedule_,
-                [&](const ScheduledRun& run) { return done.count(run.request_id) != 0; });
+  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
   // A resumed session may be given other sets or problems than before.
   num_runs_ = static_cast<int>(records_.size() + schedule_.size());
-
-  RunConditions conditions;
-  conditions.run_id = run_id_;
-  conditions.robot_id = served_.robot_id;
-  conditions.time_limit_s = options_.time_limit_s;
-  conditions.collision_model = options_.collision_model;
-  conditions.edge_resolution_m =
-      options_.edge_resolution_m > 0 ? options_.edge_resolution_m : served_.edge_resolution_m;
-  conditions.edge_check = options_.edge_check.value_or(served_.edge_check);
-  conditions.referee_step_m =
-      options_.referee_step_m > 0 ? options_.referee_step_m : conditions.edge_resolution_m / 2;
-  conditions.anytime = options_.anytime;
-  conditions.simplify = options_.simplify;
-  conditions.clearance = options_.clearance;
-  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, std::move(conditions));
+  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions);
 }
 
-void Driver::CheckPlanners(const ProblemSetsMessage& served) {
+void Driver::CompleteConditions() {
+  SessionConditions& conditions = options_.conditions;
+  PlanRequest& request = conditions.request;
+  request.robot_id = served_.robot_id;
+  if (!request.edge_resolution_m) request.edge_resolution_m = served_.edge_resolution_m;
+  if (!request.edge_check) request.edge_check = served_.edge_check;
+  if (!conditions.referee_step_m) conditions.referee_step_m = *request.edge_resolution_m / 2;
+  if (request.collision_model == CollisionModel::kMeshes) {
+    conditions.mesh_robot_id = served_.mesh_robot_id;
+  }
+  conditions.referee_robot_id = served_.referee_robot_id;
+  std::set<std::string> sets;
+  for (const ScheduledRun& run : schedule_) sets.insert(run.problem_set);
+  for (const ProblemSetSummary& set : served_.sets) {
+    if (sets.contains(set.name)) conditions.problem_sets[set.name] = set.content_id;
+  }
+  for (const std::string& planner : options_.planners) {
+    const auto command = options_.planner_commands.find(planner);
+    conditions.planner_commands[planner] =
+        command == options_.planner_commands.end() ? "" : command->second;
+  }
+}
+
+void Driver::CheckPlanners() {
+  const PlanRequest& request = options_.conditions.request;
   for (const std::string& name : options_.planners) {
     const auto planner = registry_.Find(name, NodeKind::kPlanner);
     if (!planner) throw InputError("the planner '" + name + "' has left the bus");
-    if (planner->robot_id != served.robot_id) {
+    if (planner->robot_id != served_.robot_id) {
       throw InputError(fmt::format(
           "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
-          name, planner->robot_name, planner->robot_id, served.robot_name, served.robot_id));
+          name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
     }
-    const std::string model(EnumName(options_.collision_model));
+    const std::string model(EnumName(request.collision_model));
     const auto& models = planner->collision_models;
     if (std::find(models.begin(), models.end(), model) == models.end()) {
       throw InputError(
@@ -127,7 +143,7 @@ void Driver::CheckPlanners(const ProblemSetsMessage& served) {
     if (!planner->can_backward && options_.directions.back() == Direction::kBackward) {
       throw InputError("--directions: the planner '" + name + "' cannot search backward");
     }
-    if (!planner->can_anytime && options_.anytime) {
+    if (!planner->can_anytime && request.anytime) {
       throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
     }
     planners_[name] = *planner;
@@ -137,7 +153,7 @@ void Driver::CheckPlanners(const ProblemSetsMessage& served) {
 SessionMessage Driver::Session(bool finished) const {
   const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
   SessionMessage session;
-  session.run_id = run_id_;
+  session.run_id = options_.conditions.request.run_id;
   session.start_utime = start_utime_;
   session.finished = finished;
   session.total_time_s = static_cast<double>(NowUtime() - start_utime_) * 1e-6;
@@ -146,11 +162,9 @@ SessionMessage Driver::Session(bool finished) const {
   session.commit = self.commit;
   session.host = self.host;
   session.cpu = CpuName();
-  session.time_limit_s = options_.time_limit_s;
-  session.seed = options_.seed;
   session.robot_name = served_.robot_name;
-  session.robot_id = served_.robot_id;
-  session.settings = settings_;
+  session.conditions = options_.conditions;
+  session.settings = flags_;
   for (const NodeStatusMessage& node : registry_.Live()) {
     if (node.kind != NodeKind::kPlanner ||
         std::find(options_.planners.begin(), options_.planners.end(), node.name) !=
@@ -190,7 +204,7 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;
-  if (options_.parallel) {
+  if (options_.conditions.parallel) {
     for (const std::string& planner : options_.planners) {
       std::vector<ScheduledRun>& lane = lanes.emplace_back();
       for (const ScheduledRun& run : schedule_) {

@@ -10,6 +10,7 @@
 #include "benchmark_driver/driver_options.h"
 #include "benchmark_driver/progress_bar.h"
 #include "benchmark_driver/recorder.h"
+#include "benchmark_driver/resume.h"
 #include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/schedule.h"
 #include "messaging/bus.h"
@@ -20,14 +21,14 @@ namespace planbench {
 /// A benchmark session against live processes: finds them, makes the runs, has them recorded.
 class Driver {
  public:
-  /// `settings`: flags, for the record. `earlier`: records of the session that is resumed; empty
-  /// for a new one.
-  Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> settings,
-         std::string run_id, std::vector<RunRecordMessage> earlier);
+  /// `options`: run_id included. `flags`: for the record. `earlier`: of the session that is
+  /// resumed; empty for a new one.
+  Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> flags,
+         EarlierSession earlier = {});
 
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
-  /// together, makes the schedule. `watch` is called while waiting and may throw. Throws InputError
-  /// naming what is missing or does not fit.
+  /// together and to the session that is resumed, makes the schedule. `watch` is called while
+  /// waiting and may throw. Throws InputError naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded.
@@ -37,14 +38,16 @@ class Driver {
   const std::vector<RunRecordMessage>& records() const { return records_; }
 
  private:
-  void CheckPlanners(const ProblemSetsMessage& served);
+  std::string Missing(bool need_logger) const;
+  void CheckPlanners();
+  void CompleteConditions();
   SessionMessage Session(bool finished) const;
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
 
   Bus* bus_;
   DriverOptions options_;
-  std::map<std::string, std::string> settings_;
-  std::string run_id_;
+  std::map<std::string, std::string> flags_;
+  EarlierSession earlier_;
   std::int64_t start_utime_;
   NodeRegistry registry_;
   Recorder recorder_;

@@ -5,8 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <set>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/name_value.h"
@@ -15,20 +17,53 @@
 namespace planbench {
 namespace {
 
-std::vector<std::string> SplitList(const std::string& text, const std::string& flag) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (begin <= text.size() && !text.empty()) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    if (parts.back().empty()) throw InputError(flag + " " + text + ": an entry is empty");
-    begin = end + 1;
-  }
-  std::set<std::string> seen;
-  for (const std::string& part : parts) {
-    if (!seen.insert(part).second) throw InputError(flag + ": '" + part + "' occurs twice");
-  }
-  return parts;
+constexpr double kUnlimited = std::numeric_limits<double>::max();
+
+/// Finite numbers greater than zero. (CLI::PositiveNumber lets NaN pass.)
+CLI::Validator Positive(double most = kUnlimited) {
+  return CLI::Validator(
+      [most](std::string& text) -> std::string {
+        const double value = std::strtod(text.c_str(), nullptr);  // 0 if it is none
+        if (value > 0 && value <= most) return "";
+        return most == kUnlimited
+                   ? fmt::format("{} is no finite number greater than zero", text)
+                   : fmt::format("{} is not greater than zero and at most {}", text, most);
+      },
+      "");
+}
+
+/// A flag that takes one of several names.
+template <typename Take>
+CLI::Option* AddChoice(CLI::App* app, const std::string& flag,
+                       const std::vector<std::string>& names, Take take, const std::string& help) {
+  return app->add_option_function<std::string>(flag, take, help)->check(CLI::IsMember(names));
+}
+
+/// The same for the names of an enum.
+template <typename Enum, typename Target>
+CLI::Option* AddEnum(CLI::App* app, const std::string& flag, Target* target,
+                     const std::string& help) {
+  std::vector<std::string> names;
+  for (const Enum value : EnumValues<Enum>()) names.emplace_back(EnumName(value));
+  return AddChoice(
+      app, flag, names,
+      [target](const std::string& name) { *target = ParseEnum<Enum>(name).value(); }, help);
+}
+
+/// A flag that takes names with commas between, no two alike; `take` gets them.
+template <typename Take>
+CLI::Option* AddNames(CLI::App* app, const std::string& flag, Take take, const std::string& help) {
+  const auto take_distinct = [flag, take](const std::vector<std::string>& names) {
+    std::set<std::string> seen;
+    for (const std::string& name : names) {
+      if (name.empty()) throw InputError(flag + ": a name is empty");
+      if (!seen.insert(name).second) throw InputError(flag + ": '" + name + "' occurs twice");
+    }
+    take(names);
+  };
+  return app->add_option_function<std::vector<std::string>>(flag, take_distinct, help)
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 int ParseIndex(const std::string& text, const std::string& whole) {
@@ -40,12 +75,73 @@ int ParseIndex(const std::string& text, const std::string& whole) {
   return value;
 }
 
+void TakePlanners(const std::vector<std::string>& planners, DriverOptions* options) {
+  std::map<std::string, std::string> by_channel;
+  for (const std::string& planner : planners) {
+    const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
+    if (!is_new) {
+      throw InputError("--planners: '" + same->second + "' and '" + planner +
+                       "' would share their channels (" + same->first + ")");
+    }
+  }
+  options->planners = planners;
+}
+
+void TakeCommands(const std::vector<std::string>& commands, DriverOptions* options) {
+  for (const std::string& command : commands) {
+    const auto [name, line] = SplitNameValue(command, "--planner-command");
+    if (!options->planner_commands.emplace(name, line).second) {
+      throw InputError("--planner-command: '" + name + "' is given twice");
+    }
+  }
+}
+
+void TakeSettings(const std::vector<std::string>& settings, DriverOptions* options) {
+  for (const std::string& setting : settings) {
+    constexpr char kForm[] = "NAME.KEY=VALUE";
+    const std::string key = SplitNameValue(setting, "--set", kForm).first;
+    const std::size_t dot = key.find('.');
+    if (dot == 0 || dot == std::string::npos || dot + 1 == key.size()) {
+      throw InputError("--set '" + setting + "': expected " + kForm);
+    }
+    options->planner_settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
+  }
+}
+
+void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) {
+  CLI::Option* launch = app->add_flag(
+      "--launch", options->launch,
+      "start scene server, planners and logger on a private port, and stop them at the end");
+  const auto with_launch = [launch](CLI::Option* option) {
+    return option->needs(launch)->allow_extra_args(false)->group("With --launch");
+  };
+  using Texts = std::vector<std::string>;
+  launch->needs(with_launch(app->add_option("--robot", options->robot, "robot folder")));
+  launch->needs(with_launch(
+      app->add_option("--problems", options->problems, "problem set folder; repeatable")));
+  with_launch(app->add_option("--referee-robot", options->referee_robot,
+                              "folder of a mesh robot that judges paths too"));
+  with_launch(app->add_option("--package-path", options->package_paths,
+                              "NAME=DIR: folder that package://NAME/ stands for; repeatable"));
+  with_launch(
+      app->add_option("--out", options->out, "session folder; default: sessions/<date and time>"))
+      ->excludes(resume);
+  with_launch(app->add_option_function<Texts>(
+      "--planner-command", [=](const Texts& texts) { TakeCommands(texts, options); },
+      "NAME=COMMAND: how to start a planner that is not planbench's own; the bus is in its "
+      "LCM_DEFAULT_URL; repeatable"));
+  with_launch(app->add_option_function<Texts>(
+      "--set", [=](const Texts& texts) { TakeSettings(texts, options); },
+      "NAME.KEY=VALUE: setting KEY of planner NAME; repeatable"));
+}
+
 }  // namespace
 
 std::vector<int> ParseRange(const std::string& text) {
   constexpr int kMost = 1'000'000;
   std::set<int> indices;
-  for (const std::string& part : SplitList(text, "--problems-range")) {
+  std::istringstream parts(text + ",");
+  for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t dash = part.find('-');
     const int first = ParseIndex(part.substr(0, dash), text);
     const int last = dash == std::string::npos ? first : ParseIndex(part.substr(dash + 1), text);
@@ -57,169 +153,74 @@ std::vector<int> ParseRange(const std::string& text) {
   return {indices.begin(), indices.end()};
 }
 
-void DriverFlags::AddTo(CLI::App* app) {
-  app->add_option("--sets", sets_, "problem sets, comma-separated; default: all that are served");
-  app->add_option("--problems-range", range_, "problem indices, e.g. 1-20 or 1-5,8; default: all");
-  app->add_option("--planners", planners_, "planners by name, comma-separated")
+void AddDriverFlags(CLI::App* app, DriverOptions* options) {
+  SessionConditions& conditions = options->conditions;
+  PlanRequest& request = conditions.request;
+  AddNames(
+      app, "--sets", [=](const auto& names) { options->sets = names; },
+      "problem sets, comma-separated; default: all that are served");
+  app->add_option_function<std::string>(
+      "--problems-range",
+      [=](const std::string& text) { options->problem_indices = ParseRange(text); },
+      "problem indices, e.g. 1-20 or 1-5,8; default: all");
+  AddNames(
+      app, "--planners", [=](const auto& names) { TakePlanners(names, options); },
+      "planners by name, comma-separated")
+      ->default_str(fmt::format("{}", fmt::join(options->planners, ",")));
+  AddChoice(
+      app, "--directions", {"forward", "backward", "both"},
+      [=](const std::string& name) {
+        if (const auto direction = ParseEnum<Direction>(name)) options->directions = {*direction};
+      },
+      "in which to search")
+      ->default_str("both");
+  app->add_option("--time", request.time_limit_s, "time limit of a request, s")
+      ->check(Positive(1e6))  // 11 days, and far from what a clock can count
       ->capture_default_str();
-  app->add_option("--directions", directions_, "forward, backward or both")->capture_default_str();
-  app->add_option("--time", options_.time_limit_s, "time limit of a request, s")
+  app->add_option("--trials", options->trials, "runs of each problem, seeds counting up")
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app->add_option("--trials", options_.trials, "runs of each problem, seeds counting up")
-      ->capture_default_str();
-  app->add_option("--seed", options_.seed, "seed of the first trial")
+  app->add_option("--seed", request.seed, "seed of the first trial")
       ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
       ->capture_default_str();
-  app->add_option("--collision-model", collision_model_, EnumChoices<CollisionModel>())
-      ->capture_default_str();
-  app->add_option(
-      "--edge-resolution", options_.edge_resolution_m,
-      "largest motion of any point between samples of an edge, m; default: the robot's");
-  app->add_option("--edge-check", edge_check_,
-                  "fixed: edges are free at samples; certified: proven free; default: the robot's");
-  app->add_option("--referee-step", options_.referee_step_m,
-                  "the same for the referee; default: half the edge resolution");
-  app->add_flag("--anytime", options_.anytime,
+  AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, "robot geometry")
+      ->default_str(std::string(EnumName(request.collision_model)));
+  app->add_option("--edge-resolution", request.edge_resolution_m,
+                  "largest motion of any point between samples of an edge, m; default: the robot's")
+      ->check(Positive());
+  AddEnum<EdgeCheck>(
+      app, "--edge-check", &request.edge_check,
+      "fixed: edges are free at samples; certified: proven free; default: the robot's");
+  app->add_option("--referee-step", conditions.referee_step_m,
+                  "the same for the referee; default: half the edge resolution")
+      ->check(Positive());
+  app->add_flag("--anytime", request.anytime,
                 "let anytime planners improve until the time limit; default: first solution");
-  app->add_flag("!--no-simplify", options_.simplify, "do not ask for simplified paths");
-  app->add_flag("!--no-clearance", options_.clearance, "do not measure clearance of paths");
-  app->add_flag("--parallel", options_.parallel,
+  app->add_flag("!--no-simplify", request.simplify, "do not ask for simplified paths");
+  app->add_flag("!--no-clearance", conditions.with_clearance, "do not measure clearance of paths");
+  app->add_flag("--parallel", conditions.parallel,
                 "let the planners work at once, each on its own request");
-  app->add_option("--discovery-timeout", options_.discovery_timeout_s,
+  app->add_option("--discovery-timeout", options->discovery_timeout_s,
                   "how long to wait for the other processes, s")
+      ->check(Positive())
       ->capture_default_str();
-  app->add_option("--resume", options_.resume,
-                  "session folder to go on with: finished runs are not run again");
-
-  CLI::Option* launch = app->add_flag(
-      "--launch", options_.launch,
-      "start scene server, planners and logger on a private port, and stop them at the end");
-  const auto with_launch = [launch](CLI::Option* option) {
-    option->needs(launch)->group("With --launch");
-    return option;
-  };
-  with_launch(app->add_option("--robot", options_.robot, "robot folder"));
-  with_launch(app->add_option("--problems", problems_, "problem set folder; repeatable")
-                  ->allow_extra_args(false));
-  with_launch(app->add_option("--referee-robot", options_.referee_robot,
-                              "folder of a mesh robot that judges paths too"));
-  with_launch(app->add_option("--package-path", options_.package_paths,
-                              "NAME=DIR: folder that package://NAME/ stands for; repeatable")
-                  ->allow_extra_args(false));
-  with_launch(
-      app->add_option("--out", options_.out, "session folder; default: sessions/<date and time>"));
-  with_launch(app->add_option("--planner-command", planner_commands_,
-                              "NAME=COMMAND: how to start a planner that is not planbench's own; "
-                              "the bus is in its LCM_DEFAULT_URL; repeatable")
-                  ->allow_extra_args(false));
-  with_launch(app->add_option("--set", planner_settings_,
-                              "NAME.KEY=VALUE: setting KEY of planner NAME; repeatable")
-                  ->allow_extra_args(false));
+  CLI::Option* resume = app->add_option(
+      "--resume", options->resume, "session folder to go on with: finished runs are not run again");
+  AddLaunchFlags(app, resume, options);
 }
 
-DriverOptions DriverFlags::Parse() const {
-  DriverOptions options = options_;
-  options.sets = SplitList(sets_, "--sets");
-  options.problem_indices = ParseRange(range_);
-  options.planners = SplitList(planners_, "--planners");
-  if (options.planners.empty()) throw InputError("--planners: at least one is needed");
-  std::map<std::string, std::string> by_channel;
-  for (const std::string& planner : options.planners) {
-    const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
-    if (!is_new) {
-      throw InputError("--planners: '" + same->second + "' and '" + planner +
-                       "' would share their channels (" + same->first + ")");
-    }
+std::map<std::string, std::string> FlagsOf(const CLI::App& app) {
+  std::map<std::string, std::string> flags;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option == app.get_help_ptr() || option == app.get_version_ptr()) continue;
+    const bool given = option->count() > 0;
+    const bool takes_value = option->get_items_expected_max() > 0;
+    flags[option->get_single_name()] = !takes_value ? (given ? "true" : "false")
+                                       : given
+                                           ? fmt::format("{}", fmt::join(option->results(), ","))
+                                           : option->get_default_str();
   }
-  if (directions_ == "both") {
-    options.directions = {Direction::kForward, Direction::kBackward};
-  } else if (const auto direction = ParseEnum<Direction>(directions_)) {
-    options.directions = {*direction};
-  } else {
-    throw InputError("--directions " + directions_ + ": expected forward, backward or both");
-  }
-  const auto model = ParseEnum<CollisionModel>(collision_model_);
-  if (!model) {
-    throw InputError("--collision-model " + collision_model_ + ": expected " +
-                     EnumChoices<CollisionModel>());
-  }
-  options.collision_model = *model;
-  const auto require_positive = [](double value, const char* flag) {
-    if (!std::isfinite(value) || value <= 0) {
-      throw InputError(fmt::format("{} {}: must be greater than zero", flag, value));
-    }
-  };
-  require_positive(options.time_limit_s, "--time");
-  constexpr double kLongest = 1e6;  // 11 days, and far from what a clock can count
-  if (options.time_limit_s > kLongest) {
-    throw InputError(
-        fmt::format("--time {}: must be at most {} s", options.time_limit_s, kLongest));
-  }
-  require_positive(options.trials, "--trials");
-  require_positive(options.discovery_timeout_s, "--discovery-timeout");
-  if (options.edge_resolution_m != 0) {
-    require_positive(options.edge_resolution_m, "--edge-resolution");
-  }
-  if (!edge_check_.empty()) {
-    options.edge_check = ParseEnum<EdgeCheck>(edge_check_);
-    if (!options.edge_check) {
-      throw InputError("--edge-check " + edge_check_ + ": expected " + EnumChoices<EdgeCheck>());
-    }
-  }
-  if (options.referee_step_m != 0) require_positive(options.referee_step_m, "--referee-step");
-  for (const std::string& command : planner_commands_) {
-    const auto [name, line] = SplitNameValue(command, "--planner-command");
-    if (!options.planner_commands.emplace(name, line).second) {
-      throw InputError("--planner-command: '" + name + "' is given twice");
-    }
-  }
-  for (const std::string& setting : planner_settings_) {
-    constexpr char kForm[] = "NAME.KEY=VALUE";
-    const std::string key = SplitNameValue(setting, "--set", kForm).first;
-    const std::size_t dot = key.find('.');
-    if (dot == 0 || dot == std::string::npos || dot + 1 == key.size()) {
-      throw InputError("--set '" + setting + "': expected " + kForm);
-    }
-    options.planner_settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
-  }
-  for (const std::string& folder : problems_) options.problems.emplace_back(folder);
-  if (options.launch) {
-    if (options.robot.empty()) throw InputError("--launch needs --robot");
-    if (options.problems.empty()) throw InputError("--launch needs --problems");
-    if (!options.resume.empty() && !options.out.empty()) {
-      throw InputError("--resume names the session folder; --out cannot be given as well");
-    }
-  }
-  return options;
-}
-
-std::map<std::string, std::string> DriverFlags::AsSettings(const DriverOptions& options) const {
-  std::map<std::string, std::string> settings = {
-      {"sets", sets_},
-      {"problems_range", range_},
-      {"planners", planners_},
-      {"directions", directions_},
-      {"time_limit_s", fmt::format("{}", options.time_limit_s)},
-      {"trials", fmt::format("{}", options.trials)},
-      {"seed", fmt::format("{}", options.seed)},
-      {"collision_model", collision_model_},
-      {"edge_resolution_m", fmt::format("{}", options.edge_resolution_m)},
-      {"edge_check", edge_check_},
-      {"referee_step_m", fmt::format("{}", options.referee_step_m)},
-      {"anytime", options.anytime ? "true" : "false"},
-      {"simplify", options.simplify ? "true" : "false"},
-      {"clearance", options.clearance ? "true" : "false"},
-      {"parallel", options.parallel ? "true" : "false"},
-      {"launch", options.launch ? "true" : "false"},
-  };
-  if (options.launch) {
-    settings["robot"] = options.robot.string();
-    settings["problems"] = fmt::format("{}", fmt::join(problems_, ","));
-    settings["referee_robot"] = options.referee_robot.string();
-    settings["planner_commands"] = fmt::format("{}", fmt::join(planner_commands_, ","));
-    settings["planner_settings"] = fmt::format("{}", fmt::join(planner_settings_, ","));
-  }
-  return settings;
+  return flags;
 }
 
 }  // namespace planbench

@@ -93,7 +93,7 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
   };
 
   std::vector<std::string> logger = {Program("logger"), "--out", session_folder.string()};
-  if (!options.resume.empty()) logger.push_back("--resume");
+  if (options.resume) logger.push_back("--resume");
   start(kLogger, std::move(logger));
 
   std::vector<std::string> server =
@@ -101,8 +101,8 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
   for (const std::filesystem::path& folder : options.problems) {
     server.insert(server.end(), {"--problems", folder.string()});
   }
-  if (!options.referee_robot.empty()) {
-    server.insert(server.end(), {"--referee-robot", options.referee_robot.string()});
+  if (options.referee_robot) {
+    server.insert(server.end(), {"--referee-robot", options.referee_robot->string()});
   }
   start(kSceneServer, std::move(server));
 

@@ -5,11 +5,10 @@
 int main(int argc, char** argv) {
   planbench::Program program("benchmark_driver",
                              "Runs motion planners over problem sets and compares them.");
-  planbench::DriverFlags flags;
-  flags.AddTo(&program.app());
+  planbench::DriverOptions options;
+  planbench::AddDriverFlags(&program.app(), &options);
   return program.Run(argc, argv, [&] {
-    const planbench::DriverOptions options = flags.Parse();
-    return planbench::RunSession(options, flags.AsSettings(options), program.lcm_url(),
+    return planbench::RunSession(options, planbench::FlagsOf(program.app()), program.lcm_url(),
                                  program.lcm_url_given(), planbench::StopRequested);
   });
 }

@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kServerPatience{10};
 
 }  // namespace
 
-RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions)
+RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions)
     : process_id_(fmt::format("{:x}", NowUtime())),
       registry_(registry),
       conditions_(std::move(conditions)),
@@ -83,9 +83,9 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   request.goal = record.request.goal;
   request.joint_names = record.result.joint_names;
   request.path = path;
-  request.collision_model = conditions_.collision_model;
-  request.step_m = conditions_.referee_step_m;
-  request.with_clearance = conditions_.clearance;
+  request.collision_model = record.request.collision_model;
+  request.step_m = conditions_.referee_step_m.value();
+  request.with_clearance = conditions_.with_clearance;
   std::optional<PathCheckReplyMessage> reply =
       AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
   if (!reply || reply->ok) return reply;
@@ -105,27 +105,20 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   if (!problem) return std::nullopt;
 
   RunRecordMessage record;
-  record.run_id = conditions_.run_id;
+  record.run_id = conditions_.request.run_id;
   record.request_id = run.request_id;
   record.planner = run.planner;
   record.problem_set = run.problem_set;
   record.problem_index = run.problem_index;
   record.trial = run.trial;
-  record.request.run_id = conditions_.run_id;
+  record.request = conditions_.request;
   record.request.request_id = AttemptId(run);
   record.request.scene_id = problem->scene_id;
-  record.request.robot_id = conditions_.robot_id;
   record.request.group = problem->group;
   record.request.start = problem->start;
   record.request.goal = problem->goal;
   record.request.direction = run.direction;
-  record.request.time_limit_s = conditions_.time_limit_s;
   record.request.seed = run.seed;
-  record.request.collision_model = conditions_.collision_model;
-  record.request.edge_resolution_m = conditions_.edge_resolution_m;
-  record.request.edge_check = conditions_.edge_check;
-  record.request.anytime = conditions_.anytime;
-  record.request.simplify = conditions_.simplify;
   record.start_utime = NowUtime();
 
   const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);

@@ -12,25 +12,12 @@
 
 namespace planbench {
 
-/// What every run of a session has in common.
-struct RunConditions {
-  std::string run_id;
-  std::string robot_id;
-  double time_limit_s = 60;
-  CollisionModel collision_model = CollisionModel::kSpheres;
-  double edge_resolution_m = 0;
-  EdgeCheck edge_check = EdgeCheck::kCertified;
-  double referee_step_m = 0.01;
-  bool anytime = false;
-  bool simplify = true;
-  bool clearance = true;
-};
-
 /// Makes one run: fetches the problem if it is not known yet, has the planner solve it, has the
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
-  RunExecutor(Bus* bus, NodeRegistry* registry, RunConditions conditions);
+  /// `conditions`: complete, the referee's step included.
+  RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions);
 
   /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no
   /// such problem.
@@ -57,7 +44,7 @@ class RunExecutor {
 
   std::string process_id_;
   NodeRegistry* registry_;
-  RunConditions conditions_;
+  SessionConditions conditions_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::mutex mutex_;

@@ -9,7 +9,7 @@
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
-#include "benchmark_driver/session_folder.h"
+#include "benchmark_driver/resume.h"
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
 #include "common/error.h"
@@ -17,7 +17,6 @@
 #include "common/sibling_program.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
-#include "messaging/record_log.h"
 
 namespace planbench {
 namespace {
@@ -45,21 +44,16 @@ void RequireEmptyBus(Bus* bus) {
 
 }  // namespace
 
-int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> settings,
+int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> flags,
                const std::string& lcm_url, bool lcm_url_given,
                const std::function<bool()>& interrupted) {
   DriverOptions options = given_options;
-  std::string run_id = NewRunId();
-  std::vector<RunRecordMessage> earlier;
-  if (!options.resume.empty()) {
-    RecordedSession recorded = ReadRecords(EventLogOf(options.resume));
-    if (recorded.sessions.empty()) {
-      throw InputError("--resume: " + options.resume.string() + " holds no session");
-    }
-    RequireSameConditions(recorded.sessions.back(), settings);
-    run_id = recorded.sessions.back().run_id;
-    earlier = std::move(recorded.runs);
-    std::erase_if(earlier, [&](const RunRecordMessage& run) { return run.run_id != run_id; });
+  std::string& run_id = options.conditions.request.run_id;
+  run_id = NewRunId();
+  EarlierSession earlier;
+  if (options.resume) {
+    earlier = ReadEarlierSession(*options.resume);
+    run_id = earlier.sessions.back().run_id;
   }
 
   std::string url = lcm_url;
@@ -67,9 +61,9 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   if (options.launch) {
     RequireKnownPlanners(options, ProgramFolder());
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
-    session_folder = !options.resume.empty() ? options.resume
-                     : !options.out.empty()  ? options.out
-                                             : std::filesystem::path("sessions") / run_id;
+    session_folder = options.resume ? *options.resume
+                     : options.out  ? *options.out
+                                    : std::filesystem::path("sessions") / run_id;
     session_folder = std::filesystem::absolute(session_folder).lexically_normal();
   }
 
@@ -92,7 +86,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (supervisor) supervisor->ThrowIfHopeless();
     if (interrupted()) throw std::runtime_error("interrupted");
   };
-  Driver driver(&bus, options, std::move(settings), run_id, std::move(earlier));
+  Driver driver(&bus, options, std::move(flags), std::move(earlier));
   driver.Discover(options.launch, watch);
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {

@@ -1,9 +1,11 @@
 #include "benchmark_driver/schedule.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 
 #include "common/error.h"
 
@@ -13,17 +15,18 @@ namespace {
 std::vector<const ProblemSetSummary*> SelectSets(const std::vector<std::string>& names,
                                                  const ProblemSetsMessage& served) {
   std::vector<const ProblemSetSummary*> selected;
-  std::string known;
+  std::vector<std::string_view> known;
   for (const ProblemSetSummary& set : served.sets) {
-    known += (known.empty() ? "" : ", ") + set.name;
+    known.push_back(set.name);
     if (names.empty()) selected.push_back(&set);
   }
   for (const std::string& name : names) {
     const auto found = std::find_if(served.sets.begin(), served.sets.end(),
                                     [&](const ProblemSetSummary& set) { return set.name == name; });
     if (found == served.sets.end()) {
-      throw InputError("--sets: the scene server has no problem set '" + name +
-                       "'; it serves: " + known);
+      throw InputError(
+          fmt::format("--sets: the scene server has no problem set '{}'; it serves: {}", name,
+                      fmt::join(known, ", ")));
     }
     selected.push_back(&*found);
   }
@@ -33,8 +36,8 @@ std::vector<const ProblemSetSummary*> SelectSets(const std::vector<std::string>&
 }  // namespace
 
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
-                                       const ProblemSetsMessage& served,
-                                       const std::string& run_id) {
+                                       const ProblemSetsMessage& served) {
+  const PlanRequest& request = options.conditions.request;
   std::vector<ScheduledRun> schedule;
   for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
     std::vector<int> indices;
@@ -59,9 +62,9 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
         for (int trial = 1; trial <= options.trials; ++trial) {
           for (const Direction direction : options.directions) {
             schedule.push_back({planner, set->name, index, direction, trial,
-                                options.seed + static_cast<std::uint64_t>(trial) - 1,
-                                fmt::format("{}/{}/{}/{}/{}/{}", run_id, set->name, index, planner,
-                                            EnumName(direction), trial)});
+                                request.seed + static_cast<std::uint64_t>(trial) - 1,
+                                fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set->name, index,
+                                            planner, EnumName(direction), trial)});
           }
         }
       }

@@ -24,6 +24,6 @@ struct ScheduledRun {
 /// direction. Throws InputError for a set that is not served (naming those that are) or a range
 /// that selects no problem of a set.
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
-                                       const ProblemSetsMessage& served, const std::string& run_id);
+                                       const ProblemSetsMessage& served);
 
 }  // namespace planbench

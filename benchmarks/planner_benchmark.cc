@@ -45,7 +45,7 @@ struct Flags {
   std::string directions = "forward";
   std::string model = "spheres";
   double time_limit_s = 10;
-  double edge_resolution_m = 0;
+  std::optional<double> edge_resolution_m;
   std::string edge_check;
   std::uint64_t seed = 1;
   int first = 1;
@@ -96,8 +96,7 @@ bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene&
   const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, "referee");
   const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
   checker->SetScene(scene, query.base_positions);
-  const double resolution_m =
-      request.edge_resolution_m > 0 ? request.edge_resolution_m : robot.edge_resolution_m;
+  const double resolution_m = request.edge_resolution_m.value_or(robot.edge_resolution_m);
   return JudgePath(checker.get(), path, query.start, query.goal, resolution_m / 2, false).valid;
 }
 

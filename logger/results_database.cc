@@ -140,17 +140,17 @@ void ResultsDatabase::Store(const SessionMessage& session) {
     }
   }
   const std::string setup = fmt::format("run_id = {}\nrobot = {} ({})\n", session.run_id,
-                                        session.robot_name, session.robot_id) +
+                                        session.robot_name, session.conditions.request.robot_id) +
                             AsLines(session.settings);
   // Named, because texts must live until the statement has run.
   const std::string version = ExperimentVersion(session);
   const std::string date = IsoTime(session.start_utime);
-  const std::string seed = std::to_string(session.seed);
+  const std::string seed = std::to_string(session.conditions.request.seed);
   const std::string details = SessionJson(session);
   put_session_
       .BindAll(session.run_id, session.start_utime, session.finished ? 1 : 0, session.total_time_s,
-               session.num_runs, session.time_limit_s, version, session.host, session.cpu, date,
-               seed, setup, details)
+               session.num_runs, session.conditions.request.time_limit_s, version, session.host,
+               session.cpu, date, seed, setup, details)
       .Run();
   update_experiments_.BindAll(session.run_id).Run();
   transaction.Commit();

@@ -138,7 +138,10 @@ std::vector<RunColumn> MakeRunColumns() {
       {"collision_model", "TEXT",
        [](const Record& r) { return Text(std::string(EnumName(r.request.collision_model))); }},
       {"edge_resolution", "REAL",
-       [](const Record& r) { return RealUnlessZero(r.request.edge_resolution_m); }},
+       [](const Record& r) {
+         const auto& step_m = r.request.edge_resolution_m;
+         return step_m ? Real(*step_m) : SqliteValue(kNull);
+       }},
       {"edge_check", "TEXT",
        [](const Record& r) {
          const auto& method = r.request.edge_check;

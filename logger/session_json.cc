@@ -46,6 +46,7 @@ Json NodeJson(const NodeStatusMessage& node) {
 }  // namespace
 
 std::string SessionJson(const SessionMessage& session) {
+  const PlanRequest& request = session.conditions.request;
   Json json;
   json["run_id"] = session.run_id;
   json["start_time"] = IsoTime(session.start_utime);
@@ -56,9 +57,9 @@ std::string SessionJson(const SessionMessage& session) {
   json["commit"] = session.commit;
   json["host"] = session.host;
   json["cpu"] = session.cpu;
-  json["seed"] = session.seed;
-  json["time_limit_s"] = session.time_limit_s;
-  json["robot"] = {{"name", session.robot_name}, {"id", session.robot_id}};
+  json["seed"] = request.seed;
+  json["time_limit_s"] = request.time_limit_s;
+  json["robot"] = {{"name", session.robot_name}, {"id", request.robot_id}};
   json["flags"] = session.settings;
   json["nodes"] = Json::array();
   for (const NodeStatusMessage& node : session.nodes) json["nodes"].push_back(NodeJson(node));

@@ -35,6 +35,7 @@
 #include "planbench/lcmt_run_record.hpp"
 #include "planbench/lcmt_scene_request.hpp"
 #include "planbench/lcmt_session.hpp"
+#include "planbench/lcmt_session_conditions.hpp"
 
 /// The field lists (fields.h) of all messages.
 namespace planbench {
@@ -163,6 +164,7 @@ struct Fields<ProblemSetSummary> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("name", v.name, w.name, kNotEmpty);
     io.List("problem_index", v.indices, w.problem_index, w.num_problems, kAscending);
+    io.Field("content_id", v.content_id, w.content_id);
   }
 };
 
@@ -176,7 +178,8 @@ struct Fields<ProblemSetsMessage> {
     io.Field("robot_id", v.robot_id, w.robot_id);
     io.Field("edge_resolution_m", v.edge_resolution_m, w.edge_resolution_m, kPositive);
     io.Field("edge_check", v.edge_check, w.edge_check);
-    io.Field("has_meshes", v.has_meshes, w.has_meshes);
+    io.Field("mesh_robot_id", v.mesh_robot_id, w.mesh_robot_id);
+    io.Field("referee_robot_id", v.referee_robot_id, w.referee_robot_id);
     io.List("set", v.sets, w.set, w.num_sets);
   }
 };
@@ -482,6 +485,21 @@ struct Fields<PathCheckReplyMessage> {
 // Sessions and runs.
 
 template <>
+struct Fields<SessionConditions> {
+  using Wire = lcmt_session_conditions;
+  static void List(auto& io, auto& v, auto& w) {
+    io.Field("request", v.request, w.request);
+    io.Field("referee_step_m", v.referee_step_m, w.referee_step_m, kNonNegative);
+    io.Field("with_clearance", v.with_clearance, w.with_clearance);
+    io.Field("parallel", v.parallel, w.parallel);
+    io.Field("mesh_robot_id", v.mesh_robot_id, w.mesh_robot_id);
+    io.Field("referee_robot_id", v.referee_robot_id, w.referee_robot_id);
+    io.List("problem_set", v.problem_sets, w.problem_set, w.num_problem_sets);
+    io.List("planner_command", v.planner_commands, w.planner_command, w.num_planner_commands);
+  }
+};
+
+template <>
 struct Fields<SessionMessage> {
   using Wire = lcmt_session;
   static void List(auto& io, auto& v, auto& w) {
@@ -495,10 +513,8 @@ struct Fields<SessionMessage> {
     io.Field("commit", v.commit, w.commit);
     io.Field("host", v.host, w.host);
     io.Field("cpu", v.cpu, w.cpu);
-    io.Field("time_limit_s", v.time_limit_s, w.time_limit_s, kNonNegative);
-    io.Field("seed", v.seed, w.seed);
     io.Field("robot_name", v.robot_name, w.robot_name);
-    io.Field("robot_id", v.robot_id, w.robot_id);
+    io.Field("conditions", v.conditions, w.conditions);
     io.List("setting", v.settings, w.setting, w.num_settings);
     io.List("node", v.nodes, w.node, w.num_nodes);
   }

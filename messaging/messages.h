@@ -53,6 +53,7 @@ struct NodeStatusMessage {
 struct ProblemSetSummary {
   std::string name;
   std::vector<int> indices;  ///< Ascending.
+  std::string content_id;    ///< Equal sets, equal ids.
   bool operator==(const ProblemSetSummary&) const = default;
 };
 
@@ -62,7 +63,8 @@ struct ProblemSetsMessage {
   std::string robot_id;
   double edge_resolution_m = 0;              ///< The robot's default, > 0.
   EdgeCheck edge_check = EdgeCheck::kFixed;  ///< The robot's default.
-  bool has_meshes = false;
+  std::string mesh_robot_id;                 ///< Of the robot and its meshes (MeshRobotId).
+  std::string referee_robot_id;  ///< The same of the mesh robot that judges paths too; empty: none.
   std::vector<ProblemSetSummary> sets;
   bool operator==(const ProblemSetsMessage&) const = default;
 };
@@ -215,6 +217,22 @@ struct PathCheckReplyMessage {
   bool operator==(const PathCheckReplyMessage&) const = default;
 };
 
+/// What can change a result and is no matter of which runs are made, nor of which processes make
+/// them (SessionMessage::nodes).
+struct SessionConditions {
+  /// What all requests have in common; ids, problem and direction are left open, the seed is that
+  /// of the first trial.
+  PlanRequest request;
+  std::optional<double> referee_step_m;  ///< None: half the edge resolution.
+  bool with_clearance = true;
+  bool parallel = false;
+  std::string mesh_robot_id;     ///< ProblemSetsMessage's; empty unless meshes are what is checked.
+  std::string referee_robot_id;  ///< ProblemSetsMessage's.
+  std::map<std::string, std::string> problem_sets;      ///< Content ids by name.
+  std::map<std::string, std::string> planner_commands;  ///< By name; empty: planbench's own.
+  bool operator==(const SessionConditions&) const = default;
+};
+
 struct SessionMessage {
   std::string run_id;
   std::int64_t start_utime = 0;
@@ -225,11 +243,9 @@ struct SessionMessage {
   std::string commit;
   std::string host;
   std::string cpu;
-  double time_limit_s = 0;
-  std::uint64_t seed = 0;
   std::string robot_name;
-  std::string robot_id;
-  std::map<std::string, std::string> settings;
+  SessionConditions conditions;
+  std::map<std::string, std::string> settings;  ///< The driver's flags.
   std::vector<NodeStatusMessage> nodes;
   bool operator==(const SessionMessage&) const = default;
 };

@@ -50,14 +50,12 @@ int Program::Run(int argc, char** argv, const std::function<int()>& work) {
   spdlog::set_default_logger(log);
   try {
     app_.parse(argc, argv);
+    InstallSignalHandlers();
+    return work();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
     std::cerr << name_ << ": " << error.what() << " (see " << name_ << " --help)\n";
     return kExitBadInput;
-  }
-  InstallSignalHandlers();
-  try {
-    return work();
   } catch (const InputError& error) {
     std::cerr << name_ << ": " << error.what() << "\n";
     return kExitBadInput;

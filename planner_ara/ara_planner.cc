@@ -7,7 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "common/content_hash.h"
 #include "common/error.h"
+#include "common/read_text.h"
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/manipulation_graph.h"
 #include "planner_ara/two_way_search.h"
@@ -30,6 +32,11 @@ class AraPlanner : public Planner {
     require_known("joint_weights", settings_.joint_weights);
     const PlanningGroup& group = robot.Group("");
     options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
+    if (!settings_.primitives.empty()) {
+      ContentHash hash;
+      hash.Add(ReadText(robot.folder / settings_.primitives));
+      primitives_id_ = hash.HexDigest();
+    }
   }
 
   PlannerDescription Describe() const override {
@@ -40,6 +47,8 @@ class AraPlanner : public Planner {
     description.anytime = true;
     description.collision_models = EnumValues<CollisionModel>();
     description.settings = settings_.AsText();
+    // The file may change while its name stays.
+    if (!primitives_id_.empty()) description.settings["primitives_id"] = primitives_id_;
     return description;
   }
 
@@ -134,6 +143,7 @@ class AraPlanner : public Planner {
 
   std::string origin_;  // of the settings
   AraSettings settings_;
+  std::string primitives_id_;  // content hash of the file of primitives; empty without one
   std::map<std::string, ManipulationGraphOptions> options_;  // by group, of settings_
 };
 

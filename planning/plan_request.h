@@ -26,8 +26,8 @@ struct PlanRequest {
   double time_limit_s = 60;
   std::uint64_t seed = 1;
   CollisionModel collision_model = CollisionModel::kSpheres;
-  double edge_resolution_m = 0;         ///< 0: the robot's.
-  std::optional<EdgeCheck> edge_check;  ///< None: the robot's.
+  std::optional<double> edge_resolution_m;  ///< None: the robot's.
+  std::optional<EdgeCheck> edge_check;      ///< None: the robot's.
   bool anytime = false;  ///< Keep improving until the time limit; else stop at the first solution.
   bool simplify = true;  ///< Run the shared shortcutting pass on the path.
   std::map<std::string, std::string> parameters;  ///< Planner settings for this request only.

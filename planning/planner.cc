@@ -42,10 +42,10 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
     throw InputError(fmt::format("{}: time_limit_s is {}, must be greater than zero", origin,
                                  request.time_limit_s));
   }
-  if (!(request.edge_resolution_m >= 0) || !std::isfinite(request.edge_resolution_m)) {
+  if (const auto step_m = request.edge_resolution_m;
+      step_m && (!(*step_m > 0) || !std::isfinite(*step_m))) {
     throw InputError(
-        fmt::format("{}: edge_resolution_m is {}, must be a positive number, or 0 for the robot's",
-                    origin, request.edge_resolution_m));
+        fmt::format("{}: edge_resolution_m is {}, must be a positive number", origin, *step_m));
   }
   const std::vector<CollisionModel>& models = description.collision_models;
   if (std::find(models.begin(), models.end(), request.collision_model) == models.end()) {
@@ -152,10 +152,8 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   // Even for the scene of the request before: what a request costs must not depend on its place in
   // the run.
   checker.SetScene(scene, resolved.base_positions);
-  EdgeChecker edges(
-      &checker,
-      request.edge_resolution_m > 0 ? request.edge_resolution_m : robot_->edge_resolution_m,
-      request.edge_check.value_or(robot_->edge_check));
+  EdgeChecker edges(&checker, request.edge_resolution_m.value_or(robot_->edge_resolution_m),
+                    request.edge_check.value_or(robot_->edge_check));
   result->phases.setup_s = SecondsSince(begin);
 
   SearchQuery query;

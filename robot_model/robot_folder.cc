@@ -3,26 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "common/content_hash.h"
 #include "common/error.h"
+#include "common/read_text.h"
 #include "common/yaml.h"
 
 namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ReadText(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + ": cannot be opened");
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) throw InputError(path.string() + ": cannot be read");
-  return text;
-}
 
 // The file a field of robot.yaml names, relative to the folder.
 fs::path NamedFile(const fs::path& folder, const YamlNode& field) {

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     Bus bus(program.lcm_url());
     SceneServerNode node(&bus, name, &service);
     bus.Start();
-    for (const auto& set : service.ProblemSets(name).sets) {
+    for (const auto& set : node.problem_sets().sets) {
       spdlog::info("serving problem set '{}': {} problems", set.name, set.indices.size());
     }
     node.Run(StopRequested);

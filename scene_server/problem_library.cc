@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "common/content_hash.h"
 #include "common/error.h"
+#include "common/read_text.h"
 #include "scene/moveit_yaml.h"
 #include "scene_server/problem_fit.h"
 
@@ -94,6 +96,28 @@ ServedProblem ProblemLibrary::Find(const std::string& set_name, int index) {
   }
   const std::scoped_lock lock(mutex_);
   return Read(set->second, *files);
+}
+
+std::string ProblemLibrary::ContentId(const ProblemSet& set) {
+  const std::scoped_lock lock(mutex_);
+  ContentHash hash;
+  for (const ProblemFiles& files : set.problems) {
+    hash.Add(files.index);
+    bool names_files = false;
+    for (const fs::path& file : {files.scene, files.request}) {
+      const std::string text = ReadText(file);
+      hash.Add(text);
+      names_files |= text.find("resource") != std::string::npos;
+    }
+    if (!names_files) continue;
+    try {
+      hash.Add(Read(set, files).message.scene_id);
+    } catch (const InputError& error) {
+      // Whoever asks for this problem is told; the others can be served.
+      spdlog::warn("{}", error.what());
+    }
+  }
+  return hash.HexDigest();
 }
 
 std::shared_ptr<const Scene> ProblemLibrary::FindScene(const std::string& scene_id) {

@@ -33,6 +33,9 @@ class ProblemLibrary {
   /// By name.
   const std::map<std::string, ProblemSet>& sets() const { return sets_; }
 
+  /// Content hash of a set: of its files, and of the scenes that name meshes in other files.
+  std::string ContentId(const ProblemSet& set);
+
   /// Throws InputError: no such set or index (with what there is), a file that cannot be read, a
   /// problem that does not fit the robot.
   ServedProblem Find(const std::string& set, int index);

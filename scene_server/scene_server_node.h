@@ -24,6 +24,8 @@ class SceneServerNode {
   /// if an older process has the name, or is a scene server by another name.
   void Run(const std::function<bool()>& stop);
 
+  const ProblemSetsMessage& problem_sets() const { return problem_sets_; }
+
  private:
   void PublishProblemSets();
   void OnStatus(const NodeStatusMessage& other);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "robot_model/mesh_robot_id.h"
 
 namespace planbench {
 namespace {
@@ -43,17 +44,19 @@ SceneService::SceneService(Robot robot, std::optional<Robot> mesh_robot,
       collision_(robot_),
       referee_(robot_, mesh_robot_ ? &*mesh_robot_ : nullptr) {}
 
-ProblemSetsMessage SceneService::ProblemSets(const std::string& server_name) const {
+ProblemSetsMessage SceneService::ProblemSets(const std::string& server_name) {
   ProblemSetsMessage message;
   message.server = server_name;
   message.robot_name = robot_.name;
   message.robot_id = robot_.content_id;
   message.edge_resolution_m = robot_.edge_resolution_m;
   message.edge_check = robot_.edge_check;
-  message.has_meshes = mesh_robot_.has_value();
+  message.mesh_robot_id = MeshRobotId(robot_);
+  if (mesh_robot_) message.referee_robot_id = MeshRobotId(*mesh_robot_);
   for (const auto& [name, set] : library_.sets()) {
     ProblemSetSummary summary;
     summary.name = name;
+    summary.content_id = library_.ContentId(set);
     for (const ProblemFiles& files : set.problems) summary.indices.push_back(files.index);
     message.sets.push_back(std::move(summary));
   }

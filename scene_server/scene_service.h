@@ -36,7 +36,7 @@ class SceneService {
   const Robot& robot() const { return robot_; }
   const std::optional<Robot>& mesh_robot() const { return mesh_robot_; }
 
-  ProblemSetsMessage ProblemSets(const std::string& server_name) const;
+  ProblemSetsMessage ProblemSets(const std::string& server_name);
   ProblemAnswer AnswerProblem(const ProblemRequestMessage& request);
   SceneMessage AnswerScene(const SceneRequestMessage& request);
   CollisionReplyMessage AnswerCollision(const CollisionRequestMessage& request);

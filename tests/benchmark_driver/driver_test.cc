@@ -33,10 +33,11 @@ class DriverTest : public testing::Test {
     options.planners = {"arm"};
     options.problem_indices = {1, 2};
     options.discovery_timeout_s = 60;
+    options.conditions.request.run_id = "run";
     return options;
   }
   void ExpectNotDiscovered(const DriverOptions& options, const std::vector<std::string>& parts) {
-    Driver driver(&bus_, options, {}, "run", {});
+    Driver driver(&bus_, options, {});
     ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
   }
 
@@ -59,7 +60,7 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  Driver driver(&bus_, Options(), {{"key", "value"}}, "run", {});
+  Driver driver(&bus_, Options(), {{"key", "value"}});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   ASSERT_EQ(driver.records().size(), 4u);
@@ -77,7 +78,13 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_TRUE(sessions.back().finished);
   EXPECT_EQ(sessions[0].run_id, "run");
   EXPECT_EQ(sessions[0].num_runs, 4);
-  EXPECT_EQ(sessions[0].robot_id, kFakeRobotId);
+  const SessionConditions& conditions = sessions[0].conditions;
+  EXPECT_EQ(conditions.request.robot_id, kFakeRobotId);
+  EXPECT_EQ(conditions.request.edge_resolution_m, 0.02);
+  EXPECT_EQ(conditions.request.edge_check, EdgeCheck::kFixed);
+  EXPECT_EQ(conditions.referee_step_m, 0.01);
+  EXPECT_EQ(conditions.problem_sets, (std::map<std::string, std::string>{{"cans", "cans-1"}}));
+  EXPECT_EQ(conditions.planner_commands, (std::map<std::string, std::string>{{"arm", ""}}));
   EXPECT_EQ(sessions[0].settings.at("key"), "value");
   EXPECT_EQ(sessions[0].nodes.size(), 3u);
 }
@@ -89,8 +96,8 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.planners = {"arm", "leg"};
-  options.parallel = true;
-  Driver driver(&bus_, options, {}, "run", {});
+  options.conditions.parallel = true;
+  Driver driver(&bus_, options, {});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.records().size(), 8u);
@@ -100,7 +107,7 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
 TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
-  Driver driver(&bus_, Options(), {}, "run", {});
+  Driver driver(&bus_, Options(), {});
   driver.Discover(false, Idle);
   EXPECT_FALSE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.records().size(), 4u);
@@ -110,22 +117,35 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  std::vector<RunRecordMessage> earlier(2);
-  earlier[0].request_id = "run/cans/1/arm/forward/1";
-  earlier[1].request_id = "run/cans/3/arm/forward/1";  // no longer asked for
-  for (RunRecordMessage& record : earlier) {
-    record.run_id = "run";
-    record.planner = "arm";
-    record.problem_set = "cans";
-  }
   DriverOptions options = Options();
-  options.problem_indices = {1};
-  Driver driver(&bus_, options, {}, "run", earlier);
+  options.directions = {Direction::kForward};
+  EarlierSession earlier;
+  {
+    Driver driver(&bus_, options, {});
+    driver.Discover(true, Idle);
+    EXPECT_TRUE(driver.Run(Never, Idle));
+    earlier = {logger.sessions().messages(), driver.records()};
+  }
+  const std::set<std::string> recorded_before = Ids(logger.records());
+  options.problem_indices = {1};  // no longer 2
+  options.directions = {Direction::kForward, Direction::kBackward};
+  Driver driver(&bus_, options, {}, earlier);
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
-  EXPECT_EQ(Ids(logger.records()), std::set<std::string>{"run/cans/1/arm/backward/1"});
+  std::set<std::string> recorded = Ids(logger.records());
+  for (const std::string& id : recorded_before) recorded.erase(id);
+  EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
   EXPECT_EQ(driver.records().size(), 3u);
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+
+  options.conditions.request.time_limit_s = 7;
+  Driver other(&bus_, options, {}, earlier);
+  ExpectInputError([&] { other.Discover(true, Idle); }, {"--resume", "time_limit_s", "60", "7"});
+  planner.status.settings["step"] = "6";
+  Reannounce(&planner);
+  Driver another(&bus_, Options(), {}, earlier);
+  ExpectInputError([&] { another.Discover(true, Idle); },
+                   {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
 }
 
 TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
@@ -135,7 +155,7 @@ TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
   planner.OnRequest([&](const PlanRequest& request) {
     if (request.direction == Direction::kForward) planner.Solve(request);
   });
-  Driver driver(&bus_, Options(), {}, "run", {});
+  Driver driver(&bus_, Options(), {});
   driver.Discover(true, Idle);
   EXPECT_FALSE(driver.Run([&] { return Ids(planner.requests()).size() >= 2; }, Idle));
   EXPECT_EQ(driver.records().size(), 1u);
@@ -147,7 +167,7 @@ TEST_F(DriverTest, WatchEndsTheSession) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   planner.OnRequest([](const PlanRequest&) {});
-  Driver driver(&bus_, Options(), {}, "run", {});
+  Driver driver(&bus_, Options(), {});
   driver.Discover(true, Idle);
   EXPECT_THROW(driver.Run(Never,
                           [&] {
@@ -166,7 +186,7 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
   DriverOptions options = Options();
   options.problem_indices = {1};
   options.directions = {Direction::kForward};
-  Driver driver(&bus_, options, {}, "run", {});
+  Driver driver(&bus_, options, {});
   driver.Discover(true, Idle);
   planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
   EXPECT_TRUE(driver.Run(Never, Idle));
@@ -181,7 +201,7 @@ TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {
   DriverOptions options = Options();
   options.planners = {"arm", "leg"};
   options.discovery_timeout_s = 0.5;
-  Driver driver(&bus_, options, {}, "run", {});
+  Driver driver(&bus_, options, {});
   // Heard before, so that its being there does not depend on the half second.
   NodeRegistry registry(&bus_);
   ASSERT_TRUE(registry.WaitUntil([&] { return !registry.Live().empty(); }, kTestPatience));
@@ -194,10 +214,10 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   DriverOptions options = Options();
-  options.collision_model = CollisionModel::kMeshes;
+  options.conditions.request.collision_model = CollisionModel::kMeshes;
   ExpectNotDiscovered(options, {"--collision-model", "'arm'", "'meshes'"});
   options = Options();
-  options.anytime = true;
+  options.conditions.request.anytime = true;
   ExpectNotDiscovered(options, {"--anytime", "'arm'"});
   options = Options();
   options.sets = {"boxes"};

@@ -96,7 +96,7 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
             sets.robot_name = "robot";
             sets.robot_id = kFakeRobotId;
             sets.edge_resolution_m = 0.02;
-            sets.sets = {{"cans", {1, 2, 3}}};
+            sets.sets = {{"cans", {1, 2, 3}, "cans-1"}};
             bus->Publish(channel::kProblemSets, sets);
           }) {}
 

@@ -63,12 +63,10 @@ TEST_F(RecorderTest, RefusalCountsAsNotRecorded) {
   EXPECT_EQ(recorder_.num_unrecorded(), 1);
 }
 
-TEST_F(RecorderTest, WithoutLoggerIsPublishedAndCountedAtOnce) {
+TEST_F(RecorderTest, WithoutLoggerIsPublishedAndCounted) {
   MessageCollector<RunRecordMessage> watched(&bus_, channel::kRunRecord);
-  const auto begin = std::chrono::steady_clock::now();
   recorder_.Record(RunOf("a"));
   recorder_.Record(RunOf("b"));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, Recorder::kPatience);
   EXPECT_EQ(recorder_.num_unrecorded(), 2);
   EXPECT_EQ(watched.WaitFor(2).size(), 2u);
 }

@@ -18,16 +18,17 @@ class RunExecutorTest : public testing::Test {
  protected:
   RunExecutorTest() { bus_.Start(); }
 
-  static RunConditions Conditions() {
-    RunConditions conditions;
-    conditions.run_id = "run";
-    conditions.robot_id = kFakeRobotId;
-    conditions.time_limit_s = 7;
-    conditions.collision_model = CollisionModel::kVoxels;
-    conditions.edge_resolution_m = 0.03;
+  static SessionConditions Conditions() {
+    SessionConditions conditions;
+    PlanRequest& request = conditions.request;
+    request.run_id = "run";
+    request.robot_id = kFakeRobotId;
+    request.time_limit_s = 7;
+    request.collision_model = CollisionModel::kVoxels;
+    request.edge_resolution_m = 0.03;
+    request.simplify = false;
+    request.parameters = {{"step", "4"}};
     conditions.referee_step_m = 0.004;
-    conditions.clearance = true;
-    conditions.simplify = false;
     return conditions;
   }
   static ScheduledRun Scheduled(int index = 2) {
@@ -77,19 +78,18 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
 
   const auto requests = planner_.requests().messages();
   ASSERT_FALSE(requests.empty());
-  const PlanRequest& request = requests[0];
-  EXPECT_THAT(request.request_id, testing::StartsWith("run/cans/2/arm/backward/3@"));
-  EXPECT_EQ(request.scene_id, "scene-2");
-  EXPECT_EQ(request.robot_id, kFakeRobotId);
-  EXPECT_EQ(request.group, "arm");
-  EXPECT_EQ(request.start.positions, (std::vector<double>{0, 0}));
-  EXPECT_EQ(request.goal.size(), 2u);
-  EXPECT_EQ(request.direction, Direction::kBackward);
-  EXPECT_EQ(request.time_limit_s, 7);  // the driver's, not the problem's
-  EXPECT_EQ(request.seed, 9u);
-  EXPECT_EQ(request.collision_model, CollisionModel::kVoxels);
-  EXPECT_EQ(request.edge_resolution_m, 0.03);
-  EXPECT_FALSE(request.simplify);
+  PlanRequest expected = Conditions().request;
+  EXPECT_THAT(requests[0].request_id, testing::StartsWith("run/cans/2/arm/backward/3@"));
+  expected.request_id = requests[0].request_id;
+  expected.scene_id = "scene-2";
+  expected.group = "arm";
+  expected.start = {{"a", "b"}, {0, 0}};
+  expected.goal = {{"a", 1, 0, 0}, {"b", 0.5, 0, 0}};
+  expected.direction = Direction::kBackward;
+  expected.seed = 9;
+  // The time limit is the driver's, not the problem's.
+  EXPECT_EQ(requests[0], expected);
+  EXPECT_EQ(record->request, expected);
 
   const auto checks = server.path_checks().messages();
   ASSERT_FALSE(checks.empty());

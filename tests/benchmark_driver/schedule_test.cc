@@ -11,13 +11,14 @@ namespace {
 
 ProblemSetsMessage Served() {
   ProblemSetsMessage served;
-  served.sets = {{"box", {1, 2, 3}}, {"cage", {2, 5}}};
+  served.sets = {{"box", {1, 2, 3}, "box-1"}, {"cage", {2, 5}, "cage-1"}};
   return served;
 }
 
 DriverOptions Options() {
   DriverOptions options;
   options.planners = {"ara", "rrtc"};
+  options.conditions.request.run_id = "run";
   return options;
 }
 
@@ -32,7 +33,7 @@ TEST(ScheduleTest, GoesProblemByProblemThenPlannerTrialDirection) {
   options.sets = {"cage"};
   options.problem_indices = {2};
   options.trials = 2;
-  EXPECT_EQ(Ids(MakeSchedule(options, Served(), "run")),
+  EXPECT_EQ(Ids(MakeSchedule(options, Served())),
             (std::vector<std::string>{"run/cage/2/ara/forward/1", "run/cage/2/ara/backward/1",
                                       "run/cage/2/ara/forward/2", "run/cage/2/ara/backward/2",
                                       "run/cage/2/rrtc/forward/1", "run/cage/2/rrtc/backward/1",
@@ -46,8 +47,8 @@ TEST(ScheduleTest, RunsCarryWhatTheirIdSays) {
   options.planners = {"rrtc"};
   options.directions = {Direction::kBackward};
   options.trials = 3;
-  options.seed = 10;
-  const std::vector<ScheduledRun> schedule = MakeSchedule(options, Served(), "run");
+  options.conditions.request.seed = 10;
+  const std::vector<ScheduledRun> schedule = MakeSchedule(options, Served());
   ASSERT_EQ(schedule.size(), 3u);
   EXPECT_EQ(schedule[2].planner, "rrtc");
   EXPECT_EQ(schedule[2].problem_set, "cage");
@@ -59,7 +60,7 @@ TEST(ScheduleTest, RunsCarryWhatTheirIdSays) {
 }
 
 TEST(ScheduleTest, EverythingServedIsTheDefault) {
-  const std::vector<ScheduledRun> schedule = MakeSchedule(Options(), Served(), "run");
+  const std::vector<ScheduledRun> schedule = MakeSchedule(Options(), Served());
   EXPECT_EQ(schedule.size(), 5u * 2 * 2);
   const std::vector<std::string> ids = Ids(schedule);
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
@@ -71,7 +72,7 @@ TEST(ScheduleTest, EverythingServedIsTheDefault) {
 TEST(ScheduleTest, SetsComeInTheOrderAsked) {
   DriverOptions options = Options();
   options.sets = {"cage", "box"};
-  EXPECT_EQ(MakeSchedule(options, Served(), "run").front().problem_set, "cage");
+  EXPECT_EQ(MakeSchedule(options, Served()).front().problem_set, "cage");
 }
 
 TEST(ScheduleTest, RangeSelectsWhatASetHas) {
@@ -79,7 +80,7 @@ TEST(ScheduleTest, RangeSelectsWhatASetHas) {
   options.planners = {"ara"};
   options.directions = {Direction::kForward};
   options.problem_indices = {2, 3, 4, 5};
-  EXPECT_EQ(Ids(MakeSchedule(options, Served(), "run")),
+  EXPECT_EQ(Ids(MakeSchedule(options, Served())),
             (std::vector<std::string>{"run/box/2/ara/forward/1", "run/box/3/ara/forward/1",
                                       "run/cage/2/ara/forward/1", "run/cage/5/ara/forward/1"}));
 }
@@ -87,15 +88,14 @@ TEST(ScheduleTest, RangeSelectsWhatASetHas) {
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
   DriverOptions options = Options();
   options.sets = {"kitchen"};
-  ExpectInputError([&] { MakeSchedule(options, Served(), "run"); },
-                   {"--sets", "'kitchen'", "box, cage"});
+  ExpectInputError([&] { MakeSchedule(options, Served()); }, {"--sets", "'kitchen'", "box, cage"});
   options.sets = {"cage"};
   options.problem_indices = {3, 4};
-  ExpectInputError([&] { MakeSchedule(options, Served(), "run"); },
+  ExpectInputError([&] { MakeSchedule(options, Served()); },
                    {"--problems-range", "'cage'", "2 from 2 to 5"});
   ProblemSetsMessage served;
-  served.sets = {{"void", {}}};
-  ExpectInputError([&] { MakeSchedule(Options(), served, "run"); }, {"'void'", "empty"});
+  served.sets = {{"void", {}, "void-1"}};
+  ExpectInputError([&] { MakeSchedule(Options(), served); }, {"'void'", "empty"});
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ SessionMessage SampleSession() {
   session.commit = "abc123";
   session.host = "bench-host";
   session.cpu = "Fast CPU";
-  session.time_limit_s = 60;
-  session.seed = 18'446'744'073'709'551'615u;
+  session.conditions.request.time_limit_s = 60;
+  session.conditions.request.seed = 18'446'744'073'709'551'615u;
   session.robot_name = "fetch";
-  session.robot_id = "f00d";
+  session.conditions.request.robot_id = "f00d";
   session.settings = {{"planners", "ara,rrtc"}, {"sets", "shelf"}};
   NodeStatusMessage node;
   node.name = "rrtc";

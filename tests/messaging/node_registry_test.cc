@@ -83,7 +83,7 @@ TEST_F(NodeRegistryTest, KeepsTheLatestProblemSets) {
   sets.robot_id = "id";
   sets.edge_resolution_m = 0.02;
   bus_.Publish(channel::kProblemSets, sets);
-  sets.sets.push_back({"cans", {1, 2}});
+  sets.sets.push_back({"cans", {1, 2}, "cans-1"});
   bus_.Publish(channel::kProblemSets, sets);
   ASSERT_TRUE(
       Await([&] { return registry_.ProblemSets() && !registry_.ProblemSets()->sets.empty(); }));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -94,6 +95,15 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
   EXPECT_EQ(Query(session, "SELECT count(DISTINCT request_id) FROM runs"), 24);
   EXPECT_EQ(Query(session, "SELECT count(DISTINCT run_id) FROM runs"), 1);
   EXPECT_EQ(ReadRecords(session / "session.lcmlog").runs.size(), 24U);
+
+  std::vector<std::string> otherwise = resume;
+  otherwise.insert(otherwise.end(), {"--set", "rrtc.range=3"});
+  ExpectBadInput(Start(otherwise), "--resume: node[rrtc].setting[range]");
+  const auto other_robot = folder() / "other_fetch";
+  std::filesystem::copy(RobotFolder(), other_robot);
+  std::ofstream(other_robot / "spheres.yaml", std::ios::app) << "\n# not the same description\n";
+  std::replace(resume.begin(), resume.end(), RobotFolder(), other_robot.string());
+  ExpectBadInput(Start(resume), "--resume: conditions.request.robot_id");
 }
 
 TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {

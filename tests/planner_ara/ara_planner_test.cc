@@ -9,6 +9,7 @@
 #include "scene/moveit_yaml.h"
 #include "support/expect_input_error.h"
 #include "support/shared_data.h"
+#include "support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -69,6 +70,20 @@ TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
              "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n");
       },
       {"fetch.mprim:1", "8 columns", "3 joints"});
+}
+
+TEST_F(AraPlannerTest, TellsWhatTheFileOfPrimitivesHolds) {
+  const TemporaryFolder folder;
+  const std::string settings = "primitives: " + (folder / "p.mprim").string() +
+                               "\ndiscretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n";
+  const auto id = [&](const std::string& move) {
+    folder.Write("p.mprim", "Motion_Primitives(degrees): 1 3 0\n" + move + "\n");
+    return Make(settings)->Describe().settings.at("primitives_id");
+  };
+  const std::string first = id("1 0 0");
+  EXPECT_NE(id("2 0 0"), first);
+  EXPECT_EQ(id("1 0 0"), first);
+  EXPECT_FALSE(Make("")->Describe().settings.contains("primitives_id"));
 }
 
 TEST_F(AraPlannerTest, NeedsNoSettings) {

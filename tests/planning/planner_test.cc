@@ -340,11 +340,11 @@ TEST_F(PlannerTest, ASceneDoesNotOutliveItsRequest) {
 
 TEST_F(PlannerTest, TheEdgeResolutionIsTheRequestsOrTheRobots) {
   PlanRequest request = Request();
-  for (const double asked : {0.0, 0.004}) {
+  for (const auto asked : {std::optional<double>(), std::optional(0.004)}) {
     request.edge_resolution_m = asked;
     Plan(
         [&](SearchQuery& query) {
-          EXPECT_EQ(query.edges().edge_resolution_m(), asked > 0 ? asked : 0.02);
+          EXPECT_EQ(query.edges().edge_resolution_m(), asked.value_or(0.02));
           return Straight(query);
         },
         request);
@@ -364,7 +364,7 @@ TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
       {"negative time", [](PlanRequest* r) { r->time_limit_s = -1; }, "time_limit_s"},
       {"time NaN", [](PlanRequest* r) { r->time_limit_s = kNan; }, "time_limit_s"},
       {"negative step", [](PlanRequest* r) { r->edge_resolution_m = -0.1; }, "edge_resolution_m"},
-      {"step NaN", [](PlanRequest* r) { r->edge_resolution_m = kNan; }, "edge_resolution_m"},
+      {"step NaN", [](PlanRequest* r) { r->edge_resolution_m = double{kNan}; }, "edge_resolution_m"},
       {"infinite step", [](PlanRequest* r) { r->edge_resolution_m = INFINITY; },
        "edge_resolution_m"},
       {"group", [](PlanRequest* r) { r->group = "leg"; }, "leg"},

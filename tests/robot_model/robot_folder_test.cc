@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/yaml.h"
+#include "robot_model/mesh_robot_id.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
@@ -140,6 +141,22 @@ TEST(LoadRobot, ContentIdFollowsTheContentNotThePlace) {
   const std::string spheres_id = LoadRobot(folder.path() / "there/again").content_id;
   folder.Write("there/again/spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
   EXPECT_NE(LoadRobot(folder.path() / "there/again").content_id, spheres_id);
+}
+
+TEST(MeshRobotId, FollowsDescriptionAndMeshes) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  const auto id = [&] { return MeshRobotId(LoadRobot(folder.path() / "small")); };
+  const std::string without_mesh = id();
+  folder.Write("small/meshes/arm.stl", "solid one");
+  const std::string with_mesh = id();
+  EXPECT_NE(with_mesh, without_mesh);
+  folder.Write("small/meshes/arm.stl", "solid two");
+  EXPECT_NE(id(), with_mesh);
+  folder.Write("small/meshes/arm.stl", "solid one");
+  EXPECT_EQ(id(), with_mesh);
+  folder.Write("small/robot.yaml", std::string(kRobot) + "edge_resolution_m: 0.01\n");
+  EXPECT_NE(id(), with_mesh);
 }
 
 TEST(LoadRobot, OptionalFieldsHaveDefaults) {

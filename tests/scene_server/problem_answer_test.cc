@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/mesh_loader.h"
 #include "scene_server/problem_fit.h"
 #include "scene_server/scene_service.h"
 #include "tests/scene_server/tiny_world.h"
@@ -154,13 +155,52 @@ TEST(ProblemSets, AreSummarised) {
   EXPECT_EQ(message.server, "server");
   EXPECT_EQ(message.robot_name, "tiny");
   EXPECT_EQ(message.robot_id, world.service().robot().content_id);
-  EXPECT_FALSE(message.has_meshes);
+  EXPECT_EQ(message.referee_robot_id, "");
   ASSERT_EQ(message.sets.size(), 1u);
   EXPECT_EQ(message.sets[0].name, "cans");
   EXPECT_THAT(message.sets[0].indices, ElementsAre(1, 2, 5));
 
   TinyWorld with_meshes(/*with_mesh_robot=*/true);
-  EXPECT_TRUE(with_meshes.service().ProblemSets("server").has_meshes);
+  EXPECT_NE(with_meshes.service().ProblemSets("server").referee_robot_id, "");
+}
+
+TEST(ProblemSets, HaveTheIdOfWhatTheirFilesSay) {
+  const TemporaryFolder folder;
+  const auto set = folder.path() / "problems" / "cans";
+  const auto id = [&](const Problem& problem) {
+    WriteTinyProblem(problem, set, 1);
+    SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt, {set});
+    return service.ProblemSets("server").sets.at(0).content_id;
+  };
+  Problem problem = TinyProblem();
+  const std::string first = id(problem);
+  EXPECT_EQ(id(problem), first);
+  problem.goal[0].position += 0.1;
+  EXPECT_NE(id(problem), first);
+  problem = TinyProblem();
+  problem.scene.objects.pop_back();
+  EXPECT_NE(id(problem), first);
+
+  // A mesh in a file of its own.
+  const std::string rest = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const auto file = folder.Write("problems/cans/thing.obj", "v 0 0 0\n" + rest);
+  problem = TinyProblem();
+  SceneObject thing = problem.scene.objects[0];
+  thing.id = "thing";
+  thing.X_WO.translation() = Eigen::Vector3d(5, 5, 5);
+  Mesh shape;
+  shape.resource = file.string();
+  shape.triangles = LoadMesh(file);
+  thing.shapes = {{shape, Eigen::Isometry3d::Identity()}};
+  problem.scene.objects.push_back(thing);
+  const std::string with_mesh = id(problem);
+  folder.Write("problems/cans/thing.obj", "v -1 0 0\n" + rest);
+  EXPECT_NE(id(problem), with_mesh);
+
+  WriteTinyProblem(TinyProblem(), set, 1);
+  const std::string one_problem = id(TinyProblem());
+  WriteTinyProblem(TinyProblem(), set, 2);
+  EXPECT_NE(id(TinyProblem()), one_problem);
 }
 
 TEST(ProblemSets, FolderOfSetsServesEach) {

@@ -152,7 +152,7 @@ TEST_F(SceneServerNodeTest, AnnouncesItselfAndItsSetsWhenDiscovered) {
   ASSERT_TRUE(registry.WaitUntil([&] { return registry.ProblemSets().has_value(); }, kTimeout));
   const ProblemSetsMessage sets = *registry.ProblemSets();
   EXPECT_EQ(sets.server, "scene_server");
-  EXPECT_TRUE(sets.has_meshes);
+  EXPECT_NE(sets.referee_robot_id, "");
   ASSERT_EQ(sets.sets.size(), 1u);
   EXPECT_EQ(sets.sets[0].name, "cans");
   ASSERT_TRUE(registry.WaitUntil(

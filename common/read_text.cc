@@ -1,0 +1,18 @@
+#include "common/read_text.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "common/error.h"
+
+namespace planbench {
+
+std::string ReadText(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string() + ": cannot be opened");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw InputError(file.string() + ": cannot be read");
+  return text;
+}
+
+}  // namespace planbench

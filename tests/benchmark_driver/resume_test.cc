@@ -1,0 +1,201 @@
+#include "benchmark_driver/resume.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <type_traits>
+
+#include "messaging/message_fields.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+/// The archive (messaging/fields.h) that changes one field of a value, whatever that holds.
+class FieldChanger {
+ public:
+  static constexpr bool kReads = true;
+
+  /// Changes the `which`-th field, from 0; a list gets an element more.
+  explicit FieldChanger(int which) : which_(which) {}
+  /// Name of what was changed; empty if there are not so many fields.
+  const std::string& changed() const { return changed_; }
+
+  void Utime(std::int64_t&) {}
+  template <typename Value, typename Wire, typename Rule = rules::Anything>
+  void Field(const char* name, Value& value, Wire& wire, Rule = {}) {
+    if constexpr (HasFields<Value>) {
+      Fields<Value>::List(*this, value, wire);
+    } else if (Chosen(name)) {
+      Change(value);
+    }
+  }
+  template <typename Values, typename Wires, typename Rule = rules::Anything>
+  void List(const char* name, Values& values, Wires&, std::int32_t&, Rule = {}) {
+    if (!Chosen(name)) return;
+    if constexpr (requires { typename Values::mapped_type; }) {
+      values.emplace("another", typename Values::mapped_type());
+    } else {
+      values.emplace_back();
+    }
+  }
+  template <typename Values, typename Wires, typename Rule = rules::Anything>
+  void Beside(const char*, Values& values, Wires&, std::int32_t&, Rule = {}) {
+    if (changed_ == "joint_name") values.emplace_back();  // as long as the list before
+  }
+
+ private:
+  bool Chosen(const char* name) {
+    if (next_++ != which_) return false;
+    changed_ = name;
+    return true;
+  }
+  template <typename Value>
+  static void Change(Value& value) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      value = !value;
+    } else if constexpr (std::is_enum_v<Value>) {
+      value = static_cast<Value>((static_cast<int>(value) + 1) % kNumEnumValues<Value>);
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      value += 1;
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      value += "another";
+    } else if (value) {
+      Change(*value);
+    } else {
+      value.emplace();
+      Change(*value);
+    }
+  }
+
+  int which_;
+  int next_ = 0;
+  std::string changed_;
+};
+
+NodeStatusMessage Node(const std::string& name, NodeKind kind) {
+  NodeStatusMessage node;
+  node.name = name;
+  node.kind = kind;
+  node.settings = {{"key", "value"}};
+  return node;
+}
+
+SessionMessage Session() {
+  SessionMessage session;
+  session.run_id = "run";
+  session.conditions.problem_sets = {{"box", "box-1"}, {"cage", "cage-1"}};
+  session.conditions.planner_commands = {{"ara", ""}, {"mine", "./mine"}};
+  session.nodes = {Node("ara", NodeKind::kPlanner), Node("mine", NodeKind::kPlanner),
+                   Node("server", NodeKind::kSceneServer), Node("logger", NodeKind::kLogger)};
+  return session;
+}
+
+/// Goes on with Session() after `change`.
+void Resume(const std::function<void(SessionMessage&)>& change) {
+  SessionMessage now = Session();
+  change(now);
+  RequireSameConditions(Session(), now);
+}
+
+/// What Resume throws names the field, before and now.
+void ExpectRefused(const std::function<void(SessionMessage&)>& change,
+                   std::vector<std::string> parts) {
+  parts.emplace_back("--resume");
+  ExpectInputError([&] { Resume(change); }, parts);
+}
+
+TEST(RequireSameConditionsTest, EveryConditionCounts) {
+  std::set<std::string> names;
+  for (int which = 0;; ++which) {
+    FieldChanger changer(which);
+    const auto change = [&](SessionMessage& session) {
+      Fields<SessionConditions>::Wire wire{};
+      Fields<SessionConditions>::List(changer, session.conditions, wire);
+    };
+    SessionMessage changed = Session();
+    change(changed);
+    const std::string name = changer.changed();
+    if (name.empty()) break;
+    names.insert(name);
+    ASSERT_NE(changed.conditions, Session().conditions) << name;
+    if (name == "problem_set" || name == "planner_command") {
+      EXPECT_NO_THROW(RequireSameConditions(Session(), changed)) << name;  // One more.
+    } else {
+      ExpectInputError([&] { RequireSameConditions(Session(), changed); }, {"--resume", name});
+    }
+  }
+  EXPECT_GT(names.size(), 15u);
+}
+
+TEST(RequireSameConditionsTest, EverythingThatAPlannerOrServerSaysOfItselfCounts) {
+  for (const int node : {0, 2}) {
+    for (int which = 0;; ++which) {
+      FieldChanger changer(which);
+      SessionMessage changed = Session();
+      Fields<NodeStatusMessage>::Wire wire{};
+      Fields<NodeStatusMessage>::List(changer, changed.nodes[static_cast<std::size_t>(node)], wire);
+      const std::string name = changer.changed();
+      if (name.empty()) break;
+      std::set<std::string> free = {"utime", "start_utime", "state", "request_id", "host", "pid"};
+      free.insert("name");
+      if (node == 2) free.insert("setting");
+      if (name == "kind") continue;  // another node
+      if (free.contains(name)) {
+        EXPECT_NO_THROW(RequireSameConditions(Session(), changed)) << name;
+      } else {
+        ExpectInputError([&] { RequireSameConditions(Session(), changed); }, {"--resume", name});
+      }
+    }
+  }
+}
+
+TEST(RequireSameConditionsTest, NamesWhatDiffersBeforeAndNow) {
+  ExpectRefused([](auto& s) { s.conditions.request.time_limit_s = 10; },
+                {"conditions.request.time_limit_s was 60", "is 10 now"});
+  ExpectRefused([](auto& s) { s.conditions.problem_sets["cage"] = "cage-2"; },
+                {"conditions.problem_set[cage].value was \"cage-1\"", "is \"cage-2\" now"});
+  ExpectRefused([](auto& s) { s.conditions.planner_commands["mine"] = "./mine -x"; },
+                {"planner_command[mine]", "\"./mine\"", "\"./mine -x\""});
+  ExpectRefused(
+      [](auto& s) {
+        s.nodes[1].settings = {{"key", "value"}, {"more", "x"}};
+      },
+      {"node[mine].setting[more]", "was nothing", "\"x\""});
+  ExpectRefused([](auto& s) { s.version = "2"; }, {"version was \"\"", "\"2\""});
+}
+
+TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
+  EXPECT_NO_THROW(Resume([](auto& s) { s.conditions.problem_sets.erase("cage"); }));
+  EXPECT_NO_THROW(Resume([](auto& s) {
+    s.nodes.erase(s.nodes.begin());
+    s.conditions.planner_commands.erase("ara");
+  }));
+  EXPECT_NO_THROW(Resume([](auto& s) { std::swap(s.nodes[0], s.nodes[3]); }));
+  EXPECT_NO_THROW(Resume([](auto& s) { s.settings["trials"] = "3"; }));
+  EXPECT_NO_THROW(Resume([](auto& s) {
+    s.start_utime = 5;
+    s.finished = true;
+    s.total_time_s = 7;
+    s.num_runs = 9;
+    s.host = s.cpu = "another";
+  }));
+}
+
+TEST(ReadEarlierSessionTest, MissingFolderLogOrChoiceIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  ExpectInputError([&] { ReadEarlierSession(path + "/missing"); }, {"--resume", path + "/missing"});
+  folder.Write("logs/other.lcmlog", "");
+  ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "no .lcmlog"});
+  folder.Write("a.lcmlog", "");
+  ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "no session"});
+  folder.Write("b.lcmlog", "");
+  ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "several"});
+}
+
+}  // namespace
+}  // namespace planbench
