@@ -18,6 +18,8 @@ void ExpectEndsAreFree(const Robot& robot, CollisionModel model) {
   const auto checker = MakeCollisionChecker(robot, group, model);
   int num_problems = 0;
   for (const auto& folder : std::filesystem::directory_iterator(SharedData("problems"))) {
+    // Sets of other robots may lie beside them.
+    if (!folder.path().filename().string().ends_with("_fetch")) continue;
     const ProblemSet set = ListProblemSet(folder.path());
     for (const ProblemFiles& files : set.problems) {
       const Problem problem = ReadProblem(files.scene, files.request, robot.resources);

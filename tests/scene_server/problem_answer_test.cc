@@ -273,7 +273,8 @@ TEST(WrongRobot, FailsAtStartByTheLinkOfAnAttachedObject) {
 TEST(PublishedSets, AllProblemsFitTheFetch) {
   PLANBENCH_NEED_SHARED_DATA("problems");
   SceneService service(LoadRobot(fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"), std::nullopt,
-                       {SharedData("problems")});
+                       {SharedData("problems/bookshelf_small_fetch"),
+                        SharedData("problems/box_fetch"), SharedData("problems/table_pick_fetch")});
   const ProblemSetsMessage sets = service.ProblemSets("server");
   ASSERT_EQ(sets.sets.size(), 3u);
   for (const ProblemSetSummary& set : sets.sets) {
