@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <fstream>
@@ -96,9 +97,51 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   std::set<std::string> done;
   for (const RunRecordMessage& record : records_) done.insert(record.request_id);
   std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
+  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions);
+  CheckProblems(watch);
   // A resumed session may be given other sets or problems than before.
   num_runs_ = static_cast<int>(records_.size() + schedule_.size());
-  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions);
+}
+
+void Driver::CheckProblems(const std::function<void()>& watch) {
+  std::set<std::pair<std::string, int>> problems;
+  for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
+  std::map<std::pair<std::string, int>, std::string> bad;  // With the reason.
+  std::vector<std::string> warnings;
+  for (const auto& [set, index] : problems) {
+    const std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
+      watch();
+      return false;
+    });
+    if (!answer->ok) {
+      bad[{set, index}] = answer->message;
+    } else if (!answer->message.empty()) {
+      warnings.push_back(answer->message);
+    }
+  }
+  constexpr std::size_t kMostWarnings = 5;
+  for (std::size_t i = 0; i < std::min(kMostWarnings, warnings.size()); ++i) {
+    spdlog::warn("{}", warnings[i]);
+  }
+  if (warnings.size() > kMostWarnings) {
+    spdlog::warn("{} more problems have warnings; see the scene server's log",
+                 warnings.size() - kMostWarnings);
+  }
+  for (const auto& [problem, reason] : bad) {
+    spdlog::error("{} {}: {}", problem.first, problem.second, reason);
+  }
+  if (!bad.empty() && !options_.skip_bad_problems) {
+    throw InputError(
+        fmt::format("{} of {} problems are bad; mend them, choose others (--problems-range), or "
+                    "leave them out (--skip-bad-problems)",
+                    bad.size(), problems.size()));
+  }
+  std::erase_if(schedule_, [&](const ScheduledRun& run) {
+    return bad.contains({run.problem_set, run.problem_index});
+  });
+  if (schedule_.empty() && !bad.empty()) {
+    throw InputError(fmt::format("all {} problems are bad: none is left to run", bad.size()));
+  }
 }
 
 void Driver::CompleteConditions() {

@@ -27,8 +27,9 @@ class Driver {
          EarlierSession earlier = {});
 
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
-  /// together and to the session that is resumed, makes the schedule. `watch` is called while
-  /// waiting and may throw. Throws InputError naming what is missing or does not fit.
+  /// together and to the session that is resumed, makes the schedule, and asks for all problems of
+  /// it, so that bad ones are known before the first run. `watch` is called while waiting and may
+  /// throw. Throws InputError naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded.
@@ -39,6 +40,8 @@ class Driver {
 
  private:
   std::string Missing(bool need_logger) const;
+  /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
+  void CheckProblems(const std::function<void()>& watch);
   void CheckPlanners();
   void CompleteConditions();
   SessionMessage Session(bool finished) const;

@@ -204,6 +204,8 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
                   "how long to wait for the other processes, s")
       ->check(Positive())
       ->capture_default_str();
+  app->add_flag("--skip-bad-problems", options->skip_bad_problems,
+                "leave out problems that cannot be read; default: end before the first run");
   CLI::Option* resume = app->add_option(
       "--resume", options->resume, "session folder to go on with: finished runs are not run again");
   AddLaunchFlags(app, resume, options);

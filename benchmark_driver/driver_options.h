@@ -20,6 +20,7 @@ struct DriverOptions {
   int trials = 1;
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
   double discovery_timeout_s = 5;
+  bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
 
   bool launch = false;
   std::optional<std::filesystem::path> resume;  ///< Session folder to go on with.

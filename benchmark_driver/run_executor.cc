@@ -44,6 +44,16 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
   return std::nullopt;
 }
 
+std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set, int index,
+                                                         const std::function<bool()>& interrupted) {
+  ProblemRequestMessage request;
+  // An id of its own: the answer to a run's request goes with the scene, this one's is forgotten.
+  request.request_id = fmt::format("{}/{}/{}", conditions_.request.run_id, set, index);
+  request.problem_set = set;
+  request.problem_index = index;
+  return AskServer(&problems_, request, kProblemRetry, interrupted);
+}
+
 std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
                                                      const std::function<bool()>& interrupted) {
   const std::pair key(run.problem_set, run.problem_index);

@@ -19,6 +19,10 @@ class RunExecutor {
   /// `conditions`: complete, the referee's step included.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions);
 
+  /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
+  /// `interrupted`.
+  std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
+                                              const std::function<bool()>& interrupted);
   /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no
   /// such problem.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,

@@ -17,6 +17,8 @@
 #include "common/sibling_program.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
+#include "messaging/program.h"
+#include "robot_model/robot_folder.h"
 
 namespace planbench {
 namespace {
@@ -42,6 +44,18 @@ void RequireEmptyBus(Bus* bus) {
   }
 }
 
+/// Says what is odd about the robots, once for all the processes that load them.
+void WarnOfRobots(const DriverOptions& options) {
+  const auto packages = ParsePackagePaths(options.package_paths);
+  const Robot robot = LoadRobot(options.robot, packages);
+  for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
+  if (!options.referee_robot) return;
+  for (const std::string& warning :
+       LoadRefereeRobot(*options.referee_robot, robot, packages).warnings) {
+    spdlog::warn("{}", warning);
+  }
+}
+
 }  // namespace
 
 int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> flags,
@@ -60,6 +74,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   std::filesystem::path session_folder;
   if (options.launch) {
     RequireKnownPlanners(options, ProgramFolder());
+    WarnOfRobots(options);
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = options.resume ? *options.resume
                      : options.out  ? *options.out

@@ -25,6 +25,7 @@
 
 #include "collision/edge_checker.h"
 #include "common/error.h"
+#include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -50,7 +51,7 @@ Workload Prepare(const std::string& robot_folder, const std::string& problems, i
   const ProblemSet set = ListProblemSet(problems);
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));
-  work.problem = ReadProblem(files->scene, files->request, work.robot.resources);
+  work.problem = ReadProblem(files->scene, files->request, work.robot);
   work.base_positions = FullPositions(work.robot.model, work.problem.start.names,
                                       work.problem.start.positions, files->request.string());
   return work;

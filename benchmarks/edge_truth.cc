@@ -17,6 +17,7 @@
 
 #include "collision/edge_checker.h"
 #include "common/error.h"
+#include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -61,7 +62,7 @@ int Main(int argc, char** argv) {
   const ProblemSet set = ListProblemSet(problems);
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));
-  const Problem problem = ReadProblem(files->scene, files->request, robot.resources);
+  const Problem problem = ReadProblem(files->scene, files->request, robot);
   const auto base = FullPositions(robot.model, problem.start.names, problem.start.positions,
                                   files->request.string());
   const PlanningGroup& group = robot.Group(problem.group);

@@ -106,7 +106,7 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
   for (const ProblemFiles& files : set.problems) {
     if (files.index < flags.first || files.index > flags.last) continue;
     if ((files.index - flags.first) % flags.stride != 0) continue;
-    const Problem problem = ReadProblem(files.scene, files.request, robot.resources);
+    const Problem problem = ReadProblem(files.scene, files.request, robot);
     PlanRequest request;
     request.request_id = fmt::format("{} {}", set.name, files.index);
     request.group = problem.group;

@@ -1,11 +1,15 @@
 #include "collision/collision_checker.h"
 #include "collision/fcl/fcl_checker.h"
+#include "collision/follower_checker.h"
 #include "collision/simd/simd_checker.h"
 
 namespace planbench {
 std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model) {
+  if (!group.followers.empty()) {
+    return std::make_unique<FollowerChecker>(robot, group, model, MakeCollisionChecker);
+  }
   if (model == CollisionModel::kMeshes) return MakeReferenceChecker(robot, group, model);
   return std::make_unique<SimdChecker>(robot, group, model);
 }
@@ -13,6 +17,9 @@ std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
 std::unique_ptr<CollisionChecker> MakeReferenceChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model) {
+  if (!group.followers.empty()) {
+    return std::make_unique<FollowerChecker>(robot, group, model, MakeReferenceChecker);
+  }
   switch (model) {
     case CollisionModel::kSpheres:
     case CollisionModel::kMeshes:

@@ -44,11 +44,8 @@ RigidBodies::RigidBodies(const RobotModel& model, const PlanningGroup& group,
     const Pose X_GJ = X_GL_[parent] * Pose::From(joint.X_PJ);
     const auto in_group = std::find(group.joints.begin(), group.joints.end(), joint_index);
     if (in_group == group.joints.end()) {
-      const double position = joint.position_index < 0
-                                  ? 0.0
-                                  : base_positions[static_cast<std::size_t>(joint.position_index)];
       body_of_link_[l] = body_of_link_[parent];
-      X_GL_[l] = X_GJ * Pose::From(JointMotion(joint, position));
+      X_GL_[l] = X_GJ * Pose::From(JointMotion(joint, base_positions));
       continue;
     }
     Body body;

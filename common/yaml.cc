@@ -7,20 +7,41 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "common/error.h"
+#include "common/text.h"
 
 namespace planbench {
 namespace {
 
+// The tag of a node in its short form, "" for none. yaml-cpp gives "?" to what is plain and "!" to
+// what is quoted.
+std::string ShortTag(const YAML::Node& node) {
+  constexpr std::string_view kYaml = "tag:yaml.org,2002:";
+  const std::string& tag = node.Tag();
+  if (tag == "?" || tag == "!") return "";
+  return tag.starts_with(kYaml) ? "!!" + tag.substr(kYaml.size()) : tag;
+}
+
+bool IsNullNode(const YAML::Node& node) { return node.IsNull() || ShortTag(node) == "!!null"; }
+
+bool IsMergeKey(const YAML::Node& key) {
+  // In quotes it is a key like any other.
+  return key.IsScalar() && key.Scalar() == "<<" && key.Tag() != "!";
+}
+
 std::string KindOf(const YAML::Node& node) {
+  constexpr std::size_t kLongest = 60;
+  if (IsNullNode(node)) return "nothing";
   switch (node.Type()) {
-    case YAML::NodeType::Null:
-      return "nothing";
-    case YAML::NodeType::Scalar:
-      return "'" + node.Scalar() + "'";
+    case YAML::NodeType::Scalar: {
+      const std::string& text = node.Scalar();
+      return text.size() <= kLongest ? "'" + text + "'"
+                                     : "a text of " + std::to_string(text.size()) + " characters";
+    }
     case YAML::NodeType::Sequence:
       return "a sequence";
     case YAML::NodeType::Map:
@@ -32,12 +53,64 @@ std::string KindOf(const YAML::Node& node) {
 
 // from_chars and not yaml-cpp's streams: independent of the locale, and "010" is ten.
 template <typename Number>
-bool ParseNumber(const std::string& text, Number* value) {
+bool ParseNumber(std::string_view text, Number* value) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, *value);
   return error == std::errc() && stop == end;
+}
+
+std::string_view Trimmed(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
+// A product and quotient of numbers and pi, as rosparam's !radians has it: "pi/2", "-1.5*pi".
+bool ParseRadians(std::string_view text, double* value) {
+  *value = 1;
+  bool divide = false;
+  while (true) {
+    const std::size_t end = std::min(text.find_first_of("*/"), text.size());
+    std::string_view factor = Trimmed(text.substr(0, end));
+    const bool negative = factor == "-pi";
+    if (negative || factor == "+pi") factor.remove_prefix(1);
+    double number = std::numbers::pi;
+    if (factor != "pi" && !ParseNumber(factor, &number)) return false;
+    if (negative) number = -number;
+    *value = divide ? *value / number : *value * number;
+    if (end == text.size()) return true;
+    divide = text[end] == '/';
+    text.remove_prefix(end + 1);
+  }
+}
+
+// The content of "FUNCTION(content)", nothing for other texts.
+std::optional<std::string_view> Argument(std::string_view text, std::string_view function) {
+  if (!text.starts_with(function) || !text.ends_with(')')) return std::nullopt;
+  text.remove_prefix(function.size());
+  text.remove_suffix(1);
+  if (!text.starts_with('(')) return std::nullopt;
+  return Trimmed(text.substr(1));
+}
+
+// A number, or an angle in one of rosparam's forms, in rad.
+bool ParseDouble(std::string_view text, std::string_view tag, double* value) {
+  if (const auto degrees = Argument(text, "deg"); degrees || tag == "!degrees") {
+    if (tag == "!radians" || !ParseNumber(degrees.value_or(text), value)) return false;
+    *value *= std::numbers::pi / 180;
+    return true;
+  }
+  if (const auto radians = Argument(text, "rad"); radians || tag == "!radians") {
+    return ParseRadians(radians.value_or(text), value);
+  }
+  return ParseNumber(text, value);
+}
+
+int LineOf(std::string_view text, std::size_t offset) {
+  return 1 +
+         static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
 }
 
 }  // namespace
@@ -52,50 +125,141 @@ YamlNode YamlNode::LoadFile(const std::string& path) {
 }
 
 YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
+  if (const auto bad = FindInvalidUtf8(text)) {
+    throw InputError(origin + ":" + std::to_string(LineOf(text, *bad)) + ": the byte " +
+                     text.substr(*bad, 1) + " is no UTF-8; the file must be UTF-8 text");
+  }
+  std::vector<YAML::Node> documents;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw InputError(origin + ":" + std::to_string(documents[1].Mark().line + 1) +
-                       ": a second YAML document begins here; one is expected");
-    }
-    return YamlNode(documents.empty() ? YAML::Node() : documents[0], origin, "", true);
+    documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
     throw InputError(origin + line + ": no valid YAML: " + error.msg);
   }
+  std::erase_if(documents, [](const YAML::Node& document) { return document.IsNull(); });
+  if (documents.size() > 1) {
+    throw InputError(origin + ":" + std::to_string(documents[1].Mark().line + 1) +
+                     ": a second YAML document begins here; one is expected");
+  }
+  YamlNode root(documents.empty() ? YAML::Node() : documents[0],
+                std::make_shared<Document>(Document{origin, true, {}}), "");
+  std::vector<YAML::Node> ancestors;
+  int position = -1;
+  root.CheckTree(&ancestors, &position);
+  return root;
 }
 
-YamlNode YamlNode::Child(const YAML::Node& node, const std::string& path) const {
-  return YamlNode(node, origin_, path, has_lines_);
+void YamlNode::CheckTree(std::vector<YAML::Node>* ancestors, int* last_position) const {
+  constexpr std::size_t kDeepest = 200;
+  // What stands before its parent or its elder sibling is an alias: checked at its anchor.
+  if (node_.Mark().pos < *last_position) return;
+  *last_position = node_.Mark().pos;
+  if (ancestors->size() > kDeepest) Fail("is nested too deep");
+  const std::string tag = ShortTag(node_);
+  const auto require = [&](std::initializer_list<std::string_view> known) {
+    if (tag.empty() || std::find(known.begin(), known.end(), tag) != known.end()) return;
+    Fail("the tag '" + tag + "' is not known here");
+  };
+  if (node_.IsSequence()) {
+    require({"!!seq"});
+    ancestors->push_back(node_);
+    int index = 0;
+    for (const auto& element : node_) {
+      Child(element, path_ + "[" + std::to_string(index++) + "]")
+          .CheckTree(ancestors, last_position);
+    }
+    ancestors->pop_back();
+  } else if (node_.IsMap()) {
+    require({"!!map"});
+    ancestors->push_back(node_);
+    for (const auto& entry : node_) {
+      const std::string path = entry.first.IsScalar() ? PathOf(entry.first.Scalar()) : path_;
+      Child(entry.first, path).CheckTree(ancestors, last_position);
+      const YamlNode value = Child(entry.second, path);
+      if (IsMergeKey(entry.first)) value.CheckMerge(entry.second, *ancestors);
+      value.CheckTree(ancestors, last_position);
+    }
+    ancestors->pop_back();
+  } else {
+    require({"!!str", "!!int", "!!float", "!!bool", "!!null", "!!binary", "!!merge", "!degrees",
+             "!radians"});
+  }
 }
+
+void YamlNode::CheckMerge(const YAML::Node& value, const std::vector<YAML::Node>& ancestors) const {
+  const auto require_map = [&](const YAML::Node& map) {
+    if (!map.IsMap()) Fail("'<<' merges a map or a sequence of maps, found " + KindOf(map));
+    for (const YAML::Node& ancestor : ancestors) {
+      if (map.is(ancestor)) Fail("'<<' merges a map into itself");
+    }
+  };
+  if (!value.IsSequence()) return require_map(value);
+  for (const auto& element : value) require_map(element);
+}
+
+void YamlNode::RequireTag(std::initializer_list<std::string_view> allowed,
+                          const char* wanted) const {
+  const std::string tag = ShortTag(node_);
+  if (tag.empty() || std::find(allowed.begin(), allowed.end(), tag) != allowed.end()) return;
+  Fail(std::string("expected ") + wanted + ", found the tag '" + tag + "'");
+}
+
+YamlNode YamlNode::FromReplacement(const Replacement& replacement, const std::string& key) {
+  return YamlNode(replacement.node,
+                  std::make_shared<Document>(Document{replacement.origin, false, {}}), key);
+}
+
+bool YamlNode::IsNull() const { return overrides_.empty() && IsNullNode(node_); }
 
 std::string YamlNode::Where() const {
-  std::string where = origin_;
+  std::string where = document_->origin;
   const YAML::Mark mark = node_.Mark();
-  if (has_lines_ && !mark.is_null()) where += ":" + std::to_string(mark.line + 1);
+  if (document_->has_lines && !mark.is_null()) where += ":" + std::to_string(mark.line + 1);
   if (!path_.empty()) where += ": " + path_;
   return where;
 }
 
 void YamlNode::Fail(const std::string& what) const { throw InputError(Where() + ": " + what); }
 
+void YamlNode::Warn(const std::string& what) const {
+  const std::string warning = Printable(Where() + ": " + what);
+  std::vector<std::string>& warnings = document_->warnings;
+  if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+    warnings.push_back(warning);
+  }
+}
+
+std::optional<YAML::Node> YamlNode::FindIn(const YAML::Node& map, const std::string& key) const {
+  std::optional<YAML::Node> value;
+  std::optional<YAML::Node> merged;
+  // By hand and not by map[key], which keeps silent about a key that occurs twice.
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) continue;
+    if (IsMergeKey(entry.first)) {
+      merged = entry.second;
+    } else if (entry.first.Scalar() == key) {
+      if (value) Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
+      value = entry.second;
+    }
+  }
+  if (value || !merged) return value;
+  if (merged->IsMap()) return FindIn(*merged, key);
+  for (const auto& element : *merged) {
+    if ((value = FindIn(element, key))) break;
+  }
+  return value;
+}
+
 std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
   if (const auto found = overrides_.find(key); found != overrides_.end()) {
-    if (found->second.node.IsNull()) return std::nullopt;
-    return YamlNode(found->second.node, found->second.origin, key, false);
+    if (IsNullNode(found->second.node)) return std::nullopt;
+    return FromReplacement(found->second, key);
   }
-  if (node_.IsNull()) return std::nullopt;
+  if (IsNullNode(node_)) return std::nullopt;
   if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  const std::string path = path_.empty() ? key : path_ + "." + key;
-  std::optional<YamlNode> value;
-  // By hand and not by node_[key], which keeps silent about a key that occurs twice.
-  for (const auto& entry : node_) {
-    if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
-    if (value) Child(entry.first, path).Fail("the key '" + key + "' occurs twice");
-    value = Child(entry.second, path);
-  }
-  if (!value || value->node_.IsNull()) return std::nullopt;
-  return value;
+  const std::optional<YAML::Node> value = FindIn(node_, key);
+  if (!value || IsNullNode(*value)) return std::nullopt;
+  return Child(*value, PathOf(key));
 }
 
 YamlNode YamlNode::At(const std::string& key) const {
@@ -105,14 +269,37 @@ YamlNode YamlNode::At(const std::string& key) const {
   return *std::move(value);
 }
 
+std::vector<YamlNode::Entry> YamlNode::Entries(const YAML::Node& map) const {
+  std::vector<Entry> entries;
+  std::set<std::string> seen;
+  std::vector<YAML::Node> merged;
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
+    const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second) {
+      Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
+    }
+    if (!IsMergeKey(entry.first)) {
+      entries.emplace_back(entry.first, entry.second);
+    } else if (entry.second.IsMap()) {
+      merged.push_back(entry.second);
+    } else {
+      for (const auto& element : entry.second) merged.push_back(element);
+    }
+  }
+  for (const YAML::Node& other : merged) {
+    for (Entry& entry : Entries(other)) {
+      if (seen.insert(entry.first.Scalar()).second) entries.push_back(std::move(entry));
+    }
+  }
+  return entries;
+}
+
 std::vector<std::string> YamlNode::Keys() const {
   std::vector<std::string> keys;
-  if (!node_.IsNull()) {
+  if (!IsNullNode(node_)) {
     if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-    for (const auto& entry : node_) {
-      if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
-      keys.push_back(entry.first.Scalar());
-    }
+    for (const Entry& entry : Entries(node_)) keys.push_back(entry.first.Scalar());
   }
   for (const auto& [key, replacement] : overrides_) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
@@ -120,24 +307,31 @@ std::vector<std::string> YamlNode::Keys() const {
   return keys;
 }
 
-void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
-  const auto require_known = [&](const std::string& key, const YamlNode& at) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) return;
-    at.Fail(fmt::format("unknown key '{}'; known are: {}", key, fmt::join(known, ", ")));
+void YamlNode::RequireKeys(
+    const std::function<std::optional<std::string>(const std::string&)>& accepts) const {
+  const auto require = [&](const std::string& key, const YamlNode& at) {
+    if (const auto complaint = accepts(key)) at.Fail(*complaint);
   };
-  Keys();  // Throws unless this is a map with plain keys.
-  std::set<std::string> seen;
-  if (node_.IsMap()) {
-    for (const auto& entry : node_) {
+  if (!IsNullNode(node_)) {
+    if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+    for (const Entry& entry : Entries(node_)) {
       const std::string& key = entry.first.Scalar();
-      const YamlNode at = Child(entry.first, path_.empty() ? key : path_ + "." + key);
-      require_known(key, at);
-      if (!seen.insert(key).second) at.Fail("the key '" + key + "' occurs twice");
+      require(key, Child(entry.first, PathOf(key)));
     }
   }
   for (const auto& [key, replacement] : overrides_) {
-    require_known(key, YamlNode(replacement.node, replacement.origin, key, false));
+    require(key, FromReplacement(replacement, key));
   }
+}
+
+void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
+  RequireKeys([&](const std::string& key) -> std::optional<std::string> {
+    if (std::find(known.begin(), known.end(), key) != known.end()) return std::nullopt;
+    const std::string nearest = NearestName(key, {known.begin(), known.end()});
+    return fmt::format("unknown key '{}'; {}known are: {}", key,
+                       nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
+                       fmt::join(known, ", "));
+  });
 }
 
 int YamlNode::Size() const {
@@ -164,8 +358,9 @@ std::vector<YamlNode> YamlNode::Elements() const {
 
 double YamlNode::Double() const {
   double value = 0;
-  if (!node_.IsScalar()) Fail("expected a number, found " + KindOf(node_));
-  const bool parsed = ParseNumber(node_.Scalar(), &value);
+  if (!IsScalar()) Fail("expected a number, found " + KindOf(node_));
+  RequireTag({"!!str", "!!int", "!!float", "!degrees", "!radians"}, "a number");
+  const bool parsed = ParseDouble(node_.Scalar(), ShortTag(node_), &value);
   if (parsed && std::isfinite(value)) return value;
   const bool non_finite =
       parsed || (YAML::convert<double>::decode(node_, value) && !std::isfinite(value));
@@ -181,7 +376,9 @@ double YamlNode::PositiveDouble() const {
 
 long long YamlNode::Int() const {
   long long value = 0;
-  if (!node_.IsScalar() || !ParseNumber(node_.Scalar(), &value)) {
+  if (!IsScalar()) Fail("expected an integer, found " + KindOf(node_));
+  RequireTag({"!!str", "!!int"}, "an integer");
+  if (!ParseNumber(node_.Scalar(), &value)) {
     Fail("expected an integer, found " + KindOf(node_));
   }
   return value;
@@ -189,14 +386,17 @@ long long YamlNode::Int() const {
 
 bool YamlNode::Bool() const {
   bool value = false;
-  if (!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value)) {
+  if (!IsScalar()) Fail("expected true or false, found " + KindOf(node_));
+  RequireTag({"!!str", "!!bool"}, "true or false");
+  if (!YAML::convert<bool>::decode(node_, value)) {
     Fail("expected true or false, found " + KindOf(node_));
   }
   return value;
 }
 
 std::string YamlNode::String() const {
-  if (!node_.IsScalar()) Fail("expected text, found " + KindOf(node_));
+  if (!IsScalar()) Fail("expected text, found " + KindOf(node_));
+  RequireTag({"!!str", "!!int", "!!float", "!!bool"}, "text");
   return node_.Scalar();
 }
 
@@ -217,6 +417,22 @@ std::vector<std::string> YamlNode::Strings() const {
   std::vector<std::string> values;
   for (const YamlNode& element : Elements()) values.push_back(element.String());
   return values;
+}
+
+std::vector<std::uint8_t> YamlNode::Bytes() const {
+  if (IsScalar() && ShortTag(node_) == "!!binary") {
+    std::vector<std::uint8_t> bytes = YAML::DecodeBase64(node_.Scalar());
+    if (bytes.empty() && !Trimmed(node_.Scalar()).empty()) Fail("is no base64");
+    return bytes;
+  }
+  if (!IsSequence()) Fail("expected a sequence of bytes or !!binary, found " + KindOf(node_));
+  std::vector<std::uint8_t> bytes;
+  for (const YamlNode& element : Elements()) {
+    const long long value = element.Int();
+    if (value < -128 || value > 255) element.Fail("is no byte: " + std::to_string(value));
+    bytes.push_back(static_cast<std::uint8_t>(value));
+  }
+  return bytes;
 }
 
 double YamlNode::DoubleOr(const std::string& key, double fallback) const {
@@ -241,7 +457,7 @@ std::string YamlNode::StringOr(const std::string& key, const std::string& fallba
 
 void YamlNode::Override(const std::string& key, const std::string& text,
                         const std::string& origin) {
-  if (!node_.IsNull() && !node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
+  if (!IsNullNode(node_) && !node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
   overrides_[key] = {Parse(text, origin).node_, origin};
 }
 

@@ -2,8 +2,11 @@
 
 #include <yaml-cpp/node/node.h>
 
+#include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,18 +18,23 @@ namespace planbench {
 
 /// A YAML node that knows where it stands. Every access is checked, and every failure throws
 /// InputError with "file:line: field.path: what is wrong", lines counted from 1.
+///
+/// Merge keys are applied wherever a map is read: `<<: *defaults` and `<<: [*first, *second]` add
+/// what the map itself does not say, earlier maps before later ones. Tags are applied or refused:
+/// known are YAML's own (!!str, !!int, !!float, !!bool, !!null, !!binary, !!map, !!seq) and
+/// rosparam's !degrees and !radians.
 class YamlNode {
  public:
-  /// Reads and parses a file; its whole text must be one document (or empty, which reads as a
-  /// null).
+  /// Reads and parses a file: UTF-8 text with one document in it (or none, which reads as a null);
+  /// empty ones before and after do not count, so that a file may end in `---`.
   static YamlNode LoadFile(const std::string& path);
   /// Parses `text`; `origin` stands for the file name in error messages.
   static YamlNode Parse(const std::string& text, const std::string& origin);
 
   bool IsMap() const { return node_.IsMap() || !overrides_.empty(); }
   bool IsSequence() const { return node_.IsSequence(); }
-  bool IsScalar() const { return node_.IsScalar(); }
-  bool IsNull() const { return node_.IsNull() && overrides_.empty(); }
+  bool IsScalar() const { return node_.IsScalar() && !IsNull(); }
+  bool IsNull() const;
 
   /// The value of `key`; throws if this is no map or lacks the key.
   YamlNode At(const std::string& key) const;
@@ -36,7 +44,11 @@ class YamlNode {
   /// Throws for the first key that is not in `known` (unknown settings are errors), or that occurs
   /// twice.
   void AllowOnly(std::initializer_list<std::string_view> known) const;
-  /// The keys of a map, in file order; throws if this is no map.
+  /// Throws, at the key, for the first one that `accepts` returns a complaint for, or that occurs
+  /// twice.
+  void RequireKeys(
+      const std::function<std::optional<std::string>(const std::string& key)>& accepts) const;
+  /// The keys of a map, in file order, merged ones last; throws if this is no map.
   std::vector<std::string> Keys() const;
 
   /// Number of elements; throws if this is no sequence.
@@ -45,7 +57,10 @@ class YamlNode {
   /// All elements of a sequence; throws if this is no sequence.
   std::vector<YamlNode> Elements() const;
 
-  double Double() const;  ///< A finite decimal number, exactly rounded; NaN and infinities throw.
+  /// A finite decimal number, exactly rounded; NaN and infinities throw. `!degrees 90` and
+  /// `deg(90)` are 1.57..., `!radians pi/2` and `rad(pi/2)` likewise (products and quotients of
+  /// numbers and pi).
+  double Double() const;
   double PositiveDouble() const;  ///< A finite number greater than zero.
   long long Int() const;          ///< A decimal integer.
   bool Bool() const;
@@ -60,6 +75,8 @@ class YamlNode {
   std::vector<double> Doubles() const;                   ///< A sequence of finite numbers.
   std::vector<double> Doubles(int expected_size) const;  ///< The same, of a given length.
   std::vector<std::string> Strings() const;
+  /// A sequence of numbers from -128 to 255, or `!!binary` base64.
+  std::vector<std::uint8_t> Bytes() const;
 
   /// Shorthands for optional keys of a map.
   double DoubleOr(const std::string& key, double fallback) const;
@@ -75,27 +92,48 @@ class YamlNode {
   /// "file:line: field.path".
   std::string Where() const;
   [[noreturn]] void Fail(const std::string& what) const;
+  /// Notes, once, what was read otherwise than it is written; see warnings.
+  void Warn(const std::string& what) const;
+  /// Of the whole document, "file:line: field.path: what", in the order they were noted.
+  const std::vector<std::string>& warnings() const { return document_->warnings; }
 
  private:
+  /// What all nodes of a text have in common.
+  struct Document {
+    std::string origin;
+    bool has_lines = true;  ///< False for a command line or a message: one line, no file.
+    std::vector<std::string> warnings;
+  };
   // A value given by Override, and where it came from.
   struct Replacement {
     YAML::Node node;
     std::string origin;
   };
+  using Entry = std::pair<YAML::Node, YAML::Node>;
 
-  YamlNode(YAML::Node node, std::string origin, std::string path, bool has_lines)
-      : node_(std::move(node)),
-        origin_(std::move(origin)),
-        path_(std::move(path)),
-        has_lines_(has_lines) {}
+  YamlNode(YAML::Node node, std::shared_ptr<Document> document, std::string path)
+      : node_(std::move(node)), document_(std::move(document)), path_(std::move(path)) {}
 
-  YamlNode Child(const YAML::Node& node, const std::string& path) const;
+  YamlNode Child(const YAML::Node& node, const std::string& path) const {
+    return YamlNode(node, document_, path);
+  }
+  std::string PathOf(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+  }
+  static YamlNode FromReplacement(const Replacement& replacement, const std::string& key);
+  // The entries of a map with what it merges; throws for keys that are no text or occur twice.
+  std::vector<Entry> Entries(const YAML::Node& map) const;
+  // The value of `key` in `map` or in what it merges, nothing if it has none.
+  std::optional<YAML::Node> FindIn(const YAML::Node& map, const std::string& key) const;
+  // Refuses tags that are not known and merge keys that merge no maps.
+  void CheckTree(std::vector<YAML::Node>* ancestors, int* last_position) const;
+  void CheckMerge(const YAML::Node& value, const std::vector<YAML::Node>& ancestors) const;
+  // Refuses a scalar whose tag is not among `allowed` (short forms).
+  void RequireTag(std::initializer_list<std::string_view> allowed, const char* wanted) const;
 
   YAML::Node node_;
-  std::string origin_;
+  std::shared_ptr<Document> document_;
   std::string path_;
-  bool has_lines_ =
-      true;  // False for what comes from a command line or a message: one line, no file.
   // Beside the tree and not in it, because copies of a YAML::Node share what they point to.
   std::map<std::string, Replacement> overrides_;
 };

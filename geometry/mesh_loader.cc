@@ -87,17 +87,10 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
   }
 }
 
-fs::path Existing(const fs::path& path, const std::string& uri, const std::string& hint) {
+fs::path Existing(const fs::path& path, const std::string& uri) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return path;
-  throw InputError(fmt::format("resource '{}': no file {}{}", uri, path.string(), hint));
-}
-
-// Name of a folder however it was written ("robots/fetch", "robots/fetch/", ".").
-std::string FolderName(const fs::path& folder) {
-  const fs::path normal = fs::absolute(folder).lexically_normal();
-  return normal.has_filename() ? normal.filename().string()
-                               : normal.parent_path().filename().string();
+  throw InputError(fmt::format("resource '{}': no file {}", uri, path.string()));
 }
 
 }  // namespace
@@ -113,20 +106,29 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
     const std::string package = rest.substr(0, slash);
     const fs::path path = rest.substr(slash + 1);
     const auto known = packages.find(package);
-    if (known != packages.end()) return Existing(known->second / path, uri, "");
-    const std::string hint =
-        package == FolderName(base_folder)
-            ? ""
-            : fmt::format("; give the package's folder by --package-path {}=DIR", package);
-    return Existing(base_folder / path, uri, hint);
+    if (known != packages.end()) return Existing(known->second / path, uri);
+    fs::path nearest;  // Folder of that name.
+    for (fs::path place = fs::absolute(base_folder / "x").lexically_normal().parent_path();
+         const int level : {0, 1, 2, 3}) {
+      const fs::path folder = place / package;
+      std::error_code error;
+      if (fs::is_regular_file(folder / path, error)) return folder / path;
+      if (nearest.empty() && fs::is_directory(folder, error)) nearest = folder;
+      if (level < 3) place = place.parent_path();
+    }
+    if (!nearest.empty()) return Existing(nearest / path, uri);
+    throw InputError(
+        fmt::format("resource '{}': no folder of package '{}' in or around {}; give it by "
+                    "--package-path {}=DIR",
+                    uri, package, base_folder.string(), package));
   }
   if (uri.starts_with(kFileScheme)) {
-    return Existing(fs::path(uri.substr(kFileScheme.size())), uri, "");
+    return Existing(fs::path(uri.substr(kFileScheme.size())), uri);
   }
   if (uri.find("://") != std::string::npos) {
     throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
   }
-  return Existing(base_folder / uri, uri, "");  // An absolute path replaces the base.
+  return Existing(base_folder / uri, uri);  // An absolute path replaces the base.
 }
 
 std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {

@@ -9,9 +9,9 @@
 namespace planbench {
 
 /// Finds the files that URIs name. package://NAME/rest resolves through the packages given by name
-/// (`--package-path NAME=DIR`), else, if NAME is the name of `base_folder` itself or of no known
-/// package, through base_folder/rest. file:// URIs and absolute paths are taken as they are,
-/// relative paths from base_folder.
+/// (`--package-path NAME=DIR`), else through a folder called NAME: in base_folder, base_folder
+/// itself or beside it, or so for the two folders above it. file:// URIs and absolute paths are
+/// taken as they are, relative paths from base_folder.
 struct ResourceResolver {
   std::filesystem::path base_folder;
   std::map<std::string, std::filesystem::path> packages;

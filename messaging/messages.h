@@ -79,7 +79,7 @@ struct ProblemRequestMessage {
 struct ProblemMessage {
   std::string request_id;
   bool ok = true;
-  std::string message;
+  std::string message;  ///< Why not; or, of a problem, what was read otherwise than written.
   std::string problem_set;
   int problem_index = 0;
   std::string scene_id;

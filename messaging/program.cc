@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "common/error.h"
+#include "common/text.h"
 #include "common/version.h"
 #include "geometry/mesh_loader.h"
 #include "messaging/lcm_url.h"
@@ -49,6 +50,10 @@ int Program::Run(int argc, char** argv, const std::function<int()>& work) {
   log->set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
   spdlog::set_default_logger(log);
   try {
+    // What is given goes into messages, databases and JSON.
+    for (int i = 1; i < argc; ++i) {
+      if (FindInvalidUtf8(argv[i])) throw InputError(std::string(argv[i]) + ": is no UTF-8 text");
+    }
     app_.parse(argc, argv);
     InstallSignalHandlers();
     return work();

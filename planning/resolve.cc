@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "common/error.h"
+#include "robot_model/full_positions.h"
 
 namespace planbench {
 namespace {

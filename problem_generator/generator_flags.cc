@@ -74,6 +74,7 @@ int Certify(const GeneratorFlags& flags, const ProblemSpec& spec, const Robot& r
 
 int RunGenerator(const GeneratorFlags& flags) {
   const Robot robot = LoadRobot(flags.robot);
+  for (const std::string& warning : robot.warnings) fmt::print(stderr, "{}\n", warning);
   const ProblemSpec spec = LoadProblemSpec(flags.spec, robot);
   RequireProblemFolder(flags.out, flags.replace);
   CertifierOptions certifier;

@@ -4,6 +4,7 @@
 #include "problem_generator/query_sampler.h"
 #include "problem_generator/random_stream.h"
 #include "problem_generator/scene_sampler.h"
+#include "robot_model/full_positions.h"
 
 namespace planbench {
 namespace {
@@ -63,7 +64,6 @@ ProblemGenerator::Result ProblemGenerator::Generate(int k, int attempt) {
       problem.start.positions[static_cast<std::size_t>(joint.position_index)] = (*start)[i];
       problem.goal.push_back({.joint = joint.name, .position = (*goal)[i]});
     }
-    problem.scene_state = problem.start;
     problem.workspace = spec_->workspace;
     problem.time_limit_s = spec_->time_limit_s;
     result.problem = std::move(problem);

@@ -186,7 +186,9 @@ void ReadJoints(const YamlNode& map, const RobotModel& model, const PlanningGrou
     const int index = model.FindJoint(name);
     if (index < 0) node.Fail("the robot has no such joint");
     const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
-    if (joint.position_index < 0) node.Fail("a fixed joint has no position");
+    if (NumPositions(joint.type) != 1)
+      node.Fail("the joint has no position, it is fixed or has a pose");
+    if (joint.leader >= 0) node.Fail("the joint follows another one (mimic); name that");
     if (group != nullptr && group->space.Find(name) < 0) {
       node.Fail(fmt::format("no joint of the group '{}'", group->name));
     }
@@ -226,12 +228,7 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
 
   std::vector<double> rest = model.DefaultPositions();
   if (const auto joints = node.Find("rest")) ReadJoints(*joints, model, nullptr, &rest);
-  spec->rest.positions = rest;
-  spec->rest.names.resize(rest.size());
-  for (const Joint& joint : model.joints()) {
-    if (joint.position_index < 0) continue;
-    spec->rest.names[static_cast<std::size_t>(joint.position_index)] = joint.name;
-  }
+  spec->rest = {model.position_names(), rest};
 
   Setup setup;
   if (const auto configurations = node.Find("configurations")) {

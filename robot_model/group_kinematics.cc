@@ -10,8 +10,13 @@ GroupKinematics::GroupKinematics(const RobotModel& model, const PlanningGroup& g
   nearest_group_joint_.assign(num_links, -1);
 
   std::vector<int> group_index(model.joints().size(), -1);
+  std::vector<unsigned char> follows(model.joints().size(), 0);
   for (std::size_t i = 0; i < group.joints.size(); ++i) {
     group_index[static_cast<std::size_t>(group.joints[i])] = static_cast<int>(i);
+  }
+  for (const PlanningGroup::Follower& follower : group.followers) {
+    group_index[static_cast<std::size_t>(follower.joint)] = follower.group_index;
+    follows[static_cast<std::size_t>(follower.joint)] = 1;
   }
   for (std::size_t j = 0; j < model.joints().size(); ++j) {
     const Joint& joint = model.joints()[j];
@@ -21,10 +26,11 @@ GroupKinematics::GroupKinematics(const RobotModel& model, const PlanningGroup& g
     nearest_group_joint_[child] = in_group ? static_cast<int>(j) : nearest_group_joint_[parent];
     if (!in_group && moved_by_group_[parent] == 0) continue;
     moved_by_group_[child] = 1;
-    const double held = joint.position_index < 0
-                            ? 0.0
-                            : base_positions[static_cast<std::size_t>(joint.position_index)];
-    steps_.push_back({static_cast<int>(j), group_index[j], joint.X_PJ * JointMotion(joint, held)});
+    steps_.push_back({.joint = static_cast<int>(j),
+                      .group_index = group_index[j],
+                      .multiplier = follows[j] != 0 ? joint.multiplier : 1,
+                      .offset = follows[j] != 0 ? joint.offset : 0,
+                      .X_PC = joint.X_PJ * JointMotion(joint, base_positions)});
   }
 }
 
@@ -32,7 +38,8 @@ void GroupKinematics::Update(std::span<const double> q) {
   for (Step& step : steps_) {
     const Joint& joint = model_->joints()[static_cast<std::size_t>(step.joint)];
     if (step.group_index >= 0) {
-      step.X_PC = joint.X_PJ * JointMotion(joint, q[static_cast<std::size_t>(step.group_index)]);
+      const double position = q[static_cast<std::size_t>(step.group_index)];
+      step.X_PC = joint.X_PJ * JointMotion(joint, step.multiplier * position + step.offset);
     }
     X_BL_[static_cast<std::size_t>(joint.child_link)] =
         X_BL_[static_cast<std::size_t>(joint.parent_link)] * step.X_PC;

@@ -7,8 +7,9 @@
 
 namespace planbench {
 
-/// Forward kinematics of a planning group with every other joint held: recomputes only the links
-/// the group moves. One instance a thread; refers to the model and group, which must outlive it.
+/// Forward kinematics of a planning group (and the joints that follow its own) with every other
+/// joint held: recomputes only the links the group moves. One instance a thread; refers to the
+/// model and group, which must outlive it.
 class GroupKinematics {
  public:
   /// `base_positions`: full positions; those of the group's joints are placeholders.
@@ -30,14 +31,16 @@ class GroupKinematics {
  private:
   struct Step {
     int joint;
-    int group_index;         // -1: held joint
+    int group_index;    // Its own or its leader's; -1: held joint
+    double multiplier;  // It is at multiplier * q + offset.
+    double offset;
     Eigen::Isometry3d X_PC;  // Child link in parent link; of group joints set by Update.
   };
   const RobotModel* model_;
   const PlanningGroup* group_;
   std::vector<Eigen::Isometry3d> X_BL_;
   std::vector<unsigned char> moved_by_group_;
-  // Per link: the last group joint on its path from the root, -1 if there is none.
+  // Per link: the last joint on its path from the root that moves, -1 if there is none.
   std::vector<int> nearest_group_joint_;
   std::vector<Step> steps_;  // Joints whose child links move, parents first.
 };

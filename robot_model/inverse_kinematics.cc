@@ -47,16 +47,26 @@ InverseKinematics::InverseKinematics(const RobotModel& model, const PlanningGrou
     const Joint& joint = model.joints()[static_cast<std::size_t>(*it)];
     X_LJ = X_LJ * joint.X_PJ;
     const auto in_group = std::find(group.joints.begin(), group.joints.end(), *it);
-    if (in_group != group.joints.end()) {
-      chain_.push_back({.group_index = static_cast<int>(in_group - group.joints.begin()),
-                        .prismatic = joint.type == JointType::kPrismatic,
-                        .X_PJ = X_LJ,
-                        .axis_J = joint.axis_J});
-      X_LJ = Eigen::Isometry3d::Identity();
-    } else if (joint.position_index >= 0) {
-      X_LJ =
-          X_LJ * JointMotion(joint, base_positions[static_cast<std::size_t>(joint.position_index)]);
+    const auto follower =
+        std::find_if(group.followers.begin(), group.followers.end(),
+                     [&](const PlanningGroup::Follower& f) { return f.joint == *it; });
+    if (in_group == group.joints.end() && follower == group.followers.end()) {
+      X_LJ = X_LJ * JointMotion(joint, base_positions);
+      continue;
     }
+    const bool follows = follower != group.followers.end();
+    const int group_index =
+        follows ? follower->group_index : static_cast<int>(in_group - group.joints.begin());
+    const auto column = std::find(columns_.begin(), columns_.end(), group_index);
+    chain_.push_back({.group_index = group_index,
+                      .column = static_cast<int>(column - columns_.begin()),
+                      .multiplier = follows ? joint.multiplier : 1,
+                      .offset = follows ? joint.offset : 0,
+                      .prismatic = joint.type == JointType::kPrismatic,
+                      .X_PJ = X_LJ,
+                      .axis_J = joint.axis_J});
+    if (column == columns_.end()) columns_.push_back(group_index);
+    X_LJ = Eigen::Isometry3d::Identity();
   }
   X_LT_ = X_LJ;
 }
@@ -64,7 +74,8 @@ InverseKinematics::InverseKinematics(const RobotModel& model, const PlanningGrou
 Eigen::Isometry3d InverseKinematics::TipPose(std::span<const double> q) {
   Eigen::Isometry3d X_BL = Eigen::Isometry3d::Identity();
   for (ChainJoint& joint : chain_) {
-    const double position = q[static_cast<std::size_t>(joint.group_index)];
+    const double position =
+        joint.multiplier * q[static_cast<std::size_t>(joint.group_index)] + joint.offset;
     X_BL = X_BL * joint.X_PJ;
     joint.axis_B = X_BL.linear() * joint.axis_J;
     joint.p_BJ = X_BL.translation();
@@ -87,16 +98,18 @@ std::vector<double> InverseKinematics::RandomConfiguration(std::mt19937_64* rand
 
 void InverseKinematics::Step(const PoseError& error, const Eigen::Vector3d& p_BT,
                              std::span<double> q) const {
-  const auto n = static_cast<Eigen::Index>(chain_.size());
+  const auto n = static_cast<Eigen::Index>(columns_.size());
   if (n == 0) return;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(6, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const ChainJoint& joint = chain_[static_cast<std::size_t>(i)];
+  using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  Columns jacobian = Columns::Zero(6, n);
+  for (const ChainJoint& joint : chain_) {
+    Eigen::Vector<double, 6> velocity;
     if (joint.prismatic) {
-      jacobian.col(i) << joint.axis_B, Eigen::Vector3d::Zero();
+      velocity << joint.axis_B, Eigen::Vector3d::Zero();
     } else {
-      jacobian.col(i) << joint.axis_B.cross(p_BT - joint.p_BJ), joint.axis_B;
+      velocity << joint.axis_B.cross(p_BT - joint.p_BJ), joint.axis_B;
     }
+    jacobian.col(joint.column) += joint.multiplier * velocity;
   }
   const double damping = 0.5 * error.squaredNorm() + kLeastDamping;
   Eigen::VectorXd motion;
@@ -106,7 +119,7 @@ void InverseKinematics::Step(const PoseError& error, const Eigen::Vector3d& p_BT
     motion = jacobian.transpose() * normal.llt().solve(error);
     pushes_out = false;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const int index = chain_[static_cast<std::size_t>(i)].group_index;
+      const int index = columns_[static_cast<std::size_t>(i)];
       const JointSpace::Joint& limits = space_.joint(index);
       const double position = q[static_cast<std::size_t>(index)];
       if (limits.continuous || motion[i] == 0) continue;
@@ -118,7 +131,7 @@ void InverseKinematics::Step(const PoseError& error, const Eigen::Vector3d& p_BT
   const double longest = motion.cwiseAbs().maxCoeff();
   if (longest > kLongestStep) motion *= kLongestStep / longest;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int index = chain_[static_cast<std::size_t>(i)].group_index;
+    const int index = columns_[static_cast<std::size_t>(i)];
     const JointSpace::Joint& limits = space_.joint(index);
     double& position = q[static_cast<std::size_t>(index)];
     position += motion[i];

@@ -29,12 +29,13 @@ struct IkResult {
 };
 
 /// Configurations of a planning group that bring its tip link to a pose, with every other joint
-/// held. Numerical, for any chain of revolute, continuous and prismatic joints: from random
-/// configurations, damped least-squares steps on position and orientation whose damping follows the
-/// remaining error (Sugihara, "Solvability-unconcerned inverse kinematics by the
-/// Levenberg-Marquardt method", IEEE T-RO 27(5), 2011). Steps end at the joint limits; a joint that
-/// a step would push further out is left out of that step. Redundant joints stay near where the
-/// random configuration had them, so that repeated calls give different solutions.
+/// held (those that follow a joint of the group move with it). Numerical, for any chain of
+/// revolute, continuous and prismatic joints: from random configurations, damped least-squares
+/// steps on position and orientation whose damping follows the remaining error (Sugihara,
+/// "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE T-RO 27(5),
+/// 2011). Steps end at the joint limits; a joint that a step would push further out is left out of
+/// that step. Redundant joints stay near where the random configuration had them, so that repeated
+/// calls give different solutions.
 ///
 /// Not thread-safe: one instance a thread. Keeps no reference to the model.
 class InverseKinematics {
@@ -53,9 +54,12 @@ class InverseKinematics {
   Eigen::Isometry3d TipPose(std::span<const double> q);
 
  private:
-  // A group joint between the base and the tip.
+  // A joint between the base and the tip that is in the group, or follows one that is.
   struct ChainJoint {
-    int group_index;
+    int group_index;  // Its own or its leader's; it is at multiplier * q + offset.
+    int column;       // Of the Jacobian: that group index's.
+    double multiplier = 1;
+    double offset = 0;
     bool prismatic;
     Eigen::Isometry3d X_PJ;  // Joint frame in the child frame of the chain joint before it.
     Eigen::Vector3d axis_J;
@@ -73,6 +77,7 @@ class InverseKinematics {
 
   JointSpace space_;
   std::vector<ChainJoint> chain_;  // From the base outwards.
+  std::vector<int> columns_;       // Group indices that move the tip.
   Eigen::Isometry3d X_LT_;         // Tip in the child frame of the last chain joint.
 };
 

@@ -14,33 +14,41 @@ MotionBound::MotionBound(const RobotModel& model, const PlanningGroup& group,
   for (std::size_t i = 0; i < group.joints.size(); ++i) {
     group_index[static_cast<std::size_t>(group.joints[i])] = static_cast<int>(i);
   }
+  std::vector<double> speeds(model.joints().size(), 1.0);  // Of a joint per its group index's.
+  for (const PlanningGroup::Follower& follower : group.followers) {
+    const auto index = static_cast<std::size_t>(follower.joint);
+    group_index[index] = follower.group_index;
+    speeds[index] = std::abs(model.joints()[index].multiplier);
+  }
+  std::vector<double> ball_reach(reach_.size());
   for (const LinkSphere& ball : balls) {
     SweptRegion region(ball.p_LS);
+    std::fill(ball_reach.begin(), ball_reach.end(), 0.0);
     int link = ball.link;
     while (model.links()[static_cast<std::size_t>(link)].parent_joint >= 0) {
       const auto index =
           static_cast<std::size_t>(model.links()[static_cast<std::size_t>(link)].parent_joint);
       const Joint& joint = model.joints()[index];
       if (group_index[index] < 0) {
-        const double held = joint.position_index < 0
-                                ? 0.0
-                                : base_positions[static_cast<std::size_t>(joint.position_index)];
-        region.Transform(joint.X_PJ * JointMotion(joint, held));
+        region.Transform(joint.X_PJ * JointMotion(joint, base_positions));
       } else {
-        double& reach = reach_[static_cast<std::size_t>(group_index[index])];
+        // A joint and its followers move the ball together.
+        const double speed = speeds[index];
+        double& reach = ball_reach[static_cast<std::size_t>(group_index[index])];
         if (joint.type == JointType::kPrismatic) {
-          reach = 1;
-          region.Slide(joint.axis_J, joint.lower - JointSpace::kLimitTolerance,
-                       joint.upper + JointSpace::kLimitTolerance);
+          reach += speed;
+          const double tolerance = speed * JointSpace::kLimitTolerance;
+          region.Slide(joint.axis_J, joint.lower - tolerance, joint.upper + tolerance);
         } else {
           // The axis is the same line in the child link's frame and the joint's.
           const double distance = region.Revolve(Eigen::Vector3d::Zero(), joint.axis_J);
-          reach = std::max(reach, distance + ball.radius);
+          reach += speed * (distance + ball.radius);
         }
         region.Transform(joint.X_PJ);
       }
       link = joint.parent_link;
     }
+    for (std::size_t i = 0; i < reach_.size(); ++i) reach_[i] = std::max(reach_[i], ball_reach[i]);
   }
 }
 

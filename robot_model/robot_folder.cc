@@ -1,6 +1,7 @@
 #include "robot_model/robot_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -94,6 +95,22 @@ std::vector<LinkSphere> ReadSpheres(const YamlNode& root, const RobotModel& mode
   return spheres;
 }
 
+// Links with a body in the URDF that have no spheres and are not named in `meant`: nothing would
+// tell that they go unchecked.
+std::vector<std::string> UncheckedLinks(const RobotModel& model,
+                                        const std::vector<LinkSphere>& spheres,
+                                        const std::set<int>& meant) {
+  std::vector<std::string> unchecked;
+  for (int link = 0; link < model.num_links(); ++link) {
+    const Link& description = model.links()[static_cast<std::size_t>(link)];
+    const bool has_spheres = std::any_of(spheres.begin(), spheres.end(),
+                                         [&](const LinkSphere& s) { return s.link == link; });
+    if (description.collision.empty() || has_spheres || meant.contains(link)) continue;
+    unchecked.push_back(description.name);
+  }
+  return unchecked;
+}
+
 VoxelSettings ReadVoxels(const YamlNode& node) {
   node.AllowOnly({"resolution_m", "lower", "upper", "walls"});
   VoxelSettings settings;
@@ -145,6 +162,36 @@ void NeedFolder(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
 }
 
+bool MovesWithAGroup(const Robot& robot, int link) {
+  while (robot.model.links()[static_cast<std::size_t>(link)].parent_joint >= 0) {
+    const int index = robot.model.links()[static_cast<std::size_t>(link)].parent_joint;
+    const Joint& joint = robot.model.joints()[static_cast<std::size_t>(index)];
+    for (const PlanningGroup& group : robot.groups) {
+      const auto& joints = group.joints;
+      if (std::find(joints.begin(), joints.end(), index) != joints.end()) return true;
+      if (std::find(joints.begin(), joints.end(), joint.leader) != joints.end()) return true;
+    }
+    link = joint.parent_link;
+  }
+  return false;
+}
+
+// A scene must have a place relative to the referee.
+void RequireCommonBase(const Robot& planning_robot, const Robot& referee) {
+  const std::string& root = planning_robot.model.links().front().name;
+  const std::string& referee_root = referee.model.links().front().name;
+  const int in_referee = referee.model.FindLink(root);
+  const int in_planning = planning_robot.model.FindLink(referee_root);
+  if (in_referee >= 0 ? !MovesWithAGroup(referee, in_referee)
+                      : in_planning >= 0 && !MovesWithAGroup(planning_robot, in_planning)) {
+    return;
+  }
+  throw InputError(
+      fmt::format("{}: cannot be placed where the robot '{}' is: its root link '{}' and "
+                  "that one's, '{}', have no fixed place in the other robot",
+                  referee.folder.string(), planning_robot.name, referee_root, root));
+}
+
 // A referee with a robot.yaml of its own must still be able to judge every group that plans.
 void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
   for (const PlanningGroup& group : planning_robot.groups) {
@@ -184,7 +231,7 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
   root.AllowOnly({"name", "urdf", "spheres", "edge_resolution_m", "edge_check", "groups",
-                  "allowed_pairs", "planners", "voxels"});
+                  "allowed_pairs", "links_without_spheres", "planners", "voxels"});
   ContentHash hash;
   hash.Add(robot_text);
 
@@ -193,7 +240,7 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const fs::path urdf_file = NamedFile(folder, root.At("urdf"));
   const std::string urdf_text = ReadText(urdf_file);
   hash.Add(urdf_text);
-  robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string());
+  robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &robot.warnings);
   robot.groups = ReadGroups(root.At("groups"), robot.model);
 
   if (const auto spheres = root.Find("spheres")) {
@@ -201,6 +248,19 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
     const std::string spheres_text = ReadText(spheres_file);
     hash.Add(spheres_text);
     robot.spheres = ReadSpheres(YamlNode::Parse(spheres_text, spheres_file.string()), robot.model);
+    std::set<int> meant;
+    if (const auto names = root.Find("links_without_spheres")) {
+      for (const YamlNode& name : names->Elements()) {
+        meant.insert(LinkAt(name, name.String(), robot.model));
+      }
+    }
+    const std::vector<std::string> unchecked = UncheckedLinks(robot.model, robot.spheres, meant);
+    if (!unchecked.empty()) {
+      robot.warnings.push_back(fmt::format(
+          "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
+          "meant, name them in links_without_spheres",
+          spheres_file.string(), fmt::join(unchecked, ", ")));
+    }
   }
   if (const auto resolution = root.Find("edge_resolution_m")) {
     robot.edge_resolution_m = resolution->PositiveDouble();
@@ -228,6 +288,7 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
   if (fs::exists(folder / "robot.yaml")) {
     Robot referee = LoadRobot(folder, packages);
     AddPlanningGroups(planning_robot, &referee);
+    RequireCommonBase(planning_robot, referee);
     return referee;
   }
 
@@ -236,13 +297,14 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
   Robot referee;
   referee.folder = fs::absolute(folder);
   referee.resources = {referee.folder, packages};
-  referee.model = RobotModel::FromUrdf(urdf_text, urdf_file.string());
+  referee.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &referee.warnings);
   referee.name = referee.model.name();
   referee.edge_resolution_m = planning_robot.edge_resolution_m;
   referee.edge_check = planning_robot.edge_check;
   for (const PlanningGroup& group : planning_robot.groups) {
     referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
   }
+  RequireCommonBase(planning_robot, referee);
   // What the planning robot never checks, its judge does not either.
   ContentHash hash;
   hash.Add(urdf_text);
@@ -259,28 +321,6 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
   }
   referee.content_id = hash.HexDigest();
   return referee;
-}
-
-std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
-                                  const std::vector<double>& positions, const std::string& origin) {
-  if (names.size() != positions.size()) {
-    throw InputError(
-        fmt::format("{}: {} joint names but {} positions", origin, names.size(), positions.size()));
-  }
-  std::vector<double> full = model.DefaultPositions();
-  std::set<std::string> seen;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto fail = [&](const char* what) {
-      throw InputError(fmt::format("{}: joint '{}' {}", origin, names[i], what));
-    };
-    const int joint = model.FindJoint(names[i]);
-    if (joint < 0) fail("is unknown");
-    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
-    if (index < 0) fail("is fixed and takes no position");
-    if (!seen.insert(names[i]).second) fail("occurs twice");
-    full[static_cast<std::size_t>(index)] = positions[i];
-  }
-  return full;
 }
 
 }  // namespace planbench

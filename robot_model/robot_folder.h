@@ -28,6 +28,9 @@ namespace planbench {
 ///       joints: [torso_lift_joint, ...]
 ///       tip_link: gripper_link
 ///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other
+///   links_without_spheres: [link, ...]           # optional: links with a body that are not
+///   checked
+///                                                #   by intention; others are warned of
 ///   planners: {ara: ara.yaml, rrtc: rrtc.yaml}   # optional: settings files by planner name
 ///   voxels:                        # optional: the grid of the voxels model (VoxelSettings);
 ///     resolution_m: 0.02           #   without it the reach of the robot, without walls
@@ -53,6 +56,9 @@ struct Robot {
   std::optional<VoxelSettings> voxels;
   std::map<std::string, std::filesystem::path> planner_settings;  ///< By planner name, absolute.
   ResourceResolver resources;  ///< For the collision meshes the URDF names.
+  /// What was taken otherwise than written, or is missing, one line each; whoever loads a robot for
+  /// a user says it.
+  std::vector<std::string> warnings;
 
   /// The group of that name; throws InputError naming the known ones. An empty name is the first
   /// group.
@@ -66,14 +72,9 @@ Robot LoadRobot(const std::filesystem::path& folder,
 /// The robot whose meshes judge paths: `folder` holds a robot.yaml, or exactly one .urdf file whose
 /// groups are then those of `planning_robot` (matched by joint and link names). `folder` also
 /// serves package:// URIs. Throws InputError if the folder has neither, or lacks a joint or link of
-/// the planning groups.
+/// the planning groups, or if neither robot has the other's root link, held by joints outside the
+/// groups: scenes are in the planning robot's base frame.
 Robot LoadRefereeRobot(const std::filesystem::path& folder, const Robot& planning_robot,
                        const std::map<std::string, std::filesystem::path>& packages = {});
-
-/// Full positions from named ones: `names[i]` takes `positions[i]`, others their default. Throws
-/// InputError for unknown or fixed joints, sizes that differ, repeated names; `origin` names the
-/// source.
-std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
-                                  const std::vector<double>& positions, const std::string& origin);
 
 }  // namespace planbench

@@ -13,7 +13,11 @@
 
 namespace planbench {
 
-enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic };
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating };
+
+/// Positions a joint of that type has: none, one, or, if it is planar or floating, the seven of a
+/// pose: translation x, y, z (m) and rotation x, y, z, w (a quaternion).
+int NumPositions(JointType type);
 
 /// A joint connects parent link P to child link C. J is the joint's frame: fixed in P, equal to C's
 /// frame when the joint is at zero.
@@ -23,18 +27,30 @@ struct Joint {
   int parent_link = -1;
   int child_link = -1;
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< Unit vector; unused for fixed joints.
-  double lower = 0;         ///< rad or m; -infinity for continuous joints.
-  double upper = 0;         ///< rad or m; +infinity for continuous joints.
+  /// Unit vector; used by revolute, continuous and prismatic joints.
+  Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();
+  /// rad or m; infinite for continuous joints. A soft limit (safety_controller) counts; a joint
+  /// that others follow keeps them within theirs, and theirs are here what is left of them.
+  double lower = 0;
+  double upper = 0;
   double max_velocity = 0;  ///< rad/s or m/s
-  int position_index = -1;  ///< Index into full position vectors; -1 for fixed joints.
+  /// Index of its first position in full position vectors; -1 if it has none (fixed joints). A
+  /// joint that follows (mimics) another has none of its own: this is the leader's.
+  int position_index = -1;
+  int leader = -1;        ///< Index of the joint that this one follows, itself no follower; or -1.
+  double multiplier = 1;  ///< The joint is at multiplier * (the leader's position) + offset.
+  double offset = 0;
 };
 
-/// Pose X_JC of the child link's frame in the joint's frame at a position (rad or m).
+/// Pose X_JC of the child link's frame in the joint's frame at a position (rad or m) of the joint
+/// itself. For joints of one position; a fixed one never moves.
 Eigen::Isometry3d JointMotion(const Joint& joint, double position);
+/// The same for every joint, at full positions of its robot.
+Eigen::Isometry3d JointMotion(const Joint& joint, std::span<const double> full_positions);
 
 struct Link {
   std::string name;
+  std::string where;              ///< For messages: file, line and name.
   int parent_joint = -1;          ///< -1 for the root link.
   std::vector<int> child_joints;  ///< In URDF order.
   std::vector<PlacedShape>
@@ -50,38 +66,52 @@ struct LinkSphere {
 
 /// The joints that plans move.
 struct PlanningGroup {
+  /// A joint outside the group that follows one of its joints.
+  struct Follower {
+    int joint = -1;        ///< Joint index.
+    int group_index = -1;  ///< Of the leader.
+  };
   std::string name;
   std::vector<int> joints;  ///< Joint indices, in group order.
+  std::vector<Follower> followers;
   int tip_link = -1;
   JointSpace space;
 };
 
 /// Immutable kinematic tree of a robot, rooted at its base link B. Links are ordered so that a
-/// parent comes before its children; link 0 is the root. A full position vector holds every
-/// non-fixed joint (num_positions() values, rad or m), indexed by Joint::position_index.
+/// parent comes before its children; link 0 is the root. A full position vector holds the positions
+/// of every joint that is neither fixed nor follows another (num_positions() values), see
+/// Joint::position_index.
 class RobotModel {
  public:
-  /// Parses URDF text. `origin` names it in errors. Refuses (InputError): malformed XML, mimic,
-  /// floating and planar joints, joints without limits where limits are needed, lower > upper, zero
-  /// axes, a tree that is none. Collision meshes are recorded by resource, not loaded.
-  static RobotModel FromUrdf(const std::string& urdf_text, const std::string& origin);
+  /// Parses URDF text. `origin` names it in errors. Refuses (InputError): malformed XML, unexpanded
+  /// xacro, joints without limits where limits are needed, lower > upper, zero axes, joints that
+  /// follow each other in a circle, a tree that is none. Collision meshes are recorded by resource,
+  /// not loaded. What was taken otherwise than written goes to `warnings`, if given.
+  static RobotModel FromUrdf(const std::string& urdf_text, const std::string& origin,
+                             std::vector<std::string>* warnings = nullptr);
 
   const std::string& name() const { return name_; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   int num_links() const { return static_cast<int>(links_.size()); }
-  int num_positions() const { return num_positions_; }
+  int num_positions() const { return static_cast<int>(position_names_.size()); }
+  /// Names of the positions: the joint's, or, of planar and floating joints, JOINT/trans_x, .. y,
+  /// .. z, JOINT/rot_x, .. y, .. z, .. w.
+  const std::vector<std::string>& position_names() const { return position_names_; }
   /// Index of a link or joint, -1 if there is none of that name.
   int FindLink(const std::string& name) const;
   int FindJoint(const std::string& name) const;
 
   /// True if a joint connects the two links.
   bool Adjacent(int link_a, int link_b) const;
-  /// Full positions with every joint at zero, or at the nearest limit to zero.
+  /// Full positions with every joint at zero, or at the nearest limit to zero; planar and floating
+  /// joints at the identity.
   std::vector<double> DefaultPositions() const;
 
-  /// A planning group from joint names in order; throws InputError for unknown or fixed joints, a
-  /// repeated name, or an unknown tip link.
+  /// A planning group from joint names in order; throws InputError for joints that are unknown, or
+  /// fixed, planar or floating, or follow another, a repeated name, an unknown tip link, or a
+  /// continuous joint with a follower that is elsewhere a turn later.
   PlanningGroup MakeGroup(const std::string& name, const std::vector<std::string>& joint_names,
                           const std::string& tip_link) const;
 
@@ -91,7 +121,7 @@ class RobotModel {
   std::vector<Joint> joints_;
   std::map<std::string, int> link_index_;
   std::map<std::string, int> joint_index_;
-  int num_positions_ = 0;
+  std::vector<std::string> position_names_;
 };
 
 /// Poses X_BL of every link at the given full positions (num_positions() values).

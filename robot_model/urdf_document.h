@@ -18,8 +18,9 @@ struct UrdfDocument {
   std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
 };
 
-/// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed);
-/// `origin` names the text.
+/// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed),
+/// and for what it would not report: text that is no UTF-8, xacro that is not expanded. `origin`
+/// names the text.
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
 
 }  // namespace planbench

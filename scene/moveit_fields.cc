@@ -1,15 +1,17 @@
 #include "scene/moveit_fields.h"
 
 #include <cmath>
-#include <set>
 
+#include "scene/frame_tree.h"
 #include "scene/pose.h"
 
 namespace planbench {
 namespace {
 
-// Published files carry quaternions rounded to a few digits; what is further off is no rotation.
-constexpr double kQuaternionTolerance = 1e-3;
+// How far from 1 the length of a quaternion that was rounded to a few digits may be, and of one
+// that was meant to be a rotation at all.
+constexpr double kRounding = 1e-3;
+constexpr double kFarthest = 0.05;
 
 }  // namespace
 
@@ -30,9 +32,17 @@ Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
     const std::vector<double> xyzw = node.Doubles(4);
     q = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   }
-  if (!(std::abs(q.norm() - 1) <= kQuaternionTolerance)) {
-    node.Fail("is no unit quaternion (length " + std::to_string(q.norm()) + ")");
+  const std::string length = std::to_string(q.norm());
+  if (q.vec().isZero(0)) {
+    if (q.w() == 0) node.Warn("is all zero; taken as no rotation");
+    if (q.w() != 0 && std::abs(std::abs(q.w()) - 1) > kRounding) {
+      node.Warn("has length " + length + "; taken as no rotation");
+    }
+    return Eigen::Quaterniond::Identity();
   }
+  const double off = std::abs(q.norm() - 1);
+  if (!(off <= kFarthest)) node.Fail("is no unit quaternion (length " + length + ")");
+  if (off > kRounding) node.Warn("has length " + length + "; normalised");
   return q.normalized();
 }
 
@@ -44,7 +54,13 @@ Eigen::Isometry3d ReadPose(const YamlNode& node) {
 
 std::string ReadFrame(const YamlNode& message) {
   const std::optional<YamlNode> header = message.Find("header");
-  return header ? header->StringOr("frame_id", "") : "";
+  return header ? WithoutSlash(header->StringOr("frame_id", "")) : "";
+}
+
+YamlNode FrameNode(const YamlNode& message) {
+  const std::optional<YamlNode> header = message.Find("header");
+  const std::optional<YamlNode> frame = header ? header->Find("frame_id") : std::nullopt;
+  return frame ? *frame : message;
 }
 
 std::vector<YamlNode> OptionalElements(const YamlNode& message, const std::string& key) {
@@ -57,28 +73,11 @@ void RefuseElements(const YamlNode& message, const std::string& key, const std::
   if (!elements.empty()) elements.front().Fail(why);
 }
 
-JointState ReadJointState(const YamlNode& robot_state) {
-  if (const auto multi_dof = robot_state.Find("multi_dof_joint_state")) {
-    RefuseElements(*multi_dof, "joint_names", "multi-DOF joint states are not supported");
+bool ReadFlag(const YamlNode& node) {
+  if (node.IsScalar() && (node.String() == "0" || node.String() == "1")) {
+    return node.String() == "1";
   }
-  JointState state;
-  const std::optional<YamlNode> joint_state = robot_state.Find("joint_state");
-  if (!joint_state) return state;
-  const std::vector<YamlNode> names = OptionalElements(*joint_state, "name");
-  const std::vector<YamlNode> positions = OptionalElements(*joint_state, "position");
-  if (names.size() != positions.size()) {
-    joint_state->Fail("has " + std::to_string(names.size()) + " joint names (name) but " +
-                      std::to_string(positions.size()) + " positions (position)");
-  }
-  std::set<std::string> seen;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    state.names.push_back(names[i].String());
-    if (!seen.insert(state.names.back()).second) {
-      names[i].Fail("the joint '" + state.names.back() + "' is named twice");
-    }
-    state.positions.push_back(positions[i].Double());
-  }
-  return state;
+  return node.Bool();
 }
 
 }  // namespace planbench

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/yaml.h"
-#include "scene/problem.h"
 
 namespace planbench {
 
@@ -18,14 +17,18 @@ namespace planbench {
 Eigen::Vector3d ReadVector3(const YamlNode& node);
 
 /// geometry_msgs/Quaternion: [x, y, z, w] or a map of the four. Normalised; its length must be 1
-/// within 1e-3.
+/// within 5 %. As in MoveIt, one of nothing but zeros is the identity, and so is one that has a w
+/// alone. Warns of these, and of a length that is off by more than rounding to a few digits makes
+/// it.
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node);
 
 /// geometry_msgs/Pose: {position: .., orientation: ..}. Canonical (scene/pose.h).
 Eigen::Isometry3d ReadPose(const YamlNode& node);
 
-/// header.frame_id of a message, "" without one.
+/// header.frame_id of a message without a leading slash, "" if it has none.
 std::string ReadFrame(const YamlNode& message);
+/// Where ReadFrame's frame stands, for messages about it.
+YamlNode FrameNode(const YamlNode& message);
 
 /// The elements of an optional sequence, none if `key` is absent.
 std::vector<YamlNode> OptionalElements(const YamlNode& message, const std::string& key);
@@ -33,8 +36,7 @@ std::vector<YamlNode> OptionalElements(const YamlNode& message, const std::strin
 /// Throws if the optional sequence `key` has elements; `why` says what is not supported.
 void RefuseElements(const YamlNode& message, const std::string& key, const std::string& why);
 
-/// joint_state of a moveit_msgs/RobotState: names with as many positions, none twice. Empty without
-/// one. Refuses multi-DOF joint states.
-JointState ReadJointState(const YamlNode& robot_state);
+/// A flag: true, false, or, as some tools write uint8, 1 or 0.
+bool ReadFlag(const YamlNode& node);
 
 }  // namespace planbench

@@ -6,11 +6,15 @@
 #include <set>
 
 #include "common/error.h"
+#include "geometry/octomap.h"
 #include "scene/moveit_fields.h"
 #include "scene/pose.h"
 
 namespace planbench {
 namespace {
+
+// MoveIt's name for the octomap as a body, in the allowed-collision matrix for one.
+constexpr const char* kOctomapId = "<octomap>";
 
 // shape_msgs/SolidPrimitive's numbers are the places here, counted from 1.
 constexpr const char* kPrimitiveTypes[] = {"box", "sphere", "cylinder", "cone"};
@@ -161,6 +165,11 @@ bool IsUnsetPose(const YamlNode& pose) {
   return true;
 }
 
+bool HasPose(const YamlNode& object) {
+  const std::optional<YamlNode> pose = object.Find("pose");
+  return pose && !IsUnsetPose(*pose);
+}
+
 void RequireAddOperation(const YamlNode& object) {
   const std::optional<YamlNode> operation = object.Find("operation");
   if (!operation) return;
@@ -170,24 +179,48 @@ void RequireAddOperation(const YamlNode& object) {
   }
 }
 
-AttachedObject ReadAttachedObject(const YamlNode& node, const ResourceResolver& resources) {
-  AttachedObject attached;
-  const YamlNode link = node.At("link_name");
-  attached.link = link.String();
-  if (attached.link.empty()) link.Fail("must not be empty");
-  const YamlNode object = node.At("object");
-  const std::vector<YamlNode> planes = OptionalElements(object, "planes");
-  if (!planes.empty()) planes.front().Fail("a plane cannot be attached to a link");
-  attached.object = ReadCollisionObject(object, resources);
-  const std::string frame = ReadFrame(object);
-  if (!frame.empty() && frame != attached.link) {
-    object.Fail("the object '" + attached.object.id + "' is given in the frame '" + frame +
-                "', but must be given in its link's, '" + attached.link + "'");
+bool HasShapes(const YamlNode& object) {
+  for (const char* list : {"primitives", "meshes", "mesh", "planes"}) {
+    const std::optional<YamlNode> shapes = object.Find(list);
+    if (shapes && (!shapes->IsSequence() || shapes->Size() > 0)) return true;
   }
-  for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
-    attached.touch_links.push_back(touch_link.String());
+  return false;
+}
+
+bool HasBody(const Robot& robot, int link) {
+  return !robot.model.links()[static_cast<std::size_t>(link)].collision.empty() ||
+         std::any_of(robot.spheres.begin(), robot.spheres.end(),
+                     [&](const LinkSphere& sphere) { return sphere.link == link; });
+}
+
+std::string ReadId(const YamlNode& object, const Robot& robot) {
+  const YamlNode node = object.At("id");
+  const std::string id = node.String();
+  if (id.empty()) node.Fail("must not be empty");
+  const int link = robot.model.FindLink(id);
+  if (link >= 0 && HasBody(robot, link)) {
+    node.Fail("the object has the name of a link, '" + id +
+              "'; what the matrix allows the link it "
+              "would allow the object");
   }
-  return attached;
+  return id;
+}
+
+// Makes the frames of an object known. `X_BO`: its pose.
+void AddFrames(const YamlNode& node, const SceneObject& object, bool has_pose,
+               const Eigen::Isometry3d& X_BO, FrameTree* frames) {
+  const bool of_shape = !has_pose && object.shapes.size() == 1;
+  const Eigen::Isometry3d X_BF = of_shape ? X_BO * object.shapes.front().X_FS : X_BO;
+  frames->AddObjectFrame(object.id, X_BF);
+  const std::vector<YamlNode> names = OptionalElements(node, "subframe_names");
+  const std::vector<YamlNode> poses = OptionalElements(node, "subframe_poses");
+  if (names.size() != poses.size()) {
+    node.Fail("has " + std::to_string(names.size()) + " subframe_names but " +
+              std::to_string(poses.size()) + " subframe_poses");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    frames->AddObjectFrame(object.id + "/" + names[i].String(), X_BF * ReadPose(poses[i]));
+  }
 }
 
 // Equal in all that bears on collisions.
@@ -209,8 +242,7 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   RequireAddOperation(node);
 
   const std::optional<YamlNode> pose = node.Find("pose");
-  const bool has_pose = pose && !IsUnsetPose(*pose);
-  if (has_pose) object.X_WO = ReadPose(*pose);
+  if (HasPose(node)) object.X_WO = ReadPose(*pose);
 
   const std::vector<YamlNode> primitives = OptionalElements(node, "primitives");
   const std::vector<YamlNode> meshes = OneOrMore(node, "meshes", "mesh");
@@ -236,23 +268,98 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   return object;
 }
 
-void AddAttachedObjects(const YamlNode& message, const ResourceResolver& resources, Scene* scene) {
-  for (const YamlNode& node : OptionalElements(message, "attached_collision_objects")) {
-    const AttachedObject attached = ReadAttachedObject(node, resources);
-    const std::string& id = attached.object.id;
-    const YamlNode id_node = node.At("object").At("id");
-    for (const SceneObject& object : scene->objects) {
-      if (object.id == id) id_node.Fail("the object '" + id + "' is in the world already");
+void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
+                     FrameTree* frames, Scene* scene) {
+  std::set<std::string> ids;
+  for (const YamlNode& node : OptionalElements(world, "collision_objects")) {
+    const std::string id = ReadId(node, robot);
+    if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
+    SceneObject object = ReadCollisionObject(node, resources);
+    object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
+    AddFrames(node, object, HasPose(node), object.X_WO, frames);
+    scene->objects.push_back(std::move(object));
+  }
+}
+
+void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
+                        const Robot& robot, FrameTree* frames, Scene* scene) {
+  for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
+    AttachedObject attached;
+    const YamlNode link = node.At("link_name");
+    attached.link = WithoutSlash(link.String());
+    if (robot.model.FindLink(attached.link) < 0) {
+      link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
     }
+    for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
+      attached.touch_links.push_back(WithoutSlash(touch_link.String()));
+    }
+    const YamlNode object = node.At("object");
+    const YamlNode id_node = object.At("id");
+    const std::string id = ReadId(object, robot);
+    const auto in_world = std::find_if(scene->objects.begin(), scene->objects.end(),
+                                       [&](const SceneObject& other) { return other.id == id; });
     const auto known =
         std::find_if(scene->attached.begin(), scene->attached.end(),
                      [&](const AttachedObject& other) { return other.object.id == id; });
+    const Eigen::Isometry3d X_LB = frames->At(attached.link, link).inverse(Eigen::Isometry);
+    if (HasShapes(object)) {
+      const std::vector<YamlNode> planes = OptionalElements(object, "planes");
+      if (!planes.empty()) planes.front().Fail("a plane cannot be attached to a link");
+      attached.object = ReadCollisionObject(object, resources);
+      const std::string frame = ReadFrame(object);
+      if (frame.empty()) {
+        object.Warn("names no frame; taken in that of its link, '" + attached.link + "'");
+      } else if (frame != attached.link) {
+        attached.object.X_WO =
+            CanonicalPose(X_LB * frames->At(frame, FrameNode(object)) * attached.object.X_WO);
+      }
+      AddFrames(object, attached.object, HasPose(object),
+                frames->At(attached.link, link) * attached.object.X_WO, frames);
+    } else if (in_world != scene->objects.end()) {
+      RequireAddOperation(object);
+      attached.object = *in_world;
+      attached.object.X_WO = CanonicalPose(X_LB * attached.object.X_WO);
+      for (const PlacedShape& placed : attached.object.shapes) {
+        if (std::holds_alternative<HalfSpace>(placed.shape)) {
+          id_node.Fail("a plane cannot be attached to a link");
+        }
+      }
+    } else if (known != scene->attached.end() && known->link == attached.link) {
+      continue;
+    } else {
+      id_node.Fail("the object '" + id + "' has no shape, and the world has none of that id");
+    }
+    if (in_world != scene->objects.end()) scene->objects.erase(in_world);
     if (known == scene->attached.end()) {
-      scene->attached.push_back(attached);
+      scene->attached.push_back(std::move(attached));
     } else if (!SameContent(*known, attached)) {
       id_node.Fail("another object '" + id + "' is attached already");
     }
   }
+}
+
+void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {
+  const std::optional<YamlNode> with_pose = world.Find("octomap");
+  const std::optional<YamlNode> octomap = with_pose ? with_pose->Find("octomap") : std::nullopt;
+  const std::optional<YamlNode> data = octomap ? octomap->Find("data") : std::nullopt;
+  if (!data) return;
+  const std::vector<std::uint8_t> bytes = data->Bytes();
+  if (bytes.empty()) return;
+  SceneObject object;
+  object.id = kOctomapId;
+  const std::optional<YamlNode> origin = with_pose->Find("origin");
+  object.X_WO = frames.At(ReadFrame(*with_pose), FrameNode(*with_pose));
+  if (origin && !IsUnsetPose(*origin)) object.X_WO = object.X_WO * ReadPose(*origin);
+  object.X_WO = CanonicalPose(object.X_WO);
+  const std::string id = octomap->At("id").String();
+  const bool binary = ReadFlag(octomap->At("binary"));
+  const double resolution = octomap->At("resolution").PositiveDouble();
+  try {
+    object.shapes = OctomapBoxes(bytes, binary, id, resolution);
+  } catch (const InputError& error) {
+    data->Fail(error.what());
+  }
+  if (!object.shapes.empty()) scene->objects.push_back(std::move(object));
 }
 
 }  // namespace planbench

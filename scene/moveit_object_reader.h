@@ -2,15 +2,17 @@
 
 #include "common/yaml.h"
 #include "geometry/mesh_loader.h"
+#include "robot_model/robot_folder.h"
+#include "scene/frame_tree.h"
 #include "scene/scene.h"
 
 namespace planbench {
 
 /// Reads a moveit_msgs/CollisionObject: id, `pose`, and one or more shapes, which are `primitives`
 /// with `primitive_poses`, `meshes` (or `mesh`) with `mesh_poses` and `planes` with `plane_poses`.
-/// The object's pose comes out in the frame that its header names (see ReadFrame). Poses of shapes
-/// may be left out if the object has a `pose`. A `pose` whose seven numbers are all zero counts as
-/// absent: that is how messages leave it unset.
+/// The object's pose comes out in the frame that its header names (see AddWorldObjects). Poses of
+/// shapes may be left out if the object has a `pose`. A `pose` whose seven numbers are all zero
+/// counts as absent: that is how messages leave it unset.
 ///
 /// Primitives: type box [x, y, z], sphere [radius], cylinder [height, radius], cone [height,
 /// radius], or shape_msgs/SolidPrimitive's numbers 1 to 4. Meshes: {resource: URI, dimensions: [sx,
@@ -23,11 +25,24 @@ namespace planbench {
 /// of attached objects.
 SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& resources);
 
-/// Adds the attached_collision_objects of `message` (a moveit_msgs/RobotState, or a planning scene
-/// that carries them itself) to `scene`. An object's frame must be the link it is attached to. An
-/// object that the scene has attached already is accepted if it is the same in all that bears on
-/// collisions, as when both the scene and the request state it. Throws InputError, also for an id
-/// that the scene has otherwise.
-void AddAttachedObjects(const YamlNode& message, const ResourceResolver& resources, Scene* scene);
+/// Adds the objects of world.collision_objects to `scene`, in the base frame, and their frames (an
+/// object's is that of its pose, or of its one shape if it has no pose) and subframes to `frames`.
+/// An object may be given in the frame of one above it. Throws InputError, also for an id that
+/// occurs twice or is that of a link with a body: names tell bodies apart in the allowed-collision
+/// matrix.
+void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
+                     FrameTree* frames, Scene* scene);
+
+/// Adds the attached_collision_objects of a moveit_msgs/RobotState to `scene`, with their poses in
+/// their links. Objects without shapes are those of the world by that id; in either case the
+/// object of that id leaves the world. Without a frame they are in that of their link. An object
+/// that the scene has attached already is accepted if it is the same in all that bears on
+/// collisions, or has no shapes, as when both the scene and the request state it. Throws
+/// InputError, also for links that the robot does not have.
+void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
+                        const Robot& robot, FrameTree* frames, Scene* scene);
+
+/// Adds world.octomap, if it has data, as an object "<octomap>" of boxes.
+void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene);
 
 }  // namespace planbench

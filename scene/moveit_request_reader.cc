@@ -1,8 +1,13 @@
+#include "scene/moveit_request_reader.h"
+
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "common/error.h"
+#include "robot_model/full_positions.h"
 #include "scene/moveit_fields.h"
-#include "scene/moveit_object_reader.h"
-#include "scene/moveit_yaml.h"
+#include "scene/moveit_messages.h"
 
 namespace planbench {
 namespace {
@@ -18,33 +23,6 @@ double ReadTolerance(const YamlNode& constraint, const std::string& key) {
   return tolerance;
 }
 
-std::vector<JointGoal> ReadGoal(const YamlNode& request) {
-  const YamlNode sets = request.At("goal_constraints");
-  if (sets.Size() == 0) sets.Fail("holds no goal");
-  if (sets.Size() > 1) sets.At(1).Fail("only one set of goal constraints is supported");
-  const YamlNode constraints = sets.At(0);
-  for (const char* other : kOtherConstraints) {
-    RefuseElements(constraints, other, "only joint constraints are supported as a goal");
-  }
-  const YamlNode joint_constraints = constraints.At("joint_constraints");
-  if (joint_constraints.Size() == 0) joint_constraints.Fail("holds no goal");
-  std::vector<JointGoal> goal;
-  std::set<std::string> seen;
-  for (const YamlNode& node : joint_constraints.Elements()) {
-    JointGoal joint;
-    const YamlNode name = node.At("joint_name");
-    joint.joint = name.String();
-    if (!seen.insert(joint.joint).second) {
-      name.Fail("the joint '" + joint.joint + "' is named twice");
-    }
-    joint.position = node.At("position").Double();
-    joint.tolerance_above = ReadTolerance(node, "tolerance_above");
-    joint.tolerance_below = ReadTolerance(node, "tolerance_below");
-    goal.push_back(joint);
-  }
-  return goal;
-}
-
 void RefusePathConstraints(const YamlNode& request) {
   constexpr const char* kWhy = "constraints on the path are not supported";
   if (const std::optional<YamlNode> path = request.Find("path_constraints")) {
@@ -56,8 +34,108 @@ void RefusePathConstraints(const YamlNode& request) {
   }
 }
 
-std::optional<Workspace> ReadWorkspace(const YamlNode& request) {
-  const std::optional<YamlNode> node = request.Find("workspace_parameters");
+bool Meets(const JointGoal& goal, double position) {
+  return position >= goal.position - goal.tolerance_below - JointSpace::kLimitTolerance &&
+         position <= goal.position + goal.tolerance_above + JointSpace::kLimitTolerance;
+}
+
+const JointGoal* FindGoal(const std::vector<JointGoal>& goals, const std::string& joint) {
+  const auto found = std::find_if(goals.begin(), goals.end(),
+                                  [&](const JointGoal& goal) { return goal.joint == joint; });
+  return found == goals.end() ? nullptr : &*found;
+}
+
+// Refuses a goal of a joint outside the group, unless it is met wherever the group is, or says the
+// same of a follower as `goals` say of its leader.
+void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& model,
+                const PlanningGroup& group, const std::vector<JointGoal>& goals,
+                const std::vector<double>& start) {
+  const int index = model.FindJoint(goal.joint);
+  if (index < 0) node.Fail("the joint '" + goal.joint + "' is unknown");
+  const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+  if (NumPositions(joint.type) > 1) {
+    node.Fail("the joint '" + goal.joint + "' has a pose; there are no goals for such");
+  }
+  double position = joint.offset;  // Of a fixed joint, 0.
+  if (joint.position_index >= 0) position = start[static_cast<std::size_t>(joint.position_index)];
+  if (joint.leader >= 0) {
+    const std::string& leader = model.joints()[static_cast<std::size_t>(joint.leader)].name;
+    if (group.space.Find(leader) >= 0) {
+      const JointGoal* of_leader = FindGoal(goals, leader);
+      if (of_leader == nullptr) {
+        node.Fail("the joint '" + goal.joint + "' follows '" + leader + "'; give a goal for that");
+      }
+      position = of_leader->position;
+    }
+    if (joint.position_index >= 0) position = joint.multiplier * position + joint.offset;
+  }
+  if (Meets(goal, position)) return;
+  node.Fail("the joint '" + goal.joint + "' is not in group '" + group.name + "' and stays at " +
+            std::to_string(position));
+}
+
+}  // namespace
+
+void RequireRequest(const YamlNode& motion_plan_request) {
+  if (!motion_plan_request.IsMap()) {
+    motion_plan_request.Fail("expected a moveit_msgs/MotionPlanRequest, found no map");
+  }
+  RequireKnownFields(motion_plan_request, "moveit_msgs/MotionPlanRequest");
+  RefusePathConstraints(motion_plan_request);
+}
+
+const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) {
+  const std::optional<YamlNode> name = motion_plan_request.Find("group_name");
+  if (!name) return robot.Group("");
+  try {
+    return robot.Group(name->String());
+  } catch (const InputError& error) {
+    name->Fail(error.what());
+  }
+}
+
+std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
+                                const PlanningGroup& group, const std::vector<double>& start) {
+  const YamlNode sets = motion_plan_request.At("goal_constraints");
+  if (sets.Size() == 0) sets.Fail("holds no goal");
+  if (sets.Size() > 1) sets.At(1).Fail("only one set of goal constraints is supported");
+  const YamlNode constraints = sets.At(0);
+  for (const char* other : kOtherConstraints) {
+    RefuseElements(constraints, other, "only joint constraints are supported as a goal");
+  }
+  const YamlNode joint_constraints = constraints.At("joint_constraints");
+  if (joint_constraints.Size() == 0) joint_constraints.Fail("holds no goal");
+  std::vector<JointGoal> goals;
+  std::vector<std::pair<JointGoal, YamlNode>> others;  // With where their names stand.
+  std::set<std::string> seen;
+  for (const YamlNode& node : joint_constraints.Elements()) {
+    JointGoal goal;
+    const YamlNode name = node.At("joint_name");
+    goal.joint = name.String();
+    if (!seen.insert(goal.joint).second) {
+      name.Fail("the joint '" + goal.joint + "' is named twice");
+    }
+    goal.position = node.At("position").Double();
+    goal.tolerance_above = ReadTolerance(node, "tolerance_above");
+    goal.tolerance_below = ReadTolerance(node, "tolerance_below");
+    if (group.space.Find(goal.joint) >= 0) {
+      goals.push_back(goal);
+    } else {
+      others.emplace_back(goal, name);
+    }
+  }
+  for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, start);
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    if (FindGoal(goals, joint.name) == nullptr) {
+      joint_constraints.Fail("there is no goal for joint '" + joint.name + "' of group '" +
+                             group.name + "'");
+    }
+  }
+  return goals;
+}
+
+std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request) {
+  const std::optional<YamlNode> node = motion_plan_request.Find("workspace_parameters");
   if (!node) return std::nullopt;
   Workspace workspace;
   workspace.frame = ReadFrame(*node);
@@ -72,46 +150,12 @@ std::optional<Workspace> ReadWorkspace(const YamlNode& request) {
   return workspace;
 }
 
-}  // namespace
-
-void ReadRequest(const YamlNode& motion_plan_request, Problem* problem,
-                 const ResourceResolver& resources) {
-  if (!motion_plan_request.IsMap()) {
-    motion_plan_request.Fail("expected a moveit_msgs/MotionPlanRequest, found no map");
-  }
-  problem->group = motion_plan_request.StringOr("group_name", "");
-  if (const std::optional<YamlNode> start = motion_plan_request.Find("start_state")) {
-    problem->start = ReadJointState(*start);
-    AddAttachedObjects(*start, resources, &problem->scene);
-  }
-  if (problem->start.names.empty() && problem->scene_state.names.empty()) {
-    motion_plan_request.Fail(
-        "no start: neither the request's start_state nor the scene's robot_state names a joint");
-  }
-  problem->goal = ReadGoal(motion_plan_request);
-  RefusePathConstraints(motion_plan_request);
-  problem->workspace = ReadWorkspace(motion_plan_request);
-  problem->time_limit_s = 0;
-  if (const auto limit = motion_plan_request.Find("allowed_planning_time")) {
-    problem->time_limit_s = limit->Double();
-    if (problem->time_limit_s < 0) limit->Fail("must not be negative");
-  }
-}
-
-Problem ReadProblem(const std::filesystem::path& scene_file,
-                    const std::filesystem::path& request_file, const ResourceResolver& resources) {
-  Problem problem;
-  if (const std::optional<int> index = ProblemIndexOf(scene_file)) {
-    problem.index = *index;
-    problem.set = ProblemSetNameOf(scene_file.parent_path());
-  }
-  const YamlNode scene = YamlNode::LoadFile(scene_file.string());
-  problem.scene = ReadScene(scene, resources);
-  if (const std::optional<YamlNode> robot_state = scene.Find("robot_state")) {
-    problem.scene_state = ReadJointState(*robot_state);
-  }
-  ReadRequest(YamlNode::LoadFile(request_file.string()), &problem, resources);
-  return problem;
+double ReadTimeLimit(const YamlNode& motion_plan_request) {
+  const auto limit = motion_plan_request.Find("allowed_planning_time");
+  if (!limit) return 0;
+  const double seconds = limit->Double();
+  if (seconds < 0) limit->Fail("must not be negative");
+  return seconds;
 }
 
 }  // namespace planbench

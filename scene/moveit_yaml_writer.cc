@@ -168,11 +168,12 @@ std::string AttachedYaml(const std::vector<AttachedObject>& all, const std::stri
   return yaml;
 }
 
+// As MoveIt writes it: the frame in the header, the one that it is given in as the child.
 std::string FrameYaml(const FrameTransform& frame, const std::string& world_frame) {
   return fmt::format(
       "  - header:\n      frame_id: {}\n    child_frame_id: {}\n    transform:\n"
       "      translation: {}\n      rotation: {}\n",
-      Text(world_frame), Text(frame.frame), Vector(frame.X_WF.translation()),
+      Text(frame.frame), Text(world_frame), Vector(frame.X_WF.translation()),
       Orientation(frame.X_WF));
 }
 
@@ -215,7 +216,7 @@ std::string SceneToYaml(const Problem& problem) {
   const Scene& scene = problem.scene;
   std::string yaml =
       fmt::format("name: {}\nrobot_model_name: {}\n", Text(scene.name), Text(scene.robot_name));
-  yaml += "robot_state:\n" + JointStateYaml(problem.scene_state, scene.world_frame, "  ");
+  yaml += "robot_state:\n" + JointStateYaml(problem.start, scene.world_frame, "  ");
   if (!scene.attached.empty()) yaml += AttachedYaml(scene.attached, "  ");
   if (!scene.world_frame.empty() || !scene.fixed_frames.empty()) {
     yaml += "fixed_frame_transforms:\n";

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "common/error.h"
+#include "common/text.h"
 
 namespace planbench {
 namespace fs = std::filesystem;
@@ -60,6 +61,7 @@ ProblemSet ListProblemSet(const fs::path& folder) {
   }
   ProblemSet set;
   set.name = ProblemSetNameOf(folder);
+  if (FindInvalidUtf8(set.name)) throw InputError(folder.string() + ": its name is no UTF-8 text");
   set.folder = folder;
   for (const auto& [index, files] : by_index) {
     if (files.request.empty()) {

@@ -38,12 +38,14 @@ struct Problem {
   std::string set;  ///< Name of the problem set, "" outside one.
   int index = 0;    ///< NNNN of sceneNNNN.yaml.
   Scene scene;
-  std::string group;       ///< Planning group, may be empty (the robot's first).
-  JointState start;        ///< The request's start_state: every joint it names.
-  JointState scene_state;  ///< The scene's robot_state; serves joints the start does not name.
+  std::string group;  ///< Planning group, may be empty (the robot's first).
+  /// Every joint that the scene's robot_state or the request's start_state names, the latter's
+  /// positions before the former's; planar and floating joints by RobotModel::position_names.
+  JointState start;
   std::vector<JointGoal> goal;
   std::optional<Workspace> workspace;
-  double time_limit_s = 0;  ///< allowed_planning_time; 0 if absent.
+  double time_limit_s = 0;            ///< allowed_planning_time; 0 if absent.
+  std::vector<std::string> warnings;  ///< What was read otherwise than written, a line each.
 };
 
 /// sceneNNNN.yaml and requestNNNN.yaml of one folder.

@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "scene/pose.h"
+
 namespace planbench {
 namespace {
 
@@ -31,6 +33,16 @@ bool AllowedCollisionMatrix::AllowedByDefault(const std::string& a, const std::s
 bool AllowedCollisionMatrix::Allowed(const std::string& a, const std::string& b) const {
   const auto entry = entries_.find(Ordered(a, b));
   return entry != entries_.end() ? entry->second : AllowedByDefault(a, b);
+}
+
+Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometry3d& X_NW) {
+  Scene moved = scene;
+  moved.world_frame = frame;
+  for (SceneObject& object : moved.objects) object.X_WO = CanonicalPose(X_NW * object.X_WO);
+  for (FrameTransform& fixed : moved.fixed_frames) {
+    fixed.X_WF = CanonicalPose(X_NW * fixed.X_WF);
+  }
+  return moved;
 }
 
 AllowedCollisionMatrix AllowedCollisionMatrix::Simplified() const {

@@ -12,8 +12,8 @@
 
 namespace planbench {
 
-/// An object of the world: shapes rigidly joined. W is the robot's base frame (every frame of the
-/// file is resolved into it by the reader).
+/// An object of the world: shapes rigidly joined. W is the robot's base frame, that of its root
+/// link (every frame of a file is resolved into it by the reader).
 struct SceneObject {
   std::string id;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< Object pose.
@@ -54,7 +54,7 @@ class AllowedCollisionMatrix {
   std::map<std::string, bool> default_entries_;
 };
 
-/// Pose of a named frame in W, as `fixed_frame_transforms` gives it.
+/// Pose of a named frame in W, as `fixed_frame_transforms` give it.
 struct FrameTransform {
   std::string frame;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
@@ -64,12 +64,16 @@ struct FrameTransform {
 struct Scene {
   std::string name;
   std::string robot_name;                ///< robot_model_name of the file; may be empty.
-  std::string world_frame;               ///< Name of W, e.g. "base_link".
+  std::string world_frame;               ///< Name of W, the robot's root link, e.g. "base_link".
   std::vector<SceneObject> objects;      ///< Ids unique.
   std::vector<AttachedObject> attached;  ///< Ids unique, also among objects.
   AllowedCollisionMatrix allowed_collisions;
   std::vector<FrameTransform> fixed_frames;  ///< Without W's own identity.
 };
+
+/// The same scene with another frame N for W, in which W has pose X_NW. Names stay, but for that of
+/// the frame.
+Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometry3d& X_NW);
 
 /// Content hash of all that bears on collisions: world frame, objects (order, ids, poses, shapes
 /// with their triangles), attached objects, allowed collisions. Names of the scene and of the

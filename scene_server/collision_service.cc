@@ -8,6 +8,7 @@
 
 #include "collision/edge_checker.h"
 #include "common/error.h"
+#include "robot_model/full_positions.h"
 
 namespace planbench {
 namespace {

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   return program.Run(argc, argv, [&] {
     const auto packages = ParsePackagePaths(package_paths);
     Robot robot = LoadRobot(robot_folder, packages);
+    for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
     std::optional<Robot> referee;
     if (!referee_folder.empty()) referee = LoadRefereeRobot(referee_folder, robot, packages);
     SceneService service(std::move(robot), std::move(referee), problem_folders);

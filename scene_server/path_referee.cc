@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "planning/path_judge.h"
 #include "planning/resolve.h"
+#include "robot_model/full_positions.h"
 
 namespace planbench {
 namespace {
@@ -66,19 +67,6 @@ void RequireFewSamples(CollisionChecker* checker, const Path& path, double step_
   }
 }
 
-/// Full positions of the mesh robot at the start. Joints that only the planning robot has do not
-/// move anything of the mesh robot.
-std::vector<double> MeshRobotPositions(const RobotModel& model, const JointState& start) {
-  std::vector<double> positions = model.DefaultPositions();
-  for (std::size_t i = 0; i < start.names.size(); ++i) {
-    const int joint = model.FindJoint(start.names[i]);
-    if (joint < 0) continue;
-    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
-    if (index >= 0) positions[static_cast<std::size_t>(index)] = start.positions[i];
-  }
-  return positions;
-}
-
 }  // namespace
 
 PathReferee::PathReferee(const Robot& robot, const Robot* mesh_robot)
@@ -90,6 +78,29 @@ PathReferee::PathReferee(const Robot& robot, const Robot* mesh_robot)
     mesh_checkers_->Get(mesh_robot_->Group(group.name), CollisionModel::kMeshes, "no scene",
                         empty_scene, mesh_robot_->model.DefaultPositions());
   }
+}
+
+std::shared_ptr<const Scene> PathReferee::InMeshRobotsFrame(
+    const std::string& scene_id, const std::shared_ptr<const Scene>& scene,
+    const std::vector<double>& positions, const std::vector<double>& mesh_positions) {
+  const RobotModel& model = robot_->model;
+  const RobotModel& mesh_model = mesh_robot_->model;
+  const std::string& root = model.links().front().name;
+  const std::string& mesh_root = mesh_model.links().front().name;
+  if (root == mesh_root) return scene;
+  Eigen::Isometry3d X_NW;
+  if (const int link = mesh_model.FindLink(root); link >= 0) {
+    X_NW = ComputeLinkPoses(mesh_model, mesh_positions)[static_cast<std::size_t>(link)];
+  } else {
+    X_NW = ComputeLinkPoses(model, positions)[static_cast<std::size_t>(model.FindLink(mesh_root))]
+               .inverse(Eigen::Isometry);
+  }
+  if (moved_id_ != scene_id || moved_by_.matrix() != X_NW.matrix()) {
+    moved_ = std::make_shared<const Scene>(InFrame(*scene, mesh_root, X_NW));
+    moved_id_ = scene_id;
+    moved_by_ = X_NW;
+  }
+  return moved_;
 }
 
 PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
@@ -121,10 +132,12 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
   reply.verdict = JudgePath(&checker, path, query.start, query.goal, request.step_m,
                             request.with_clearance, query.base_positions);
   if (mesh_robot_ != nullptr) {
-    const std::vector<double> positions = MeshRobotPositions(mesh_robot_->model, request.start);
-    CollisionChecker& meshes =
-        mesh_checkers_->Get(mesh_robot_->Group(group.name), CollisionModel::kMeshes,
-                            request.scene_id, scene, positions);
+    // Joints that only the planning robot has do not move anything of the mesh robot.
+    const std::vector<double> positions = FullPositionsWherePossible(
+        mesh_robot_->model, request.start.names, request.start.positions);
+    CollisionChecker& meshes = mesh_checkers_->Get(
+        mesh_robot_->Group(group.name), CollisionModel::kMeshes, request.scene_id,
+        InMeshRobotsFrame(request.scene_id, scene, query.base_positions, positions), positions);
     RequireFewSamples(&meshes, path, request.step_m);
     reply.mesh_verdict = JudgePath(&meshes, path, query.start, query.goal, request.step_m,
                                    /*with_clearance=*/false, positions);

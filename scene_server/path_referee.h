@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,8 +20,9 @@ class PathReferee {
   /// Samples that one path may have; more are refused.
   static constexpr double kMaxSamples = 1e6;
 
-  /// `mesh_robot` may be null; else it has the groups of `robot` and its meshes are loaded here
-  /// (InputError if one is missing). Holds references to both.
+  /// `mesh_robot` may be null; else it has the groups of `robot` and the root link of one is a link
+  /// of the other (see LoadRefereeRobot), and its meshes are loaded here (InputError if one is
+  /// missing). Holds references to both.
   PathReferee(const Robot& robot, const Robot* mesh_robot);
 
   /// Judges at the asked step. Waypoints may name the group's joints in any order; a path that
@@ -33,11 +35,20 @@ class PathReferee {
                               const std::shared_ptr<const Scene>& scene);
 
  private:
+  std::shared_ptr<const Scene> InMeshRobotsFrame(const std::string& scene_id,
+                                                 const std::shared_ptr<const Scene>& scene,
+                                                 const std::vector<double>& positions,
+                                                 const std::vector<double>& mesh_positions);
+
   const Robot* robot_;
   const Robot* mesh_robot_;
   std::mutex mutex_;
   CheckerCache checkers_;
   std::optional<CheckerCache> mesh_checkers_;
+  // The scene last judged by meshes, in the mesh robot's base frame, if that is another.
+  std::string moved_id_;
+  Eigen::Isometry3d moved_by_;
+  std::shared_ptr<const Scene> moved_;
 };
 
 }  // namespace planbench

@@ -9,7 +9,6 @@
 #include "common/error.h"
 #include "common/read_text.h"
 #include "scene/moveit_yaml.h"
-#include "scene_server/problem_fit.h"
 
 namespace planbench {
 namespace {
@@ -23,23 +22,45 @@ bool HoldsProblems(const fs::path& folder) {
   return false;
 }
 
-/// The folder itself if it holds problems, else its sub-folders that do, by name.
+/// Adds the folder itself if it holds problems, else the folders below it that do. `above`: the
+/// folders it is in, real paths, for links that lead back to one.
+void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
+                    std::vector<fs::path>* found) {
+  if (HoldsProblems(folder)) {
+    found->push_back(folder);
+    return;
+  }
+  const fs::path real = fs::canonical(folder);
+  if (std::find(above->begin(), above->end(), real) != above->end()) return;
+  above->push_back(real);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) FindSetFolders(entry.path(), above, found);
+  }
+  above->pop_back();
+}
+
+/// The folder itself if it holds problems, else the folders below it that do, by path.
 std::vector<fs::path> SetFolders(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw InputError(folder.string() + ": there is no such folder of problems");
   }
-  if (HoldsProblems(folder)) return {folder};
+  std::vector<fs::path> above;
   std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_directory() && HoldsProblems(entry.path())) found.push_back(entry.path());
-  }
+  FindSetFolders(folder, &above, &found);
   if (found.empty()) {
     throw InputError(folder.string() +
                      ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml), nor does "
-                     "any folder in it");
+                     "any folder below it");
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+/// The first warning, and how many there are; "" without one.
+std::string Summary(const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return "";
+  if (warnings.size() == 1) return warnings.front();
+  return fmt::format("{} (and {} more)", warnings.front(), warnings.size() - 1);
 }
 
 }  // namespace
@@ -68,7 +89,13 @@ ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& 
   } catch (const fs::filesystem_error& error) {
     throw InputError(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   }
-  for (const auto& [name, set] : sets_) Read(set, set.problems.front());
+  for (const auto& [name, set] : sets_) {
+    try {
+      Read(set, set.problems.front());
+    } catch (const InputError& error) {
+      spdlog::error("{}", error.what());
+    }
+  }
 }
 
 void ProblemLibrary::AddSet(const fs::path& folder) {
@@ -131,17 +158,16 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   const std::pair key(set.name, files.index);
   if (const auto known = problems_.find(key); known != problems_.end()) return known->second;
 
-  // Meshes that a scene names by a relative path lie beside it.
-  Problem problem =
-      ReadProblem(files.scene, files.request, {set.folder, robot_->resources.packages});
-  RequireProblemFits(problem, files, *robot_);
+  Problem problem = ReadProblem(files.scene, files.request, *robot_);
+  for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
 
   ServedProblem served;
   served.message.problem_set = set.name;
   served.message.problem_index = files.index;
   served.message.scene_id = SceneId(problem.scene);
-  served.message.group = robot_->Group(problem.group).name;
-  served.message.start = StartOf(problem);
+  served.message.message = Summary(problem.warnings);
+  served.message.group = problem.group;
+  served.message.start = problem.start;
   served.message.goal = problem.goal;
   served.message.time_limit_s = problem.time_limit_s;
   // Problems that differ only in their query share the scene.

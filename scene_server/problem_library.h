@@ -25,9 +25,10 @@ struct ServedProblem {
 /// from then on: files changed later are not noticed. Thread-safe. Holds a reference to the robot.
 class ProblemLibrary {
  public:
-  /// Each folder is a set, or, if it holds no problem itself, a folder of sets. The first problem
-  /// of every set is read, so that one for another robot fails here. Throws InputError: no such
-  /// folder, no problem in it, two sets of one name (both folders named), and what Find throws.
+  /// Each folder is a set, or, if it holds no problem itself, a folder of sets, at any depth. The
+  /// first problem of every set is read: that it cannot be is logged, so that a set for another
+  /// robot is noticed here. Throws InputError: no such folder, no problem in it, two sets of one
+  /// name (both folders named).
   ProblemLibrary(const Robot& robot, const std::vector<std::filesystem::path>& folders);
 
   /// By name.

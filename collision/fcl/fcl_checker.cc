@@ -62,7 +62,11 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
         Shape shape = placed.shape;
         if (auto* mesh = std::get_if<Mesh>(&shape);
             mesh != nullptr && mesh->triangles.triangles.empty() && !mesh->resource.empty()) {
-          mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
+          try {
+            mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
+          } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: collision mesh: {}", urdf_link.where, error.what()));
+          }
         }
         const Pose X_LS = Pose::From(placed.X_FS);
         geometry.shapes.emplace_back(FclShape(shape, urdf_link.name), X_LS);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
+#include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 #include "tests/support/shared_data.h"
 
@@ -22,7 +23,7 @@ void ExpectEndsAreFree(const Robot& robot, CollisionModel model) {
     if (!folder.path().filename().string().ends_with("_fetch")) continue;
     const ProblemSet set = ListProblemSet(folder.path());
     for (const ProblemFiles& files : set.problems) {
-      const Problem problem = ReadProblem(files.scene, files.request, robot.resources);
+      const Problem problem = ReadProblem(files.scene, files.request, robot);
       const auto base = FullPositions(robot.model, problem.start.names, problem.start.positions,
                                       files.request.string());
       std::vector<double> start;

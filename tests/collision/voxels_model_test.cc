@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision/simd/simd_checker.h"
+#include "robot_model/full_positions.h"
 #include "robot_model/robot_folder.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 
 #include "common/error.h"
 
@@ -121,10 +122,21 @@ TEST(YamlNode, KeysThatOccurTwiceAreErrors) {
 TEST(YamlNode, AllowOnlyNamesTheUnknownKey) {
   const YamlNode node = Parse("x:\n  range: 1\n  rnage: 2\n");
   EXPECT_NO_THROW(node.At("x").AllowOnly({"range", "rnage"}));
+  EXPECT_EQ(
+      ErrorOf([&] {
+        node.At("x").AllowOnly({"range", "seed"});
+      }),
+      "file.yaml:3: x.rnage: unknown key 'rnage'; did you mean 'range'? known are: range, seed");
   EXPECT_EQ(ErrorOf([&] {
-              node.At("x").AllowOnly({"range", "seed"});
+              node.At("x").AllowOnly({"range", "seed_of_the_run"});
             }),
-            "file.yaml:3: x.rnage: unknown key 'rnage'; known are: range, seed");
+            "file.yaml:3: x.rnage: unknown key 'rnage'; did you mean 'range'? known are: range, "
+            "seed_of_the_run");
+  EXPECT_EQ(
+      ErrorOf([&] {
+        node.At("x").AllowOnly({"speed", "rnage"});
+      }),
+      "file.yaml:2: x.range: unknown key 'range'; did you mean 'rnage'? known are: speed, rnage");
   EXPECT_THROW(Parse("[1]").AllowOnly({"a"}), InputError);
   EXPECT_NO_THROW(Parse("").AllowOnly({"a"}));
 }
@@ -148,7 +160,7 @@ TEST(YamlNode, OverrideErrorsNameTheirOrigin) {
   EXPECT_EQ(ErrorOf([&] { node.At("range").Double(); }),
             "--set range: range: expected a number, found 'far'");
   EXPECT_EQ(ErrorOf([&] { node.AllowOnly({"range"}); }),
-            "--set rnage: rnage: unknown key 'rnage'; known are: range");
+            "--set rnage: rnage: unknown key 'rnage'; did you mean 'range'? known are: range");
   EXPECT_THAT(ErrorOf([&] { node.Override("range", "[1", "--set range"); }),
               StartsWith("--set range"));
   YamlNode scalar = Parse("x");
@@ -168,6 +180,154 @@ TEST(YamlNode, OverrideWorksOnAnEmptyFileAndLeavesCopiesAlone) {
   changed.Override("a", "2", "--set a");
   EXPECT_EQ(base.At("a").Int(), 1);
   EXPECT_EQ(changed.At("a").Int(), 2);
+}
+
+TEST(YamlNode, EmptyDocumentsAroundTheOneDoNotCount) {
+  for (const char* text : {"a: 1\n---\n", "---\na: 1\n---\n", "--- \na: 1\n...\n", "a: 1\n---",
+                           "a: 1\n---\n\n# no more\n", "---\n---\na: 1\n", "a: 1\n---\n---\n"}) {
+    EXPECT_EQ(Parse(text).At("a").Int(), 1) << text;
+  }
+  EXPECT_TRUE(Parse("---\n---\n").IsNull());
+  EXPECT_THAT(ErrorOf([] { Parse("a: 1\n---\n\n---\nb: 2\n---\n"); }),
+              StartsWith("file.yaml:5: a second YAML document"));
+}
+
+TEST(YamlNode, MergeKeysAddWhatAMapDoesNotSay) {
+  const YamlNode node = Parse(R"(
+base: &base {a: 1, b: 2}
+more: &more
+  <<: *base
+  b: 3
+  c: 4
+list:
+  - <<: *more
+    c: 5
+  - <<: [{b: 6}, *more]
+  - {<<: {d: 7}, a: ~}
+  - {"<<": 8}
+)");
+  const std::vector<YamlNode> list = node.At("list").Elements();
+  EXPECT_EQ(list[0].At("a").Int(), 1);
+  EXPECT_EQ(list[0].At("b").Int(), 3);
+  EXPECT_EQ(list[0].At("c").Int(), 5);
+  EXPECT_THAT(list[0].Keys(), ElementsAre("c", "b", "a"));
+  EXPECT_EQ(list[1].At("b").Int(), 6) << "earlier maps come first";
+  EXPECT_EQ(list[1].At("c").Int(), 4);
+  EXPECT_FALSE(list[2].Find("a")) << "nothing is said too";
+  EXPECT_EQ(list[2].At("d").Int(), 7);
+  EXPECT_EQ(list[3].At("<<").Int(), 8) << "in quotes it is a key";
+  EXPECT_NO_THROW(list[0].AllowOnly({"a", "b", "c"}));
+  EXPECT_EQ(ErrorOf([&] {
+              list[0].AllowOnly({"b", "c"});
+            }),
+            "file.yaml:2: list[0].a: unknown key 'a'; known are: b, c");
+  EXPECT_EQ(ErrorOf([&] { list[0].At("a").Bool(); }),
+            "file.yaml:2: list[0].a: expected true or false, found '1'");
+}
+
+TEST(YamlNode, MergeKeysMergeMapsOnly) {
+  for (const char* text : {"<<: 1", "<<: [a]", "<<: ~", "a: &a {b: 1}\nc: {<<: [*a, 2]}",
+                           "a: &a {b: 1}\nc: {<<: [[*a]]}"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text); }), HasSubstr("merges a map or a sequence of maps"))
+        << text;
+  }
+  EXPECT_THAT(ErrorOf([] { Parse("a: &a\n  b: 1\n  <<: *a\n"); }), HasSubstr("into itself"));
+  EXPECT_THAT(ErrorOf([] { Parse("a: &a {<<: {<<: [*a]}}\n"); }), HasSubstr("into itself"));
+  EXPECT_THAT(ErrorOf([] { Parse("<<: {a: 1}\n<<: {b: 1}\n").Keys(); }), HasSubstr("twice"));
+}
+
+TEST(YamlNode, AliasesAreFollowedOnce) {
+  std::string text = "a0: &a0 [x]\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string last = std::to_string(i - 1);
+    const std::string name = std::to_string(i);
+    text.append("a").append(name).append(": &a").append(name);
+    text.append(" [*a").append(last).append(", *a").append(last).append("]\n");
+  }
+  EXPECT_EQ(Parse(text).At("a59").Size(), 2) << "and not 2^60 elements looked at";
+  EXPECT_TRUE(Parse("a: &a {b: *a}\n").At("a").At("b").At("b").IsMap());
+}
+
+TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
+  constexpr double kPi = 3.141592653589793;
+  for (const auto& [text, value] : std::map<std::string, double>{{"!degrees 90", kPi / 2},
+                                                                 {"deg(90)", kPi / 2},
+                                                                 {"!degrees deg( -45 )", -kPi / 4},
+                                                                 {"!degrees '180'", kPi},
+                                                                 {"!radians 1.5", 1.5},
+                                                                 {"!radians pi/2", kPi / 2},
+                                                                 {"rad(2*pi/3)", 2 * kPi / 3},
+                                                                 {"rad(-pi)", -kPi},
+                                                                 {"rad(0.5)", 0.5},
+                                                                 {"!!float 90", 90},
+                                                                 {"!!int 90", 90},
+                                                                 {"!!str 90", 90}}) {
+    EXPECT_NEAR(Parse(text).Double(), value, 1e-15) << text;
+    EXPECT_NEAR(Parse("[" + text + "]").Doubles(1)[0], value, 1e-15) << text;
+  }
+  for (const char* text :
+       {"pi", "pi/2", "deg(pi)", "!degrees rad(1)", "!radians deg(1)", "deg 90", "!radians pi/0",
+        "rad(pi/)", "!degrees ninety", "!!bool 1", "!!binary AQI="}) {
+    EXPECT_THROW(Parse(text).Double(), InputError) << text;
+  }
+  EXPECT_THAT(ErrorOf([] { Parse("!degrees 90").Int(); }),
+              HasSubstr("expected an integer, found the tag '!degrees'"));
+  EXPECT_THAT(ErrorOf([] { Parse("!degrees 90").String(); }), HasSubstr("'!degrees'"));
+  EXPECT_THAT(ErrorOf([] { Parse("!degrees 1").Bool(); }), HasSubstr("'!degrees'"));
+}
+
+TEST(YamlNode, UnknownTagsAreRefusedWhereverTheyStand) {
+  for (const char* text :
+       {"a: !foo 1", "a: !foo [1]", "a: !foo {b: 1}", "!foo a: 1", "a: !!python/tuple [1]",
+        "a: !degrees [1, 2]", "a: !!int {b: 1}", "a: !!map [1]", "a: {b: [1, {c: !deg 1}]}"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text); }), HasSubstr("is not known here")) << text;
+  }
+  EXPECT_EQ(ErrorOf([] { Parse("a: 1\nb: [1, {c: !deg 1}]"); }),
+            "file.yaml:2: b[1].c: the tag '!deg' is not known here");
+  const YamlNode node = Parse("a: !!map {b: !!seq [!!str x]}\nc: !!null ''\nd: !!bool yes");
+  EXPECT_THAT(node.At("a").At("b").Strings(), ElementsAre("x"));
+  EXPECT_FALSE(node.Find("c"));
+  EXPECT_TRUE(node.At("d").Bool());
+}
+
+TEST(YamlNode, BytesAsNumbersOrBase64) {
+  EXPECT_THAT(Parse("[0, -1, 127, -128, 255]").Bytes(), ElementsAre(0, 255, 127, 128, 255));
+  EXPECT_THAT(Parse("!!binary |\n  AQID\n  BA==\n").Bytes(), ElementsAre(1, 2, 3, 4));
+  EXPECT_TRUE(Parse("[]").Bytes().empty());
+  EXPECT_THAT(ErrorOf([] { Parse("[1, 256]").Bytes(); }),
+              StartsWith("file.yaml:1: [1]: is no byte"));
+  EXPECT_THROW(Parse("[1, x]").Bytes(), InputError);
+  EXPECT_THROW(Parse("!!binary '?'").Bytes(), InputError);
+  EXPECT_EQ(ErrorOf([] { Parse(std::string(40000, '7')).Bytes(); }),
+            "file.yaml:1: expected a sequence of bytes or !!binary, found a text of 40000 "
+            "characters");
+}
+
+TEST(YamlNode, OtherTextThanUtf8IsRefusedWithItsLine) {
+  EXPECT_EQ(ErrorOf([] { Parse("a: 1\nb: caf\xe9\n"); }),
+            "file.yaml:2: the byte \\xe9 is no UTF-8; the file must be UTF-8 text");
+  EXPECT_THAT(ErrorOf([] { Parse("# \xff\na: 1\n"); }), StartsWith("file.yaml:1: "));
+  EXPECT_EQ(Parse("\xef\xbb\xbf"
+                  "a: caf\xc3\xa9\n")
+                .At("a")
+                .String(),
+            "caf\xc3\xa9");
+}
+
+TEST(YamlNode, MessagesAreOneShortLineWhateverTheyQuote) {
+  const std::string message = ErrorOf([] { Parse("a: \"x\\ny\\e[2J\"\n").At("a").Double(); });
+  EXPECT_EQ(message, "file.yaml:1: a: expected a number, found 'x\\ny\\x1b[2J'");
+  EXPECT_LT(ErrorOf([] { Parse("a: " + std::string(5000, 'x')).At("a").Int(); }).size(), 100);
+  EXPECT_LT(ErrorOf([] { Parse(std::string(900, 'k') + ": 1").At("a").Int(); }).size(), 1200);
+}
+
+TEST(YamlNode, WarningsAreKeptWithTheDocument) {
+  const YamlNode node = Parse("a: 1\nb: [2]\n");
+  EXPECT_TRUE(node.warnings().empty());
+  node.At("b").At(0).Warn("is odd");
+  node.At("b").At(0).Warn("is odd");
+  node.At("a").Warn("is even");
+  EXPECT_THAT(node.warnings(), ElementsAre("file.yaml:2: b[0]: is odd", "file.yaml:1: a: is even"));
 }
 
 TEST(YamlNode, LoadFileNamesThePath) {

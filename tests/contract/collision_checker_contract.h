@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
+#include "robot_model/full_positions.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/expect_input_error.h"

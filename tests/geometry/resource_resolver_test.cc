@@ -26,10 +26,25 @@ TEST_F(ResourceResolverTest, FindsFilesOfGivenPackages) {
             folder_.path() / "other/meshes/theirs.stl");
 }
 
-TEST_F(ResourceResolverTest, TheBaseFolderStandsForItsOwnPackageAndForUnknownOnes) {
+TEST_F(ResourceResolverTest, PackagesAreFoldersOfTheirNameAround) {
   const fs::path own = folder_.path() / "robot/meshes/own.stl";
   EXPECT_EQ(resolver_.Resolve("package://robot/meshes/own.stl"), own);
-  EXPECT_EQ(resolver_.Resolve("package://somewhere_description/meshes/own.stl"), own);
+  EXPECT_EQ(resolver_.Resolve("package://meshes/own.stl"), own);
+  EXPECT_EQ(resolver_.Resolve("package://other/meshes/theirs.stl"),
+            folder_.path() / "other/meshes/theirs.stl");
+  const ResourceResolver deeper{folder_.path() / "robot/urdf/real", {}};
+  EXPECT_EQ(deeper.Resolve("package://robot/meshes/own.stl"), own);
+  EXPECT_EQ(deeper.Resolve("package://other/meshes/theirs.stl"),
+            folder_.path() / "other/meshes/theirs.stl");
+}
+
+TEST_F(ResourceResolverTest, AFileOfTheSamePathInAnotherPackageIsNotTaken) {
+  for (const char* uri :
+       {"package://somewhere_description/meshes/own.stl", "package://robo/meshes/own.stl"}) {
+    ExpectInputError([&] { resolver_.Resolve(uri); }, {uri, "no folder of package"});
+  }
+  ExpectInputError([&] { resolver_.Resolve("package://other/meshes/own.stl"); },
+                   {(folder_.path() / "other/meshes/own.stl").string()});
 }
 
 TEST_F(ResourceResolverTest, AGivenPackageIsNotLookedForInTheBaseFolder) {

@@ -203,8 +203,9 @@ class PublishedScenes : public CodecTest, public testing::WithParamInterface<std
 TEST_P(PublishedScenes, KeepTheirIds) {
   const std::string below = "problems/" + GetParam();
   PLANBENCH_NEED_SHARED_DATA(below);
+  const Robot fetch = LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots/fetch");
   for (const ProblemFiles& files : ListProblemSet(SharedData(below)).problems) {
-    const Problem problem = ReadProblem(files.scene, files.request, {});
+    const Problem problem = ReadProblem(files.scene, files.request, fetch);
     const SceneMessage message{"r", SceneId(problem.scene), true, "", problem.scene};
     const std::vector<std::uint8_t> bytes = Encode(message);
     EXPECT_LT(bytes.size(), 65499) << "does not fit one datagram";

@@ -294,7 +294,7 @@ TEST_F(PlannerNodeTest, RepeatedRequestIsNoSecondSolve) {
 TEST_F(PlannerNodeTest, RemembersTheLastResults) {
   StartNode();
   StartSceneServer();
-  const auto id = [](std::size_t i) { return "r" + std::to_string(i); };
+  const auto id = [](std::size_t i) { return std::to_string(i); };
   for (std::size_t i = 0; i <= PlannerNode::kResultCacheSize; ++i) {
     Send(Request(id(i)));
     ResultOf(id(i));

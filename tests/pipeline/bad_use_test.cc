@@ -63,9 +63,14 @@ TEST_F(BadUse, ProblemsForAnotherRobot) {
     text.replace(at, 16, "other_elbow_joint");
   }
   std::ofstream(problems / "request0001.yaml") << text;
-  ExpectBadInput(
-      Start({Program("scene_server"), "--robot", RobotFolder(), "--problems", problems.string()}),
-      "other_elbow_joint");
+  ChildProcess* driver =
+      Start({Program("benchmark_driver"), "--launch", "--robot", RobotFolder(), "--problems",
+             problems.string(), "--planners", "rrtc", "--out", (folder() / "session").string()});
+  EXPECT_EQ(driver->Wait(), 2) << driver->Errors();
+  EXPECT_NE(driver->Errors().find("request0001.yaml:12: start_state.joint_state.name[9]: the joint "
+                                  "'other_elbow_joint' is unknown"),
+            std::string::npos)
+      << driver->Errors();
 }
 
 TEST_F(BadUse, SecondLoggerOnTheSameFolder) {

@@ -245,7 +245,7 @@ TEST_F(AraPlannerTest, SolvesPublishedProblems) {
   for (const int index : {11, 41, 71}) {
     const ProblemFiles* files = set.Find(index);
     ASSERT_NE(files, nullptr);
-    const Problem problem = ReadProblem(files->scene, files->request, fetch.resources);
+    const Problem problem = ReadProblem(files->scene, files->request, fetch);
     PlanRequest request;
     request.group = problem.group;
     request.start = problem.start;

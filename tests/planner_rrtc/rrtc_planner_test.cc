@@ -218,7 +218,7 @@ TEST_F(RrtcPlannerTest, SolvesPublishedProblems) {
   for (const int index : {1, 2, 3}) {
     const ProblemFiles* files = set.Find(index);
     ASSERT_NE(files, nullptr);
-    const Problem problem = ReadProblem(files->scene, files->request, fetch.resources);
+    const Problem problem = ReadProblem(files->scene, files->request, fetch);
     PlanRequest request;
     request.group = problem.group;
     request.start = problem.start;

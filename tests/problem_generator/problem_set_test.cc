@@ -8,6 +8,7 @@
 #include "collision/edge_checker.h"
 #include "problem_generator/problem_set_maker.h"
 #include "problem_generator/query_sampler.h"
+#include "robot_model/full_positions.h"
 #include "tests/problem_generator/generator_support.h"
 #include "tests/support/expect_input_error.h"
 
@@ -73,7 +74,7 @@ TEST_F(ProblemSetTest, WrittenSetsReadBackWithStartsAndGoalsAsSpecified) {
     ASSERT_EQ(set.problems.size(), 10);
     for (const ProblemFiles& files : set.problems) {
       SCOPED_TRACE(files.index);
-      const Problem problem = ReadProblem(files.scene, files.request, {});
+      const Problem problem = ReadProblem(files.scene, files.request, fetch_);
       const Problem& written = made.problems[static_cast<std::size_t>(files.index - 1)];
       EXPECT_EQ(SceneId(problem.scene), SceneId(written.scene));
       EXPECT_EQ(problem.scene.robot_name, "fetch");

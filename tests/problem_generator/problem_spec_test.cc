@@ -55,7 +55,7 @@ TEST(ProblemSpec, SharesItsAllowedCollisionsWithTheShippedProblems) {
   const ProblemSpec spec = LoadProblemSpec(ShippedProblems() / "box.yaml", fetch);
   const ProblemFiles files = ListProblemSet(ShippedProblems() / "shelf_demo").problems.front();
   EXPECT_EQ(spec.allowed_collisions.Simplified(),
-            ReadProblem(files.scene, files.request, {}).scene.allowed_collisions);
+            ReadProblem(files.scene, files.request, fetch).scene.allowed_collisions);
 }
 
 struct BadSpec {

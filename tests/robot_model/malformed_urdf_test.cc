@@ -21,6 +21,17 @@ std::string WithJoint(const std::string& type, const std::string& elements) {
          "'><parent link='a'/><child link='b'/>" + elements + "</joint></robot>";
 }
 
+// Two revolute joints in a row, `j` on line 2 and `k` on line 3, with more elements inside.
+std::string WithChain(const std::string& of_j, const std::string& of_k,
+                      const std::string& more = "") {
+  const std::string limit = "<limit lower='0' upper='1' velocity='1' effort='1'/>";
+  return "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>\n"
+         "<joint name='j' type='revolute'><parent link='a'/><child link='b'/>" +
+         limit + of_j +
+         "</joint>\n<joint name='k' type='revolute'><parent link='b'/><child link='c'/>" + limit +
+         of_k + "</joint>" + more + "</robot>";
+}
+
 std::string WithCollision(const std::string& elements) {
   return "<robot name='r'>\n\n<link name='a'><collision>" + elements +
          "</collision></link></robot>";
@@ -52,7 +63,7 @@ TEST_P(MalformedUrdfTest, IsRefusedByName) {
 const MalformedUrdf kMalformed[] = {
     {"Empty", "", {"not a valid URDF"}},
     {"NoXml", "robot: r", {"not a valid URDF"}},
-    {"CutOff", "<robot name='r'><link name='a'>", {"not a valid URDF"}},
+    {"CutOff", "<robot name='r'><link name='a'>", {":1:", "<link> is not closed"}},
     {"NoRobot", "<model name='r'/>", {"not a valid URDF"}},
     {"NoName", "<robot><link name='a'/></robot>", {"name"}},
     {"BadVersion", "<robot name='r' version='one'><link name='a'/></robot>", {"version"}},
@@ -86,20 +97,72 @@ const MalformedUrdf kMalformed[] = {
      "<robot name='r'><link name='a'/>"
      "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>",
      {"[j]", "[b]"}},
-    {"Mimic",
+    {"MimicOfNone",
      WithJoint("revolute", std::string(kLimit) + "<mimic joint='other'/>"),
-     {":2:", "joint 'j'", "mimic"}},
-    {"Floating", WithJoint("floating", ""), {":2:", "joint 'j'", "floating"}},
-    {"Planar", WithJoint("planar", ""), {":2:", "joint 'j'", "planar"}},
-    {"UnknownType", WithJoint("screw", ""), {"[j]", "screw"}},
-    {"RevoluteWithoutLimit", WithJoint("revolute", ""), {"[j]", "limits"}},
-    {"PrismaticWithoutLimit", WithJoint("prismatic", ""), {"[j]", "limits"}},
+     {":2:", "joint 'j'", "mimic", "'other' is unknown"}},
+    {"MimicOfItself",
+     WithJoint("revolute", std::string(kLimit) + "<mimic joint='j'/>"),
+     {":2:", "joint 'j'", "mimic", "circle: j, j"}},
+    {"MimicInACircle",
+     WithChain("<mimic joint='k'/>", "<mimic joint='j'/>"),
+     {":2:", "joint 'j'", "mimic", "circle: j, k, j"}},
+    {"MimicOfAPose",
+     WithChain("<mimic joint='f'/>", "",
+               "<link name='d'/><joint name='f' type='floating'>"
+               "<parent link='a'/><child link='d'/></joint>"),
+     {":2:", "joint 'j'", "mimic", "'f' has a pose"}},
+    {"FloatingMimic",
+     WithChain("", "",
+               "<link name='d'/>\n<joint name='f' type='floating'>"
+               "<parent link='a'/><child link='d'/><mimic joint='j'/></joint>"),
+     {":4:", "joint 'f'", "mimic"}},
+    {"MimicByNoNumber",
+     WithJoint("revolute", std::string(kLimit) + "<mimic joint='j' multiplier='much'/>"),
+     {":2:", "[j]", "mimic"}},
+    {"SoftLimitsOutside",
+     WithJoint("revolute", std::string(kLimit) +
+                               "<safety_controller soft_lower_limit='2' soft_upper_limit='3' "
+                               "k_velocity='1'/>"),
+     {":2:", "joint 'j'", "safety_controller", "outside"}},
+    {"SoftLowerAboveUpper",
+     WithJoint("revolute", std::string(kLimit) +
+                               "<safety_controller soft_lower_limit='0.5' soft_upper_limit='0.2' "
+                               "k_velocity='1'/>"),
+     {":2:", "joint 'j'", "safety_controller", "0.5", "0.2"}},
+    {"XacroCall",
+     "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><link name='a'/>\n"
+     "<xacro:gripper parent='a'/></robot>",
+     {":2:", "<xacro:gripper>", "not expanded", "xacro robots/r.urdf > "}},
+    {"XacroInside",
+     "<robot name='r'><link name='a'>\n\n<xacro:body/></link></robot>",
+     {":3:", "<xacro:body>", "not expanded"}},
+    {"XacroExpression",
+     "<robot name='r'>\n<link name='${prefix}a'/></robot>",
+     {":2:", "<link>", "'${prefix}'", "not expanded"}},
+    {"XacroFind",
+     WithCollision("<geometry>\n<mesh filename='file://$(find arm)/hand.stl'/></geometry>"),
+     {":4:", "link 'a'", "'$(find arm)'", "not expanded"}},
+    {"OldXacro",
+     "<robot name='r'><link name='a'/>\n<include filename='b.xacro'/></robot>",
+     {":2:", "<include>", "not expanded"}},
+    {"NameIsNoUtf8",
+     "<robot name='r'>\n<link name='caf\xe9'/></robot>",
+     {":2:", "<link>", "\\xe9", "UTF-8"}},
+    {"ClosedInDisorder",
+     "<robot name='r'>\n<link name='a'>\n</robot>",
+     {":3:", "</robot>", "<link> of line 2"}},
+    {"NeverClosed",
+     "<robot name='r'>\n<link name='a'>\n<visual/></link>\n<link name='b'>",
+     {":4:", "<link> is not closed"}},
+    {"UnknownType", WithJoint("screw", ""), {":2:", "[j]", "screw"}},
+    {"RevoluteWithoutLimit", WithJoint("revolute", ""), {":2:", "[j]", "limits"}},
+    {"PrismaticWithoutLimit", WithJoint("prismatic", ""), {":2:", "[j]", "limits"}},
     {"LowerAboveUpper",
      WithJoint("revolute", "<limit lower='1' upper='0.5' velocity='1' effort='1'/>"),
      {":2:", "joint 'j'", "limit", "lower 1 ", "upper 0.5"}},
     {"LimitNoNumber",
      WithJoint("revolute", "<limit lower='low' upper='1' velocity='1' effort='1'/>"),
-     {"[j]", "lower", "low"}},
+     {":2:", "[j]", "lower", "low"}},
     {"LimitNan",
      WithJoint("revolute", "<limit lower='nan' upper='1' velocity='1' effort='1'/>"),
      {"[j]", "lower"}},
@@ -110,9 +173,11 @@ const MalformedUrdf kMalformed[] = {
      WithJoint("revolute", std::string(kLimit) + "<axis xyz='0 0 0'/>"),
      {":2:", "joint 'j'", "axis"}},
     {"ShortOrigin", WithJoint("fixed", "<origin xyz='1 2'/>"), {"[j]", "origin"}},
-    {"EmptyCollision", WithCollision(""), {"[a]", "collision"}},
-    {"UnknownGeometry", WithCollision("<geometry><torus/></geometry>"), {"[a]", "torus"}},
-    {"SphereWithoutRadius", WithCollision("<geometry><sphere/></geometry>"), {"[a]", "radius"}},
+    {"EmptyCollision", WithCollision(""), {":3:", "[a]", "collision"}},
+    {"UnknownGeometry", WithCollision("<geometry><torus/></geometry>"), {":3:", "[a]", "torus"}},
+    {"SphereWithoutRadius",
+     WithCollision("<geometry><sphere/></geometry>"),
+     {":3:", "[a]", "radius"}},
     {"NegativeSphere",
      WithCollision("<geometry><sphere radius='-1'/></geometry>"),
      {":3:", "link 'a'", "sphere radius", "-1"}},
@@ -134,6 +199,18 @@ INSTANTIATE_TEST_SUITE_P(Table, MalformedUrdfTest, testing::ValuesIn(kMalformed)
 TEST(UrdfLimits, ZeroAxesAndMissingLimitsAreFineWhereTheyAreNotUsed) {
   EXPECT_NO_THROW(RobotModel::FromUrdf(WithJoint("fixed", "<axis xyz='0 0 0'/>"), "r"));
   EXPECT_NO_THROW(RobotModel::FromUrdf(WithJoint("continuous", ""), "r"));
+  EXPECT_NO_THROW(RobotModel::FromUrdf(WithJoint("floating", "<axis xyz='0 0 0'/>"), "r"));
+  EXPECT_NO_THROW(RobotModel::FromUrdf(WithJoint("planar", ""), "r"));
+}
+
+TEST(UrdfText, CommentsAndOtherToolsElementsMayHoldAnything) {
+  EXPECT_NO_THROW(RobotModel::FromUrdf(
+      "<?xml version='1.0'?>\n<!-- caf\xe9 <xacro:gripper/> ${prefix} <link> -->\n"
+      "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>\n"
+      "<gazebo><plugin file='$(find x)/y'><a>1 &lt; 2</a></plugin></gazebo>\n"
+      "<link name='a > b'><visual><geometry><sphere radius='1'/></geometry></visual></link>\n"
+      "</robot>\n",
+      "r"));
 }
 
 }  // namespace

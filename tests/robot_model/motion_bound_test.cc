@@ -28,25 +28,34 @@ Fixture FetchFixture() {
   return {fetch.model, fetch.Group(""), fetch.model.DefaultPositions(), fetch.spheres};
 }
 
-// A chain of random joints about random axes, some held, a few balls on each link.
+// A chain of random joints about random axes, some held, some following an earlier one, a few balls
+// on each link.
 Fixture RandomFixture(std::mt19937* random) {
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto number = [&] { return unit(*random); };
   const int num_joints = 2 + static_cast<int>((*random)() % 5);
   std::string urdf = "<robot name='random'><link name='l0'/>";
   std::vector<std::string> moved;
+  std::vector<std::string> leaders;  // Bounded joints so far that follow none.
   for (int j = 0; j < num_joints; ++j) {
     const char* types[] = {"revolute", "continuous", "prismatic", "fixed", "revolute"};
     const std::string type = types[(*random)() % 5];
     const double lower = number();
+    std::string mimic;
+    if (type != "fixed" && !leaders.empty() && (*random)() % 3 == 0) {
+      mimic = fmt::format("<mimic joint='{}' multiplier='{}' offset='{}'/>",
+                          leaders[(*random)() % leaders.size()], 2 * number(), number());
+    }
     urdf += fmt::format(
         "<link name='l{1}'/><joint name='j{0}' type='{2}'><parent link='l{0}'/>"
         "<child link='l{1}'/><origin xyz='{3} {4} {5}' rpy='{6} {7} {8}'/>"
         "<axis xyz='{9} {10} {11}'/>"
-        "<limit lower='{12}' upper='{13}' velocity='1' effort='1'/></joint>",
+        "<limit lower='{12}' upper='{13}' velocity='1' effort='1'/>{14}</joint>",
         j, j + 1, type, number(), number(), number(), 3 * number(), 3 * number(), 3 * number(),
-        number(), number(), number(), lower, lower + std::abs(number()));
-    if (type != "fixed" && (*random)() % 5 != 0) moved.push_back(fmt::format("j{}", j));
+        number(), number(), number(), lower, lower + std::abs(number()), mimic);
+    if (type == "fixed" || !mimic.empty()) continue;
+    if (type != "continuous") leaders.push_back(fmt::format("j{}", j));
+    if ((*random)() % 5 != 0) moved.push_back(fmt::format("j{}", j));
   }
   if (moved.empty()) return RandomFixture(random);
   Fixture fixture;

@@ -19,14 +19,21 @@ inline std::vector<double> RandomConfiguration(const JointSpace& space, std::mt1
   return q;
 }
 
-/// Full positions, uniform within the limits; continuous joints in [-pi, pi].
+/// Full positions, uniform within the limits; continuous joints in [-pi, pi], poses of planar and
+/// floating ones at most 1 m away.
 inline std::vector<double> RandomPositions(const RobotModel& model, std::mt19937* random) {
   std::vector<double> positions(static_cast<std::size_t>(model.num_positions()));
   for (const Joint& joint : model.joints()) {
-    if (joint.position_index < 0) continue;
-    positions[static_cast<std::size_t>(joint.position_index)] =
-        std::uniform_real_distribution<double>(std::max(joint.lower, -std::numbers::pi),
-                                               std::min(joint.upper, std::numbers::pi))(*random);
+    if (joint.position_index < 0 || joint.leader >= 0) continue;
+    const auto index = static_cast<std::size_t>(joint.position_index);
+    if (NumPositions(joint.type) > 1) {
+      for (std::size_t k = 0; k < 7; ++k) {
+        positions[index + k] = std::uniform_real_distribution<double>(-1, 1)(*random);
+      }
+      continue;
+    }
+    positions[index] = std::uniform_real_distribution<double>(
+        std::max(joint.lower, -std::numbers::pi), std::min(joint.upper, std::numbers::pi))(*random);
   }
   return positions;
 }

@@ -148,12 +148,12 @@ TEST(MeshRobotId, FollowsDescriptionAndMeshes) {
   WriteSmallRobot(folder, "small");
   const auto id = [&] { return MeshRobotId(LoadRobot(folder.path() / "small")); };
   const std::string without_mesh = id();
-  folder.Write("small/meshes/arm.stl", "solid one");
+  folder.Write("small/small_description/meshes/arm.stl", "solid one");
   const std::string with_mesh = id();
   EXPECT_NE(with_mesh, without_mesh);
-  folder.Write("small/meshes/arm.stl", "solid two");
+  folder.Write("small/small_description/meshes/arm.stl", "solid two");
   EXPECT_NE(id(), with_mesh);
-  folder.Write("small/meshes/arm.stl", "solid one");
+  folder.Write("small/small_description/meshes/arm.stl", "solid one");
   EXPECT_EQ(id(), with_mesh);
   folder.Write("small/robot.yaml", std::string(kRobot) + "edge_resolution_m: 0.01\n");
   EXPECT_NE(id(), with_mesh);
@@ -176,15 +176,48 @@ TEST(LoadRobot, OptionalFieldsHaveDefaults) {
 TEST(LoadRobot, ResolvesMeshesByPackageOrFolder) {
   TemporaryFolder folder;
   WriteSmallRobot(folder, "small");
-  folder.Write("small/meshes/arm.stl", "");
+  folder.Write("small_description/meshes/arm.stl", "");
   folder.Write("description/meshes/arm.stl", "");
   const std::string uri = "package://small_description/meshes/arm.stl";
   EXPECT_EQ(LoadRobot(folder.path() / "small").resources.Resolve(uri),
-            folder.path() / "small/meshes/arm.stl");
+            folder.path() / "small_description/meshes/arm.stl");
   EXPECT_EQ(
       LoadRobot(folder.path() / "small", {{"small_description", folder.path() / "description"}})
           .resources.Resolve(uri),
       folder.path() / "description/meshes/arm.stl");
+}
+
+TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
+  TemporaryFolder folder;
+  folder.Write("small.urdf", R"(<robot name="small">
+  <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="arm"><collision><geometry><sphere radius="1"/></geometry></collision></link>
+  <link name="tip"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
+  <joint name="end" type="fixed"><parent link="arm"/><child link="tip"/></joint>
+</robot>)");
+  folder.Write("spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 1}]}");
+  const std::string yaml =
+      "name: small\nurdf: small.urdf\nspheres: spheres.yaml\n"
+      "groups: [{name: all, joints: [turn], tip_link: arm}]\n";
+  folder.Write("robot.yaml", yaml);
+  const std::vector<std::string> warnings = LoadRobot(folder.path()).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("spheres.yaml: no spheres for base, which"), std::string::npos)
+      << warnings[0];
+
+  folder.Write("robot.yaml", yaml + "links_without_spheres: [base]\n");
+  EXPECT_TRUE(LoadRobot(folder.path()).warnings.empty());
+  folder.Write("robot.yaml", yaml + "links_without_spheres: [basis]\n");
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:5", "'basis'"});
+}
+
+TEST(LoadRobot, ShippedRobotsHaveNothingToWarnOf) {
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(fs::path(PLANBENCH_SOURCE_DIR) / "robots")) {
+    const Robot robot = LoadRobot(entry.path());
+    EXPECT_TRUE(robot.warnings.empty()) << robot.warnings.front();
+  }
 }
 
 TEST(Robot, FindsGroupsByName) {
@@ -258,6 +291,34 @@ TEST(LoadRefereeRobot, RefusesRobotsThatDoNotFit) {
                "name: group\nurdf: a.urdf\n"
                "groups: [{name: all, joints: [grip], tip_link: hand}]\n");
   ExpectInputError(load("group"), {"group/robot.yaml", "group 'all'", "other joints"});
+}
+
+TEST(LoadRefereeRobot, MustHaveAPlaceRelativeToThePlanningRobot) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  const Robot planning = LoadRobot(folder.path() / "small");
+  const auto load = [&](const std::string& name, const std::string& links) {
+    folder.Write(name + "/a.urdf", "<robot name='r'>" + links +
+                                       "<link name='arm'/><joint name='turn' type='continuous'>"
+                                       "<parent link='trunk'/><child link='arm'/></joint></robot>");
+    return LoadRefereeRobot(folder.path() / name, planning);
+  };
+  const std::string fixed = "' type='fixed'><parent link='";
+  EXPECT_NO_THROW(load("below",
+                       "<link name='world'/><link name='base'/><link name='trunk'/>"
+                       "<joint name='a" +
+                           fixed +
+                           "world'/><child link='base'/></joint>"
+                           "<joint name='b" +
+                           fixed + "base'/><child link='trunk'/></joint>"));
+  ExpectInputError([&] { load("none", "<link name='trunk'/>"); },
+                   {"none: cannot be placed where the robot 'small' is", "'trunk'", "'base'"});
+  ExpectInputError(
+      [&] {
+        load("moves", "<link name='trunk'/><link name='base'/><joint name='b" + fixed +
+                          "arm'/><child link='base'/></joint>");
+      },
+      {"moves: cannot be placed"});
 }
 
 TEST(LoadRefereeRobot, JudgesTheFetchByTheManufacturersDescription) {

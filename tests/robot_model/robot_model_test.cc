@@ -159,24 +159,5 @@ TEST_F(RobotModelTest, RefusesGroupsItCannotMake) {
   ExpectInputError(make({}, "twig"), {"arm", "no joints"});
 }
 
-TEST_F(RobotModelTest, FullPositionsTakeNamedOnesAndDefaults) {
-  EXPECT_EQ(FullPositions(model_, {"alpha", "zulu"}, {3, 0.3}, "start"),
-            (std::vector<double>{0.3, -1, 3}));
-  EXPECT_EQ(FullPositions(model_, {}, {}, "start"), model_.DefaultPositions());
-}
-
-TEST_F(RobotModelTest, FullPositionsRefusesWhatTheRobotDoesNotHave) {
-  const auto full = [this](std::vector<std::string> names, std::vector<double> positions) {
-    return [this, names, positions] {
-      FullPositions(model_, names, positions, "request0001.yaml: start");
-    };
-  };
-  const std::string origin = "request0001.yaml: start";
-  ExpectInputError(full({"alpha"}, {1, 2}), {origin, "1 joint names", "2 positions"});
-  ExpectInputError(full({"yankee"}, {1}), {origin, "'yankee' is unknown"});
-  ExpectInputError(full({"mike"}, {1}), {origin, "'mike' is fixed"});
-  ExpectInputError(full({"alpha", "alpha"}, {1, 1}), {origin, "'alpha' occurs twice"});
-}
-
 }  // namespace
 }  // namespace planbench

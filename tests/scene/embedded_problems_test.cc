@@ -19,9 +19,11 @@ TEST(EmbeddedProblems, ShelfDemoLoadsAndIsCanonical) {
   const ProblemSet set =
       ListProblemSet(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "problems" / "shelf_demo");
   EXPECT_EQ(set.problems.size(), 6);
+  const Robot fetch = LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots" / "fetch");
   for (const ProblemFiles& files : set.problems) {
     SCOPED_TRACE(files.scene.string());
-    const Problem problem = ReadProblem(files.scene, files.request, {});
+    const Problem problem = ReadProblem(files.scene, files.request, fetch);
+    EXPECT_TRUE(problem.warnings.empty());
     EXPECT_EQ(problem.set, "shelf_demo");
     EXPECT_EQ(problem.scene.world_frame, "base_link");
     EXPECT_EQ(problem.group, "arm_with_torso");

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "tests/scene/problem_texts.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
@@ -112,16 +113,18 @@ INSTANTIATE_TEST_SUITE_P(
                 OBJECT "[0].pose.position", "'z' is missing"},
         Mistake{"NoOrientation", kScene, ", orientation: [0, 0, 0.6, 0.8]", "", "[1, 0, 0.5]",
                 OBJECT "[0].pose", "'orientation' is missing"},
-        Mistake{"NonUnitQuaternion", kScene, "[0, 0, 0.6, 0.8]", "[0, 0, 0.6, 0.81]", "0.81",
+        Mistake{"NonUnitQuaternion", kScene, "[0, 0, 0.6, 0.8]", "[0, 0, 0.6, 0.9]", "0.9]",
                 OBJECT "[0].pose.orientation", "no unit quaternion"},
-        Mistake{"ZeroQuaternion", kScene, "[0, 0, 0.6, 0.8]", "[0, 0, 0, 0]", "[0, 0, 0, 0]",
+        Mistake{"AnglesForAQuaternion", kScene, "[0, 0, 0.6, 0.8]", "[0, 0, 1.57, 0]", "1.57",
                 OBJECT "[0].pose.orientation", "no unit quaternion"},
+        Mistake{"InfiniteQuaternion", kScene, "[0, 0, 0.6, 0.8]", "[0, 0, 0, .inf]", ".inf",
+                OBJECT "[0].pose.orientation[3]", "finite"},
         Mistake{"FewerPosesThanShapes", kScene,
                 "        - {position: [0.1, 0, 0.3], orientation: [0, 0, 0, 1]}\n", "",
                 "- id: shelf", OBJECT "[0]", "2 shapes but 1 primitive_poses"},
         Mistake{"UnknownFrame", kScene, "header: {frame_id: camera}\n      primitives",
                 "header: {frame_id: lamp}\n      primitives", "lamp", OBJECT "[1].header.frame_id",
-                "unknown frame 'lamp'; known are: 'base_link', 'camera'"},
+                "unknown frame 'lamp'"},
         Mistake{"RemoveOperation", kScene, "operation: 0", "operation: 1", "operation",
                 OBJECT "[0].operation", "only the operation ADD"},
         Mistake{"PlaneWithoutPose", kScene, "- id: can\n",
@@ -167,11 +170,46 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"TouchLinksAreText", kScene, "touch_links: [l_finger, r_finger]",
                 "touch_links: l_finger", "touch_links",
                 "robot_state.attached_collision_objects[0].touch_links", "expected a sequence"},
-        Mistake{"MultiDof", kScene, "robot_state:\n",
+        Mistake{"MultiDofWithoutTransform", kScene, "robot_state:\n",
                 "robot_state:\n  multi_dof_joint_state: {joint_names: [floating]}\n", "[floating]",
-                "robot_state.multi_dof_joint_state.joint_names[0]", "multi-DOF"},
-        Mistake{"Octomap", kScene, "world:\n", "world:\n  octomap: {octomap: {data: [1, 2]}}\n",
-                "octomap", "world.octomap.octomap.data[0]", "octomaps are not supported"},
+                "robot_state.multi_dof_joint_state", "1 joint_names but 0 transforms"},
+        Mistake{"MultiDofOfAnArmJoint", kScene, "robot_state:\n",
+                "robot_state:\n  multi_dof_joint_state: {joint_names: [a_joint], transforms: "
+                "[{translation: [0, 0, 0], rotation: [0, 0, 0, 1]}]}\n",
+                "[a_joint]", "robot_state.multi_dof_joint_state.joint_names[0]",
+                "'a_joint' is not one that takes a pose"},
+        Mistake{"TwoRoots", kScene, "robot_state:\n",
+                "robot_state:\n  multi_dof_joint_state: {joint_names: [root, other], transforms: "
+                "[{translation: [0, 0, 0], rotation: [0, 0, 0, 1]}, "
+                "{translation: [0, 0, 0], rotation: [0, 0, 0, 1]}]}\n",
+                "[root, other]", "robot_state.multi_dof_joint_state.joint_names[1]", "'other'"},
+        Mistake{"RobotInItsOwnFrame", kScene, "robot_state:\n",
+                "robot_state:\n  multi_dof_joint_state: {header: {frame_id: base_link}, "
+                "joint_names: [root], transforms: "
+                "[{translation: [1.5, 0, 0], rotation: [0, 0, 0, 1]}]}\n",
+                "1.5", "robot_state.multi_dof_joint_state.transforms[0]",
+                "places the robot in the frame 'base_link'"},
+        Mistake{"OctomapOfNoResolution", kScene, "world:\n",
+                "world:\n  octomap: {octomap: {id: OcTree, binary: true, data: [1, 2]}}\n",
+                "octomap", "world.octomap.octomap", "'resolution' is missing"},
+        Mistake{"OctomapCutOff", kScene, "world:\n",
+                "world:\n  octomap: {octomap: {id: OcTree, binary: true, resolution: 0.1, "
+                "data: [3, 0]}}\n",
+                "octomap", "world.octomap.octomap.data", "cut off"},
+        Mistake{"OctomapOfColours", kScene, "world:\n",
+                "world:\n  octomap: {octomap: {id: ColorOcTree, binary: true, resolution: 0.1, "
+                "data: [2, 0]}}\n",
+                "octomap", "world.octomap.octomap.data", "'ColorOcTree'"},
+        Mistake{"OctomapInAnUnknownFrame", kScene, "world:\n",
+                "world:\n  octomap: {header: {frame_id: lamp}, octomap: {id: OcTree, binary: true, "
+                "resolution: 0.1, data: [2, 0]}}\n",
+                "octomap", "world.octomap.header.frame_id", "unknown frame 'lamp'"},
+        Mistake{"UnknownJoint", kScene, "name: [a_joint, b_joint]", "name: [a_joint, c_joint]",
+                "c_joint", "robot_state.joint_state.name[1]", "'c_joint' is unknown"},
+        Mistake{"FixedJointElsewhere", kScene, "name: [a_joint, b_joint]", "name: [a_joint, l]",
+                "[a_joint, l]", "robot_state.joint_state.name[1]", "'l' is fixed"},
+        Mistake{"OtherRobot", kScene, "robot_model_name: fetch", "robot_model_name: fletch",
+                "fletch", "robot_model_name", "robot 'fletch', not for 'fetch'"},
         Mistake{"Padding", kScene, "name: kitchen",
                 "name: kitchen\nlink_padding: [{link_name: a, padding: 0.01}]", "0.01",
                 "link_padding[0].padding", "link_padding is not supported"},
@@ -180,34 +218,46 @@ INSTANTIATE_TEST_SUITE_P(
                 "link_scale[0].scale", "link_scale is not supported"},
         Mistake{"WorldInItselfMoves", kScene, "{translation: [0, 0, 0]", "{translation: [0, 0, 2]",
                 "[0, 0, 2]", "fixed_frame_transforms[0].transform", "other than the identity"},
-        Mistake{"FrameOfOtherParent", kScene,
+        Mistake{"FrameOfUnknownParent", kScene,
                 "  - header: {frame_id: base_link}\n    child_frame_id: camera",
-                "  - header: {frame_id: torso}\n    child_frame_id: camera",
-                "header: {frame_id: torso", "fixed_frame_transforms[1]", "'torso'"},
-        Mistake{"FrameTwice", kScene, "child_frame_id: camera", "child_frame_id: base_link",
-                "base_link\n    transform: {translation: [0, 0, 1]",
-                "fixed_frame_transforms[1].child_frame_id", "given twice"},
+                "  - header: {frame_id: torso}\n    child_frame_id: camera", "camera}\n      prim",
+                OBJECT "[1].header.frame_id", "unknown frame 'camera'"},
+        Mistake{"FrameTwice", kScene, "child_frame_id: camera",
+                "child_frame_id: camera\n    transform: {translation: [0, 1, 1], rotation: "
+                "[0, 0, 0, 1]}\n  - header: {frame_id: base_link}\n    child_frame_id: camera",
+                "header: {frame_id: base_link}\n    child_frame_id: camera\n    transform: "
+                "{translation: [0, 0, 1]",
+                "fixed_frame_transforms[2]", "'base_link' and 'camera' stand otherwise"},
+        Mistake{"LinkElsewhere", kScene, "child_frame_id: camera", "child_frame_id: gripper_link",
+                "header: {frame_id: base_link}\n    child_frame_id: gripper_link",
+                "fixed_frame_transforms[1]", "'gripper_link' stand otherwise"},
         Mistake{"AttachedWithoutLink", kScene, "- link_name: gripper_link\n      object",
                 "- object", "- object", "robot_state.attached_collision_objects[0]",
                 "'link_name' is missing"},
-        Mistake{"AttachedInOtherFrame", kScene, "header: {frame_id: gripper_link}",
-                "header: {frame_id: base_link}", "id: tool",
-                "robot_state.attached_collision_objects[0].object", "'gripper_link'"},
-        Mistake{"AttachedIsInTheWorld", kScene, "id: tool", "id: can", "id: can",
-                "robot_state.attached_collision_objects[0].object.id", "in the world already"}),
+        Mistake{"AttachedInUnknownFrame", kScene, "header: {frame_id: gripper_link}",
+                "header: {frame_id: lamp}", "lamp",
+                "robot_state.attached_collision_objects[0].object.header.frame_id",
+                "unknown frame 'lamp'"},
+        Mistake{"AttachedToUnknownLink", kScene, "link_name: gripper_link", "link_name: hand",
+                "hand", "robot_state.attached_collision_objects[0].link_name", "no link 'hand'"},
+        Mistake{"SubframesDoNotMatch", kScene, "    - id: can\n",
+                "    - id: can\n      subframe_names: [top]\n", "- id: can", OBJECT "[1]",
+                "1 subframe_names but 0 subframe_poses"}),
     kName);
 
 INSTANTIATE_TEST_SUITE_P(
     Requests, Malformed,
     testing::Values(
-        Mistake{"NoGoal", kRequest, "goal_constraints:", "goals:", "group_name", "",
+        Mistake{"NoGoal", kRequest, "goal_constraints:", "x-goals:", "group_name", "",
                 "'goal_constraints' is missing"},
+        Mistake{"UnknownGroup", kRequest, "group_name: arm", "group_name: leg", "leg", "group_name",
+                "no group 'leg'"},
         Mistake{"TwoGoals", kRequest, "goal_constraints:\n",
                 "goal_constraints:\n  - joint_constraints: [{joint_name: a, position: 0}]\n",
                 "joint_constraints:\n", "goal_constraints[1]", "only one set"},
         Mistake{"EmptyGoal", kRequest, "goal_constraints:\n  - joint_constraints:\n",
-                "goal_constraints:\n  - joint_constraints: []\n    x:\n", "[]",
-                "goal_constraints[0].joint_constraints", "no goal"},
+                "goal_constraints:\n  - joint_constraints: []\n    name: x\nx-rest:\n  - y:\n",
+                "[]", "goal_constraints[0].joint_constraints", "no goal"},
         Mistake{"PositionGoal", kRequest, "goal_constraints:\n  - joint",
                 "goal_constraints:\n  - position_constraints: [{weight: 1}]\n    joint",
                 "weight: 1}]", "goal_constraints[0].position_constraints[0]",
@@ -223,6 +273,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"GoalJointTwice", kRequest, "joint_name: b_joint", "joint_name: a_joint",
                 "a_joint, position: -3", "goal_constraints[0].joint_constraints[1].joint_name",
                 "named twice"},
+        Mistake{"GoalOfAnUnknownJoint", kRequest, "joint_name: b_joint", "joint_name: c_joint",
+                "c_joint", "goal_constraints[0].joint_constraints[1].joint_name",
+                "'c_joint' is unknown"},
+        Mistake{"GoalOfAFixedJoint", kRequest, "joint_name: b_joint", "joint_name: l", "l, pos",
+                "goal_constraints[0].joint_constraints[1].joint_name",
+                "not in group 'arm' and stays at 0"},
+        Mistake{"GoalLacksAJoint", kRequest,
+                "      - {joint_name: b_joint, position: -3.141592653589793}\n", "",
+                "joint_name: a_joint", "goal_constraints[0].joint_constraints",
+                "no goal for joint 'b_joint'"},
+        Mistake{"UnknownStartJoint", kRequest, "[a_joint, b_joint]", "[a_joint, c_joint]",
+                "c_joint]", "start_state.joint_state.name[1]", "'c_joint' is unknown"},
         Mistake{"GoalWithoutPosition", kRequest, ", position: -3.141592653589793", "",
                 "{joint_name: b_joint", "goal_constraints[0].joint_constraints[1]",
                 "'position' is missing"},
@@ -272,23 +334,31 @@ TEST(MalformedFiles, TruncatedAnywhere) {
 TEST(MalformedFiles, OtherFilesThanScenesAreRefused) {
   for (const char* text : {"", "[]", "just text", "{}", "group_name: arm\nstart_state: {}"}) {
     SCOPED_TRACE(text);
-    EXPECT_THROW(ReadScene(YamlNode::Parse(text, "scene.yaml"), {}), InputError);
-    Problem problem;
-    EXPECT_THROW(ReadRequest(YamlNode::Parse(text, "request.yaml"), &problem), InputError);
+    EXPECT_THROW(ParseProblem(text, kFullRequest), InputError);
+    EXPECT_THROW(ParseProblem(kFullScene, text), InputError);
   }
+  EXPECT_THROW(ParseProblem(kFullRequest, kFullRequest), InputError);
+  EXPECT_THROW(ParseProblem(kFullScene, kFullScene), InputError);
 }
 
 TEST(MalformedFiles, AStartIsNeeded) {
-  Problem problem;
-  const std::string text = Replaced(kFullRequest, "start_state:", "state:");
-  EXPECT_THROW(ReadRequest(YamlNode::Parse(text, "request.yaml"), &problem), InputError);
-  problem.scene_state = {.names = {"a_joint"}, .positions = {0}};
-  EXPECT_NO_THROW(ReadRequest(YamlNode::Parse(text, "request.yaml"), &problem));
+  const std::string scene = "robot_model_name: fetch\n";
+  const std::string request = Replaced(kFullRequest, "start_state:", "x-state:");
+  const std::string state =
+      "robot_state: {joint_state: {name: [a_joint, b_joint], position: [0, 0]}}\n";
+  const std::string part = "robot_state: {joint_state: {name: [a_joint], position: [0]}}\n";
+  ExpectInputError([&] { ParseProblem(scene, request); }, {"request.yaml:1: no start"});
+  EXPECT_NO_THROW(ParseProblem(scene + state, request));
+  ExpectInputError([&] { ParseProblem(scene + part, request); },
+                   {"request.yaml:1: the start does not name joint 'b_joint'"});
 }
 
 TEST(MalformedFiles, MissingFileIsNamed) {
-  EXPECT_THROW(ReadProblem("/nonexistent/scene0001.yaml", "/nonexistent/request0001.yaml", {}),
-               InputError);
+  ExpectInputError(
+      [] {
+        ReadProblem("/nonexistent/scene0001.yaml", "/nonexistent/request0001.yaml", TextRobot());
+      },
+      {"/nonexistent/scene0001.yaml"});
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 Scene ParseScene(const std::string& text, const ResourceResolver& resources = {}) {
-  return ReadScene(YamlNode::Parse(text, "scene.yaml"), resources);
+  return ParseProblem(text, kFullRequest, resources).scene;
 }
 
 TEST(MoveItReader, PlanesAreHalfSpacesBelowThem) {
@@ -132,6 +132,15 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"UnsetPose", "    - id: can\n",
                 "    - id: can\n"
                 "      pose: {position: {x: 0, y: 0, z: 0}, orientation: [0, 0, 0, 0]}\n"},
+        Dialect{"LeadingSlashes",
+                "link_name: gripper_link\n      object:\n        id: tool\n        "
+                "header: {frame_id: gripper_link}",
+                "link_name: /gripper_link\n      object:\n        id: tool\n        "
+                "header: {frame_id: /gripper_link}"},
+        Dialect{"LeadingSlashOfAFrame", "header: {frame_id: camera}",
+                "header: {frame_id: /camera}"},
+        Dialect{"LeadingSlashOfAChild", "child_frame_id: camera", "child_frame_id: /camera"},
+        Dialect{"EndOfADocument", "name: kitchen\n", "---\nname: kitchen\n"},
         Dialect{"IgnoredFields", "name: kitchen",
                 "is_diff: false\nobject_colors: []\nlink_padding: [{link_name: a, padding: 0}]\n"
                 "link_scale: [{link_name: a, scale: 1}]"},
@@ -161,45 +170,6 @@ TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
       "orientation: [0, 0, 0, 1]}, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_EQ(scene.objects[0].X_WO.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_TRUE(scene.objects[0].shapes[0].X_FS.isApprox(Eigen::Isometry3d::Identity()));
-}
-
-TEST(MoveItReader, WorldFrame) {
-  const std::string object =
-      "{primitives: [{type: sphere, dimensions: [1]}], primitive_poses: "
-      "[{position: [0, 0, 0], orientation: [0, 0, 0, 1]}], ";
-  const std::string one_in_a =
-      "world: {collision_objects: [" + object + "id: x, header: {frame_id: a}}]}\n";
-  EXPECT_EQ(ParseScene(one_in_a).world_frame, "a");
-  EXPECT_EQ(
-      ParseScene(one_in_a + "robot_state: {joint_state: {header: {frame_id: a}}}").world_frame,
-      "a");
-  const std::string identity = "transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}]\n";
-  EXPECT_EQ(ParseScene(one_in_a +
-                       "fixed_frame_transforms: [{header: {frame_id: w}, "
-                       "child_frame_id: a, " +
-                       identity)
-                .world_frame,
-            "w");
-  EXPECT_EQ(ParseScene("robot_model_name: free_space").world_frame, "");
-  EXPECT_TRUE(ParseScene("robot_model_name: free_space").objects.empty());
-}
-
-TEST(MoveItReader, AttachedObjectsOfTheRequestJoinTheScene) {
-  const std::string attached = R"(
-  attached_collision_objects:
-    - link_name: gripper_link
-      object: {id: ID, primitives: [{type: cone, dimensions: [0.2, RADIUS]}],
-               primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]}
-      touch_links: [r_finger, l_finger])";
-  const auto request = [&](const std::string& id, const std::string& radius) {
-    return Replaced(kFullRequest, "start_state:",
-                    "start_state:" + Replaced(Replaced(attached, "ID", id), "RADIUS", radius));
-  };
-  EXPECT_EQ(ParseProblem(kFullScene, request("other", "0.04")).scene.attached.size(), 2);
-  // Said again, in another order of touch links: the same object.
-  EXPECT_EQ(ParseProblem(kFullScene, request("tool", "0.04")).scene.attached.size(), 1);
-  EXPECT_THROW(ParseProblem(kFullScene, request("tool", "0.05")), InputError);
-  EXPECT_THROW(ParseProblem(kFullScene, request("can", "0.04")), InputError);
 }
 
 class MeshFile : public testing::Test {

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "scene/moveit_fields.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -95,16 +94,33 @@ inline std::string Replaced(const std::string& text, const std::string& from,
   return text.substr(0, at) + to + text.substr(at + from.size());
 }
 
+/// A robot whose joints and links the texts name: a mast that turns (a_joint) and lifts (b_joint)
+/// a gripper with two fixed fingers.
+inline Robot TextRobot() {
+  constexpr const char* kUrdf = R"(<robot name="fetch_urdf">
+  <link name="base_link"/><link name="mast"/><link name="gripper_link"/>
+  <link name="l_finger"/><link name="r_finger"/>
+  <joint name="a_joint" type="continuous"><parent link="base_link"/><child link="mast"/>
+    <axis xyz="0 0 1"/></joint>
+  <joint name="b_joint" type="prismatic"><parent link="mast"/><child link="gripper_link"/>
+    <origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-9" upper="9" velocity="1" effort="1"/></joint>
+  <joint name="l" type="fixed"><parent link="gripper_link"/><child link="l_finger"/></joint>
+  <joint name="r" type="fixed"><parent link="gripper_link"/><child link="r_finger"/></joint>
+</robot>)";
+  Robot robot;
+  robot.name = "fetch";
+  robot.model = RobotModel::FromUrdf(kUrdf, "text.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"a_joint", "b_joint"}, "gripper_link")};
+  return robot;
+}
+
 /// The problem of two texts, called scene.yaml and request.yaml in errors.
 inline Problem ParseProblem(const std::string& scene_text,
                             const std::string& request_text = kFullRequest,
                             const ResourceResolver& resources = {}) {
-  const YamlNode scene = YamlNode::Parse(scene_text, "scene.yaml");
-  Problem problem;
-  problem.scene = ReadScene(scene, resources);
-  if (const auto state = scene.Find("robot_state")) problem.scene_state = ReadJointState(*state);
-  ReadRequest(YamlNode::Parse(request_text, "request.yaml"), &problem, resources);
-  return problem;
+  return ParseProblem(YamlNode::Parse(scene_text, "scene.yaml"),
+                      YamlNode::Parse(request_text, "request.yaml"), TextRobot(), resources);
 }
 
 }  // namespace planbench

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "robot_model/full_positions.h"
 #include "tests/scene_server/tiny_world.h"
 
 namespace planbench {

@@ -14,7 +14,8 @@ using ::testing::HasSubstr;
 
 class PathCheck : public ::testing::Test {
  protected:
-  explicit PathCheck(bool with_mesh_robot = false) : world_(with_mesh_robot) {}
+  explicit PathCheck(bool with_mesh_robot = false, const std::string& below_mesh_robot = "")
+      : world_(with_mesh_robot, below_mesh_robot) {}
 
   /// A path from start to goal over the can.
   PathCheckRequestMessage Request() {
@@ -52,10 +53,13 @@ class PathCheck : public ::testing::Test {
   TinyWorld world_;
 };
 
-class MeshPathCheck : public PathCheck {
+// By a referee with the planning robot's root, and by one on a pedestal.
+class MeshPathCheck : public PathCheck, public testing::WithParamInterface<std::string> {
  protected:
-  MeshPathCheck() : PathCheck(/*with_mesh_robot=*/true) {}
+  MeshPathCheck() : PathCheck(/*with_mesh_robot=*/true, GetParam()) {}
 };
+INSTANTIATE_TEST_SUITE_P(Roots, MeshPathCheck, testing::Values("", kPedestal),
+                         [](const auto& info) { return info.param.empty() ? "Same" : "Other"; });
 
 TEST_F(PathCheck, AcceptsAValidPath) {
   const PathCheckReplyMessage reply = Check(Request());
@@ -196,7 +200,7 @@ TEST_F(PathCheck, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(Refusal(request), HasSubstr("'swing'"));
 }
 
-TEST_F(MeshPathCheck, GivesBothVerdicts) {
+TEST_P(MeshPathCheck, GivesBothVerdicts) {
   // The spheres pass above the can; the mesh, 1 m tall, does not.
   PathCheckReplyMessage reply = Check(Request());
   ASSERT_TRUE(reply.ok) << reply.message;
@@ -221,7 +225,7 @@ TEST_F(MeshPathCheck, GivesBothVerdicts) {
   EXPECT_FALSE(reply.mesh_verdict->measures.contains("clearance"));
 }
 
-TEST_F(MeshPathCheck, RejectsWaypointsOfOtherJointsWithBoth) {
+TEST_P(MeshPathCheck, RejectsWaypointsOfOtherJointsWithBoth) {
   PathCheckRequestMessage request = Request();
   request.joint_names = {"swing", "elbow"};
   const PathCheckReplyMessage reply = Check(request);
@@ -238,7 +242,8 @@ TEST(MeshRobot, WithoutItsMeshFailsAtStart) {
   const std::filesystem::path mesh_folder = WriteTinyMeshRobot(folder);
   std::filesystem::remove(mesh_folder / "arm.obj");
   const Robot mesh_robot = LoadRefereeRobot(mesh_folder, robot);
-  ExpectInputError([&] { SceneService(robot, mesh_robot, {folder.path() / "cans"}); }, {"arm.obj"});
+  ExpectInputError([&] { SceneService(robot, mesh_robot, {folder.path() / "cans"}); },
+                   {"tiny.urdf:", "link 'arm': collision mesh", "arm.obj"});
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh_loader.h"
-#include "scene_server/problem_fit.h"
 #include "scene_server/scene_service.h"
 #include "tests/scene_server/tiny_world.h"
 #include "tests/support/expect_input_error.h"
@@ -23,11 +22,15 @@ void ExpectStartFailure(const TemporaryFolder& folder, const std::vector<fs::pat
   ExpectInputError([&] { SceneService(robot, std::nullopt, problems); }, parts);
 }
 
-/// The same for a set of one problem.
-void ExpectStartFailure(const Problem& problem, const std::vector<std::string>& parts) {
+/// Expects a service with a set of this one problem to refuse it, and to say why.
+void ExpectRefusal(const Problem& problem, const std::vector<std::string>& parts) {
   const TemporaryFolder folder;
   WriteTinyProblem(problem, folder.path() / "set", 1);
-  ExpectStartFailure(folder, {folder.path() / "set"}, parts);
+  SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt, {folder.path() / "set"});
+  const ProblemAnswer answer = service.AnswerProblem({"id", "set", 1});
+  EXPECT_FALSE(answer.problem.ok);
+  EXPECT_FALSE(answer.scene);
+  for (const std::string& part : parts) EXPECT_THAT(answer.problem.message, HasSubstr(part));
 }
 
 TEST(ProblemAnswer, GivesTheProblemAndItsScene) {
@@ -52,20 +55,23 @@ TEST(ProblemAnswer, GivesTheProblemAndItsScene) {
   EXPECT_EQ(problem.scene_id, SceneId(TinyProblem().scene));
 }
 
-TEST(ProblemAnswer, StartIsTheScenesStateOverlaidByTheRequests) {
+TEST(ProblemAnswer, GivesTheWholeStart) {
   TinyWorld world;
   const JointState start = world.service().AnswerProblem({"id", "cans", 1}).problem.start;
   EXPECT_THAT(start.names, ElementsAre("lift", "swing", "finger_joint"));
   EXPECT_THAT(start.positions, ElementsAre(0, kStartSwing, 0.05));
 }
 
-TEST(ProblemAnswer, StartKeepsJointsThatOnlyTheRequestNames) {
-  Problem problem;
-  problem.scene_state = {{"a"}, {1}};
-  problem.start = {{"b", "a"}, {2, 3}};
-  const JointState start = StartOf(problem);
-  EXPECT_THAT(start.names, ElementsAre("a", "b"));
-  EXPECT_THAT(start.positions, ElementsAre(3, 2));
+TEST(ProblemAnswer, SaysWhatWasReadOtherwiseThanWritten) {
+  TinyWorld world;
+  EXPECT_EQ(world.service().AnswerProblem({"id", "cans", 1}).problem.message, "");
+  world.folder().Write("problems/cans/scene0002.yaml", R"(robot_model_name: tiny
+world: {collision_objects: [{id: ball, primitives: [{type: sphere, dimensions: [0.1]}],
+  primitive_poses: [{position: [3, 0, 0], orientation: [0, 0, 0, 0]}]}]}
+)");
+  const ProblemMessage problem = world.service().AnswerProblem({"id", "cans", 2}).problem;
+  EXPECT_TRUE(problem.ok);
+  EXPECT_THAT(problem.message, AllOf(HasSubstr("scene0002.yaml:3"), HasSubstr("no rotation")));
 }
 
 TEST(ProblemAnswer, NamesTheGroupThatAnEmptyNameMeans) {
@@ -217,6 +223,21 @@ TEST(ProblemSets, FolderOfSetsServesEach) {
   EXPECT_EQ(message.sets[1].name, "b");
 }
 
+TEST(ProblemSets, AreFoundAtAnyDepth) {
+  const TemporaryFolder folder;
+  for (const char* name : {"b/far/cans", "a/boxes", "a/more/and/more/cups"}) {
+    WriteTinyProblem(TinyProblem(), folder.path() / "problems" / name, 1);
+  }
+  fs::create_directory_symlink(folder.path() / "problems", folder.path() / "problems/a/loop");
+  SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt,
+                       {folder.path() / "problems"});
+  std::vector<std::string> names;
+  for (const ProblemSetSummary& set : service.ProblemSets("server").sets) {
+    names.push_back(set.name);
+  }
+  EXPECT_THAT(names, ElementsAre("boxes", "cans", "cups"));
+}
+
 TEST(ProblemSets, TwoOfOneNameAreRefusedWithBothFolders) {
   const TemporaryFolder folder;
   const fs::path one = folder.path() / "one" / "cans";
@@ -236,38 +257,35 @@ TEST(ProblemSets, FoldersWithoutProblemsAreRefused) {
   ExpectStartFailure(folder, {}, {"--problems"});
 }
 
-TEST(WrongRobot, FailsAtStartByItsName) {
+TEST(WrongRobot, IsRefusedByItsName) {
   Problem problem = TinyProblem();
   problem.scene.robot_name = "fetch";
-  ExpectStartFailure(problem, {"scene0001.yaml", "robot_model_name", "'fetch'", "'tiny'"});
+  ExpectRefusal(problem, {"scene0001.yaml:2: robot_model_name", "'fetch'", "'tiny'"});
 }
 
-TEST(WrongRobot, FailsAtStartByAJoint) {
+TEST(WrongRobot, IsRefusedByAJoint) {
   Problem problem = TinyProblem();
-  problem.scene_state.names[0] = "torso";
-  ExpectStartFailure(problem, {"scene0001.yaml: robot_state", "'torso'"});
-  problem = TinyProblem();
   problem.start.names[0] = "torso";
-  ExpectStartFailure(problem, {"request0001.yaml: start_state", "'torso'"});
+  ExpectRefusal(problem, {"scene0001.yaml:7: robot_state.joint_state.name[0]", "'torso'"});
   problem = TinyProblem();
   problem.goal[0].joint = "torso";
-  ExpectStartFailure(problem, {"request0001.yaml", "goal", "'torso'"});
+  ExpectRefusal(problem, {"request0001.yaml:", "goal_constraints[0]", "'torso'"});
 }
 
-TEST(WrongRobot, FailsAtStartByTheGroup) {
+TEST(WrongRobot, IsRefusedByTheGroup) {
   Problem problem = TinyProblem();
   problem.group = "legs";
-  ExpectStartFailure(problem, {"request0001.yaml: group_name", "'legs'"});
+  ExpectRefusal(problem, {"request0001.yaml:1: group_name", "'legs'"});
 }
 
-TEST(WrongRobot, FailsAtStartByTheLinkOfAnAttachedObject) {
+TEST(WrongRobot, IsRefusedByTheLinkOfAnAttachedObject) {
   Problem problem = TinyProblem();
   AttachedObject attached;
   attached.link = "hand";
   attached.object = problem.scene.objects[0];
   attached.object.id = "cup";
   problem.scene.attached.push_back(attached);
-  ExpectStartFailure(problem, {"scene0001.yaml", "'cup'", "'hand'"});
+  ExpectRefusal(problem, {"scene0001.yaml:", "attached_collision_objects[0].link_name", "'hand'"});
 }
 
 TEST(PublishedSets, AllProblemsFitTheFetch) {

@@ -106,9 +106,9 @@ fs::path WriteTinyRobot(const TemporaryFolder& parent) {
   return parent.Write("tiny/robot.yaml", kTinyRobotYaml).parent_path();
 }
 
-fs::path WriteTinyMeshRobot(const TemporaryFolder& parent) {
+fs::path WriteTinyMeshRobot(const TemporaryFolder& parent, const std::string& below) {
   parent.Write("tiny_meshes/arm.obj", kArmObj);
-  return parent.Write("tiny_meshes/tiny.urdf", fmt::format(kTinyMeshUrdf, kLiftAndSwing))
+  return parent.Write("tiny_meshes/tiny.urdf", fmt::format(kTinyMeshUrdf, below + kLiftAndSwing))
       .parent_path();
 }
 
@@ -119,8 +119,7 @@ Problem TinyProblem() {
   problem.scene.world_frame = "base_link";
   problem.scene.objects = {UprightCylinder("can", 0.5, 0, 0.05, 0.2),
                            UprightCylinder("post", -0.8, 0, 0.05, 0.2)};
-  problem.scene_state = {{"lift", "swing", "finger_joint"}, {0.25, 0, 0.05}};
-  problem.start = {{"swing", "lift"}, {kStartSwing, 0}};
+  problem.start = {{"lift", "swing", "finger_joint"}, {0, kStartSwing, 0.05}};
   problem.goal = {{"lift", 0, 0, 0}, {"swing", kGoalSwing, 0, 0}};
   problem.group = "arm";
   problem.time_limit_s = 7;
@@ -133,7 +132,7 @@ void WriteTinyProblem(const Problem& problem, const fs::path& set, int index) {
                set / fmt::format("request{:04}.yaml", index));
 }
 
-TinyWorld::TinyWorld(bool with_mesh_robot) {
+TinyWorld::TinyWorld(bool with_mesh_robot, const std::string& below_mesh_robot) {
   const fs::path set = folder_.path() / "problems" / "cans";
   Problem problem = TinyProblem();
   WriteTinyProblem(problem, set, 1);
@@ -142,7 +141,8 @@ TinyWorld::TinyWorld(bool with_mesh_robot) {
   WriteTinyProblem(problem, set, 2);
   Robot robot = LoadRobot(WriteTinyRobot(folder_));
   std::optional<Robot> mesh_robot;
-  if (with_mesh_robot) mesh_robot = LoadRefereeRobot(WriteTinyMeshRobot(folder_), robot);
+  if (with_mesh_robot)
+    mesh_robot = LoadRefereeRobot(WriteTinyMeshRobot(folder_, below_mesh_robot), robot);
   service_ = std::make_unique<SceneService>(std::move(robot), std::move(mesh_robot),
                                             std::vector{folder_.path() / "problems"});
 }

@@ -19,8 +19,13 @@ namespace planbench {
 std::filesystem::path WriteTinyRobot(const TemporaryFolder& parent);
 
 /// A folder with one URDF: `tiny` as its maker would describe it, the arm a mesh as tall as 1 m,
-/// the finger fixed.
-std::filesystem::path WriteTinyMeshRobot(const TemporaryFolder& parent);
+/// the finger fixed. With `below` base_link there are more links and joints.
+std::filesystem::path WriteTinyMeshRobot(const TemporaryFolder& parent,
+                                         const std::string& below = "");
+/// What puts base_link on a pedestal that stands on a root link `world`.
+inline constexpr char kPedestal[] =
+    "<link name='world'/><joint name='stand' type='fixed'><parent link='world'/>"
+    "<child link='base_link'/><origin xyz='0.1 0 0.8' rpy='0 0 1'/></joint>";
 
 /// A can (radius 0.05 m, up to 0.2 m high) in the arm's way at swing = 0, a post at swing = pi that
 /// only the extended finger reaches. From swing -1 to swing 1, lift 0.
@@ -36,7 +41,7 @@ void WriteTinyProblem(const Problem& problem, const std::filesystem::path& set, 
 /// but 2 without the post), in a temporary folder.
 class TinyWorld {
  public:
-  explicit TinyWorld(bool with_mesh_robot = false);
+  explicit TinyWorld(bool with_mesh_robot = false, const std::string& below_mesh_robot = "");
 
   const TemporaryFolder& folder() const { return folder_; }
   SceneService& service() { return *service_; }

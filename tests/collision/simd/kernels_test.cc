@@ -10,6 +10,7 @@
 #include "collision/simd/ball_tree.h"
 #include "collision/simd/kernels/sphere_kernel.h"
 #include "collision/simd/simd_checker.h"
+#include "robot_model/full_positions.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 

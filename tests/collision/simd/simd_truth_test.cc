@@ -12,6 +12,7 @@
 #include "collision/edge_checker.h"
 #include "collision/fcl/fcl_checker.h"
 #include "collision/simd/simd_checker.h"
+#include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
@@ -94,7 +95,7 @@ std::vector<World> FetchWorlds() {
       const ProblemFiles* files = nullptr;
       const ProblemSet set = ListProblemSet(folder);
       files = set.Find(index);
-      const Problem problem = ReadProblem(files->scene, files->request, robot.resources);
+      const Problem problem = ReadProblem(files->scene, files->request, robot);
       worlds.push_back({files->scene.string(), robot, problem.scene,
                         FullPositions(robot.model, problem.start.names, problem.start.positions,
                                       files->request.string())});

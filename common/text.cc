@@ -1,0 +1,142 @@
+#include "common/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <vector>
+
+namespace planbench {
+namespace {
+
+constexpr std::size_t kLongestWord = 200;
+constexpr std::size_t kWordKept = 60;
+constexpr std::size_t kLongestText = 1000;
+
+bool IsContinuation(unsigned char byte) { return (byte & 0xc0) == 0x80; }
+
+// Length in bytes of the UTF-8 character at the beginning of `text` (not empty), 0 if there is
+// none: overlong forms, surrogates and numbers beyond Unicode are no characters.
+std::size_t CharacterLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!IsContinuation(byte(i))) return 0;
+  }
+  const unsigned char second = byte(1);
+  const bool possible = (first != 0xe0 || second >= 0xa0) && (first != 0xed || second < 0xa0) &&
+                        (first != 0xf0 || second >= 0x90) && (first != 0xf4 || second < 0x90);
+  return possible ? length : 0;
+}
+
+std::string Escaped(unsigned char byte) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  if (byte == '\n') return "\\n";
+  if (byte == '\t') return "\\t";
+  if (byte == '\r') return "\\r";
+  return {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+}
+
+// At most `size` bytes of `text`, cut between two characters.
+std::string_view Beginning(std::string_view text, std::size_t size) {
+  if (text.size() <= size) return text;
+  while (size > 0 && IsContinuation(static_cast<unsigned char>(text[size]))) --size;
+  return text.substr(0, size);
+}
+
+std::string WithoutLongWords(const std::string& text) {
+  std::string shortened;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    if (word.size() > kLongestWord) {
+      shortened += std::string(Beginning(word, kWordKept)) + "...(" + std::to_string(word.size()) +
+                   " bytes)";
+    } else {
+      shortened += word;
+    }
+    if (end < text.size()) shortened += ' ';
+    begin = end + 1;
+  }
+  return shortened;
+}
+
+// Lower case, letters and digits only.
+std::string Bare(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte)) bare += static_cast<char>(std::tolower(byte));
+  }
+  return bare;
+}
+
+// Least number of letters inserted, removed, replaced or swapped with their neighbour.
+int EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<int>> distance(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        distance[i][j] = static_cast<int>(i + j);
+        continue;
+      }
+      const int replaced = distance[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      distance[i][j] = std::min({distance[i - 1][j] + 1, distance[i][j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        distance[i][j] = std::min(distance[i][j], distance[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return distance[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::optional<std::size_t> FindInvalidUtf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = CharacterLength(text.substr(at));
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::nullopt;
+}
+
+std::string Printable(std::string_view text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = CharacterLength(text.substr(at));
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (length == 0 || byte < 0x20 || byte == 0x7f) {
+      line += Escaped(byte);
+      ++at;
+    } else {
+      line += text.substr(at, length);
+      at += length;
+    }
+  }
+  line = WithoutLongWords(line);
+  return line.size() <= kLongestText ? line : std::string(Beginning(line, kLongestText)) + "...";
+}
+
+std::string NearestName(std::string_view name, std::span<const std::string_view> known) {
+  const std::string wanted = Bare(name);
+  std::string nearest;
+  int least = static_cast<int>(wanted.size()) / 3 + 1;
+  for (const std::string_view candidate : known) {
+    const int distance = EditDistance(wanted, Bare(candidate));
+    if (distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  if (!nearest.empty() || wanted.size() < 3) return nearest;
+  for (const std::string_view candidate : known) {
+    const std::string bare = Bare(candidate);
+    const bool begins = bare.starts_with(wanted) || (bare.size() > 2 && wanted.starts_with(bare));
+    if (begins && (nearest.empty() || candidate.size() < nearest.size())) nearest = candidate;
+  }
+  return nearest;
+}
+
+}  // namespace planbench

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace planbench {
+
+/// Offset of the first byte that cannot be UTF-8; nothing if all can.
+std::optional<std::size_t> FindInvalidUtf8(std::string_view text);
+
+/// `text` as it may be printed in one line: control characters and bytes that are no UTF-8 escaped
+/// (\n, \x1b), what runs on for hundreds of bytes without a space shortened, all cut at 1000 bytes.
+std::string Printable(std::string_view text);
+
+/// The known name that `name` was probably meant to be: equal but for case and punctuation, a few
+/// letters off, or the beginning of the other. Empty if none is near.
+std::string NearestName(std::string_view name, std::span<const std::string_view> known);
+
+}  // namespace planbench

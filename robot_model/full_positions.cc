@@ -1,0 +1,116 @@
+#include "robot_model/full_positions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+// Positions that differ by less say the same (rad or m): they were measured, or written as text.
+constexpr double kAgreement = 1e-3;
+
+// Index of the position of that name, the joint's own or its leader's; -1 if there is none.
+int PositionIndex(const RobotModel& model, const std::string& name, const Joint** joint) {
+  *joint = nullptr;
+  const int index = model.FindJoint(name);
+  if (index >= 0) {
+    *joint = &model.joints()[static_cast<std::size_t>(index)];
+    return (*joint)->position_index;
+  }
+  const std::vector<std::string>& known = model.position_names();
+  const auto found = std::find(known.begin(), known.end(), name);
+  return found == known.end() ? -1 : static_cast<int>(found - known.begin());
+}
+
+// A description that fixes a joint away from its zero has moved its origin there: along or about
+// the axis, which fixed joints do not keep.
+bool IsFixedAt(const Joint& joint, double position) {
+  const auto equal = [&](double value) {
+    return std::abs(std::abs(value) - std::abs(position)) <= JointSpace::kLimitTolerance;
+  };
+  const Eigen::Vector3d& p = joint.X_PJ.translation();
+  return equal(0) || equal(p.x()) || equal(p.y()) || equal(p.z()) ||
+         equal(Eigen::AngleAxisd(Eigen::Matrix3d(joint.X_PJ.linear())).angle());
+}
+
+}  // namespace
+
+std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
+                                             double position) {
+  const Joint* joint = nullptr;
+  const int index = PositionIndex(model, name, &joint);
+  if (joint == nullptr) {
+    if (index >= 0) return std::nullopt;
+    return fmt::format("is unknown; robot '{}' has none of that name", model.name());
+  }
+  if (NumPositions(joint->type) > 1) return "takes a pose (multi_dof_joint_state), not a position";
+  if (joint->type == JointType::kFixed && !IsFixedAt(*joint, position)) {
+    return fmt::format("is fixed and cannot be at {}", position);
+  }
+  return std::nullopt;
+}
+
+std::vector<double> FullPositionsWherePossible(const RobotModel& model,
+                                               const std::vector<std::string>& names,
+                                               const std::vector<double>& positions) {
+  std::vector<double> full = model.DefaultPositions();
+  // Followers first: where the leader is named too, it has the last word.
+  for (const bool followers : {true, false}) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Joint* joint = nullptr;
+      const int index = PositionIndex(model, names[i], &joint);
+      const bool follows = joint != nullptr && joint->leader >= 0;
+      if (index < 0 || follows != followers) continue;
+      if (joint != nullptr && NumPositions(joint->type) > 1) continue;
+      double position = positions[i];
+      if (follows && joint->multiplier == 0) continue;
+      if (follows) position = (position - joint->offset) / joint->multiplier;
+      full[static_cast<std::size_t>(index)] = position;
+    }
+  }
+  return full;
+}
+
+std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
+                                  const std::vector<double>& positions, const std::string& origin,
+                                  std::vector<std::string>* warnings) {
+  if (names.size() != positions.size()) {
+    throw InputError(
+        fmt::format("{}: {} joint names but {} positions", origin, names.size(), positions.size()));
+  }
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (const auto fault = FindPositionFault(model, names[i], positions[i])) {
+      throw InputError(fmt::format("{}: joint '{}' {}", origin, names[i], *fault));
+    }
+    if (!seen.insert(names[i]).second) {
+      throw InputError(fmt::format("{}: joint '{}' occurs twice", origin, names[i]));
+    }
+  }
+  std::vector<double> full = FullPositionsWherePossible(model, names, positions);
+  for (std::size_t i = 0; warnings != nullptr && i < names.size(); ++i) {
+    const int index = model.FindJoint(names[i]);
+    if (index < 0) continue;
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+    if (joint.leader < 0) continue;
+    const Joint& leader = model.joints()[static_cast<std::size_t>(joint.leader)];
+    const double at =
+        joint.position_index < 0
+            ? joint.offset
+            : joint.multiplier * full[static_cast<std::size_t>(joint.position_index)] +
+                  joint.offset;
+    if (std::abs(at - positions[i]) <= kAgreement) continue;
+    warnings->push_back(
+        fmt::format("{}: joint '{}' is given at {}, but follows joint '{}', which "
+                    "puts it at {}",
+                    origin, joint.name, positions[i], leader.name, at));
+  }
+  return full;
+}
+
+}  // namespace planbench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot_model/robot_model.h"
+
+namespace planbench {
+
+/// Why a joint of that name cannot be at that position ("is unknown"), nothing if it can be named
+/// so. Names are those of joints, and RobotModel::position_names. A fixed joint may be named at 0,
+/// and where its origin shows that the description has fixed it.
+std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
+                                             double position);
+
+/// Full positions from named ones: `names[i]` takes `positions[i]`, others their default. A joint
+/// that follows another is where that one puts it; if only the follower is named, the leader is
+/// where it puts the follower. Throws InputError for names at fault (see FindPositionFault), sizes
+/// that differ, repeated names; `origin` names the source. Positions of followers that contradict
+/// their leaders' do not count, and go to `warnings`, if given.
+std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
+                                  const std::vector<double>& positions, const std::string& origin,
+                                  std::vector<std::string>* warnings = nullptr);
+
+/// The same for a robot that lacks some of the joints, or has them fixed elsewhere: what it cannot
+/// follow does not count.
+std::vector<double> FullPositionsWherePossible(const RobotModel& model,
+                                               const std::vector<std::string>& names,
+                                               const std::vector<double>& positions);
+
+}  // namespace planbench

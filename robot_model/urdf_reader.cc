@@ -1,0 +1,397 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+#include "robot_model/robot_model.h"
+#include "robot_model/urdf_document.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Limits that differ by less were meant to be the same (rad or m).
+constexpr double kLimitRounding = 1e-9;
+
+Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Isometry3d ToEigen(const urdf::Pose& pose) {
+  const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y,
+                                    pose.rotation.z);
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = rotation.normalized().toRotationMatrix();
+  X.translation() = ToEigen(pose.position);
+  return X;
+}
+
+// Turns a parsed URDF into the links and joints of a RobotModel.
+class UrdfConverter {
+ public:
+  UrdfConverter(const UrdfDocument& document, const std::string& origin)
+      : document_(document), origin_(origin) {}
+
+  std::string WhereLink(const std::string& link) const {
+    return Where(document_.link_lines, "link", link);
+  }
+  std::string WhereJoint(const std::string& joint) const {
+    return Where(document_.joint_lines, "joint", joint);
+  }
+  [[noreturn]] void FailLink(const std::string& link, const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", WhereLink(link), what));
+  }
+  [[noreturn]] void FailJoint(const std::string& joint, const std::string& what) const {
+    throw InputError(fmt::format("{}: {}", WhereJoint(joint), what));
+  }
+
+  // urdfdom accepts a link with two parents and loops that hang off nothing; a tree has neither.
+  void CheckTree() const {
+    std::map<std::string, std::string> parent_joint;
+    for (const auto& [name, joint] : document_.model->joints_) {
+      const auto [other, is_new] = parent_joint.try_emplace(joint->child_link_name, name);
+      if (!is_new) {
+        FailJoint(name, fmt::format("its child link '{}' is already the child of joint '{}'; a "
+                                    "robot must be a tree",
+                                    joint->child_link_name, other->second));
+      }
+    }
+  }
+
+  std::vector<urdf::JointSharedPtr> ChildJoints(const urdf::Link& link) const {
+    std::vector<urdf::JointSharedPtr> children = link.child_joints;
+    const auto& order = document_.joint_order;
+    std::sort(children.begin(), children.end(), [&order](const auto& a, const auto& b) {
+      return order.at(a->name) < order.at(b->name);
+    });
+    return children;
+  }
+
+  Joint ConvertJoint(const urdf::Joint& joint) {
+    Joint result;
+    result.name = joint.name;
+    result.type = ConvertType(joint);
+    result.X_PJ = ToEigen(joint.parent_to_joint_origin_transform);
+    if (!result.X_PJ.matrix().allFinite()) FailJoint(joint.name, "origin: is not finite");
+    if (NumPositions(result.type) != 1) return result;
+
+    const Vector3d axis = ToEigen(joint.axis);
+    if (!axis.allFinite() || axis.norm() < 1e-9) {
+      FailJoint(joint.name, "axis: must be finite and not zero");
+    }
+    result.axis_J = axis.normalized();
+    ConvertLimits(joint, &result);
+    return result;
+  }
+
+  std::vector<PlacedShape> ConvertCollision(const urdf::Link& link) const {
+    std::vector<PlacedShape> shapes;
+    for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
+      if (collision->geometry == nullptr) FailLink(link.name, "collision: has no geometry");
+      const Isometry3d X_LS = ToEigen(collision->origin);
+      if (!X_LS.matrix().allFinite()) FailLink(link.name, "collision origin: is not finite");
+      shapes.push_back({ConvertGeometry(link.name, *collision->geometry), X_LS});
+    }
+    return shapes;
+  }
+
+  // The mimic tag of a joint, null if it has none. One of a fixed joint says nothing.
+  const urdf::JointMimic* MimicOf(const Joint& joint) const {
+    const urdf::JointMimic* mimic = document_.model->getJoint(joint.name)->mimic.get();
+    if (mimic == nullptr || joint.type == JointType::kFixed) return nullptr;
+    if (NumPositions(joint.type) != 1) FailJoint(joint.name, "mimic: such a joint follows none");
+    if (!std::isfinite(mimic->multiplier) || !std::isfinite(mimic->offset)) {
+      FailJoint(joint.name, "mimic: multiplier and offset must be finite");
+    }
+    return mimic;
+  }
+
+  const std::vector<std::string>& soft_limits() const { return soft_limits_; }
+
+ private:
+  std::string Where(const std::map<std::string, int>& lines, const char* kind,
+                    const std::string& name) const {
+    const auto line = lines.find(name);
+    const std::string file =
+        line == lines.end() ? origin_ : fmt::format("{}:{}", origin_, line->second);
+    return fmt::format("{}: {} '{}'", file, kind, name);
+  }
+
+  JointType ConvertType(const urdf::Joint& joint) const {
+    switch (joint.type) {
+      case urdf::Joint::FIXED:
+        return JointType::kFixed;
+      case urdf::Joint::REVOLUTE:
+        return JointType::kRevolute;
+      case urdf::Joint::CONTINUOUS:
+        return JointType::kContinuous;
+      case urdf::Joint::PRISMATIC:
+        return JointType::kPrismatic;
+      case urdf::Joint::FLOATING:
+        return JointType::kFloating;
+      case urdf::Joint::PLANAR:
+        return JointType::kPlanar;
+      default:
+        FailJoint(joint.name, "type: is unknown");
+    }
+  }
+
+  void ConvertLimits(const urdf::Joint& joint, Joint* result) {
+    const bool bounded = result->type != JointType::kContinuous;
+    if (joint.limits == nullptr) {
+      if (bounded) FailJoint(joint.name, "limit: is missing; this type of joint needs one");
+      result->max_velocity = 0;
+    } else {
+      result->max_velocity = joint.limits->velocity;
+      if (!std::isfinite(result->max_velocity) || result->max_velocity < 0) {
+        FailJoint(joint.name, "limit velocity: must be finite and not negative");
+      }
+    }
+    if (bounded) {
+      result->lower = joint.limits->lower;
+      result->upper = joint.limits->upper;
+      if (!std::isfinite(result->lower) || !std::isfinite(result->upper)) {
+        FailJoint(joint.name, "limit: lower and upper must be finite");
+      }
+      if (result->lower > result->upper) {
+        FailJoint(joint.name,
+                  fmt::format("limit: lower {} is above upper {}", result->lower, result->upper));
+      }
+    } else {
+      result->lower = -std::numeric_limits<double>::infinity();
+      result->upper = std::numeric_limits<double>::infinity();
+    }
+    if (joint.safety != nullptr) ApplySoftLimits(*joint.safety, result);
+  }
+
+  void ApplySoftLimits(const urdf::JointSafety& safety, Joint* joint) {
+    const double lower = safety.soft_lower_limit;
+    const double upper = safety.soft_upper_limit;
+    if (lower == 0 && upper == 0) return;  // What they are if none is given.
+    if (!(lower <= upper)) {
+      FailJoint(joint->name, fmt::format("safety_controller: soft lower limit {} is above the "
+                                         "upper {}",
+                                         lower, upper));
+    }
+    if (lower <= joint->lower + kLimitRounding && upper >= joint->upper - kLimitRounding) return;
+    joint->lower = std::max(joint->lower, lower);
+    joint->upper = std::min(joint->upper, upper);
+    if (joint->lower > joint->upper) {
+      FailJoint(joint->name, "safety_controller: the soft limits lie outside the limits");
+    }
+    if (joint->type == JointType::kContinuous) joint->type = JointType::kRevolute;
+    soft_limits_.push_back(joint->name);
+  }
+
+  void CheckPositive(const std::string& link, const char* field, double value) const {
+    if (!std::isfinite(value) || value <= 0) {
+      FailLink(link, fmt::format("collision {}: must be greater than zero, is {}", field, value));
+    }
+  }
+
+  Shape ConvertGeometry(const std::string& link, const urdf::Geometry& geometry) const {
+    switch (geometry.type) {
+      case urdf::Geometry::SPHERE: {
+        const auto& sphere = dynamic_cast<const urdf::Sphere&>(geometry);
+        CheckPositive(link, "sphere radius", sphere.radius);
+        return Sphere{sphere.radius};
+      }
+      case urdf::Geometry::BOX: {
+        const auto& box = dynamic_cast<const urdf::Box&>(geometry);
+        for (const double edge : {box.dim.x, box.dim.y, box.dim.z}) {
+          CheckPositive(link, "box size", edge);
+        }
+        return Box{ToEigen(box.dim)};
+      }
+      case urdf::Geometry::CYLINDER: {
+        const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
+        CheckPositive(link, "cylinder radius", cylinder.radius);
+        CheckPositive(link, "cylinder length", cylinder.length);
+        return Cylinder{cylinder.radius, cylinder.length};
+      }
+      case urdf::Geometry::MESH: {
+        const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
+        if (mesh.filename.empty()) FailLink(link, "collision mesh: filename is empty");
+        const Vector3d scale = ToEigen(mesh.scale);
+        if (!scale.allFinite() || (scale.array() == 0).any()) {
+          FailLink(link, "collision mesh scale: must be finite and not zero");
+        }
+        return Mesh{mesh.filename, scale, {}};
+      }
+      default:
+        FailLink(link, "collision geometry: type is unknown");
+    }
+  }
+
+  const UrdfDocument& document_;
+  const std::string& origin_;
+  std::vector<std::string> soft_limits_;  // Joints that they narrow.
+};
+
+std::vector<std::string> PositionNames(const Joint& joint) {
+  if (NumPositions(joint.type) == 1) return {joint.name};
+  std::vector<std::string> names;
+  for (const char* part : {"trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"}) {
+    names.push_back(joint.name + "/" + part);
+  }
+  return names;
+}
+
+// Finds the leader of joint `index`, which `of` says is a follower: over a chain of followers to a
+// joint that is none. Throws for circles and unknown names.
+void FollowLeaders(const UrdfConverter& converter, const RobotModel& model, std::size_t index,
+                   Joint* follower) {
+  double multiplier = 1;
+  double offset = 0;
+  std::vector<std::string> chain;
+  int at = static_cast<int>(index);
+  while (true) {
+    const Joint& joint = model.joints()[static_cast<std::size_t>(at)];
+    if (std::find(chain.begin(), chain.end(), joint.name) != chain.end()) {
+      chain.push_back(joint.name);
+      converter.FailJoint(follower->name, fmt::format("mimic: the joints follow each other in a "
+                                                      "circle: {}",
+                                                      fmt::join(chain, ", ")));
+    }
+    chain.push_back(joint.name);
+    const urdf::JointMimic* mimic = converter.MimicOf(joint);
+    if (mimic == nullptr) break;
+    at = model.FindJoint(mimic->joint_name);
+    if (at < 0) {
+      converter.FailJoint(joint.name,
+                          fmt::format("mimic: the joint '{}' is unknown", mimic->joint_name));
+    }
+    offset += multiplier * mimic->offset;
+    multiplier *= mimic->multiplier;
+  }
+  const Joint& leader = model.joints()[static_cast<std::size_t>(at)];
+  if (NumPositions(leader.type) > 1) {
+    converter.FailJoint(
+        follower->name,
+        fmt::format("mimic: the joint '{}' has a pose, not a position", leader.name));
+  }
+  follower->leader = at;
+  follower->multiplier = multiplier;
+  follower->offset = offset;
+  follower->position_index = leader.position_index;
+}
+
+// Keeps a leader where its follower is within its limits, and gives the follower the range it then
+// has. A note of what changes, "" for nothing: a follower whose limits leave no range at all has
+// wrong ones (signs that do not fit the multiplier are common), and is not heeded.
+std::string KeepWithinLimits(Joint* follower, Joint* leader) {
+  const double m = follower->multiplier;
+  std::string note;
+  if (m != 0 && std::isfinite(follower->lower)) {
+    const double a = (follower->lower - follower->offset) / m;
+    const double b = (follower->upper - follower->offset) / m;
+    const double lower = std::max(leader->lower, std::min(a, b));
+    const double upper = std::min(leader->upper, std::max(a, b));
+    const bool has_range = leader->upper - leader->lower > kLimitRounding;
+    if (has_range && upper - lower <= kLimitRounding) {
+      note = fmt::format(
+          "the limits of joint '{}', which follows it, contradict its own; they do "
+          "not count",
+          follower->name);
+    } else if (lower > leader->lower + kLimitRounding || upper < leader->upper - kLimitRounding) {
+      leader->lower = lower;
+      leader->upper = upper;
+      if (leader->type == JointType::kContinuous) leader->type = JointType::kRevolute;
+      note = fmt::format("the limits of joint '{}', which follows it, leave it [{}, {}]",
+                         follower->name, lower, upper);
+    }
+  }
+  return note;
+}
+
+}  // namespace
+
+RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string& origin,
+                                std::vector<std::string>* warnings) {
+  const UrdfDocument document = ParseUrdfDocument(urdf_text, origin);
+  UrdfConverter converter(document, origin);
+  converter.CheckTree();
+
+  RobotModel model;
+  model.name_ = document.model->getName();
+
+  // Depth first, children in the order of the text: a parent comes before its children, a chain
+  // stays together.
+  struct Visit {
+    const urdf::Link* link;
+    urdf::JointSharedPtr joint;  // That leads to it; null for the root.
+    int parent;
+  };
+  std::vector<Visit> stack = {{document.model->getRoot().get(), nullptr, -1}};
+  while (!stack.empty()) {
+    const Visit visit = stack.back();
+    stack.pop_back();
+    const int link_index = model.num_links();
+    Link link;
+    link.name = visit.link->name;
+    link.where = converter.WhereLink(link.name);
+    link.collision = converter.ConvertCollision(*visit.link);
+    if (visit.joint != nullptr) {
+      Joint joint = converter.ConvertJoint(*visit.joint);
+      joint.parent_link = visit.parent;
+      joint.child_link = link_index;
+      if (joint.type != JointType::kFixed && converter.MimicOf(joint) == nullptr) {
+        joint.position_index = model.num_positions();
+        const std::vector<std::string> names = PositionNames(joint);
+        model.position_names_.insert(model.position_names_.end(), names.begin(), names.end());
+      }
+      link.parent_joint = static_cast<int>(model.joints_.size());
+      model.links_[static_cast<std::size_t>(visit.parent)].child_joints.push_back(
+          link.parent_joint);
+      model.joint_index_.emplace(joint.name, link.parent_joint);
+      model.joints_.push_back(std::move(joint));
+    }
+    model.link_index_.emplace(link.name, link_index);
+    model.links_.push_back(std::move(link));
+
+    const std::vector<urdf::JointSharedPtr> children = converter.ChildJoints(*visit.link);
+    for (auto joint = children.rbegin(); joint != children.rend(); ++joint) {
+      const urdf::LinkConstSharedPtr child = document.model->getLink((*joint)->child_link_name);
+      stack.push_back({child.get(), *joint, link_index});
+    }
+  }
+
+  for (const auto& [name, link] : document.model->links_) {
+    if (model.FindLink(name) < 0) {
+      converter.FailLink(
+          name, fmt::format("is not connected to the root link '{}'", model.links_.front().name));
+    }
+  }
+
+  std::vector<std::string> notes;
+  if (!converter.soft_limits().empty()) {
+    notes.push_back(fmt::format("{}: soft limits (safety_controller) narrow {}", origin,
+                                fmt::join(converter.soft_limits(), ", ")));
+  }
+  for (std::size_t j = 0; j < model.joints_.size(); ++j) {
+    if (converter.MimicOf(model.joints_[j]) == nullptr) continue;
+    FollowLeaders(converter, model, j, &model.joints_[j]);
+  }
+  for (Joint& joint : model.joints_) {
+    if (joint.position_index < 0 || joint.leader < 0) continue;
+    Joint& leader = model.joints_[static_cast<std::size_t>(joint.leader)];
+    const std::string note = KeepWithinLimits(&joint, &leader);
+    if (!note.empty()) notes.push_back(converter.WhereJoint(leader.name) + ": " + note);
+  }
+  // Only now, when all followers have had their say.
+  for (Joint& joint : model.joints_) {
+    if (joint.position_index < 0 || joint.leader < 0) continue;
+    const Joint& leader = model.joints_[static_cast<std::size_t>(joint.leader)];
+    const double a = joint.multiplier == 0 ? 0 : joint.multiplier * leader.lower;
+    const double b = joint.multiplier == 0 ? 0 : joint.multiplier * leader.upper;
+    joint.lower = std::min(a, b) + joint.offset;
+    joint.upper = std::max(a, b) + joint.offset;
+  }
+  if (warnings != nullptr) warnings->insert(warnings->end(), notes.begin(), notes.end());
+  return model;
+}
+
+}  // namespace planbench

@@ -1,0 +1,107 @@
+#include "scene/frame_tree.h"
+
+#include <array>
+#include <string_view>
+
+#include "common/text.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Isometry3d;
+
+// What two accounts of a pose may differ by: they were measured or written as text (m; of
+// directions, rad).
+constexpr double kAgreement = 1e-6;
+
+bool Agree(const Isometry3d& a, const Isometry3d& b) {
+  return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff() <= kAgreement;
+}
+
+}  // namespace
+
+std::string WithoutSlash(const std::string& frame) {
+  return frame.starts_with('/') ? frame.substr(1) : frame;
+}
+
+FrameTree::FrameTree(const RobotModel& model, std::span<const double> start_positions,
+                     const PlanningFrame& planning_frame,
+                     const std::vector<FixedTransform>& transforms)
+    : model_(&model) {
+  const std::vector<Isometry3d> X_BL = ComputeLinkPoses(model, start_positions);
+  for (int link = 0; link < model.num_links(); ++link) {
+    const auto l = static_cast<std::size_t>(link);
+    X_BF_[model.links()[l].name] = X_BL[l];
+  }
+  std::vector<FixedTransform> named = transforms;  // With the planning frame by its name.
+  for (FixedTransform& transform : named) {
+    if (transform.header.empty()) transform.header = planning_frame.name;
+  }
+  Follow(named);
+  const Isometry3d X_BW =
+      planning_frame.X_WR ? planning_frame.X_WR->inverse(Eigen::Isometry) : Isometry3d::Identity();
+  const auto [frame, is_new] = X_BF_.try_emplace(planning_frame.name, X_BW);
+  if (!is_new && planning_frame.X_WR && !Agree(frame->second, X_BW)) {
+    planning_frame.node->Fail(
+        "places the robot in the frame '" + planning_frame.name +
+        "', which has another pose already: it is the robot's own, or a fixed "
+        "transform joins it to the robot");
+  }
+  X_BF_[""] = frame->second;
+  Follow(named);
+  CheckAgreement(named);
+}
+
+void FrameTree::Follow(const std::vector<FixedTransform>& transforms) {
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (const FixedTransform& transform : transforms) {
+      const Isometry3d* header = Find(transform.header);
+      const Isometry3d* child = Find(transform.child);
+      if ((header == nullptr) == (child == nullptr)) continue;
+      const std::string& unknown = header == nullptr ? transform.header : transform.child;
+      const Isometry3d X_BF = (header == nullptr ? *child : *header) * transform.X;
+      X_BF_[unknown] = X_BF;
+      progress = true;
+    }
+  }
+}
+
+void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) const {
+  for (const FixedTransform& transform : transforms) {
+    const Isometry3d* header = Find(transform.header);
+    const Isometry3d* child = Find(transform.child);
+    if (header == nullptr || child == nullptr) continue;  // Frames that nothing can be given in.
+    if (transform.header == transform.child) {
+      if (Agree(transform.X, Isometry3d::Identity())) continue;
+      transform.node.At("transform")
+          .Fail("the frame '" + transform.child + "' has a pose other than the identity in itself");
+    }
+    const Isometry3d X_HC = header->inverse(Eigen::Isometry) * *child;
+    if (Agree(transform.X, X_HC) || Agree(transform.X, X_HC.inverse(Eigen::Isometry))) continue;
+    transform.node.Fail("the frames '" + transform.header + "' and '" + transform.child +
+                        "' stand otherwise to each other by the robot's links or other transforms");
+  }
+}
+
+void FrameTree::AddObjectFrame(const std::string& name, const Isometry3d& X_BF) {
+  if (model_->FindLink(name) < 0) X_BF_[name] = X_BF;
+}
+
+const Isometry3d* FrameTree::Find(const std::string& name) const {
+  const auto found = X_BF_.find(WithoutSlash(name));
+  return found == X_BF_.end() ? nullptr : &found->second;
+}
+
+const Isometry3d& FrameTree::At(const std::string& name, const YamlNode& node) const {
+  if (const Isometry3d* X_BF = Find(name)) return *X_BF;
+  std::vector<std::string_view> known;
+  for (const auto& [frame, X_BF] : X_BF_) known.push_back(frame);
+  const std::string nearest = NearestName(name, known);
+  node.Fail("unknown frame '" + name +
+            "': no link of the robot, no object, and no chain of "
+            "fixed_frame_transforms leads there" +
+            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+}  // namespace planbench

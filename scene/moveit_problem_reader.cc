@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <set>
+
+#include "common/error.h"
+#include "robot_model/full_positions.h"
+#include "scene/moveit_fields.h"
+#include "scene/moveit_object_reader.h"
+#include "scene/moveit_request_reader.h"
+#include "scene/moveit_scene_reader.h"
+#include "scene/moveit_state_reader.h"
+#include "scene/moveit_yaml.h"
+
+namespace planbench {
+namespace {
+
+// The message itself, of a file that holds it as the one field of a service's request or answer.
+YamlNode Unwrapped(const YamlNode& file, const char* field) {
+  if (!file.IsMap() || file.Keys() != std::vector<std::string>{field}) return file;
+  return file.At(field);
+}
+
+RobotStateFields OptionalState(const YamlNode& message, const char* field, const Robot& robot) {
+  const std::optional<YamlNode> state = message.Find(field);
+  return state ? ReadRobotState(*state, robot.model) : RobotStateFields();
+}
+
+void RequireRobot(const YamlNode& scene, const Robot& robot) {
+  const std::optional<YamlNode> node = scene.Find("robot_model_name");
+  const std::string name = node ? node->String() : "";
+  if (name.empty() || name == robot.name || name == robot.model.name()) return;
+  node->Fail("the scene is for robot '" + name + "', not for '" + robot.name + "'");
+}
+
+// `below` overlaid by `above`.
+JointState Overlaid(JointState below, const JointState& above) {
+  for (std::size_t i = 0; i < above.names.size(); ++i) {
+    const auto found = std::find(below.names.begin(), below.names.end(), above.names[i]);
+    if (found == below.names.end()) {
+      below.names.push_back(above.names[i]);
+      below.positions.push_back(above.positions[i]);
+    } else {
+      below.positions[static_cast<std::size_t>(found - below.names.begin())] = above.positions[i];
+    }
+  }
+  return below;
+}
+
+// Puts the followers in `start` where they are at those full positions.
+void PlaceFollowers(const RobotModel& model, const std::vector<double>& full, JointState* start) {
+  for (std::size_t i = 0; i < start->names.size(); ++i) {
+    const int index = model.FindJoint(start->names[i]);
+    if (index < 0) continue;
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+    if (joint.leader < 0) continue;
+    start->positions[i] = joint.offset;
+    if (joint.position_index >= 0) {
+      start->positions[i] +=
+          joint.multiplier * full[static_cast<std::size_t>(joint.position_index)];
+    }
+  }
+}
+
+void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
+                         const JointState& start) {
+  const YamlNode node = request.Find("start_state").value_or(request);
+  if (start.names.empty()) {
+    node.Fail(
+        "no start: neither the request's start_state nor the scene's robot_state names a "
+        "joint");
+  }
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    if (std::find(start.names.begin(), start.names.end(), joint.name) == start.names.end()) {
+      node.Fail("the start does not name joint '" + joint.name + "' of group '" + group.name + "'");
+    }
+  }
+}
+
+// The frame that the file is in: that which fixed_frame_transforms relate to themselves, else what
+// the robot's state is in, else, of a transform between frames that the robot does not have, the
+// child, which is where MoveIt writes it.
+PlanningFrame FindPlanningFrame(const RobotModel& model, const RobotStateFields& scene_state,
+                                const RobotStateFields& start_state,
+                                const std::vector<FixedTransform>& transforms) {
+  const RobotStateFields& with_root = start_state.X_WR ? start_state : scene_state;
+  PlanningFrame frame{.name = "", .X_WR = with_root.X_WR, .node = with_root.root_node};
+  for (const FixedTransform& transform : transforms) {
+    if (transform.header == transform.child) frame.name = transform.child;
+    if (!frame.name.empty()) return frame;
+  }
+  for (const std::string& name : {with_root.root_frame, scene_state.frame, start_state.frame}) {
+    frame.name = name;
+    if (!frame.name.empty()) return frame;
+  }
+  for (const FixedTransform& transform : transforms) {
+    if (transform.header.empty() || model.FindLink(transform.header) >= 0 ||
+        model.FindLink(transform.child) >= 0) {
+      continue;
+    }
+    frame.name = transform.child;
+    break;
+  }
+  return frame;
+}
+
+// Links without a body may share their name with an object, but not what the matrix allows them.
+void RequireNamesOfOne(const YamlNode& matrix, const Robot& robot, const Scene& scene) {
+  std::set<std::string> allowed;
+  for (const auto& [pair, allows] : scene.allowed_collisions.entries()) {
+    if (allows) allowed.insert({pair.first, pair.second});
+  }
+  for (const auto& [name, allows] : scene.allowed_collisions.default_entries()) {
+    if (allows) allowed.insert(name);
+  }
+  const auto require = [&](const std::string& id) {
+    if (robot.model.FindLink(id) < 0 || !allowed.contains(id)) return;
+    matrix.Fail("allows collisions of '" + id + "', which is the name of a link and of an object");
+  };
+  for (const SceneObject& object : scene.objects) require(object.id);
+  for (const AttachedObject& attached : scene.attached) require(attached.object.id);
+}
+
+// Fixed frames in the base frame, those that are known.
+std::vector<FrameTransform> PlacedFrames(const std::vector<FixedTransform>& transforms,
+                                         const FrameTree& frames, const RobotModel& model) {
+  std::vector<FrameTransform> placed;
+  std::set<std::string> seen;
+  for (const FixedTransform& transform : transforms) {
+    for (const std::string& name : {transform.header, transform.child}) {
+      const Eigen::Isometry3d* X_BF = frames.Find(name);
+      if (X_BF == nullptr || name.empty() || model.FindLink(name) >= 0) continue;
+      if (seen.insert(name).second) placed.push_back({name, *X_BF});
+    }
+  }
+  return placed;
+}
+
+}  // namespace
+
+Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, const Robot& robot,
+                     const ResourceResolver& resources) {
+  const YamlNode planning_scene = Unwrapped(scene_file, "scene");
+  const YamlNode request = Unwrapped(request_file, "motion_plan_request");
+  RequireScene(planning_scene);
+  RequireRequest(request);
+  RequireRobot(planning_scene, robot);
+
+  Problem problem;
+  const PlanningGroup& group = ReadGroup(request, robot);
+  problem.group = group.name;
+  const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot);
+  const RobotStateFields start_state = OptionalState(request, "start_state", robot);
+  problem.start = Overlaid(scene_state.joints, start_state.joints);
+  RequireStartOfGroup(request, group, problem.start);
+  std::vector<std::string> start_warnings;
+  const YamlNode start_node = request.Find("start_state").value_or(request);
+  const std::vector<double> start = FullPositions(
+      robot.model, problem.start.names, problem.start.positions, "start", &start_warnings);
+  for (const std::string& warning : start_warnings) start_node.Warn(warning);
+  PlaceFollowers(robot.model, start, &problem.start);
+
+  const std::vector<FixedTransform> transforms = ReadFixedTransforms(planning_scene);
+  FrameTree frames(robot.model, start,
+                   FindPlanningFrame(robot.model, scene_state, start_state, transforms),
+                   transforms);
+  Scene& scene = problem.scene;
+  scene.name = planning_scene.StringOr("name", "");
+  scene.robot_name = planning_scene.StringOr("robot_model_name", "");
+  scene.world_frame = robot.model.links().front().name;
+  scene.fixed_frames = PlacedFrames(transforms, frames, robot.model);
+  if (const auto world = planning_scene.Find("world")) {
+    AddWorldObjects(*world, resources, robot, &frames, &scene);
+    AddOctomap(*world, frames, &scene);
+  }
+  if (const auto state = planning_scene.Find("robot_state")) {
+    AddAttachedObjects(*state, resources, robot, &frames, &scene);
+  }
+  if (const auto state = request.Find("start_state")) {
+    AddAttachedObjects(*state, resources, robot, &frames, &scene);
+  }
+  if (const auto matrix = planning_scene.Find("allowed_collision_matrix")) {
+    scene.allowed_collisions = ReadAllowedCollisions(*matrix);
+    RequireNamesOfOne(*matrix, robot, scene);
+  }
+
+  problem.goal = ReadGoal(request, robot.model, group, start);
+  problem.workspace = ReadWorkspace(request);
+  problem.time_limit_s = ReadTimeLimit(request);
+  problem.warnings = scene_file.warnings();
+  problem.warnings.insert(problem.warnings.end(), request_file.warnings().begin(),
+                          request_file.warnings().end());
+  return problem;
+}
+
+Problem ReadProblem(const std::filesystem::path& scene_file,
+                    const std::filesystem::path& request_file, const Robot& robot) {
+  const YamlNode scene = YamlNode::LoadFile(scene_file.string());
+  const YamlNode request = YamlNode::LoadFile(request_file.string());
+  Problem problem =
+      ParseProblem(scene, request, robot, {scene_file.parent_path(), robot.resources.packages});
+  if (const std::optional<int> index = ProblemIndexOf(scene_file)) {
+    problem.index = *index;
+    problem.set = ProblemSetNameOf(scene_file.parent_path());
+  }
+  return problem;
+}
+
+}  // namespace planbench

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/yaml.h"
+#include "robot_model/robot_folder.h"
+#include "scene/problem.h"
+
+namespace planbench {
+
+// Parts of a moveit_msgs/MotionPlanRequest. All throw InputError naming file, line and field.
+
+/// Refuses what is no map, fields that the message does not have, and constraints on the path.
+void RequireRequest(const YamlNode& motion_plan_request);
+
+/// The planning group that group_name names.
+const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
+
+/// goal_constraints: one set of joint constraints, with one for each joint of the group. Others are
+/// taken if they say nothing: of fixed joints at 0, of joints outside the group where they are at
+/// `start` (full positions), of joints that follow one of the group where that puts them.
+std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
+                                const PlanningGroup& group, const std::vector<double>& start);
+
+std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request);
+
+/// allowed_planning_time, s; 0 without one.
+double ReadTimeLimit(const YamlNode& motion_plan_request);
+
+}  // namespace planbench

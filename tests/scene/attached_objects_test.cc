@@ -1,0 +1,166 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "tests/scene/problem_texts.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// The gripper is at (1, 0, 2) at the start.
+constexpr const char* kRequest = R"(
+start_state:
+  joint_state: {name: [a_joint, b_joint], position: [0, 2]}
+  attached_collision_objects: []
+goal_constraints:
+  - joint_constraints: [{joint_name: a_joint, position: 1}, {joint_name: b_joint, position: 0}]
+)";
+
+constexpr const char* kWorld = R"(robot_model_name: fetch
+robot_state:
+  attached_collision_objects: []
+world:
+  collision_objects:
+    - id: tool
+      header: {frame_id: base_link}
+      pose: {position: [1.25, 0, 2], orientation: [0, 0, 0, 1]}
+      primitives: [{type: box, dimensions: [0.1, 0.1, 0.1]}]
+      primitive_poses: [{position: [0, 0, 0.5], orientation: [0, 0, 0, 1]}]
+    - id: wall
+      header: {frame_id: base_link}
+      primitives: [{type: box, dimensions: [0.1, 0.1, 0.1]}]
+      primitive_poses: [{position: [0, 5, 0], orientation: [0, 0, 0, 1]}]
+)";
+
+std::string Attaching(const std::string& text, const std::string& object,
+                      const std::string& link = "gripper_link") {
+  return Replaced(text, "attached_collision_objects: []",
+                  "attached_collision_objects: [{link_name: " + link + ", object: {" + object +
+                      "}, touch_links: [/l_finger]}]");
+}
+
+const char* const kTool =
+    "id: tool, header: {frame_id: gripper_link}, primitives: [{type: sphere, dimensions: [0.2]}], "
+    "primitive_poses: [{position: [0.25, 0, 0.5], orientation: [0, 0, 0, 1]}]";
+
+Vector3d PlaceInLink(const AttachedObject& attached) {
+  return attached.object.X_WO * attached.object.shapes.front().X_FS.translation();
+}
+
+TEST(AttachedObjects, ByIdLeaveTheWorldWhereTheyAre) {
+  for (const bool in_request : {false, true}) {
+    for (const char* object : {"id: tool", "id: tool, operation: 0",
+                               "id: tool, primitives: [], meshes: [], planes: []"}) {
+      const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kRequest, object)).scene
+                                     : ParseProblem(Attaching(kWorld, object), kRequest).scene;
+      ASSERT_EQ(scene.objects.size(), 1u);
+      EXPECT_EQ(scene.objects[0].id, "wall");
+      ASSERT_EQ(scene.attached.size(), 1u);
+      EXPECT_EQ(scene.attached[0].link, "gripper_link");
+      EXPECT_EQ(PlaceInLink(scene.attached[0]), Vector3d(0.25, 0, 0.5));
+      EXPECT_THAT(scene.attached[0].touch_links, ElementsAre("l_finger"));
+    }
+  }
+}
+
+TEST(AttachedObjects, WithShapesTakeTheIdOutOfTheWorld) {
+  for (const bool in_request : {false, true}) {
+    const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kRequest, kTool)).scene
+                                   : ParseProblem(Attaching(kWorld, kTool), kRequest).scene;
+    ASSERT_EQ(scene.objects.size(), 1u);
+    EXPECT_EQ(scene.objects[0].id, "wall");
+    ASSERT_EQ(scene.attached.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<Sphere>(scene.attached[0].object.shapes[0].shape));
+  }
+}
+
+TEST(AttachedObjects, OfSceneAndRequestMayBeTheSame) {
+  const std::string scene = Attaching(kWorld, kTool);
+  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, kTool)).scene.attached.size(), 1u);
+  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, "id: tool")).scene.attached.size(), 1u);
+  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, Replaced(kTool, "tool", "other")))
+                .scene.attached.size(),
+            2u);
+  ExpectInputError(
+      [&] { ParseProblem(scene, Attaching(kRequest, Replaced(kTool, "[0.2]", "[0.3]"))); },
+      {"request.yaml:4: ", "object.id: another object 'tool' is attached already"});
+  ExpectInputError([&] { ParseProblem(scene, Attaching(kRequest, "id: tool", "mast")); },
+                   {"'tool' has no shape"});
+}
+
+TEST(AttachedObjects, MayBeGivenInAnyFrame) {
+  const auto place = [](const std::string& frame) {
+    const Problem problem = ParseProblem(
+        Attaching(kWorld, Replaced(kTool, "frame_id: gripper_link", "frame_id: " + frame)),
+        kRequest);
+    return PlaceInLink(problem.scene.attached.at(0));
+  };
+  EXPECT_EQ(place("gripper_link"), Vector3d(0.25, 0, 0.5));
+  EXPECT_EQ(place("/gripper_link"), Vector3d(0.25, 0, 0.5));
+  EXPECT_TRUE(place("base_link").isApprox(Vector3d(-0.75, 0, -1.5), 1e-12));
+  EXPECT_TRUE(place("mast").isApprox(Vector3d(-0.75, 0, -1.5), 1e-12));
+  EXPECT_TRUE(place("wall").isApprox(Vector3d(-0.75, 5, -1.5), 1e-12));
+}
+
+TEST(AttachedObjects, WithoutAFrameAreInTheirLinksWithAWarning) {
+  const Problem problem = ParseProblem(
+      Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kRequest);
+  EXPECT_EQ(PlaceInLink(problem.scene.attached.at(0)), Vector3d(0.25, 0, 0.5));
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("taken in that of its link")));
+}
+
+TEST(AttachedObjects, NeedAShapeAndALink) {
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: pen"), kRequest); },
+                   {"scene.yaml:3: robot_state.attached_collision_objects[0].object.id",
+                    "'pen' has no shape, and the world has none of that id"});
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool", "hand"), kRequest); },
+                   {"attached_collision_objects[0].link_name", "no link 'hand'"});
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool, operation: 1"), kRequest); },
+                   {"only the operation ADD"});
+  const std::string plane =
+      Replaced(kWorld,
+               "primitives: [{type: box, dimensions: [0.1, 0.1, 0.1]}]\n      primitive_poses: "
+               "[{position: [0, 0, 0.5]",
+               "planes: [{coef: [0, 0, 1, 0]}]\n      plane_poses: [{position: [0, 0, 0.5]");
+  ExpectInputError([&] { ParseProblem(Attaching(plane, "id: tool"), kRequest); },
+                   {"a plane cannot be attached"});
+}
+
+// The link `mast` has a body, by spheres; `gripper_link` has none.
+Problem WithBody(const std::string& scene) {
+  Robot robot = TextRobot();
+  robot.spheres.push_back({robot.model.FindLink("mast"), Vector3d(0, 0, 0), 0.1});
+  return ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
+                      YamlNode::Parse(kRequest, "request.yaml"), robot, {});
+}
+
+TEST(Names, OfLinksAreNotForObjects) {
+  EXPECT_NO_THROW(WithBody(kWorld));
+  ExpectInputError([] { WithBody(Replaced(kWorld, "id: wall", "id: mast")); },
+                   {"scene.yaml:11: world.collision_objects[1].id", "name of a link, 'mast'"});
+  ExpectInputError([] { WithBody(Attaching(kWorld, Replaced(kTool, "tool", "mast"))); },
+                   {"attached_collision_objects[0].object.id", "name of a link, 'mast'"});
+}
+
+TEST(Names, OfLinksWithoutABodyAreButNotWhatTheMatrixAllowsThem) {
+  const std::string scene = Replaced(kWorld, "id: wall", "id: gripper_link");
+  EXPECT_NO_THROW(WithBody(scene));
+  EXPECT_NO_THROW(WithBody(scene + "allowed_collision_matrix: {entry_names: [mast, gripper_link], "
+                                   "entry_values: [[false, false], [false, false]]}\n"));
+  for (const char* matrix :
+       {"{entry_names: [mast, gripper_link], "
+        "entry_values: [[false, true], [true, false]]}",
+        "{default_entry_names: [gripper_link], default_entry_values: [true]}"}) {
+    ExpectInputError(
+        [&] { WithBody(scene + "allowed_collision_matrix: " + matrix + "\n"); },
+        {"scene.yaml:15: allowed_collision_matrix", "'gripper_link'", "a link and of an object"});
+  }
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,334 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "common/error.h"
+#include "tests/scene/problem_texts.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// In these tests the robot's mast is turned by a quarter: the gripper is at (0, 1, 0), its x axis
+// along y.
+constexpr const char* kRequest = R"(
+start_state: {joint_state: {name: [a_joint, b_joint], position: [1.5707963267948966, 0]}}
+goal_constraints:
+  - joint_constraints: [{joint_name: a_joint, position: 1}, {joint_name: b_joint, position: 0}]
+)";
+
+std::string Transform(const std::string& header, const std::string& child,
+                      const std::string& translation, const std::string& rotation = "0, 0, 0, 1") {
+  return "  - {header: {frame_id: '" + header + "'}, child_frame_id: '" + child +
+         "', transform: {translation: [" + translation + "], rotation: [" + rotation + "]}}\n";
+}
+
+// A ball at (1, 0, 0) of a frame, and more of a scene.
+std::string BallIn(const std::string& frame, const std::string& more = "") {
+  return "robot_model_name: fetch\n" + more +
+         "world:\n  collision_objects:\n    - id: ball\n      header: {frame_id: '" + frame +
+         "'}\n      primitives: [{type: sphere, dimensions: [0.1]}]\n"
+         "      primitive_poses: [{position: [1, 0, 0], orientation: [0, 0, 0, 1]}]\n";
+}
+
+Vector3d PlaceOf(const SceneObject& object) {
+  return object.X_WO * object.shapes.front().X_FS.translation();
+}
+
+Vector3d Ball(const std::string& scene, const std::string& request = kRequest) {
+  return PlaceOf(ParseProblem(scene, request).scene.objects.at(0));
+}
+
+void ExpectAt(const Vector3d& actual, double x, double y, double z) {
+  EXPECT_TRUE((actual - Vector3d(x, y, z)).isZero(1e-9)) << actual.transpose();
+}
+
+constexpr const char* kTransforms = "fixed_frame_transforms:\n";
+// A quarter turn about z.
+constexpr const char* kQuarter = "0, 0, 0.7071067811865476, 0.7071067811865476";
+
+TEST(Frames, OfTheRobotsLinks) {
+  ExpectAt(Ball(BallIn("base_link")), 1, 0, 0);
+  ExpectAt(Ball(BallIn("gripper_link")), 0, 2, 0);
+  ExpectAt(Ball(BallIn("/r_finger")), 0, 2, 0);
+  EXPECT_EQ(ParseProblem(BallIn("gripper_link"), kRequest).scene.world_frame, "base_link");
+}
+
+TEST(Frames, WhereTheStartHasTheLinksNotTheScene) {
+  ExpectAt(Ball(BallIn("gripper_link",
+                       "robot_state: {joint_state: {name: [a_joint, b_joint], "
+                       "position: [0, 3]}}\n")),
+           0, 2, 0);
+  ExpectAt(Ball(BallIn("gripper_link",
+                       "robot_state: {joint_state: {name: [a_joint, b_joint], "
+                       "position: [0, 3]}}\n"),
+                "start_state: {joint_state: {name: [a_joint], position: [1.5707963267948966]}}\n" +
+                    std::string(kRequest).substr(std::string(kRequest).find("goal"))),
+           0, 2, 3);
+}
+
+TEST(Frames, FixedTransformsInEitherDirection) {
+  for (const auto& [header, child] : {std::pair{"camera", "base_link"}, {"base_link", "camera"}}) {
+    ExpectAt(Ball(BallIn("camera", kTransforms + Transform(header, child, "0, 0.9, 0"))), 1, 0.9,
+             0);
+    ExpectAt(Ball(BallIn("camera", kTransforms + Transform(header, child, "0, 2, 0", kQuarter))), 0,
+             3, 0);
+    ExpectAt(Ball(BallIn("base_link", kTransforms + Transform(header, child, "0, 0.9, 0"))), 1, 0,
+             0);
+    ExpectAt(Ball(BallIn("/camera", kTransforms + Transform("/" + std::string(header),
+                                                            "/" + std::string(child), "0, 2, 0"))),
+             1, 2, 0);
+  }
+}
+
+TEST(Frames, FixedTransformsFromALink) {
+  ExpectAt(Ball(BallIn("lens", kTransforms + Transform("gripper_link", "lens", "0, 0, 2"))), 0, 2,
+           2);
+  ExpectAt(Ball(BallIn("lens", kTransforms + Transform("lens", "gripper_link", "0, 0, 2"))), 0, 2,
+           2);
+}
+
+TEST(Frames, ChainsOfFixedTransforms) {
+  const std::string a = Transform("base_link", "room", "0, 2, 0", kQuarter);
+  const std::string a_reversed = Transform("room", "base_link", "0, 2, 0", kQuarter);
+  const std::string b = Transform("room", "shelf", "5, 0, 0");
+  const std::string b_reversed = Transform("shelf", "room", "5, 0, 0");
+  const std::string c = Transform("board", "shelf", "0, 0, 1");
+  for (const std::string& chain : {a + b + c, c + b + a, a_reversed + b_reversed + c,
+                                   b + c + a_reversed, c + a + b_reversed}) {
+    ExpectAt(Ball(BallIn("board", kTransforms + chain)), 0, 8, 1);
+  }
+}
+
+TEST(Frames, ATransformSaidTwiceMustBeTheSame) {
+  const std::string once = kTransforms + Transform("base_link", "camera", "0, 2, 0");
+  ExpectAt(Ball(BallIn("camera", once + Transform("camera", "base_link", "0, 2, 0.0000001"))), 1, 2,
+           0);
+  // As tf has the reverse.
+  ExpectAt(Ball(BallIn("camera", once + Transform("camera", "base_link", "0, -2, 0"))), 1, 2, 0);
+  ExpectInputError(
+      [&] { Ball(BallIn("camera", once + Transform("camera", "base_link", "0, 2.1, 0"))); },
+      {"scene.yaml:4: fixed_frame_transforms[1]", "'camera' and 'base_link' stand otherwise"});
+  ExpectInputError(
+      [&] {
+        Ball(BallIn("camera", once + Transform("camera", "lens", "1, 0, 0") +
+                                  Transform("lens", "base_link", "0, 0, 0")));
+      },
+      {"fixed_frame_transforms[", "stand otherwise"});
+}
+
+TEST(Frames, ThePlanningFrameIsTheRootsUnlessItIsPlaced) {
+  // Named by itself, by the state, or as MoveIt names it in every other frame's entry.
+  ExpectAt(Ball(BallIn("world", kTransforms + Transform("world", "world", "0, 0, 0"))), 1, 0, 0);
+  ExpectAt(Ball(BallIn("odom", "robot_state: {joint_state: {header: {frame_id: odom}}}\n")), 1, 0,
+           0);
+  ExpectAt(Ball(BallIn("odom", "robot_state: {joint_state: {header: {frame_id: /odom}}}\n")), 1, 0,
+           0);
+  ExpectAt(Ball(BallIn("camera", kTransforms + Transform("camera", "map", "0, 0, 3"))), 1, 0, 3);
+  ExpectAt(Ball(BallIn("map", kTransforms + Transform("camera", "map", "0, 0, 3"))), 1, 0, 0);
+  // Without a name.
+  ExpectAt(Ball(BallIn("")), 1, 0, 0);
+  ExpectAt(Ball(BallIn("world", kTransforms + Transform("", "world", "0, 0, 0"))), 1, 0, 0);
+  // It may be a link that is not the root.
+  ExpectAt(Ball(BallIn("", "robot_state: {joint_state: {header: {frame_id: gripper_link}}}\n")), 0,
+           2, 0);
+  // Transforms join it to the robot.
+  const std::string placed =
+      kTransforms + Transform("map", "map", "0, 0, 0") + Transform("map", "base_link", "0, 7, 0");
+  ExpectAt(Ball(BallIn("", placed)), 1, 7, 0);
+  ExpectAt(Ball(BallIn("map", placed)), 1, 7, 0);
+}
+
+std::string RootAt(const std::string& frame, const std::string& translation,
+                   const std::string& rotation = "0, 0, 0, 1") {
+  return "  multi_dof_joint_state:\n    header: {frame_id: '" + frame +
+         "'}\n    joint_names: [world_joint]\n    transforms: [{translation: [" + translation +
+         "], rotation: [" + rotation + "]}]\n    twist: []\n    wrench: []\n";
+}
+
+TEST(Frames, AVirtualJointPlacesTheRobot) {
+  for (const char* frame : {"odom", "/odom"}) {
+    const std::string state = "robot_state:\n" + RootAt(frame, "0, 1, 0", kQuarter);
+    ExpectAt(Ball(BallIn("odom", state)), -1, -1, 0);
+    ExpectAt(Ball(BallIn("", state)), -1, -1, 0);
+    ExpectAt(Ball(BallIn("base_link", state)), 1, 0, 0);
+    ExpectAt(Ball(BallIn("gripper_link", state)), 0, 2, 0);
+    ExpectAt(Ball(BallIn("camera", state + kTransforms + Transform("camera", "odom", "0, 0, 5"))),
+             -1, -1, 5);
+  }
+  // In a frame without a name.
+  ExpectAt(Ball(BallIn("", "robot_state:\n" + RootAt("", "1, 0, 0"))), 0, 0, 0);
+  ExpectAt(Ball(BallIn("base_link", "robot_state:\n" + RootAt("", "1, 0, 0"))), 1, 0, 0);
+  // At the identity in whatever frame.
+  ExpectAt(Ball(BallIn("base_link", "robot_state:\n" + RootAt("base_link", "0, 0, 0"))), 1, 0, 0);
+  ExpectAt(Ball(BallIn("odom", "robot_state:\n" + RootAt("odom", "0, 0, 0"))), 1, 0, 0);
+}
+
+TEST(Frames, TheRequestsVirtualJointComesFirst) {
+  const std::string request =
+      Replaced(kRequest, "start_state: {joint_state: {name",
+               "start_state:\n" + RootAt("odom", "0, 0, -2") + "  joint_state: {name");
+  ExpectAt(Ball(BallIn("odom", "robot_state:\n" + RootAt("odom", "0, 0, 9")),
+                Replaced(request, "0]}}", "0]}")),
+           1, 0, 2);
+}
+
+TEST(Frames, AVirtualJointAndATransformMustAgree) {
+  const std::string joint = "robot_state:\n" + RootAt("odom", "0, 0, -2");
+  ExpectAt(Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, 2"))), 1,
+           0, 2);
+  ExpectInputError(
+      [&] {
+        Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, 1")));
+      },
+      {"scene.yaml:6: robot_state.multi_dof_joint_state.transforms[0]", "'odom'"});
+  for (const char* link : {"base_link", "gripper_link"}) {
+    ExpectInputError([&] { Ball(BallIn("", "robot_state:\n" + RootAt(link, "0, 0, 1"))); },
+                     {"transforms[0]: places the robot in the frame", link});
+  }
+}
+
+TEST(Frames, OfObjectsAndTheirSubframes) {
+  const std::string table =
+      "    - id: table\n      header: {frame_id: base_link}\n"
+      "      pose: {position: [0, 0, 1], orientation: [0, 0, 0, 1]}\n"
+      "      primitives: [{type: box, dimensions: [1, 1, 1]}]\n"
+      "      primitive_poses: [{position: [0, 0, 9], orientation: [0, 0, 0, 1]}]\n"
+      "      subframe_names: [edge]\n"
+      "      subframe_poses: [{position: [0, 2, 0], orientation: [0, 0, 0, 1]}]\n";
+  const auto with_table = [&](const std::string& frame) {
+    return Replaced(BallIn(frame), "    - id: ball", table + "    - id: ball");
+  };
+  const auto place = [&](const std::string& scene) {
+    return PlaceOf(ParseProblem(scene, kRequest).scene.objects.at(1));
+  };
+  ExpectAt(place(with_table("table")), 1, 0, 1);
+  ExpectAt(place(with_table("/table")), 1, 0, 1);
+  ExpectAt(place(with_table("table/edge")), 1, 2, 1);
+  // An object without a pose and with one shape has the frame of the shape.
+  ExpectAt(place(Replaced(with_table("table"),
+                          "      pose: {position: [0, 0, 1], orientation: [0, 0, 0, 1]}\n", "")),
+           1, 0, 9);
+  ExpectInputError([&] { place(with_table("table/leg")); }, {"unknown frame 'table/leg'"});
+}
+
+TEST(Frames, UnknownOnesAreRefusedWithTheirFileAndLine) {
+  ExpectInputError([] { Ball(BallIn("lamp")); },
+                   {"scene.yaml:5: world.collision_objects[0].header.frame_id: unknown frame "
+                    "'lamp'"});
+  ExpectInputError([] { Ball(BallIn("griper_link")); }, {"did you mean 'gripper_link'?"});
+  // Known to each other, but not to the robot.
+  ExpectInputError(
+      [] {
+        Ball(BallIn("camera", "robot_state: {joint_state: {header: {frame_id: base_link}}}\n" +
+                                  (kTransforms + Transform("camera", "map", "0, 0, 3"))));
+      },
+      {"unknown frame 'camera'"});
+  // Most objects being in it does not make a frame known.
+  ExpectInputError(
+      [] {
+        Ball(BallIn("camera", "robot_state: {joint_state: {header: {frame_id: base_link}}}\n"));
+      },
+      {"unknown frame 'camera'"});
+}
+
+// The pedestal: the root is called world, the arm's base stands on it.
+TEST(Frames, OfARobotOnAPedestal) {
+  constexpr const char* kUrdf = R"(<robot name="fetch">
+  <link name="world"/><link name="base_link"/><link name="arm"/>
+  <joint name="stand" type="fixed"><parent link="world"/><child link="base_link"/>
+    <origin xyz="0 0 0.8"/></joint>
+  <joint name="turn" type="continuous"><parent link="base_link"/><child link="arm"/></joint>
+</robot>)";
+  Robot robot;
+  robot.model = RobotModel::FromUrdf(kUrdf, "pedestal.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"turn"}, "arm")};
+  const auto ball = [&](const std::string& scene) {
+    const Problem problem =
+        ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
+                     YamlNode::Parse("start_state: {joint_state: {name: [turn], position: [0]}}\n"
+                                     "goal_constraints: [{joint_constraints: "
+                                     "[{joint_name: turn, position: 1}]}]\n",
+                                     "request.yaml"),
+                     robot, {});
+    EXPECT_EQ(problem.scene.world_frame, "world");
+    return PlaceOf(problem.scene.objects.at(0));
+  };
+  ExpectAt(ball(BallIn("base_link")), 1, 0, 0.8);
+  ExpectAt(ball(BallIn("world")), 1, 0, 0);
+  ExpectAt(ball(BallIn("")), 1, 0, 0);
+  // A file made with the arm alone: its planning frame is the arm's base.
+  ExpectAt(ball(BallIn("", kTransforms + Transform("base_link", "base_link", "0, 0, 0"))), 1, 0,
+           0.8);
+  ExpectAt(ball(BallIn("base_link", kTransforms + Transform("world", "world", "0, 0, 0"))), 1, 0,
+           0.8);
+}
+
+TEST(Frames, FixedOnesComeOutInTheBaseFrame) {
+  const Scene scene =
+      ParseProblem(BallIn("base_link", kTransforms + Transform("camera", "base_link", "0, 2, 0") +
+                                           Transform("lens", "camera", "0, 0, 1") +
+                                           Transform("lost", "found", "0, 0, 1")),
+                   kRequest)
+          .scene;
+  std::vector<std::string> names;
+  for (const FrameTransform& frame : scene.fixed_frames) names.push_back(frame.frame);
+  EXPECT_THAT(names, ElementsAre("camera", "lens"));
+  ExpectAt(scene.fixed_frames[1].X_WF.translation(), 0, 2, 1);
+}
+
+TEST(Quaternions, AreNormalisedOrTakenAsNoRotationWithAWarning) {
+  const auto warnings = [](const std::string& quaternion) {
+    const Problem problem = ParseProblem(
+        Replaced(BallIn("base_link"), "orientation: [0, 0, 0, 1]", "orientation: " + quaternion),
+        kRequest);
+    EXPECT_TRUE(problem.scene.objects[0].shapes[0].X_FS.linear().isUnitary(1e-12));
+    return problem.warnings;
+  };
+  for (const char* fine :
+       {"[0, 0, 0, 1]", "[0, 0, 0.7071, 0.7071]", "[0, 0, 0.6, 0.8005]", "[0, 0, 0, -1]"}) {
+    EXPECT_THAT(warnings(fine), IsEmpty()) << fine;
+  }
+  EXPECT_THAT(
+      warnings("[0, 0, 0, 0]"),
+      ElementsAre("scene.yaml:7: world.collision_objects[0].primitive_poses[0].orientation: "
+                  "is all zero; taken as no rotation"));
+  EXPECT_THAT(warnings("{x: 0, y: 0, z: 0, w: 0}"), ElementsAre(HasSubstr("no rotation")));
+  EXPECT_THAT(warnings("[0, 0, 0, 2]"), ElementsAre(HasSubstr("length 2.000000")));
+  EXPECT_THAT(warnings("[0, 0, 0.6, 0.83]"), ElementsAre(HasSubstr("normalised")));
+  EXPECT_THAT(warnings("[0, 0, 0.6, 0.77]"), ElementsAre(HasSubstr("normalised")));
+  for (const char* bad : {"[0, 0, 0.6, 0.9]", "[0, 0, 1.57, 0]", "[0, 0.1, 0, 2]"}) {
+    EXPECT_THROW(warnings(bad), InputError) << bad;
+  }
+}
+
+TEST(Quaternions, EverywhereAlike) {
+  const std::string zero = "[0, 0, 0, 0]";
+  const Problem problem = ParseProblem(
+      "robot_model_name: fetch\nrobot_state:\n" +
+          Replaced(RootAt("odom", "0, 0, 1"), "[0, 0, 0, 1]", zero) +
+          "  attached_collision_objects:\n    - {link_name: gripper_link, object: {id: tool, "
+          "header: {frame_id: gripper_link}, primitives: [{type: sphere, dimensions: [1]}], "
+          "primitive_poses: [{position: [1, 0, 0], orientation: " +
+          zero + "}]}}\n" + kTransforms +
+          Replaced(Transform("camera", "odom", "0, 0, 1"), "[0, 0, 0, 1]", zero) +
+          "world: {collision_objects: [{id: ball, pose: {position: [1, 0, 0], orientation: " +
+          zero +
+          "}, meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}], "
+          "mesh_poses: [{position: [0, 0, 1], orientation: " +
+          zero + "}]}]}\n",
+      kRequest);
+  EXPECT_EQ(problem.warnings.size(), 5u);
+  for (const std::string& warning : problem.warnings) {
+    EXPECT_THAT(warning, HasSubstr("is all zero; taken as no rotation"));
+  }
+}
+
+}  // namespace
+}  // namespace planbench

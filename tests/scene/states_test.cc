@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "tests/scene/problem_texts.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A gripper on a cart: `drive` holds a pose, `wrist` is planned with, `f2` follows `f1` and `weld`
+// is fixed.
+constexpr const char* kUrdf = R"(<robot name="cart">
+  <link name="floor"/><link name="cart"/><link name="hand"/><link name="left"/><link name="right"/>
+  <link name="pad"/>
+  <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/></joint>
+  <joint name="wrist" type="revolute"><parent link="cart"/><child link="hand"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+  <joint name="f1" type="prismatic"><parent link="hand"/><child link="left"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
+  <joint name="f2" type="prismatic"><parent link="hand"/><child link="right"/><axis xyz="0 -1 0"/>
+    <limit lower="0" upper="0.04" velocity="1" effort="1"/><mimic joint="f1"/></joint>
+  <joint name="weld" type="fixed"><parent link="right"/><child link="pad"/></joint>
+</robot>)";
+
+Robot CartRobot() {
+  Robot robot;
+  robot.name = "cart";
+  robot.model = RobotModel::FromUrdf(kUrdf, "cart.urdf");
+  robot.groups = {robot.model.MakeGroup("wrist", {"wrist"}, "hand"),
+                  robot.model.MakeGroup("grip", {"wrist", "f1"}, "hand")};
+  return robot;
+}
+
+Problem Parse(const std::string& scene_state, const std::string& start_state,
+              const std::string& goals = "{joint_name: wrist, position: 1}",
+              const std::string& group = "wrist") {
+  return ParseProblem(
+      YamlNode::Parse("robot_model_name: cart\nrobot_state: {" + scene_state + "}\n", "scene.yaml"),
+      YamlNode::Parse("group_name: " + group + "\nstart_state: {" + start_state +
+                          "}\ngoal_constraints: [{joint_constraints: [" + goals + "]}]\n",
+                      "request.yaml"),
+      CartRobot(), {});
+}
+
+TEST(StartState, OverlaysTheScenes) {
+  const Problem problem =
+      Parse("joint_state: {name: [f1, wrist], position: [0.01, 0.2]}",
+            "joint_state: {name: [wrist, weld], position: [0.3, 0], velocity: [.nan, .inf]}");
+  EXPECT_THAT(problem.start.names, ElementsAre("f1", "wrist", "weld"));
+  EXPECT_THAT(problem.start.positions, ElementsAre(0.01, 0.3, 0));
+}
+
+TEST(StartState, PutsFollowersWhereTheyAre) {
+  Problem problem = Parse("joint_state: {name: [f1, f2, wrist], position: [0.01, 0.01, 0]}",
+                          "joint_state: {name: [f1], position: [0.03]}");
+  EXPECT_THAT(problem.start.names, ElementsAre("f1", "f2", "wrist"));
+  EXPECT_THAT(problem.start.positions, ElementsAre(0.03, 0.03, 0));
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("'f2' is given at 0.01")));
+
+  problem = Parse("", "joint_state: {name: [f2, wrist], position: [0.02, 0]}");
+  EXPECT_THAT(problem.start.positions, ElementsAre(0.02, 0));
+  EXPECT_THAT(problem.warnings, IsEmpty());
+}
+
+TEST(StartState, PlanarAndFloatingJointsHoldTheirPose) {
+  const std::string pose =
+      "multi_dof_joint_state: {joint_names: [drive], transforms: [{translation: {x: 1, y: 2, z: "
+      "0}, "
+      "rotation: {x: 0, y: 0, z: 1, w: 0}}]}";
+  const std::string wrist = "joint_state: {name: [wrist], position: [0]}";
+  for (const Problem& problem : {Parse(pose, wrist), Parse("", pose + ", " + wrist)}) {
+    const auto x =
+        std::find(problem.start.names.begin(), problem.start.names.end(), "drive/trans_x");
+    ASSERT_NE(x, problem.start.names.end());
+    const std::size_t at = static_cast<std::size_t>(x - problem.start.names.begin());
+    EXPECT_EQ(problem.start.positions[at], 1);
+    EXPECT_EQ(problem.start.positions[at + 1], 2);
+    EXPECT_EQ(std::abs(problem.start.positions[at + 5]), 1);
+    EXPECT_EQ(problem.start.positions[at + 6], 0);
+  }
+  // By the names that MoveIt gives the parts.
+  EXPECT_EQ(
+      Parse("", "joint_state: {name: [drive/trans_x, wrist], position: [3, 0]}").start.positions[0],
+      3);
+}
+
+TEST(StartState, RefusesWhatTheRobotCannotDo) {
+  const auto refuse = [](const std::string& state, const std::string& says) {
+    ExpectInputError([&] { Parse("", state); }, {"request.yaml:2: start_state.", says});
+  };
+  refuse("joint_state: {name: [wrist, weld], position: [0, 0.1]}",
+         "joint_state.name[1]: the joint 'weld' is fixed and cannot be at 0.1");
+  refuse("joint_state: {name: [wrist, drive], position: [0, 0]}", "'drive' takes a pose");
+  refuse("joint_state: {name: [wrist, elbow], position: [0, 0]}", "'elbow' is unknown");
+  refuse(
+      "multi_dof_joint_state: {joint_names: [wrist], transforms: [{translation: [0, 0, 0], "
+      "rotation: [0, 0, 0, 1]}]}",
+      "'wrist' is not one that takes a pose");
+  refuse(
+      "multi_dof_joint_state: {joint_names: [drive, drive], transforms: [{translation: "
+      "[0, 0, 0], rotation: [0, 0, 0, 1]}, {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}]}",
+      "'drive' is named twice");
+}
+
+TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
+  const std::string start = "joint_state: {name: [wrist, f1], position: [0, 0.02]}";
+  const auto goals = [&](const std::string& more, const std::string& group = "wrist") {
+    return Parse("", start, "{joint_name: wrist, position: 1}, " + more, group).goal.size();
+  };
+  EXPECT_EQ(goals("{joint_name: weld, position: 0}"), 1u);
+  EXPECT_EQ(goals("{joint_name: f1, position: 0.02}, {joint_name: f2, position: 0.02}"), 1u);
+  EXPECT_EQ(goals("{joint_name: f1, position: 0.03, tolerance_below: 0.02}"), 1u);
+  EXPECT_EQ(goals("{joint_name: f2, position: 0.04}, {joint_name: f1, position: 0.04}", "grip"),
+            2u);
+  const auto refuse = [&](const std::string& more, const std::string& says,
+                          const std::string& group = "wrist") {
+    ExpectInputError([&] { goals(more, group); },
+                     {"request.yaml:3: goal_constraints[0].joint_constraints", says});
+  };
+  refuse("{joint_name: weld, position: 0.1}", "stays at 0");
+  refuse("{joint_name: f1, position: 0.03}", "'f1' is not in group 'wrist' and stays at 0.02");
+  refuse("{joint_name: f2, position: 0.03}", "'f2' is not in group 'wrist' and stays at 0.02");
+  refuse("{joint_name: drive, position: 0}", "'drive' has a pose");
+  refuse("{joint_name: f2, position: 0.04}", "'f2' follows 'f1'; give a goal for that", "grip");
+  refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}", "'f2'", "grip");
+}
+
+TEST(Octomap, IsAnObjectOfBoxes) {
+  const std::string scene = R"(robot_model_name: fetch
+fixed_frame_transforms:
+  - {header: {frame_id: camera}, child_frame_id: base_link,
+     transform: {translation: [0, 0, 1], rotation: [0, 0, 0, 1]}}
+world:
+  octomap:
+    header: {frame_id: camera}
+    origin: {position: [0, 2, 0], orientation: [0, 0, 0, 0]}
+    octomap: {binary: false, id: OcTree, resolution: 0.0001, data: DATA}
+)";
+  // The root's last child is a leaf of log-odds 1.
+  const Scene full =
+      ParseProblem(Replaced(scene, "DATA", "[0, 0, 0, 0, -128, 0, 0, 128, 63, 0]")).scene;
+  ASSERT_EQ(full.objects.size(), 1u);
+  EXPECT_EQ(full.objects[0].id, "<octomap>");
+  ASSERT_EQ(full.objects[0].shapes.size(), 1u);
+  EXPECT_TRUE(std::get<Box>(full.objects[0].shapes[0].shape)
+                  .size.isApprox(Eigen::Vector3d::Constant(3.2768)));
+  EXPECT_TRUE((full.objects[0].X_WO * full.objects[0].shapes[0].X_FS.translation())
+                  .isApprox(Eigen::Vector3d(1.6384, 3.6384, 2.6384)));
+  const auto with = [&](const std::string& data, const std::string& binary) {
+    return ParseProblem(
+               Replaced(Replaced(scene, "DATA", data), "binary: false", "binary: " + binary))
+        .scene;
+  };
+  EXPECT_EQ(SceneId(with("[0, -128]", "true")), SceneId(full));
+  EXPECT_EQ(SceneId(with("!!binary AIA=", "1")), SceneId(full));
+  EXPECT_TRUE(with("[]", "true").objects.empty());
+  EXPECT_TRUE(with("[0, 64]", "true").objects.empty()) << "free only";
+  for (const char* data : {"[1]", "[1, 2, 3, 4]", "!!binary AQIDBA==", "4a4b4c"}) {
+    try {
+      with(data, "true");
+      FAIL() << data;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("scene.yaml:9: world.octomap.octomap.data"));
+      EXPECT_LT(std::string(error.what()).size(), 160u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace planbench
