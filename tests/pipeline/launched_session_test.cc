@@ -109,10 +109,10 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
 TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   const auto session = folder() / "session";
   // With steps so tiny every run lasts to its time limit.
-  ChildProcess* driver = StartLaunchedDriver(
-      session, {"--problems-range", "1-2", "--time", "2", "--planners", "rrtc", "--set",
-                "rrtc.range=0.00001", "--set", "rrtc.extension=step", "--directions", "forward",
-                "--trials", "2"});
+  ChildProcess* driver =
+      StartLaunchedDriver(session, {"--problems-range", "1-2", "--time", "2", "--planners", "rrtc",
+                                    "--set", "rrtc.range=0.00001", "--set", "rrtc.extension=step",
+                                    "--directions", "forward", "--trials", "2"});
   const auto planner_pid = [&]() -> int {
     for (const int pid : LeftRunning()) {
       std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
