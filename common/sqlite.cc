@@ -79,6 +79,13 @@ void SqliteStatement::Run() {
 
 void SqliteStatement::Reset() { sqlite3_reset(statement_.get()); }
 
+std::optional<SqliteValue> SqliteStatement::First() {
+  if (!Step()) return std::nullopt;
+  SqliteValue value = Value(0);
+  Reset();
+  return value;
+}
+
 SqliteValue SqliteStatement::Value(int column) const {
   switch (sqlite3_column_type(statement_.get(), column)) {
     case SQLITE_INTEGER:
@@ -132,9 +139,7 @@ std::int64_t SqliteConnection::LastInsertId() const {
 }
 
 SqliteValue SqliteConnection::QueryValue(const std::string& sql) {
-  SqliteStatement statement = Prepare(sql);
-  if (!statement.Step()) return std::monostate();
-  return statement.Value(0);
+  return Prepare(sql).First().value_or(std::monostate());
 }
 
 SqliteTransaction::SqliteTransaction(SqliteConnection* connection) : connection_(connection) {

@@ -62,6 +62,8 @@ class SqliteStatement {
   void Run();
   /// Ends reading before the last row.
   void Reset();
+  /// The first column of the first row; nothing if there is no row. Ready to be used again.
+  std::optional<SqliteValue> First();
 
   /// A value of the current row, columns counted from 0.
   SqliteValue Value(int column) const;

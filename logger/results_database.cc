@@ -158,11 +158,7 @@ void ResultsDatabase::Store(const SessionMessage& session) {
 
 ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) {
   SqliteTransaction transaction(&connection_);
-  find_run_.BindAll(record.run_id, record.request_id);
-  if (find_run_.Step()) {
-    find_run_.Reset();
-    return Outcome::kAlreadyStored;
-  }
+  if (find_run_.BindAll(record.run_id, record.request_id).First()) return Outcome::kAlreadyStored;
   const std::int64_t experiment = ExperimentId(record);
   const std::int64_t planner = PlannerId(record);
   std::vector<SqliteValue> values;
@@ -188,11 +184,8 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
 }
 
 std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {
-  find_experiment_.BindAll(record.run_id, record.problem_set);
-  if (find_experiment_.Step()) {
-    const std::int64_t id = find_experiment_.Int(0);
-    find_experiment_.Reset();
-    return id;
+  if (const auto id = find_experiment_.BindAll(record.run_id, record.problem_set).First()) {
+    return std::get<std::int64_t>(*id);
   }
   insert_experiment_.BindAll(record.problem_set, record.request.time_limit_s).Run();
   const std::int64_t id = connection_.LastInsertId();
@@ -203,11 +196,8 @@ std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {
 
 std::int64_t ResultsDatabase::PlannerId(const RunRecordMessage& record) {
   const std::string settings = PlannerSettings(record);
-  find_planner_.BindAll(record.planner, settings);
-  if (find_planner_.Step()) {
-    const std::int64_t id = find_planner_.Int(0);
-    find_planner_.Reset();
-    return id;
+  if (const auto id = find_planner_.BindAll(record.planner, settings).First()) {
+    return std::get<std::int64_t>(*id);
   }
   insert_planner_.BindAll(record.planner, settings).Run();
   return connection_.LastInsertId();

@@ -39,7 +39,7 @@ double AngleBetween(const std::vector<double>& u, const std::vector<double>& v) 
 
 std::span<const PathMeasure> PathMeasures() {
   using P = PathSurvey;
-  static constexpr std::array<PathMeasure, 5> kMeasures = {{
+  static constexpr auto kMeasures = std::to_array<PathMeasure>({
       {.name = "path_length",
        .unit = "rad, m",
        .meaning = "length in joint space",
@@ -65,7 +65,7 @@ std::span<const PathMeasure> PathMeasures() {
        .meaning = "its mean",
        .take = [](P& p) { return p.clearance().mean_m; },
        .is_clearance = true},
-  }};
+  });
   return kMeasures;
 }
 

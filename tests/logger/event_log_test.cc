@@ -86,7 +86,7 @@ TEST(EventLog, NeverOverwrites) {
   const TemporaryFolder folder;
   WriteText(folder / "a.lcmlog", "precious");
   EXPECT_THROW(EventLog(folder / "a.lcmlog", EventLog::Mode::kNew), InputError);
-  EXPECT_EQ(ReadText(folder / "a.lcmlog"), "precious");
+  EXPECT_EQ(TextOf(folder / "a.lcmlog"), "precious");
 }
 
 TEST(EventLog, RefusesAFolderThatIsNotThere) {

@@ -60,11 +60,11 @@ class LoggerProgramTest : public testing::Test {
   std::vector<std::string> Arguments(const std::string& folder) const {
     return {"--out", (temporary_ / folder).string(), "--lcm-url", "memq://"};
   }
-  std::string Stderr() const { return ReadText(temporary_ / "stderr"); }
+  std::string Stderr() const { return TextOf(temporary_ / "stderr"); }
   /// Waits until a live logger has said that it records.
   bool WaitUntilLive(const std::filesystem::path& stderr_file) const {
     for (int i = 0; i < 600; ++i) {
-      if (ReadText(stderr_file).find("recording to") != std::string::npos) return true;
+      if (TextOf(stderr_file).find("recording to") != std::string::npos) return true;
       std::this_thread::sleep_for(50ms);
     }
     return false;
@@ -78,9 +78,9 @@ TEST_F(LoggerProgramTest, EndsCleanlyOnSignals) {
     const std::string folder = fmt::format("s{}", signal);
     const std::filesystem::path said = temporary_ / (folder + ".stderr");
     LoggerProgram logger(Arguments(folder), said);
-    ASSERT_TRUE(WaitUntilLive(said)) << ReadText(said);
+    ASSERT_TRUE(WaitUntilLive(said)) << TextOf(said);
     logger.Send(signal);
-    EXPECT_EQ(logger.ExitCode(), 0) << ReadText(said);
+    EXPECT_EQ(logger.ExitCode(), 0) << TextOf(said);
     EXPECT_GT(std::filesystem::file_size(temporary_ / folder / (folder + ".lcmlog")), 0);
     EXPECT_NE(DumpDatabase(temporary_ / folder / "results.sqlite").find("NO_ANSWER"),
               std::string::npos);
@@ -116,7 +116,7 @@ TEST_F(LoggerProgramTest, AKilledOneCanBeResumed) {
   std::vector<std::string> arguments = Arguments("s");
   arguments.push_back("--resume");
   LoggerProgram resumed(arguments, temporary_ / "resumed");
-  ASSERT_TRUE(WaitUntilLive(temporary_ / "resumed")) << ReadText(temporary_ / "resumed");
+  ASSERT_TRUE(WaitUntilLive(temporary_ / "resumed")) << TextOf(temporary_ / "resumed");
   resumed.Send(SIGTERM);
   EXPECT_EQ(resumed.ExitCode(), 0);
 }

@@ -330,8 +330,7 @@ TEST_F(ResultsDatabaseTest, EqualMessagesGiveEqualDatabases) {
     dump = DumpDatabase(file);
   }
   EXPECT_EQ(dumps[0], dumps[1]);
-  EXPECT_NE(dumps[0].find("request_id"), 0);
-  EXPECT_GT(dumps[0].size(), 1000);
+  EXPECT_NE(dumps[0].find("RRT-Connect"), std::string::npos);  // not both empty
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_F(ResultsSchemaTest, StatusesAreNamedInEnums) {
 
 TEST_F(ResultsSchemaTest, EveryColumnIsDocumented) {
   const std::string docs =
-      ReadText(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "docs" / "database.md");
+      TextOf(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "docs" / "database.md");
   for (const RunColumn& column : RunColumns()) {
     EXPECT_THAT(docs, HasSubstr(std::string("`") + column.name + "`"));
   }

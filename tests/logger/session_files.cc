@@ -9,7 +9,7 @@
 
 namespace planbench {
 
-std::string ReadText(const std::filesystem::path& file) {
+std::string TextOf(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();

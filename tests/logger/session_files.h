@@ -6,7 +6,7 @@
 namespace planbench {
 
 /// The whole text of a file; empty if there is none.
-std::string ReadText(const std::filesystem::path& file);
+std::string TextOf(const std::filesystem::path& file);
 void WriteText(const std::filesystem::path& file, const std::string& text);
 
 /// The contents of every table of an SQLite database as text, to be compared.

@@ -35,8 +35,7 @@ TEST(SessionFolder, HoldsTheMessageTypes) {
   const auto sources = std::filesystem::path(PLANBENCH_SOURCE_DIR) / "lcmtypes";
   for (const auto& entry : std::filesystem::directory_iterator(sources)) {
     if (entry.path().extension() != ".lcm") continue;
-    EXPECT_EQ(ReadText(folder.path() / "lcmtypes" / entry.path().filename()),
-              ReadText(entry.path()))
+    EXPECT_EQ(TextOf(folder.path() / "lcmtypes" / entry.path().filename()), TextOf(entry.path()))
         << entry.path();
     ++count;
   }
@@ -64,7 +63,7 @@ TEST(SessionFolder, WithResultsIsOnlyTakenToResume) {
     EXPECT_THAT([&] { SessionFolder(temporary / "s", false); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr(file), HasSubstr("--resume"),
                                                 HasSubstr((temporary / "s").string()))));
-    EXPECT_EQ(ReadText(temporary / "s" / file), "x");
+    EXPECT_EQ(TextOf(temporary / "s" / file), "x");
     EXPECT_NO_THROW(SessionFolder(temporary / "s", true));
     std::filesystem::remove_all(temporary / "s");
   }

@@ -115,7 +115,7 @@ TEST_F(SessionRecorderTest, RunJsonDescribesTheSessions) {
   second.start_utime += 5;
   second.host = "caf\xe9";  // no UTF-8
   recorder->Record(Received(channel::kSession, second));
-  const auto json = nlohmann::json::parse(ReadText(Folder() / "run.json"));
+  const auto json = nlohmann::json::parse(TextOf(Folder() / "run.json"));
   ASSERT_EQ(json.at("sessions").size(), 2);
   const auto& session = json.at("sessions").at(0);
   EXPECT_EQ(session.at("run_id"), "session-1");
@@ -169,7 +169,7 @@ TEST_F(SessionRecorderTest, AReplayBuildsAnEqualDatabase) {
   }
   EXPECT_EQ(DumpDatabase(Folder() / "results.sqlite"),
             DumpDatabase(temporary_ / "replay" / "results.sqlite"));
-  EXPECT_EQ(ReadText(Folder() / "run.json"), ReadText(temporary_ / "replay" / "run.json"));
+  EXPECT_EQ(TextOf(Folder() / "run.json"), TextOf(temporary_ / "replay" / "run.json"));
 }
 
 TEST_F(SessionRecorderTest, WhatWasAcknowledgedSurvivesAKill) {
