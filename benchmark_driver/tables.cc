@@ -198,10 +198,10 @@ std::string TimeTable(const Groups& groups) {
     if (group.has_backward) add("backward", std::move(backward));
     if (group.has_forward && group.has_backward) add("either", std::move(either));
     for (const PublishedFigures* row : PublishedBelow(groups, at)) {
-      const std::string median =
-          row->median_from_s == row->median_to_s
-              ? "~" + Milliseconds(row->median_from_s)
-              : Milliseconds(row->median_from_s) + "-" + Milliseconds(row->median_to_s);
+      const std::string median = row->median_from_s == row->median_to_s
+                                     ? fmt::format("~{}", Milliseconds(row->median_from_s))
+                                     : fmt::format("{}-{}", Milliseconds(row->median_from_s),
+                                                   Milliseconds(row->median_to_s));
       const bool both = row->solved_backward.has_value();
       table.Add({key.first, PublishedName(*row), both ? "solving one" : "forward",
                  fmt::format("{}", row->solved_forward + row->solved_backward.value_or(0)), median,
