@@ -101,12 +101,9 @@ void PlannerNode::Acknowledge(const std::string& request_id, PlanAckVerdict verd
 }
 
 bool PlannerNode::SendResultOf(const std::string& request_id) {
-  for (const auto& [id, result] : results_) {
-    if (id != request_id) continue;
-    bus_->PublishBytes(channels_.result, result);
-    return true;
-  }
-  return false;
+  const std::vector<std::uint8_t>* result = results_.Find(request_id);
+  if (result != nullptr) bus_->PublishBytes(channels_.result, *result);
+  return result != nullptr;
 }
 
 void PlannerNode::OnRequest(const PlanRequest& request) {
@@ -221,9 +218,7 @@ void PlannerNode::Finish(PlanResult result) {
   }
   message.result = std::move(result);
   job_.reset();
-  results_.emplace_back(message.request_id, Encode(message));
-  if (results_.size() > kResultCacheSize) results_.pop_front();
-  bus_->PublishBytes(channels_.result, results_.back().second);
+  bus_->PublishBytes(channels_.result, results_.Add(message.request_id, Encode(message)));
 }
 
 void PlannerNode::AskForScene() {

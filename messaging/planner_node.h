@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <list>
 #include <map>
 #include <memory>
@@ -12,8 +11,8 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
+#include "messaging/answer_memory.h"
 #include "messaging/bus.h"
 #include "messaging/channels.h"
 #include "messaging/node_announcer.h"
@@ -28,8 +27,7 @@ namespace planbench {
 /// another, refused and why).
 class PlannerNode {
  public:
-  /// Results and scenes kept.
-  static constexpr std::size_t kResultCacheSize = 64;
+  /// Scenes kept.
   static constexpr std::size_t kSceneCacheSize = 16;
   /// How long a scene is asked for before the request fails.
   static constexpr std::chrono::seconds kSceneTimeout{10};
@@ -76,7 +74,7 @@ class PlannerNode {
   std::condition_variable changed_;
   bool stopping_ = false;
   std::unique_ptr<Job> job_;
-  std::list<std::pair<std::string, std::vector<std::uint8_t>>> results_;  // encoded, by request
+  AnswerMemory results_;
   std::list<std::pair<std::string, std::shared_ptr<const Scene>>> scenes_;
 
   std::unique_ptr<NodeAnnouncer> announcer_;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "messaging/answer_memory.h"
 #include "messaging/bus.h"
 
 namespace planbench {
@@ -91,13 +91,10 @@ class RpcClient {
 
 /// Server half: answers each request on a thread of its own, in order, one at a time. A request
 /// that is repeated while it waits or is being answered is not queued again; one answered lately is
-/// answered from the cache.
+/// answered from memory.
 template <typename Request, typename Reply>
 class RpcServer {
  public:
-  /// Answers kept for repeated requests.
-  static constexpr std::size_t kCacheSize = 64;
-
   /// `answer` must set nothing but the content: request_id is copied by the server. What it throws
   /// as InputError becomes a reply with ok = false and the message.
   RpcServer(Bus* bus, const std::string& request_channel, std::string reply_channel,
@@ -123,11 +120,9 @@ class RpcServer {
  private:
   void OnRequest(const Request& request) {
     const std::scoped_lock lock(mutex_);
-    for (const auto& [id, reply] : cache_) {
-      if (id == request.request_id) {
-        bus_->PublishBytes(reply_channel_, reply);
-        return;
-      }
+    if (const std::vector<std::uint8_t>* reply = answers_.Find(request.request_id)) {
+      bus_->PublishBytes(reply_channel_, *reply);
+      return;
     }
     if (!pending_.insert(request.request_id).second) return;
     queue_.push_back(request);
@@ -165,10 +160,8 @@ class RpcServer {
       }
       lock.lock();
       pending_.erase(request.request_id);
-      cache_.emplace_back(request.request_id, std::move(bytes));
-      if (cache_.size() > kCacheSize) cache_.pop_front();
-      // With the reply in the cache already: a repetition that comes at this moment is answered.
-      bus_->PublishBytes(reply_channel_, cache_.back().second);
+      // Remembered already: a repetition that comes at this moment is answered.
+      bus_->PublishBytes(reply_channel_, answers_.Add(request.request_id, std::move(bytes)));
     }
   }
 
@@ -180,7 +173,7 @@ class RpcServer {
   bool stopping_ = false;
   std::deque<Request> queue_;
   std::set<std::string> pending_;
-  std::list<std::pair<std::string, std::vector<std::uint8_t>>> cache_;  // encoded replies by id
+  AnswerMemory answers_;
   Subscription subscription_;
   std::thread worker_;  // last: it may not be left running if the rest cannot be made
 };

@@ -295,7 +295,7 @@ TEST_F(PlannerNodeTest, RemembersTheLastResults) {
   StartNode();
   StartSceneServer();
   const auto id = [](std::size_t i) { return std::to_string(i); };
-  for (std::size_t i = 0; i <= PlannerNode::kResultCacheSize; ++i) {
+  for (std::size_t i = 0; i <= AnswerMemory::kCapacity; ++i) {
     Send(Request(id(i)));
     ResultOf(id(i));
   }

@@ -79,14 +79,14 @@ TEST_F(RpcServerTest, AnswersARepeatedRequestFromTheCache) {
 }
 
 TEST_F(RpcServerTest, ForgetsTheOldestAnswers) {
-  for (std::size_t i = 0; i <= Server::kCacheSize; ++i) Send({std::to_string(i), "set", 1});
-  ASSERT_EQ(replies_.WaitFor(Server::kCacheSize + 1).size(), Server::kCacheSize + 1);
+  for (std::size_t i = 0; i <= AnswerMemory::kCapacity; ++i) Send({std::to_string(i), "set", 1});
+  ASSERT_EQ(replies_.WaitFor(AnswerMemory::kCapacity + 1).size(), AnswerMemory::kCapacity + 1);
   Send({"1", "set", 1});  // still there
-  ASSERT_EQ(replies_.WaitFor(Server::kCacheSize + 2).size(), Server::kCacheSize + 2);
-  EXPECT_EQ(num_answers_, static_cast<int>(Server::kCacheSize) + 1);
+  ASSERT_EQ(replies_.WaitFor(AnswerMemory::kCapacity + 2).size(), AnswerMemory::kCapacity + 2);
+  EXPECT_EQ(num_answers_, static_cast<int>(AnswerMemory::kCapacity) + 1);
   Send({"0", "set", 1});
-  ASSERT_EQ(replies_.WaitFor(Server::kCacheSize + 3).size(), Server::kCacheSize + 3);
-  EXPECT_EQ(num_answers_, static_cast<int>(Server::kCacheSize) + 2);
+  ASSERT_EQ(replies_.WaitFor(AnswerMemory::kCapacity + 3).size(), AnswerMemory::kCapacity + 3);
+  EXPECT_EQ(num_answers_, static_cast<int>(AnswerMemory::kCapacity) + 2);
 }
 
 TEST_F(RpcServerTest, DoesNotQueueARequestTwice) {
