@@ -50,11 +50,6 @@ struct Positive {
   }
 };
 
-struct NonZero {
-  static bool Ok(double value) { return std::isfinite(value) && value != 0; }
-  static std::string What(double value) { return Finite::Ok(value) ? "is 0" : Finite::What(value); }
-};
-
 struct Fraction {
   static bool Ok(double value) { return value >= 0 && value <= 1; }
   static std::string What(double value) { return fmt::format("{} is not in [0, 1]", value); }
@@ -162,7 +157,6 @@ namespace planbench {
 
 inline constexpr rules::NonNegative kNonNegative;
 inline constexpr rules::Positive kPositive;
-inline constexpr rules::NonZero kNonZero;
 inline constexpr rules::Fraction kFraction;
 inline constexpr rules::Distance kDistance;
 template <std::int64_t kMinimum>

@@ -8,8 +8,7 @@
 /// Every field of a message is written once, in a list:
 ///
 ///   template <>
-///   struct Fields<PlanAckMessage> {
-///     using Wire = lcmt_plan_ack;
+///   struct Fields<PlanAckMessage> : On<lcmt_plan_ack> {
 ///     static void List(auto& io, auto& v, auto& w) {
 ///       io.Utime(w.utime);
 ///       io.Field("request_id", v.request_id, w.request_id, kId);
@@ -35,6 +34,11 @@ namespace planbench {
 
 template <typename Value>
 struct Fields;
+
+template <typename LcmType>
+struct On {
+  using Wire = LcmType;
+};
 
 template <typename Value>
 concept HasFields = requires {

@@ -95,7 +95,7 @@ std::string StoreMesh(const TriangleMesh& mesh) {
   return uri;
 }
 
-TriangleMesh LoadStoredMesh(const std::string& uri, const Eigen::Vector3d& scale) {
+TriangleMesh LoadStoredMesh(const std::string& uri) {
   if (!uri.starts_with(kFileScheme)) {
     throw InputError(fmt::format("mesh '{}': not a file:// URI", uri));
   }
@@ -118,7 +118,7 @@ TriangleMesh LoadStoredMesh(const std::string& uri, const Eigen::Vector3d& scale
       if (!ParseThree(std::string_view(line).substr(1), vertex.data()) || !vertex.allFinite()) {
         fail("expected 'v x y z' in finite numbers");
       }
-      mesh.vertices.push_back(vertex.cwiseProduct(scale));
+      mesh.vertices.push_back(vertex);
     } else if (line.starts_with('f')) {
       std::array<std::uint32_t, 3> corners{};
       if (!ParseThree(std::string_view(line).substr(1), corners.data())) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 
@@ -19,9 +18,9 @@ std::filesystem::path MeshStoreFolder();
 /// Throws InputError naming the file if it cannot be written.
 std::string StoreMesh(const TriangleMesh& mesh);
 
-/// Reads a file that StoreMesh wrote, vertices multiplied by `scale`. Unlike LoadMesh it keeps
+/// Reads a file that StoreMesh wrote. Unlike LoadMesh it keeps
 /// every double and the order of vertices and triangles, so that MeshId stays. Throws InputError
 /// naming the file (and line) if it is missing, is no such file, or has no triangles.
-TriangleMesh LoadStoredMesh(const std::string& uri, const Eigen::Vector3d& scale);
+TriangleMesh LoadStoredMesh(const std::string& uri);
 
 }  // namespace planbench

@@ -9,33 +9,6 @@
 #include "messaging/fields.h"
 #include "messaging/messages.h"
 #include "messaging/scene_fields.h"
-#include "planbench/lcmt_ack.hpp"
-#include "planbench/lcmt_collision_reply.hpp"
-#include "planbench/lcmt_collision_request.hpp"
-#include "planbench/lcmt_collision_verdict.hpp"
-#include "planbench/lcmt_discover.hpp"
-#include "planbench/lcmt_joint_goal.hpp"
-#include "planbench/lcmt_joint_state.hpp"
-#include "planbench/lcmt_key_value.hpp"
-#include "planbench/lcmt_named_value.hpp"
-#include "planbench/lcmt_node_status.hpp"
-#include "planbench/lcmt_path.hpp"
-#include "planbench/lcmt_path_check_reply.hpp"
-#include "planbench/lcmt_path_check_request.hpp"
-#include "planbench/lcmt_path_verdict.hpp"
-#include "planbench/lcmt_plan_ack.hpp"
-#include "planbench/lcmt_plan_cancel.hpp"
-#include "planbench/lcmt_plan_progress.hpp"
-#include "planbench/lcmt_plan_request.hpp"
-#include "planbench/lcmt_plan_result.hpp"
-#include "planbench/lcmt_problem.hpp"
-#include "planbench/lcmt_problem_request.hpp"
-#include "planbench/lcmt_problem_set.hpp"
-#include "planbench/lcmt_problem_sets.hpp"
-#include "planbench/lcmt_run_record.hpp"
-#include "planbench/lcmt_scene_request.hpp"
-#include "planbench/lcmt_session.hpp"
-#include "planbench/lcmt_session_conditions.hpp"
 
 /// The field lists (fields.h) of all messages.
 namespace planbench {
@@ -43,8 +16,7 @@ namespace planbench {
 // What stands inside messages.
 
 template <>
-struct Fields<std::pair<std::string, std::string>> {
-  using Wire = lcmt_key_value;
+struct Fields<std::pair<std::string, std::string>> : On<lcmt_key_value> {
   static constexpr const char* kKey = "key";
   static void List(auto& io, auto& entry, auto& w) {
     io.Field("key", entry.first, w.key, kNotEmpty);
@@ -56,8 +28,7 @@ struct Fields<std::pair<const std::string, std::string>>
     : Fields<std::pair<std::string, std::string>> {};
 
 template <>
-struct Fields<std::pair<std::string, double>> {
-  using Wire = lcmt_named_value;
+struct Fields<std::pair<std::string, double>> : On<lcmt_named_value> {
   static constexpr const char* kKey = "name";
   static void List(auto& io, auto& entry, auto& w) {
     io.Field("name", entry.first, w.name, kNotEmpty);
@@ -68,8 +39,7 @@ template <>
 struct Fields<std::pair<const std::string, double>> : Fields<std::pair<std::string, double>> {};
 
 template <>
-struct Fields<JointState> {
-  using Wire = lcmt_joint_state;
+struct Fields<JointState> : On<lcmt_joint_state> {
   static void List(auto& io, auto& state, auto& w) {
     io.List("joint_name", state.names, w.joint_name, w.num_joints, kNames);
     io.Beside("position", state.positions, w.position, w.num_joints);
@@ -77,8 +47,7 @@ struct Fields<JointState> {
 };
 
 template <>
-struct Fields<JointGoal> {
-  using Wire = lcmt_joint_goal;
+struct Fields<JointGoal> : On<lcmt_joint_goal> {
   static constexpr const char* kKey = "joint_name";
   static const std::string& Key(const JointGoal& goal) { return goal.joint; }
   static void List(auto& io, auto& goal, auto& w) {
@@ -99,8 +68,7 @@ template <typename Names, typename Waypoints>
 NamedPath(Names&, Waypoints&) -> NamedPath<Names, Waypoints>;
 
 template <typename Names, typename Waypoints>
-struct Fields<NamedPath<Names, Waypoints>> {
-  using Wire = lcmt_path;
+struct Fields<NamedPath<Names, Waypoints>> : On<lcmt_path> {
   template <typename Io>
   static void List(Io& io, auto& path, auto& w) {
     std::vector<std::string> names;
@@ -122,8 +90,7 @@ struct Fields<NamedPath<Names, Waypoints>> {
 // Nodes and problems.
 
 template <>
-struct Fields<DiscoverMessage> {
-  using Wire = lcmt_discover;
+struct Fields<DiscoverMessage> : On<lcmt_discover> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("sender", v.sender, w.sender);
@@ -131,8 +98,7 @@ struct Fields<DiscoverMessage> {
 };
 
 template <>
-struct Fields<NodeStatusMessage> {
-  using Wire = lcmt_node_status;
+struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("utime", v.utime, w.utime);
     io.Field("start_utime", v.start_utime, w.start_utime);
@@ -157,8 +123,7 @@ struct Fields<NodeStatusMessage> {
 };
 
 template <>
-struct Fields<ProblemSetSummary> {
-  using Wire = lcmt_problem_set;
+struct Fields<ProblemSetSummary> : On<lcmt_problem_set> {
   static constexpr const char* kKey = "name";
   static const std::string& Key(const ProblemSetSummary& set) { return set.name; }
   static void List(auto& io, auto& v, auto& w) {
@@ -169,8 +134,7 @@ struct Fields<ProblemSetSummary> {
 };
 
 template <>
-struct Fields<ProblemSetsMessage> {
-  using Wire = lcmt_problem_sets;
+struct Fields<ProblemSetsMessage> : On<lcmt_problem_sets> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("server", v.server, w.server, kNotEmpty);
@@ -185,8 +149,7 @@ struct Fields<ProblemSetsMessage> {
 };
 
 template <>
-struct Fields<ProblemRequestMessage> {
-  using Wire = lcmt_problem_request;
+struct Fields<ProblemRequestMessage> : On<lcmt_problem_request> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -196,8 +159,7 @@ struct Fields<ProblemRequestMessage> {
 };
 
 template <>
-struct Fields<ProblemMessage> {
-  using Wire = lcmt_problem;
+struct Fields<ProblemMessage> : On<lcmt_problem> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -217,8 +179,7 @@ struct Fields<ProblemMessage> {
 };
 
 template <>
-struct Fields<SceneRequestMessage> {
-  using Wire = lcmt_scene_request;
+struct Fields<SceneRequestMessage> : On<lcmt_scene_request> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -227,8 +188,7 @@ struct Fields<SceneRequestMessage> {
 };
 
 template <>
-struct Fields<SceneMessage> {
-  using Wire = lcmt_scene;
+struct Fields<SceneMessage> : On<lcmt_scene> {
   template <typename Io>
   static void List(Io& io, auto& v, auto& w) {
     io.Utime(w.utime);
@@ -248,8 +208,7 @@ struct Fields<SceneMessage> {
 // Planning.
 
 template <>
-struct Fields<PlanRequest> {
-  using Wire = lcmt_plan_request;
+struct Fields<PlanRequest> : On<lcmt_plan_request> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("run_id", v.run_id, w.run_id);
@@ -272,8 +231,7 @@ struct Fields<PlanRequest> {
 };
 
 template <>
-struct Fields<PlanAckMessage> {
-  using Wire = lcmt_plan_ack;
+struct Fields<PlanAckMessage> : On<lcmt_plan_ack> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("planner", v.planner, w.planner);
@@ -284,8 +242,7 @@ struct Fields<PlanAckMessage> {
 };
 
 template <>
-struct Fields<PlanProgress> {
-  using Wire = lcmt_plan_progress;
+struct Fields<PlanProgress> : On<lcmt_plan_progress> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("elapsed_s", v.elapsed_s, w.elapsed_s, kNonNegative);
     io.Field("epsilon", v.epsilon, w.epsilon, kNonNegative);
@@ -295,8 +252,7 @@ struct Fields<PlanProgress> {
 };
 
 template <>
-struct Fields<PlanProgressMessage> {
-  using Wire = lcmt_plan_progress;
+struct Fields<PlanProgressMessage> : On<lcmt_plan_progress> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("planner", v.planner, w.planner);
@@ -306,8 +262,7 @@ struct Fields<PlanProgressMessage> {
 };
 
 template <>
-struct Fields<PlanResultMessage> {
-  using Wire = lcmt_plan_result;
+struct Fields<PlanResultMessage> : On<lcmt_plan_result> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("planner", v.planner, w.planner);
@@ -338,8 +293,7 @@ struct Fields<PlanResultMessage> {
 };
 
 template <>
-struct Fields<PlanCancelMessage> {
-  using Wire = lcmt_plan_cancel;
+struct Fields<PlanCancelMessage> : On<lcmt_plan_cancel> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -347,8 +301,7 @@ struct Fields<PlanCancelMessage> {
 };
 
 template <>
-struct Fields<AckMessage> {
-  using Wire = lcmt_ack;
+struct Fields<AckMessage> : On<lcmt_ack> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("id", v.id, w.id, kNotEmpty);
@@ -361,8 +314,7 @@ struct Fields<AckMessage> {
 // Checks.
 
 template <>
-struct Fields<CollisionRequestMessage> {
-  using Wire = lcmt_collision_request;
+struct Fields<CollisionRequestMessage> : On<lcmt_collision_request> {
   template <typename Io>
   static void List(Io& io, auto& v, auto& w) {
     io.Utime(w.utime);
@@ -398,8 +350,7 @@ struct Fields<CollisionRequestMessage> {
 };
 
 template <>
-struct Fields<CollisionVerdict> {
-  using Wire = lcmt_collision_verdict;
+struct Fields<CollisionVerdict> : On<lcmt_collision_verdict> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("within_limits", v.within_limits, w.within_limits);
     io.Field("free", v.free, w.free);
@@ -414,8 +365,7 @@ struct Fields<CollisionVerdict> {
 };
 
 template <>
-struct Fields<CollisionReplyMessage> {
-  using Wire = lcmt_collision_reply;
+struct Fields<CollisionReplyMessage> : On<lcmt_collision_reply> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -428,8 +378,7 @@ struct Fields<CollisionReplyMessage> {
 };
 
 template <>
-struct Fields<PathCheckRequestMessage> {
-  using Wire = lcmt_path_check_request;
+struct Fields<PathCheckRequestMessage> : On<lcmt_path_check_request> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -446,8 +395,7 @@ struct Fields<PathCheckRequestMessage> {
 };
 
 template <>
-struct Fields<PathVerdict> {
-  using Wire = lcmt_path_verdict;
+struct Fields<PathVerdict> : On<lcmt_path_verdict> {
   template <typename Io>
   static void List(Io& io, auto& v, auto& w) {
     io.Field("valid", v.valid, w.valid);
@@ -468,8 +416,7 @@ struct Fields<PathVerdict> {
 };
 
 template <>
-struct Fields<PathCheckReplyMessage> {
-  using Wire = lcmt_path_check_reply;
+struct Fields<PathCheckReplyMessage> : On<lcmt_path_check_reply> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
@@ -485,8 +432,7 @@ struct Fields<PathCheckReplyMessage> {
 // Sessions and runs.
 
 template <>
-struct Fields<SessionConditions> {
-  using Wire = lcmt_session_conditions;
+struct Fields<SessionConditions> : On<lcmt_session_conditions> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("request", v.request, w.request);
     io.Field("referee_step_m", v.referee_step_m, w.referee_step_m, kNonNegative);
@@ -500,8 +446,7 @@ struct Fields<SessionConditions> {
 };
 
 template <>
-struct Fields<SessionMessage> {
-  using Wire = lcmt_session;
+struct Fields<SessionMessage> : On<lcmt_session> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("run_id", v.run_id, w.run_id, kId);
@@ -521,8 +466,7 @@ struct Fields<SessionMessage> {
 };
 
 template <>
-struct Fields<RunRecordMessage> {
-  using Wire = lcmt_run_record;
+struct Fields<RunRecordMessage> : On<lcmt_run_record> {
   static void List(auto& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("run_id", v.run_id, w.run_id, kId);

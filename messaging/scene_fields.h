@@ -1,24 +1,18 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/error.h"
 #include "messaging/field_rules.h"
 #include "messaging/fields.h"
 #include "messaging/mesh_store.h"
-#include "planbench/lcmt_attached_object.hpp"
-#include "planbench/lcmt_pose.hpp"
-#include "planbench/lcmt_scene.hpp"
-#include "planbench/lcmt_scene_object.hpp"
-#include "planbench/lcmt_shape.hpp"
+#include "planbench/lcmt_all.hpp"
 #include "scene/pose.h"
 #include "scene/scene.h"
 
@@ -26,8 +20,7 @@
 namespace planbench {
 
 template <>
-struct Fields<Eigen::Isometry3d> {
-  using Wire = lcmt_pose;
+struct Fields<Eigen::Isometry3d> : On<lcmt_pose> {
   template <typename Io>
   static void List(Io& io, auto& pose, auto& w) {
     std::array<double, 3> position{};
@@ -47,88 +40,72 @@ struct Fields<Eigen::Isometry3d> {
   }
 };
 
-/// A shape as lcmt_shape has it.
-struct ShapeFields {
-  std::int8_t type = 0;
-  std::vector<double> dimensions = {};
-  std::string mesh_resource = {};
-  std::string mesh_id = {};
-  std::array<double, 3> mesh_scale = {1, 1, 1};
-};
-
-/// Puts meshes into the mesh store: the scaled triangles, wherever they came from, so that the
-/// receiver needs neither the package the resource is in nor the sender's working folder.
-ShapeFields FieldsOfShape(const Shape& shape);
-
-/// What cannot be a shape is refused by io.Require.
-template <typename Io>
-Shape ShapeOfFields(Io& io, ShapeFields fields) {
-  const std::vector<double>& d = fields.dimensions;
-  const auto require_size = [&](std::size_t size) {
-    io.Require(d.size() == size, "num_dimensions", "{} instead of {}", d.size(), size);
-  };
-  switch (fields.type) {
-    case lcmt_shape::BOX:
-      require_size(3);
-      return Box{{d[0], d[1], d[2]}};
-    case lcmt_shape::SPHERE:
-      require_size(1);
-      return Sphere{d[0]};
-    case lcmt_shape::CYLINDER:
-      require_size(2);
-      return Cylinder{d[0], d[1]};
-    case lcmt_shape::CONE:
-      require_size(2);
-      return Cone{d[0], d[1]};
-    case lcmt_shape::CAPSULE:
-      require_size(2);
-      return Capsule{d[0], d[1]};
-    case lcmt_shape::HALF_SPACE:
-      require_size(0);
-      return HalfSpace{};
-    case lcmt_shape::MESH:
-      require_size(0);
-      break;
-    default:
-      io.Require(false, "type", "no such value: {}", static_cast<int>(fields.type));
+/// Calls `use` with each dimension of a shape, in the order that lcmt_shape has them in.
+void ForEachDimension(auto& shape, const auto& use) {
+  if constexpr (requires { shape.size; }) {
+    for (int i = 0; i < 3; ++i) use(shape.size[i]);
   }
-  io.Require(!fields.mesh_resource.empty(), "mesh_resource", "is empty");
-  Mesh mesh;
-  mesh.resource = std::move(fields.mesh_resource);
-  mesh.scale = {fields.mesh_scale[0], fields.mesh_scale[1], fields.mesh_scale[2]};
-  try {
-    mesh.triangles = LoadStoredMesh(mesh.resource, mesh.scale);
-  } catch (const InputError& error) {
-    io.Require(false, "mesh_resource", "{}", error.what());
-  }
-  const std::string id = MeshId(mesh.triangles);
-  io.Require(id == fields.mesh_id, "mesh_id", "{} is {}, not {}", mesh.resource, id,
-             fields.mesh_id);
-  return mesh;
+  if constexpr (requires { shape.radius; }) use(shape.radius);
+  if constexpr (requires { shape.length; }) use(shape.length);
 }
 
 template <>
-struct Fields<PlacedShape> {
-  using Wire = lcmt_shape;
+struct Fields<PlacedShape> : On<lcmt_shape> {
   template <typename Io>
   static void List(Io& io, auto& placed, auto& w) {
-    ShapeFields shape;
-    if constexpr (!Io::kReads) shape = FieldsOfShape(placed.shape);
-    io.Field("type", shape.type, w.type);
-    io.List("dimension", shape.dimensions, w.dimension, w.num_dimensions, kPositive);
-    io.Field("mesh_resource", shape.mesh_resource, w.mesh_resource);
-    io.Field("mesh_id", shape.mesh_id, w.mesh_id);
-    io.Field("mesh_scale", shape.mesh_scale, w.mesh_scale, kNonZero);
+    std::int8_t type = 0;
+    std::vector<double> dimensions;
+    std::string resource, id;
+    if constexpr (!Io::kReads) {
+      type = static_cast<std::int8_t>(placed.shape.index());
+      const auto add = [&](double dimension) { dimensions.push_back(dimension); };
+      std::visit([&](const auto& shape) { ForEachDimension(shape, add); }, placed.shape);
+      if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+        // The store holds the scaled triangles, wherever they came from, so that the receiver needs
+        // neither the package the resource is in nor the sender's working folder.
+        resource = StoreMesh(mesh->triangles);
+        id = MeshId(mesh->triangles);
+      }
+    }
+    io.Field("type", type, w.type);
+    io.List("dimension", dimensions, w.dimension, w.num_dimensions, kPositive);
+    io.Field("mesh_resource", resource, w.mesh_resource);
+    io.Field("mesh_id", id, w.mesh_id);
     io.Field("pose", placed.X_FS, w.pose);
     if constexpr (Io::kReads) {
-      placed.shape = ShapeOfFields(io, std::move(shape));
+      static const std::array<Shape, std::variant_size_v<Shape>> kOfEachType = {
+          Box{{0, 0, 0}}, Sphere{}, Cylinder{}, Cone{}, Capsule{}, HalfSpace{}, Mesh{}};
+      io.Require(type >= 0 && type < std::ssize(kOfEachType), "type", "no such value: {}",
+                 static_cast<int>(type));
+      placed.shape = kOfEachType[static_cast<std::size_t>(type)];
+      std::size_t size = 0;
+      const auto set = [&](double& dimension) {
+        if (size < dimensions.size()) dimension = dimensions[size];
+        ++size;
+      };
+      std::visit([&](auto& shape) { ForEachDimension(shape, set); }, placed.shape);
+      io.Require(dimensions.size() == size, "num_dimensions", "{} instead of {}", dimensions.size(),
+                 size);
+      if (auto* mesh = std::get_if<Mesh>(&placed.shape)) Load(io, resource, id, mesh);
     }
+  }
+
+ private:
+  static void Load(auto& io, const std::string& resource, const std::string& id, Mesh* mesh) {
+    io.Require(!resource.empty(), "mesh_resource", "is empty");
+    mesh->resource = resource;
+    try {
+      mesh->triangles = LoadStoredMesh(resource);
+    } catch (const InputError& error) {
+      io.Require(false, "mesh_resource", "{}", error.what());
+    }
+    const std::string found = MeshId(mesh->triangles);
+    io.Require(found == id, "mesh_id", "{} is {}, not {}", resource, found, id);
   }
 };
 
 template <>
-struct Fields<SceneObject> {
-  using Wire = lcmt_scene_object;
+struct Fields<SceneObject> : On<lcmt_scene_object> {
   static constexpr const char* kKey = "id";
   static const std::string& Key(const SceneObject& object) { return object.id; }
   static void List(auto& io, auto& object, auto& w) {
@@ -139,8 +116,7 @@ struct Fields<SceneObject> {
 };
 
 template <>
-struct Fields<AttachedObject> {
-  using Wire = lcmt_attached_object;
+struct Fields<AttachedObject> : On<lcmt_attached_object> {
   static constexpr const char* kKey = "object.id";
   static const std::string& Key(const AttachedObject& attached) { return attached.object.id; }
   static void List(auto& io, auto& attached, auto& w) {
@@ -152,8 +128,7 @@ struct Fields<AttachedObject> {
 
 /// All that is in lcmt_scene of the scene itself.
 template <>
-struct Fields<Scene> {
-  using Wire = lcmt_scene;
+struct Fields<Scene> : On<lcmt_scene> {
   template <typename Io>
   static void List(Io& io, auto& scene, auto& w) {
     io.Field("name", scene.name, w.name);

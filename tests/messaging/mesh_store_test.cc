@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Eigen::Vector3d kUnscaled = Eigen::Vector3d::Ones();
-
 class MeshStore : public CodecTest {
  protected:
   std::string Uri(const std::string& name, std::string_view content) {
@@ -30,7 +28,7 @@ TEST_F(MeshStore, KeepsEveryBit) {
   mesh.triangles.push_back({4, 5, 0});
   const std::string uri = StoreMesh(mesh);
   EXPECT_EQ(uri, "file://" + (store_.path() / (MeshId(mesh) + ".obj")).string());
-  const TriangleMesh loaded = LoadStoredMesh(uri, kUnscaled);
+  const TriangleMesh loaded = LoadStoredMesh(uri);
   EXPECT_EQ(loaded.vertices, mesh.vertices);
   EXPECT_EQ(loaded.triangles, mesh.triangles);
   EXPECT_EQ(MeshId(loaded), MeshId(mesh));
@@ -51,7 +49,6 @@ TEST_F(MeshStore, ResourcesGoThroughTheStoreToo) {
   const auto decoded = Decode<SceneMessage>(Encode(message), "CH");
   const Mesh& received = std::get<Mesh>(decoded.scene.objects[1].shapes[0].shape);
   EXPECT_EQ(received.resource, StoreMesh(mesh.triangles));
-  EXPECT_EQ(received.scale, kUnscaled);
   EXPECT_EQ(received.triangles.vertices, mesh.triangles.vertices);
 }
 
@@ -80,9 +77,9 @@ TEST_F(MeshStore, RefusesWhatItDidNotWrite) {
   };
   for (const auto& [content, expected] : bad) {
     const std::string uri = Uri("bad.obj", content);
-    ExpectInputError([&] { LoadStoredMesh(uri, kUnscaled); }, {"bad.obj", expected});
+    ExpectInputError([&] { LoadStoredMesh(uri); }, {"bad.obj", expected});
   }
-  ExpectInputError([&] { LoadStoredMesh("file://" + store_.path().string(), kUnscaled); },
+  ExpectInputError([&] { LoadStoredMesh("file://" + store_.path().string()); },
                    {"no such mesh file"});
 }
 

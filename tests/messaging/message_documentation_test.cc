@@ -9,6 +9,7 @@
 #include <string>
 
 #include "messaging/messages.h"
+#include "tests/messaging/message_examples.h"
 
 namespace planbench {
 namespace {
@@ -65,14 +66,17 @@ std::map<std::string, int> Constants(const std::string& type, const std::string&
   return constants;
 }
 
+std::string InCapitals(std::string name) {
+  for (char& c : name) c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  return name;
+}
+
 /// The names of an enum as NAME_OF_VALUE -> value.
 template <typename Enum>
 std::map<std::string, int> Names() {
   std::map<std::string, int> names;
   for (const Enum value : EnumValues<Enum>()) {
-    std::string name(EnumName(value));
-    for (char& c : name) c = c == ' ' ? '_' : static_cast<char>(std::toupper(c));
-    names[name] = static_cast<int>(value);
+    names[InCapitals(std::string(EnumName(value)))] = static_cast<int>(value);
   }
   return names;
 }
@@ -82,6 +86,16 @@ TEST(MessageDocumentation, ConstantsAreTheEnums) {
   EXPECT_EQ(Constants("lcmt_plan_request", ""), Names<Direction>());
   EXPECT_EQ(Constants("lcmt_plan_ack", ""), Names<PlanAckVerdict>());
   EXPECT_EQ(Constants("lcmt_node_status", "KIND_"), Names<NodeKind>());
+}
+
+TEST(MessageDocumentation, ConstantsAreTheShapes) {
+  std::map<std::string, int> shapes;
+  for (const SceneObject& object : ExampleScene().objects) {
+    for (const PlacedShape& placed : object.shapes) {
+      shapes[InCapitals(ShapeTypeName(placed.shape))] = static_cast<int>(placed.shape.index());
+    }
+  }
+  EXPECT_EQ(Constants("lcmt_shape", ""), shapes);
 }
 
 }  // namespace
