@@ -37,6 +37,8 @@ Json NodeJson(const NodeStatusMessage& node) {
     json["planner_class"] = node.planner_class;
     json["backward"] = node.can_backward;
     json["anytime"] = node.can_anytime;
+    json["bidirectional"] = node.bidirectional;
+    json["deterministic"] = node.deterministic;
     json["collision_models"] = node.collision_models;
   }
   json["settings"] = node.settings;

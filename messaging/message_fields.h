@@ -116,6 +116,8 @@ struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
     io.Field("planner_class", v.planner_class, w.planner_class);
     io.Field("can_backward", v.can_backward, w.can_backward);
     io.Field("can_anytime", v.can_anytime, w.can_anytime);
+    io.Field("bidirectional", v.bidirectional, w.bidirectional);
+    io.Field("deterministic", v.deterministic, w.deterministic);
     io.List("collision_model", v.collision_models, w.collision_model, w.num_collision_models,
             kNames);
     io.List("setting", v.settings, w.setting, w.num_settings);

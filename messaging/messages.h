@@ -45,6 +45,8 @@ struct NodeStatusMessage {
   std::string planner_class;
   bool can_backward = false;
   bool can_anytime = false;
+  bool bidirectional = false;
+  bool deterministic = false;
   std::vector<std::string> collision_models;
   std::map<std::string, std::string> settings;
   bool operator==(const NodeStatusMessage&) const = default;

@@ -28,6 +28,8 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   status_.planner_class = EnumName(description_.planner_class);
   status_.can_backward = description_.backward;
   status_.can_anytime = description_.anytime;
+  status_.bidirectional = description_.bidirectional;
+  status_.deterministic = description_.deterministic;
   for (const CollisionModel model : description_.collision_models) {
     status_.collision_models.emplace_back(EnumName(model));
   }

@@ -42,9 +42,10 @@ class AraPlanner : public Planner {
   PlannerDescription Describe() const override {
     PlannerDescription description;
     description.algorithm = "ARA*";
-    description.planner_class = PlannerClass::kSampleThenSearch;
-    description.backward = true;
+    description.planner_class = PlannerClass::kSearchAndSample;
     description.anytime = true;
+    description.bidirectional = settings_.two_way;
+    description.deterministic = true;
     description.collision_models = EnumValues<CollisionModel>();
     description.settings = settings_.AsText();
     // The file may change while its name stays.

@@ -16,6 +16,8 @@ struct OmplAlgorithm {
   PlannerClass planner_class;
   /// Improves its path until it is stopped, and tells of each better one.
   bool anytime;
+  /// Grows from start and goal at once, or a roadmap from neither.
+  bool bidirectional;
   ompl::base::PlannerPtr (*make)(const ompl::base::SpaceInformationPtr& si);
 };
 

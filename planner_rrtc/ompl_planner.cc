@@ -298,6 +298,7 @@ PlannerDescription OmplPlanner::Describe() const {
   description.algorithm = settings_.AlgorithmName();
   description.planner_class = settings_.ompl_algorithm->planner_class;
   description.anytime = settings_.ompl_algorithm->anytime;
+  description.bidirectional = settings_.ompl_algorithm->bidirectional;
   description.collision_models = EnumValues<CollisionModel>();
   description.settings = DescribeSettings(settings_);
   return description;

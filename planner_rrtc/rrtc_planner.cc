@@ -23,6 +23,7 @@ class RrtConnectPlanner final : public Planner {
     PlannerDescription description;
     description.algorithm = settings_.AlgorithmName();
     description.planner_class = PlannerClass::kSamplingGuided;
+    description.bidirectional = true;
     description.collision_models = EnumValues<CollisionModel>();
     description.settings = DescribeSettings(settings_);
     return description;

@@ -250,6 +250,17 @@ TEST_P(PlannerContract, DescribesItself) {
   EXPECT_FALSE(description.settings.empty());
 }
 
+TEST_P(PlannerContract, ADeterministicPlannerDoesNotLookAtTheSeed) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  if (!planner->Describe().deterministic) GTEST_SKIP() << "is randomised";
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  const PlanResult one = planner->Plan(request, PostsScene(), nullptr);
+  request.seed = 20;
+  const PlanResult other = planner->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(one.path, other.path);
+  EXPECT_EQ(one.counters, other.counters);
+}
+
 TEST_P(PlannerContract, AnAnytimePlannerReportsItsSolutions) {
   const std::unique_ptr<Planner> planner = Make(planar_);
   if (!planner->Describe().anytime) GTEST_SKIP() << "is no anytime planner";

@@ -28,6 +28,7 @@ SessionMessage SampleSession() {
   node.algorithm = "RRT-Connect";
   node.planner_class = "sampling-guided";
   node.can_backward = true;
+  node.bidirectional = true;
   node.collision_models = {"spheres"};
   node.settings = {{"range", "2"}};
   session.nodes = {node};

@@ -136,6 +136,8 @@ TEST_F(PlannerNodeTest, AnnouncesWhatItIsAndCan) {
   EXPECT_EQ(heard[0].planner_class, "sample-then-search");
   EXPECT_TRUE(heard[0].can_backward);
   EXPECT_TRUE(heard[0].can_anytime);
+  EXPECT_TRUE(heard[0].bidirectional);
+  EXPECT_TRUE(heard[0].deterministic);
   EXPECT_EQ(heard[0].collision_models, std::vector<std::string>{"spheres"});
   EXPECT_EQ(heard[0].settings, (std::map<std::string, std::string>{{"key", "value"}}));
   EXPECT_FALSE(heard[0].busy);

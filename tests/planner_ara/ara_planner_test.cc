@@ -203,9 +203,12 @@ TEST_F(AraPlannerTest, UniformCostsCountMoves) {
 TEST_F(AraPlannerTest, DescribesItself) {
   const PlannerDescription description = Make(kPlanarSettings)->Describe();
   EXPECT_EQ(description.algorithm, "ARA*");
-  EXPECT_EQ(description.planner_class, PlannerClass::kSampleThenSearch);
+  EXPECT_EQ(description.planner_class, PlannerClass::kSearchAndSample);
   EXPECT_TRUE(description.backward);
   EXPECT_TRUE(description.anytime);
+  EXPECT_TRUE(description.bidirectional);
+  EXPECT_FALSE(Make(kPlanarSettings + "two_way: false")->Describe().bidirectional);
+  EXPECT_TRUE(description.deterministic);
   EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings.at("epsilon_initial"), "10");
   EXPECT_EQ(description.settings.at("discretization"), "{elbow: 0.2, shoulder: 0.2, wrist: 0.2}");

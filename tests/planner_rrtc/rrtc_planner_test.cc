@@ -94,6 +94,8 @@ TEST_F(RrtcPlannerTest, Describes) {
   EXPECT_EQ(description.planner_class, PlannerClass::kSamplingGuided);
   EXPECT_TRUE(description.backward);
   EXPECT_FALSE(description.anytime);
+  EXPECT_TRUE(description.bidirectional);
+  EXPECT_FALSE(description.deterministic);
   EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings, (std::map<std::string, std::string>{{"algorithm", "RRT-Connect"},
                                                                       {"sampler", "uniform"},
@@ -110,6 +112,8 @@ TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
   EXPECT_EQ(description.algorithm, "BITstar");
   EXPECT_EQ(description.planner_class, PlannerClass::kSearchAndSample);
   EXPECT_TRUE(description.anytime);
+  EXPECT_FALSE(description.bidirectional);
+  EXPECT_TRUE(MakeRrtcPlanner(robot_, Settings("algorithm: BiEST"))->Describe().bidirectional);
   EXPECT_EQ(description.settings.at("ompl.samples_per_batch"), "50");
   EXPECT_EQ(MakeRrtcPlanner(robot_, Settings("algorithm: PRM"))->Describe().planner_class,
             PlannerClass::kSampleThenSearch);

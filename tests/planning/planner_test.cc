@@ -26,8 +26,8 @@ class ScriptedPlanner final : public Planner {
 
   PlannerDescription Describe() const override { return description; }
 
-  PlannerDescription description = {"scripted", PlannerClass::kSampleThenSearch, true,
-                                    true,       {CollisionModel::kSpheres},      {}};
+  PlannerDescription description = {
+      .algorithm = "scripted", .anytime = true, .collision_models = {CollisionModel::kSpheres}};
   int num_searches = 0;
 
  protected:

@@ -20,6 +20,8 @@ class ScriptedPlanner final : public Planner {
     description.algorithm = "scripted";
     description.backward = true;
     description.anytime = true;
+    description.bidirectional = true;
+    description.deterministic = true;
     description.collision_models = {CollisionModel::kSpheres};
     description.settings = {{"key", "value"}};
     return description;
