@@ -20,6 +20,9 @@
 namespace planbench {
 namespace {
 
+// What a planner does only once takes well below that.
+constexpr double kWarmUpLimit = 1;  // s
+
 std::string CpuName() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -39,10 +42,11 @@ std::string NewRunId() {
                      random() & 0xffffU);
 }
 
-Driver::Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> flags,
-               EarlierSession earlier)
+Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up,
+               std::map<std::string, std::string> flags, EarlierSession earlier)
     : bus_(bus),
       options_(std::move(options)),
+      line_up_(std::move(line_up)),
       flags_(std::move(flags)),
       earlier_(std::move(earlier)),
       start_utime_(NowUtime()),
@@ -55,9 +59,9 @@ std::string Driver::Missing(bool need_logger) const {
   if (registry_.Live(NodeKind::kSceneServer).empty() || !registry_.ProblemSets()) {
     missing.emplace_back("a scene server");
   }
-  for (const std::string& planner : options_.planners) {
-    if (registry_.Find(planner, NodeKind::kPlanner)) continue;
-    missing.push_back("a planner named '" + planner + "'");
+  for (const LineUpEntry& entry : line_up_) {
+    if (registry_.Find(entry.contestant.planner, NodeKind::kPlanner)) continue;
+    missing.push_back("a planner named '" + entry.contestant.planner + "'");
   }
   if (need_logger && registry_.Live(NodeKind::kLogger).empty()) missing.emplace_back("a logger");
   return fmt::format("{}", fmt::join(missing, ", "));
@@ -84,13 +88,17 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
     registry_.WaitUntil([] { return false; }, std::chrono::milliseconds(200));
   }
   served_ = *registry_.ProblemSets();
-  CheckPlanners();
   if (!need_logger && registry_.Live(NodeKind::kLogger).empty()) {
     spdlog::error("no logger is live: NOTHING WILL BE RECORDED");
   }
 
-  schedule_ = MakeSchedule(options_, served_);
   CompleteConditions();
+  schedule_ = MakeSchedule(options_, Entrants(), served_);
+  std::set<std::string> sets;
+  for (const ScheduledRun& run : schedule_) sets.insert(run.problem_set);
+  for (const ProblemSetSummary& set : served_.sets) {
+    if (sets.contains(set.name)) options_.conditions.problem_sets[set.name] = set.content_id;
+  }
   for (const SessionMessage& session : earlier_.sessions) {
     RequireSameConditions(session, Session(false));
   }
@@ -99,7 +107,8 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions);
   CheckProblems(watch);
-  // A resumed session may be given other sets or problems than before.
+  // A resumed session may be given other sets or problems than before. What a first attempt makes
+  // needless goes when it is known.
   num_runs_ = static_cast<int>(records_.size() + schedule_.size());
 }
 
@@ -151,46 +160,66 @@ void Driver::CompleteConditions() {
   if (!request.edge_resolution_m) request.edge_resolution_m = served_.edge_resolution_m;
   if (!request.edge_check) request.edge_check = served_.edge_check;
   if (!conditions.referee_step_m) conditions.referee_step_m = *request.edge_resolution_m / 2;
-  if (request.collision_model == CollisionModel::kMeshes) {
-    conditions.mesh_robot_id = served_.mesh_robot_id;
-  }
   conditions.referee_robot_id = served_.referee_robot_id;
-  std::set<std::string> sets;
-  for (const ScheduledRun& run : schedule_) sets.insert(run.problem_set);
-  for (const ProblemSetSummary& set : served_.sets) {
-    if (sets.contains(set.name)) conditions.problem_sets[set.name] = set.content_id;
-  }
-  for (const std::string& planner : options_.planners) {
-    const auto command = options_.planner_commands.find(planner);
-    conditions.planner_commands[planner] =
-        command == options_.planner_commands.end() ? "" : command->second;
-  }
+  for (const LineUpEntry& entry : line_up_) AddContestant(entry);
 }
 
-void Driver::CheckPlanners() {
+void Driver::AddContestant(const LineUpEntry& entry) {
   const PlanRequest& request = options_.conditions.request;
-  for (const std::string& name : options_.planners) {
-    const auto planner = registry_.Find(name, NodeKind::kPlanner);
-    if (!planner) throw InputError("the planner '" + name + "' has left the bus");
-    if (planner->robot_id != served_.robot_id) {
-      throw InputError(fmt::format(
-          "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
-          name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
-    }
-    const std::string model(EnumName(request.collision_model));
-    const auto& models = planner->collision_models;
-    if (std::find(models.begin(), models.end(), model) == models.end()) {
-      throw InputError(
-          fmt::format("--collision-model: the planner '{}' does not offer '{}'", name, model));
-    }
-    if (!planner->can_backward && options_.directions.back() == Direction::kBackward) {
-      throw InputError("--directions: the planner '" + name + "' cannot search backward");
-    }
-    if (!planner->can_anytime && request.anytime) {
-      throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
-    }
-    planners_[name] = *planner;
+  Contestant contestant = entry.contestant;
+  const std::string& name = entry.contestant.planner;
+  const auto planner = registry_.Find(name, NodeKind::kPlanner);
+  if (!planner) throw InputError("the planner '" + name + "' has left the bus");
+  if (planner->robot_id != served_.robot_id) {
+    throw InputError(fmt::format(
+        "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
+        name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
   }
+  if (!contestant.collision_model) contestant.collision_model = request.collision_model;
+  if (!contestant.edge_resolution_m) contestant.edge_resolution_m = request.edge_resolution_m;
+  if (!contestant.edge_check) contestant.edge_check = request.edge_check;
+  const std::string model(EnumName(*contestant.collision_model));
+  const auto& models = planner->collision_models;
+  if (std::find(models.begin(), models.end(), model) == models.end()) {
+    throw InputError(
+        fmt::format("--collision-model: the planner '{}' does not offer '{}'", name, model));
+  }
+  if (contestant.collision_model == CollisionModel::kMeshes) {
+    options_.conditions.mesh_robot_id = served_.mesh_robot_id;
+  }
+  const Directions directions = entry.directions.value_or(options_.directions);
+  if (!planner->can_backward &&
+      (directions == Directions::kBackward || directions == Directions::kBoth)) {
+    throw InputError("--directions: the planner '" + name + "' cannot search backward");
+  }
+  if (!planner->can_anytime && request.anytime) {
+    throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
+  }
+  // Of planners that are one algorithm, each also has the name that tells it apart.
+  if (contestant.name.empty()) {
+    contestant.name = planner->algorithm;
+    for (const LineUpEntry& other : line_up_) {
+      if (other.contestant.planner == name) continue;
+      const auto found = registry_.Find(other.contestant.planner, NodeKind::kPlanner);
+      const std::string& its_name = other.contestant.name;
+      if (contestant.name == its_name ||
+          (its_name.empty() && found && found->algorithm == planner->algorithm)) {
+        contestant.name = fmt::format("{} [{}]", planner->algorithm, name);
+      }
+    }
+  }
+  options_.conditions.contestants.push_back(std::move(contestant));
+  planners_[name] = *planner;
+}
+
+std::vector<Entrant> Driver::Entrants() const {
+  std::vector<Entrant> entrants;
+  for (const LineUpEntry& entry : line_up_) {
+    const NodeStatusMessage& planner = planners_.at(entry.contestant.planner);
+    entrants.push_back({planner.name, entry.directions.value_or(options_.directions),
+                        planner.can_backward, planner.bidirectional, planner.deterministic});
+  }
+  return entrants;
 }
 
 SessionMessage Driver::Session(bool finished) const {
@@ -209,21 +238,35 @@ SessionMessage Driver::Session(bool finished) const {
   session.conditions = options_.conditions;
   session.settings = flags_;
   for (const NodeStatusMessage& node : registry_.Live()) {
-    if (node.kind != NodeKind::kPlanner ||
-        std::find(options_.planners.begin(), options_.planners.end(), node.name) !=
-            options_.planners.end()) {
+    if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) {
       session.nodes.push_back(node);
     }
   }
   return session;
 }
 
+bool Driver::Claimed(const std::string& request_id) {
+  const std::scoped_lock lock(mutex_);
+  return std::any_of(records_.rbegin(), records_.rend(), [&](const RunRecordMessage& record) {
+    return record.request_id == request_id && record.result.result.Solves();
+  });
+}
+
 void Driver::RunLane(const std::vector<ScheduledRun>& lane,
                      const std::function<bool()>& interrupted) {
   std::map<std::string, std::unique_ptr<PlannerClient>> clients;
   for (const ScheduledRun& run : lane) {
+    if (run.unless_solved && Claimed(*run.unless_solved)) {
+      const std::scoped_lock lock(mutex_);
+      --num_runs_;
+      progress_->Drop();
+      continue;
+    }
     std::unique_ptr<PlannerClient>& client = clients[run.planner];
-    if (!client) client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
+    if (!client) {
+      client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
+      if (!executor_->WarmUp(run, kWarmUpLimit, client.get(), interrupted)) return;
+    }
     std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
     if (!record) return;
     {
@@ -248,10 +291,10 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
 
   std::vector<std::vector<ScheduledRun>> lanes;
   if (options_.conditions.parallel) {
-    for (const std::string& planner : options_.planners) {
+    for (const LineUpEntry& entry : line_up_) {
       std::vector<ScheduledRun>& lane = lanes.emplace_back();
       for (const ScheduledRun& run : schedule_) {
-        if (run.planner == planner) lane.push_back(run);
+        if (run.planner == entry.contestant.planner) lane.push_back(run);
       }
     }
   } else {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmark_driver/driver_options.h"
+#include "benchmark_driver/line_up.h"
 #include "benchmark_driver/progress_bar.h"
 #include "benchmark_driver/recorder.h"
 #include "benchmark_driver/resume.h"
@@ -21,10 +22,10 @@ namespace planbench {
 /// A benchmark session against live processes: finds them, makes the runs, has them recorded.
 class Driver {
  public:
-  /// `options`: run_id included. `flags`: for the record. `earlier`: of the session that is
-  /// resumed; empty for a new one.
-  Driver(Bus* bus, DriverOptions options, std::map<std::string, std::string> flags,
-         EarlierSession earlier = {});
+  /// `options`: run_id included. `line_up`: as MakeLineUp gives it. `flags`: for the record.
+  /// `earlier`: of the session that is resumed; empty for a new one.
+  Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up,
+         std::map<std::string, std::string> flags, EarlierSession earlier = {});
 
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
@@ -37,18 +38,25 @@ class Driver {
 
   /// All records so far, those of the resumed session included.
   const std::vector<RunRecordMessage>& records() const { return records_; }
+  /// Complete once the processes are found.
+  const SessionConditions& conditions() const { return options_.conditions; }
 
  private:
   std::string Missing(bool need_logger) const;
   /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
   void CheckProblems(const std::function<void()>& watch);
-  void CheckPlanners();
   void CompleteConditions();
+  /// Contestants with their conditions; throws InputError for planners that do not fit.
+  void AddContestant(const LineUpEntry& entry);
+  std::vector<Entrant> Entrants() const;
   SessionMessage Session(bool finished) const;
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
+  /// Of an attempt that was made, whether the planner says that it found a path.
+  bool Claimed(const std::string& request_id);
 
   Bus* bus_;
   DriverOptions options_;
+  std::vector<LineUpEntry> line_up_;
   std::map<std::string, std::string> flags_;
   EarlierSession earlier_;
   std::int64_t start_utime_;

@@ -12,7 +12,6 @@
 
 #include "common/error.h"
 #include "common/name_value.h"
-#include "messaging/channels.h"
 
 namespace planbench {
 namespace {
@@ -32,22 +31,17 @@ CLI::Validator Positive(double most = kUnlimited) {
       "");
 }
 
-/// A flag that takes one of several names.
-template <typename Take>
-CLI::Option* AddChoice(CLI::App* app, const std::string& flag,
-                       const std::vector<std::string>& names, Take take, const std::string& help) {
-  return app->add_option_function<std::string>(flag, take, help)->check(CLI::IsMember(names));
-}
-
-/// The same for the names of an enum.
+/// A flag that takes the names of an enum.
 template <typename Enum, typename Target>
 CLI::Option* AddEnum(CLI::App* app, const std::string& flag, Target* target,
                      const std::string& help) {
   std::vector<std::string> names;
   for (const Enum value : EnumValues<Enum>()) names.emplace_back(EnumName(value));
-  return AddChoice(
-      app, flag, names,
-      [target](const std::string& name) { *target = ParseEnum<Enum>(name).value(); }, help);
+  return app
+      ->add_option_function<std::string>(
+          flag, [target](const std::string& name) { *target = ParseEnum<Enum>(name).value(); },
+          help)
+      ->check(CLI::IsMember(names));
 }
 
 /// A flag that takes names with commas between, no two alike; `take` gets them.
@@ -75,28 +69,13 @@ int ParseIndex(const std::string& text, const std::string& whole) {
   return value;
 }
 
-void TakePlanners(const std::vector<std::string>& planners, DriverOptions* options) {
-  std::map<std::string, std::string> by_channel;
-  for (const std::string& planner : planners) {
-    const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
-    if (!is_new) {
-      throw InputError("--planners: '" + same->second + "' and '" + planner +
-                       "' would share their channels (" + same->first + ")");
-    }
-  }
-  options->planners = planners;
-}
-
-void TakeCommands(const std::vector<std::string>& commands, DriverOptions* options) {
+void TakeCommands(const std::vector<std::string>& commands, LineUpFlags* line_up) {
   for (const std::string& command : commands) {
-    const auto [name, line] = SplitNameValue(command, "--planner-command");
-    if (!options->planner_commands.emplace(name, line).second) {
-      throw InputError("--planner-command: '" + name + "' is given twice");
-    }
+    line_up->commands.push_back(SplitNameValue(command, "--planner-command"));
   }
 }
 
-void TakeSettings(const std::vector<std::string>& settings, DriverOptions* options) {
+void TakeSettings(const std::vector<std::string>& settings, LineUpFlags* line_up) {
   for (const std::string& setting : settings) {
     constexpr char kForm[] = "NAME.KEY=VALUE";
     const std::string key = SplitNameValue(setting, "--set", kForm).first;
@@ -104,7 +83,7 @@ void TakeSettings(const std::vector<std::string>& settings, DriverOptions* optio
     if (dot == 0 || dot == std::string::npos || dot + 1 == key.size()) {
       throw InputError("--set '" + setting + "': expected " + kForm);
     }
-    options->planner_settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
+    line_up->settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
   }
 }
 
@@ -127,11 +106,11 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
       app->add_option("--out", options->out, "session folder; default: sessions/<date and time>"))
       ->excludes(resume);
   with_launch(app->add_option_function<Texts>(
-      "--planner-command", [=](const Texts& texts) { TakeCommands(texts, options); },
+      "--planner-command", [=](const Texts& texts) { TakeCommands(texts, &options->line_up); },
       "NAME=COMMAND: how to start a planner that is not planbench's own; the bus is in its "
       "LCM_DEFAULT_URL; repeatable"));
   with_launch(app->add_option_function<Texts>(
-      "--set", [=](const Texts& texts) { TakeSettings(texts, options); },
+      "--set", [=](const Texts& texts) { TakeSettings(texts, &options->line_up); },
       "NAME.KEY=VALUE: setting KEY of planner NAME; repeatable"));
 }
 
@@ -163,24 +142,26 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       "--problems-range",
       [=](const std::string& text) { options->problem_indices = ParseRange(text); },
       "problem indices, e.g. 1-20 or 1-5,8; default: all");
+  app->add_option("--lineup", options->line_up.file,
+                  "file of contestants: planners, their settings and conditions");
   AddNames(
-      app, "--planners", [=](const auto& names) { TakePlanners(names, options); },
-      "planners by name, comma-separated")
-      ->default_str(fmt::format("{}", fmt::join(options->planners, ",")));
-  AddChoice(
-      app, "--directions", {"forward", "backward", "both"},
-      [=](const std::string& name) {
-        if (const auto direction = ParseEnum<Direction>(name)) options->directions = {*direction};
-      },
-      "in which to search")
-      ->default_str("both");
+      app, "--planners", [=](const auto& names) { options->line_up.planners = names; },
+      "those of the line-up, or without one planners by name, comma-separated; default: all of the "
+      "line-up, or ara,rrtc");
+  AddEnum<Directions>(app, "--directions", &options->directions,
+                      "in which to search; auto: forward, then backward if that failed, but once "
+                      "if a planner searches from both ends anyway")
+      ->default_str(std::string(EnumName(options->directions)));
   app->add_option("--time", request.time_limit_s, "time limit of a request, s")
       ->check(Positive(1e6))  // 11 days, and far from what a clock can count
       ->capture_default_str();
-  app->add_option("--trials", options->trials, "runs of each problem, seeds counting up")
+  app->add_option(
+         "--trials", options->trials,
+         "runs of each problem; planners whose answer does not depend on the seed make one")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  app->add_option("--seed", request.seed, "seed of the first trial")
+  app->add_option("--seed", request.seed,
+                  "seed of the session; every problem, direction and trial has a seed made of it")
       ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
       ->capture_default_str();
   AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, "robot geometry")

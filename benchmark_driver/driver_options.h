@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "benchmark_driver/line_up.h"
 #include "messaging/messages.h"
 
 namespace planbench {
@@ -15,8 +14,8 @@ namespace planbench {
 struct DriverOptions {
   std::vector<std::string> sets;     ///< Empty: every set the scene server announces.
   std::vector<int> problem_indices;  ///< Empty: every problem of a set.
-  std::vector<std::string> planners = {"ara", "rrtc"};
-  std::vector<Direction> directions = {Direction::kForward, Direction::kBackward};
+  LineUpFlags line_up;
+  Directions directions = Directions::kAuto;  ///< Of contestants that say nothing else.
   int trials = 1;
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
   double discovery_timeout_s = 5;
@@ -29,10 +28,7 @@ struct DriverOptions {
   std::vector<std::filesystem::path> problems;
   std::optional<std::filesystem::path> referee_robot;
   std::vector<std::string> package_paths;
-  std::optional<std::filesystem::path> out;             ///< None: sessions/<run id>.
-  std::map<std::string, std::string> planner_commands;  ///< By planner name.
-  std::vector<std::pair<std::string, std::string>>
-      planner_settings;  ///< Planner name, "key=value".
+  std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>.
 };
 
 }  // namespace planbench

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -46,36 +45,21 @@ std::string Program(const std::string& name) { return SiblingProgram(name).strin
 
 }  // namespace
 
-void RequireKnownPlanners(const DriverOptions& options,
-                          const std::filesystem::path& program_folder) {
+void RequirePrograms(const std::vector<LineUpEntry>& line_up,
+                     const std::filesystem::path& program_folder) {
   const std::set<std::string> known = PlannersIn(program_folder);
-  for (const std::string& planner : options.planners) {
-    if (!known.contains(planner) && !options.planner_commands.contains(planner)) {
-      throw InputError(
-          fmt::format("--planners: unknown planner '{0}'; known are: {1}; others are started by "
-                      "--planner-command {0}=COMMAND",
-                      planner, fmt::join(known, ", ")));
-    }
-  }
-  const auto require_chosen = [&](const std::string& name, const char* flag) {
-    if (std::find(options.planners.begin(), options.planners.end(), name) ==
-        options.planners.end()) {
-      throw InputError(std::string(flag) + ": '" + name + "' is not among --planners");
-    }
-  };
-  for (const auto& [name, command] : options.planner_commands) {
-    require_chosen(name, "--planner-command");
-  }
-  for (const auto& [name, setting] : options.planner_settings) {
-    require_chosen(name, "--set");
-    if (options.planner_commands.count(name) != 0) {
-      throw InputError("--set: '" + name + "' is started by its own command; give settings there");
-    }
+  for (const LineUpEntry& entry : line_up) {
+    if (!entry.contestant.command.empty() || known.contains(entry.program)) continue;
+    throw InputError(
+        fmt::format("unknown planner '{0}'; known are: {1}; others are started by "
+                    "--planner-command {2}=COMMAND",
+                    entry.program, fmt::join(known, ", "), entry.contestant.planner));
   }
 }
 
-void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& session_folder,
-                     const std::string& lcm_url, Supervisor* supervisor) {
+void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
+                     const std::filesystem::path& session_folder, const std::string& lcm_url,
+                     Supervisor* supervisor) {
   const std::filesystem::path logs = session_folder / "logs";
   std::error_code error;
   std::filesystem::create_directories(logs, error);
@@ -106,24 +90,26 @@ void LaunchProcesses(const DriverOptions& options, const std::filesystem::path& 
   }
   start(kSceneServer, std::move(server));
 
-  for (const std::string& planner : options.planners) {
-    if (const auto command = options.planner_commands.find(planner);
-        command != options.planner_commands.end()) {
-      start(planner, {"/bin/sh", "-c", kRunCommand, "sh", command->second});
+  for (const LineUpEntry& entry : line_up) {
+    const std::string& planner = entry.contestant.planner;
+    if (!entry.contestant.command.empty()) {
+      start(planner, {"/bin/sh", "-c", kRunCommand, "sh", entry.contestant.command});
       continue;
     }
     std::vector<std::string> arguments =
-        with_packages({Program(std::string(kPlannerPrefix) + planner), "--robot",
+        with_packages({Program(std::string(kPlannerPrefix) + entry.program), "--robot",
                        options.robot.string(), "--name", planner});
-    for (const auto& [name, setting] : options.planner_settings) {
-      if (name == planner) arguments.insert(arguments.end(), {"--set", setting});
+    if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
+    for (const std::string& setting : entry.settings) {
+      arguments.insert(arguments.end(), {"--set", setting});
     }
     start(planner, std::move(arguments));
   }
 }
 
-void StopProcesses(const DriverOptions& options, Supervisor* supervisor) {
-  std::vector<std::string> order = options.planners;
+void StopProcesses(const std::vector<LineUpEntry>& line_up, Supervisor* supervisor) {
+  std::vector<std::string> order;
+  for (const LineUpEntry& entry : line_up) order.push_back(entry.contestant.planner);
   order.insert(order.end(), {kSceneServer, kLogger});
   supervisor->StopAll(order);
 }

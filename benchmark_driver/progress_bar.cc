@@ -11,7 +11,7 @@ ProgressBar::ProgressBar(int num_runs, const std::vector<RunRecordMessage>& earl
 
 void ProgressBar::Count(const RunRecordMessage& record) {
   ++num_done_;
-  Tally& tally = tallies_[record.planner + " " + std::string(EnumName(record.request.direction))];
+  Tally& tally = tallies_[record.planner];
   ++tally.done;
   tally.solved += record.status == PlanStatus::kSolved;
 }

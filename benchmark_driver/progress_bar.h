@@ -16,6 +16,8 @@ class ProgressBar {
   ProgressBar(int num_runs, const std::vector<RunRecordMessage>& earlier);
 
   void Add(const RunRecordMessage& record);
+  /// A run that turned out not to be needed.
+  void Drop() { line_.Drop(); }
 
  private:
   struct Tally {
@@ -25,7 +27,7 @@ class ProgressBar {
   void Count(const RunRecordMessage& record);
 
   int num_done_ = 0;
-  std::map<std::string, Tally> tallies_;  // by "planner direction"
+  std::map<std::string, Tally> tallies_;  // by planner
   ProgressLine line_;
 };
 

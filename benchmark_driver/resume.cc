@@ -43,7 +43,13 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
     std::erase_if(*map, [&](const auto& entry) { return !others.contains(entry.first); });
   };
   keep_common(&session.conditions.problem_sets, other.conditions.problem_sets);
-  keep_common(&session.conditions.planner_commands, other.conditions.planner_commands);
+  std::erase_if(session.conditions.contestants, [&](const Contestant& contestant) {
+    const auto& others = other.conditions.contestants;
+    return std::none_of(others.begin(), others.end(),
+                        [&](const Contestant& o) { return o.planner == contestant.planner; });
+  });
+  std::sort(session.conditions.contestants.begin(), session.conditions.contestants.end(),
+            [](const auto& a, const auto& b) { return a.planner < b.planner; });
 
   std::erase_if(session.nodes, [&](const NodeStatusMessage& node) {
     if (node.kind == NodeKind::kSceneServer) return false;
@@ -82,7 +88,8 @@ std::map<std::string, std::string> FieldsOf(const SessionMessage& session) {
     }
     const std::string value = line.substr(colon + 2);
     // Elements of lists go by their key, if they have one.
-    if ((name == "name" || name == "key") && !place.empty() && place.back().ends_with(']')) {
+    const bool is_key = name == "name" || name == "key" || name == "planner";
+    if (is_key && !place.empty() && std::isdigit(place.back()[place.back().find('[') + 1]) != 0) {
       place.back().replace(place.back().find('[') + 1, std::string::npos,
                            value.substr(1, value.size() - 2) + "]");
       continue;

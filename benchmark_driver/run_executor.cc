@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "common/error.h"
 #include "common/utime.h"
 
@@ -106,6 +109,42 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
 }
 
+const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
+  const auto found =
+      std::find_if(conditions_.contestants.begin(), conditions_.contestants.end(),
+                   [&](const Contestant& contestant) { return contestant.planner == run.planner; });
+  if (found == conditions_.contestants.end()) {
+    throw std::logic_error("no contestant '" + run.planner + "'");
+  }
+  return *found;
+}
+
+PlanRequest RunExecutor::RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const {
+  const Contestant& contestant = ContestantOf(run);
+  PlanRequest request = conditions_.request;
+  request.request_id = AttemptId(run);
+  request.scene_id = problem.scene_id;
+  request.group = problem.group;
+  request.start = problem.start;
+  request.goal = problem.goal;
+  request.direction = run.direction;
+  request.seed = run.seed;
+  request.collision_model = contestant.collision_model.value();
+  request.edge_resolution_m = contestant.edge_resolution_m;
+  request.edge_check = contestant.edge_check;
+  return request;
+}
+
+bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerClient* planner,
+                         const std::function<bool()>& interrupted) {
+  const std::optional<ProblemMessage> problem = ProblemOf(run, interrupted);
+  if (!problem) return false;
+  PlanRequest request = RequestOf(run, *problem);
+  request.request_id += "/warm-up";
+  request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
+  return planner->Solve(request, interrupted).outcome != PlannerClient::Outcome::kInterrupted;
+}
+
 std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
                                                      PlannerClient* planner,
                                                      const std::function<bool()>& interrupted) {
@@ -121,14 +160,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.problem_set = run.problem_set;
   record.problem_index = run.problem_index;
   record.trial = run.trial;
-  record.request = conditions_.request;
-  record.request.request_id = AttemptId(run);
-  record.request.scene_id = problem->scene_id;
-  record.request.group = problem->group;
-  record.request.start = problem->start;
-  record.request.goal = problem->goal;
-  record.request.direction = run.direction;
-  record.request.seed = run.seed;
+  record.contestant = ContestantOf(run).name;
+  record.request = RequestOf(run, *problem);
   record.start_utime = NowUtime();
 
   const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);

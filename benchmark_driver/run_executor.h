@@ -16,7 +16,7 @@ namespace planbench {
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
-  /// `conditions`: complete, the referee's step included.
+  /// `conditions`: complete, the referee's step and the contestants' included.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions);
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
@@ -27,6 +27,10 @@ class RunExecutor {
   /// such problem.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
                                           const std::function<bool()>& interrupted);
+  /// Has a planner answer a first request, within `time_limit_s`, that is neither judged nor
+  /// recorded: what a process does only once is then no part of any run. False if `interrupted`.
+  bool WarmUp(const ScheduledRun& run, double time_limit_s, PlannerClient* planner,
+              const std::function<bool()>& interrupted);
 
  private:
   std::optional<ProblemMessage> ProblemOf(const ScheduledRun& run,
@@ -41,6 +45,9 @@ class RunExecutor {
   std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
                                  std::chrono::milliseconds retry_period,
                                  const std::function<bool()>& interrupted);
+
+  const Contestant& ContestantOf(const ScheduledRun& run) const;
+  PlanRequest RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const;
 
   /// The id of this process's attempt at a run. A planner or scene server that outlives a driver
   /// remembers the answers of attempts that are over.

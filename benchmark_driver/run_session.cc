@@ -72,8 +72,10 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
 
   std::string url = lcm_url;
   std::filesystem::path session_folder;
+  const std::vector<LineUpEntry> line_up =
+      MakeLineUp(options.line_up, options.launch ? std::optional(options.robot) : std::nullopt);
   if (options.launch) {
-    RequireKnownPlanners(options, ProgramFolder());
+    RequirePrograms(line_up, ProgramFolder());
     WarnOfRobots(options);
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = options.resume ? *options.resume
@@ -89,7 +91,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor = std::make_unique<Supervisor>();
-    LaunchProcesses(options, session_folder, url, supervisor.get());
+    LaunchProcesses(options, line_up, session_folder, url, supervisor.get());
     // Loading meshes, or a busy machine, may take its time; a child that fails is heard of at once.
     options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
   }
@@ -101,7 +103,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (supervisor) supervisor->ThrowIfHopeless();
     if (interrupted()) throw std::runtime_error("interrupted");
   };
-  Driver driver(&bus, options, std::move(flags), std::move(earlier));
+  Driver driver(&bus, options, line_up, std::move(flags), std::move(earlier));
   driver.Discover(options.launch, watch);
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {
@@ -109,14 +111,14 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (supervisor) supervisor->ThrowIfHopeless();
   });
 
-  const std::string tables = FormatTables(driver.records());
+  const SessionTables tables = MakeTables(driver.conditions(), driver.records());
   if (supervisor) {
-    StopProcesses(options, supervisor.get());
-    std::ofstream(session_folder / "tables.txt") << tables;
+    StopProcesses(line_up, supervisor.get());
+    std::ofstream(session_folder / "tables.txt") << tables.full;
     fmt::print("Session folder: {}\n", session_folder.string());
   }
   if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
-  fmt::print("\n{}", tables);
+  fmt::print("\n{}", tables.brief);
   std::fflush(stdout);
   return complete ? kExitOk : kExitFailed;
 }

@@ -4,9 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
+#include <random>
 #include <string_view>
 
+#include "common/content_hash.h"
 #include "common/error.h"
 
 namespace planbench {
@@ -33,39 +36,92 @@ std::vector<const ProblemSetSummary*> SelectSets(const std::vector<std::string>&
   return selected;
 }
 
+std::vector<int> SelectProblems(const ProblemSetSummary& set, const std::vector<int>& wanted) {
+  std::vector<int> indices;
+  if (wanted.empty()) {
+    indices = set.indices;
+  } else {
+    std::set_intersection(set.indices.begin(), set.indices.end(), wanted.begin(), wanted.end(),
+                          std::back_inserter(indices));
+  }
+  if (!indices.empty()) return indices;
+  throw InputError(
+      set.indices.empty()
+          ? fmt::format("the problem set '{}' is empty", set.name)
+          : fmt::format("--problems-range selects no problem of '{}', which has {} from {} to {}",
+                        set.name, set.indices.size(), set.indices.front(), set.indices.back()));
+}
+
+/// Hash of a session's seed and what it is to decide. Below 2^63.
+template <typename... Parts>
+std::uint64_t Derive(std::uint64_t seed, const Parts&... parts) {
+  ContentHash hash;
+  hash.Add(static_cast<std::int64_t>(seed));
+  (hash.Add(parts), ...);
+  const std::string digits = hash.HexDigest().substr(0, 16);
+  std::uint64_t value = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  return value >> 1;
+}
+
+/// A permutation of `entrants`. (std::shuffle differs from library to library.)
+std::vector<Entrant> Shuffled(std::vector<Entrant> entrants, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  for (std::size_t i = entrants.size(); i > 1; --i)
+    std::swap(entrants[i - 1], entrants[random() % i]);
+  return entrants;
+}
+
+std::vector<Direction> AttemptsOf(const Entrant& entrant) {
+  using enum Direction;
+  switch (entrant.directions) {
+    case Directions::kForward:
+      return {kForward};
+    case Directions::kBackward:
+      return {kBackward};
+    case Directions::kBoth:
+      return {kForward, kBackward};
+    case Directions::kAuto:
+      if (entrant.bidirectional || !entrant.can_backward) return {kForward};
+      return {kForward, kBackward};
+  }
+  return {};
+}
+
 }  // namespace
 
+std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
+                      Direction direction, int trial) {
+  return Derive(session_seed, problem_set, problem_index, EnumName(direction), trial);
+}
+
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
+                                       const std::vector<Entrant>& entrants,
                                        const ProblemSetsMessage& served) {
   const PlanRequest& request = options.conditions.request;
   std::vector<ScheduledRun> schedule;
+  const auto add = [&](const std::string& set, int index, const Entrant& entrant, int trial) {
+    std::optional<std::string> other;
+    for (const Direction direction : AttemptsOf(entrant)) {
+      ScheduledRun& run = schedule.emplace_back();
+      run = {entrant.planner,
+             set,
+             index,
+             direction,
+             trial,
+             RunSeed(request.seed, set, index, direction, trial),
+             fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set, index, entrant.planner,
+                         EnumName(direction), trial),
+             other};
+      if (entrant.directions == Directions::kAuto) other = run.request_id;
+    }
+  };
   for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
-    std::vector<int> indices;
-    if (options.problem_indices.empty()) {
-      indices = set->indices;
-    } else {
-      std::set_intersection(set->indices.begin(), set->indices.end(),
-                            options.problem_indices.begin(), options.problem_indices.end(),
-                            std::back_inserter(indices));
-    }
-    if (indices.empty()) {
-      throw InputError(
-          set->indices.empty()
-              ? fmt::format("the problem set '{}' is empty", set->name)
-              : fmt::format("--problems-range selects no problem of '{}', which has {} "
-                            "from {} to {}",
-                            set->name, set->indices.size(), set->indices.front(),
-                            set->indices.back()));
-    }
-    for (const int index : indices) {
-      for (const std::string& planner : options.planners) {
-        for (int trial = 1; trial <= options.trials; ++trial) {
-          for (const Direction direction : options.directions) {
-            schedule.push_back({planner, set->name, index, direction, trial,
-                                request.seed + static_cast<std::uint64_t>(trial) - 1,
-                                fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set->name, index,
-                                            planner, EnumName(direction), trial)});
-          }
+    for (const int index : SelectProblems(*set, options.problem_indices)) {
+      for (int trial = 1; trial <= options.trials; ++trial) {
+        const std::uint64_t order = Derive(request.seed, "order", set->name, index, trial);
+        for (const Entrant& entrant : Shuffled(entrants, order)) {
+          if (trial == 1 || !entrant.deterministic) add(set->name, index, entrant, trial);
         }
       }
     }

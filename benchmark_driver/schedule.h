@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +17,35 @@ struct ScheduledRun {
   int problem_index = 0;
   Direction direction = Direction::kForward;
   int trial = 1;           ///< From 1.
-  std::uint64_t seed = 1;  ///< The first trial's seed + trial - 1; equal for all planners.
+  std::uint64_t seed = 1;  ///< RunSeed's: equal for all contestants.
   std::string request_id;  ///< <run_id>/<set>/<index>/<planner>/<direction>/<trial>
+  /// Request id of the attempt in the other direction: with one, this run is made only if that one
+  /// found no path.
+  std::optional<std::string> unless_solved = {};
 };
 
-/// Every run of a session, in order: problem by problem, so that all planners meet a problem under
-/// like conditions of the machine; on each, planner by planner, trial by trial, direction by
-/// direction. Throws InputError for a set that is not served (naming those that are) or a range
-/// that selects no problem of a set.
+/// A contestant as the schedule sees it.
+struct Entrant {
+  std::string planner;
+  Directions directions = Directions::kAuto;
+  bool can_backward = true;
+  bool bidirectional = false;  ///< Searches from both ends at once: auto is one run.
+  bool deterministic =
+      false;  ///< Whatever the seed, the answer is the same: further trials are not run.
+};
+
+/// The seed of a run: a hash, so that neither problems, directions, trials nor sessions share
+/// sequences of samples. Below 2^63.
+std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
+                      Direction direction, int trial);
+
+/// Every run of a session, in order: problem by problem and trial by trial, the contestants in an
+/// order drawn anew each time (by the session's seed), so that all meet a problem under like
+/// conditions of the machine and none always comes first; forward before backward. Throws
+/// InputError for a set that is not served (naming those that are) or a range that selects no
+/// problem of a set.
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
+                                       const std::vector<Entrant>& entrants,
                                        const ProblemSetsMessage& served);
 
 }  // namespace planbench

@@ -1,6 +1,7 @@
 #include "common/progress_line.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -16,6 +17,12 @@ std::string Duration(double seconds) {
   const int whole = static_cast<int>(seconds);
   return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
                        : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+/// Columns of the terminal that stderr is; 80 if it does not say.
+std::size_t TerminalWidth() {
+  winsize size = {};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -38,12 +45,14 @@ void ProgressLine::Print(bool last) {
   const int filled = total_ > 0 ? kBarWidth * done_ / total_ : kBarWidth;
   const double elapsed_s = std::chrono::duration<double>(now - begin_).count();
   std::string line =
-      fmt::format("[{:.<{}}] {}/{}  {}  {}", std::string(static_cast<std::size_t>(filled), '#'),
-                  kBarWidth, done_, total_, text_, Duration(elapsed_s));
+      fmt::format("[{:.<{}}] {}/{}  {}", std::string(static_cast<std::size_t>(filled), '#'),
+                  kBarWidth, done_, total_, Duration(elapsed_s));
   const int done_here = done_ - done_at_first_;
   if (done_here > 0 && done_ < total_) {
     line += fmt::format(" (about {} left)", Duration(elapsed_s / done_here * (total_ - done_)));
   }
+  if (!text_.empty()) line += "  " + text_;
+  if (on_terminal_) line = line.substr(0, TerminalWidth() - 1);
   fmt::print(stderr, "{}{}{}", on_terminal_ ? "\r\033[K" : "", line,
              last || !on_terminal_ ? "\n" : "");
   std::fflush(stderr);

@@ -17,6 +17,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void Show(int done, const std::string& text);
+  /// One piece of work less.
+  void Drop() { --total_; }
 
  private:
   void Print(bool last);

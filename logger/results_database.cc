@@ -61,13 +61,19 @@ std::string AsLines(const std::map<std::string, std::string>& settings) {
   return text;
 }
 
-/// What sets planners of one name apart: `settings` of plannerConfigs.
+/// What sets contestants of one name apart: `settings` of plannerConfigs.
 std::string PlannerSettings(const RunRecordMessage& record) {
   // Parameters of the request hold over the planner's own settings.
   std::map<std::string, std::string> settings = record.request.parameters;
   settings.insert(record.settings.begin(), record.settings.end());
-  return fmt::format("algorithm = {}\nplanner_class = {}\n", record.algorithm,
-                     record.planner_class) +
+  const PlanRequest& request = record.request;
+  return fmt::format(
+             "algorithm = {}\nplanner_class = {}\ncollision_model = {}\nedge_check = {}\n"
+             "edge_resolution = {}\n",
+             record.algorithm, record.planner_class, EnumName(request.collision_model),
+             request.edge_check ? EnumName(*request.edge_check) : "the robot's",
+             request.edge_resolution_m ? fmt::format("{}", *request.edge_resolution_m)
+                                       : "the robot's") +
          AsLines(settings);
 }
 
@@ -196,10 +202,10 @@ std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {
 
 std::int64_t ResultsDatabase::PlannerId(const RunRecordMessage& record) {
   const std::string settings = PlannerSettings(record);
-  if (const auto id = find_planner_.BindAll(record.planner, settings).First()) {
+  if (const auto id = find_planner_.BindAll(record.contestant, settings).First()) {
     return std::get<std::int64_t>(*id);
   }
-  insert_planner_.BindAll(record.planner, settings).Run();
+  insert_planner_.BindAll(record.contestant, settings).Run();
   return connection_.LastInsertId();
 }
 

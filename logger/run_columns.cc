@@ -123,6 +123,7 @@ std::vector<RunColumn> MakeRunColumns() {
       {"solved", "BOOLEAN", [](const Record& r) { return Bool(r.status == PlanStatus::kSolved); }},
       {"status", "ENUM", [](const Record& r) { return Int(static_cast<int>(r.status)); }},
       {"message", "TEXT", [](const Record& r) { return Text(r.message); }},
+      {"claimed", "BOOLEAN", [](const Record& r) { return Bool(r.result.result.Solves()); }},
 
       {"direction", "TEXT",
        [](const Record& r) { return Text(std::string(EnumName(r.request.direction))); }},

@@ -434,6 +434,22 @@ struct Fields<PathCheckReplyMessage> : On<lcmt_path_check_reply> {
 // Sessions and runs.
 
 template <>
+struct Fields<Contestant> : On<lcmt_contestant> {
+  static constexpr const char* kKey = "planner";
+  static const std::string& Key(const Contestant& contestant) { return contestant.planner; }
+  static void List(auto& io, auto& v, auto& w) {
+    io.Field("planner", v.planner, w.planner, kNodeName);
+    io.Field("name", v.name, w.name, kNotEmpty);
+    io.Field("about", v.about, w.about);
+    io.Field("published", v.published, w.published);
+    io.Field("command", v.command, w.command);
+    io.Field("collision_model", v.collision_model, w.collision_model);
+    io.Field("edge_resolution_m", v.edge_resolution_m, w.edge_resolution_m, kNonNegative);
+    io.Field("edge_check", v.edge_check, w.edge_check);
+  }
+};
+
+template <>
 struct Fields<SessionConditions> : On<lcmt_session_conditions> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("request", v.request, w.request);
@@ -443,7 +459,7 @@ struct Fields<SessionConditions> : On<lcmt_session_conditions> {
     io.Field("mesh_robot_id", v.mesh_robot_id, w.mesh_robot_id);
     io.Field("referee_robot_id", v.referee_robot_id, w.referee_robot_id);
     io.List("problem_set", v.problem_sets, w.problem_set, w.num_problem_sets);
-    io.List("planner_command", v.planner_commands, w.planner_command, w.num_planner_commands);
+    io.List("contestant", v.contestants, w.contestant, w.num_contestants);
   }
 };
 
@@ -474,6 +490,7 @@ struct Fields<RunRecordMessage> : On<lcmt_run_record> {
     io.Field("run_id", v.run_id, w.run_id, kId);
     io.Field("request_id", v.request_id, w.request_id, kId);
     io.Field("planner", v.planner, w.planner, kId);
+    io.Field("contestant", v.contestant, w.contestant, kNotEmpty);
     io.Field("algorithm", v.algorithm, w.algorithm);
     io.Field("planner_class", v.planner_class, w.planner_class);
     io.List("setting", v.settings, w.setting, w.num_settings);

@@ -219,19 +219,32 @@ struct PathCheckReplyMessage {
   bool operator==(const PathCheckReplyMessage&) const = default;
 };
 
+/// One of those that a session compares: a planner on the bus, and the conditions of its requests.
+struct Contestant {
+  std::string planner;    ///< Its name on the bus.
+  std::string name;       ///< In tables and results.
+  std::string about;      ///< What it is, in a line; may be empty.
+  std::string published;  ///< Algorithm of the reference study whose figures stand beside it.
+  std::string command;    ///< How it is started; empty: planbench's own.
+  std::optional<CollisionModel> collision_model;  ///< None, here and below: the session's.
+  std::optional<double> edge_resolution_m;
+  std::optional<EdgeCheck> edge_check;
+  bool operator==(const Contestant&) const = default;
+};
+
 /// What can change a result and is no matter of which runs are made, nor of which processes make
 /// them (SessionMessage::nodes).
 struct SessionConditions {
-  /// What all requests have in common; ids, problem and direction are left open, the seed is that
-  /// of the first trial.
+  /// What all requests have in common; ids, problem and direction are left open, the seed is the
+  /// session's.
   PlanRequest request;
   std::optional<double> referee_step_m;  ///< None: half the edge resolution.
   bool with_clearance = true;
   bool parallel = false;
   std::string mesh_robot_id;     ///< ProblemSetsMessage's; empty unless meshes are what is checked.
   std::string referee_robot_id;  ///< ProblemSetsMessage's.
-  std::map<std::string, std::string> problem_sets;      ///< Content ids by name.
-  std::map<std::string, std::string> planner_commands;  ///< By name; empty: planbench's own.
+  std::map<std::string, std::string> problem_sets;  ///< Content ids by name.
+  std::vector<Contestant> contestants;              ///< In the order of the line-up.
   bool operator==(const SessionConditions&) const = default;
 };
 
@@ -256,6 +269,7 @@ struct RunRecordMessage {
   std::string run_id;
   std::string request_id;
   std::string planner;
+  std::string contestant;  ///< The planner's name in tables and results.
   std::string algorithm;
   std::string planner_class;
   std::map<std::string, std::string> settings;

@@ -41,7 +41,7 @@ class AraPlanner : public Planner {
 
   PlannerDescription Describe() const override {
     PlannerDescription description;
-    description.algorithm = "ARA*";
+    description.algorithm = settings_.VariantName();
     description.planner_class = PlannerClass::kSearchAndSample;
     description.anytime = true;
     description.bidirectional = settings_.two_way;

@@ -92,6 +92,14 @@ void AraSettings::Validate(const std::string& origin) const {
   }
 }
 
+std::string AraSettings::VariantName() const {
+  std::vector<std::string> variants;
+  if (two_way) variants.emplace_back("two-way");
+  if (tip_guide > 0 || crowding > 0) variants.emplace_back("guided");
+  if (variants.empty()) return "ARA*";
+  return fmt::format("ARA* ({})", fmt::join(variants, ", "));
+}
+
 std::map<std::string, std::string> AraSettings::AsText() const {
   std::map<std::string, std::string> text{
       {"discretization", ByJointAsText(discretization)},

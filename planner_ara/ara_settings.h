@@ -59,6 +59,8 @@ struct AraSettings {
   void Apply(const YamlNode& node);
   /// Throws InputError, prefixed by `origin`, unless the settings hold together.
   void Validate(const std::string& origin) const;
+  /// "ARA*" and what makes it another search than the published one: "ARA* (two-way, guided)".
+  std::string VariantName() const;
   /// Every setting as text, by key.
   std::map<std::string, std::string> AsText() const;
 };

@@ -295,7 +295,7 @@ OmplPlanner::~OmplPlanner() = default;
 
 PlannerDescription OmplPlanner::Describe() const {
   PlannerDescription description;
-  description.algorithm = settings_.AlgorithmName();
+  description.algorithm = settings_.VariantName();
   description.planner_class = settings_.ompl_algorithm->planner_class;
   description.anytime = settings_.ompl_algorithm->anytime;
   description.bidirectional = settings_.ompl_algorithm->bidirectional;

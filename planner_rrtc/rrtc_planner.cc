@@ -21,7 +21,7 @@ class RrtConnectPlanner final : public Planner {
 
   PlannerDescription Describe() const override {
     PlannerDescription description;
-    description.algorithm = settings_.AlgorithmName();
+    description.algorithm = settings_.VariantName();
     description.planner_class = PlannerClass::kSamplingGuided;
     description.bidirectional = true;
     description.collision_models = EnumValues<CollisionModel>();

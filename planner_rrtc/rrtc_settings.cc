@@ -34,6 +34,16 @@ std::string_view RrtcSettings::AlgorithmName() const {
   return ompl_algorithm != nullptr ? ompl_algorithm->name : kRrtConnect;
 }
 
+std::string RrtcSettings::VariantName() const {
+  if (ompl_algorithm != nullptr) return fmt::format("{} (OMPL)", AlgorithmName());
+  const std::string_view trees = balance ? "balanced" : "alternating";
+  const bool connect = extension == Extension::kConnect;
+  std::string variant(connect == balance ? (balance ? "balanced" : "canonical")
+                                         : fmt::format("{}, {}", EnumName(extension), trees));
+  if (domain_radius > 0) variant += ", dynamic domain";
+  return fmt::format("{} ({})", AlgorithmName(), variant);
+}
+
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
   node.AllowOnly(
       {"algorithm", "sampler", "range", "extension", "balance", "domain_radius", "ompl"});

@@ -48,6 +48,10 @@ struct RrtcSettings {
   std::map<std::string, std::string> ompl_parameters;
 
   std::string_view AlgorithmName() const;
+  /// The algorithm's name and what makes it this variant: "RRT-Connect (canonical)" extends by one
+  /// step and alternates, as Kuffner and LaValle's first; "(balanced)" connects from both trees and
+  /// grows the smaller one; OMPL's have "(OMPL)".
+  std::string VariantName() const;
 };
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for

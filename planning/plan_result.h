@@ -52,6 +52,8 @@ struct PlanResult {
   double peak_memory_mb =
       0;  ///< Peak resident memory of the process during the request, MiB. (Since the start
           ///< of the process where the kernel forbids resetting it.)
+  /// What the planner says; whether it is true, a referee tells.
+  bool Solves() const { return status == PlanStatus::kSolved && !path.empty(); }
   bool operator==(const PlanResult&) const = default;
 };
 

@@ -37,7 +37,7 @@ Summary Summarize(std::vector<double> values) {
   return summary;
 }
 
-Interval WilsonInterval(int successes, int trials) {
+Interval WilsonInterval(double successes, int trials) {
   if (trials == 0) return {0, 1};
   const double n = trials;
   const double share = successes / n;

@@ -30,8 +30,10 @@ double Quantile(const std::vector<double>& ascending, double q);
 Summary Summarize(std::vector<double> values);
 
 /// Of a share that `successes` of `trials` were observed of: Wilson's score interval (1927), which
-/// keeps its level for few trials and shares near 0 and 1 too. [0, 1] if nothing was tried.
-Interval WilsonInterval(int successes, int trials);
+/// keeps its level for few trials and shares near 0 and 1 too. `successes` may be a sum of shares,
+/// each in [0, 1], of independent cases: no variance of such a mean is greater. [0, 1] if nothing
+/// was tried.
+Interval WilsonInterval(double successes, int trials);
 
 /// Of the median, whatever the distribution: the narrowest pair of order statistics, equally far
 /// from both ends, that encloses it with at least the level. Nothing if even the extremes do not

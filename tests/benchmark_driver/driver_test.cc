@@ -24,20 +24,26 @@ std::set<std::string> Ids(MessageCollector<Message>& collector) {
 void Idle() {}
 bool Never() { return false; }
 
+std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners) {
+  LineUpFlags flags;
+  flags.planners = planners;
+  return MakeLineUp(flags, std::nullopt);
+}
+
 class DriverTest : public testing::Test {
  protected:
   DriverTest() { bus_.Start(); }
 
   static DriverOptions Options() {
     DriverOptions options;
-    options.planners = {"arm"};
+    options.directions = Directions::kBoth;
     options.problem_indices = {1, 2};
     options.discovery_timeout_s = 60;
     options.conditions.request.run_id = "run";
     return options;
   }
   void ExpectNotDiscovered(const DriverOptions& options, const std::vector<std::string>& parts) {
-    Driver driver(&bus_, options, {});
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
     ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
   }
 
@@ -60,7 +66,7 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  Driver driver(&bus_, Options(), {{"key", "value"}});
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {{"key", "value"}});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   ASSERT_EQ(driver.records().size(), 4u);
@@ -84,9 +90,80 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_EQ(conditions.request.edge_check, EdgeCheck::kFixed);
   EXPECT_EQ(conditions.referee_step_m, 0.01);
   EXPECT_EQ(conditions.problem_sets, (std::map<std::string, std::string>{{"cans", "cans-1"}}));
-  EXPECT_EQ(conditions.planner_commands, (std::map<std::string, std::string>{{"arm", ""}}));
+  ASSERT_EQ(conditions.contestants.size(), 1u);
+  const Contestant& contestant = conditions.contestants[0];
+  EXPECT_EQ(contestant.planner, "arm");
+  EXPECT_EQ(contestant.name, "Fake*");  // what it says of itself
+  EXPECT_EQ(first.contestant, "Fake*");
+  EXPECT_EQ(contestant.collision_model, CollisionModel::kSpheres);
+  EXPECT_EQ(contestant.edge_resolution_m, 0.02);
+  EXPECT_EQ(contestant.edge_check, EdgeCheck::kFixed);
   EXPECT_EQ(sessions[0].settings.at("key"), "value");
   EXPECT_EQ(sessions[0].nodes.size(), 3u);
+}
+
+TEST_F(DriverTest, AutoGoesBackwardWhereForwardFailed) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  // Problem 2 is solved backward only.
+  planner.OnRequest([&](const PlanRequest& request) {
+    const bool solves = request.direction == Direction::kBackward ||
+                        request.request_id.find("/cans/1/") != std::string::npos;
+    PlanResult failed;
+    failed.status = PlanStatus::kTimedOut;
+    planner.SendResult(request.request_id, solves ? FakePlanner::SolvedResult() : failed);
+  });
+  DriverOptions options = Options();
+  options.directions = Directions::kAuto;
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(Ids(logger.records()),
+            (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/backward/1",
+                                   "run/cans/2/arm/forward/1"}));
+  EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+}
+
+TEST_F(DriverTest, EveryPlannerAnswersARequestBeforeItsFirstRun) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(Ids(planner.requests()).size(), 5u);  // one more than runs
+  EXPECT_EQ(Ids(logger.records()).size(), 4u);
+}
+
+TEST_F(DriverTest, ContestantsOfOneAlgorithmAreToldApart) {
+  const FakePlanner arm(&bus_, "arm");
+  const FakePlanner leg(&bus_, "leg");
+  const FakeSceneServer server(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm", "leg"}), {});
+  driver.Discover(false, Idle);
+  ASSERT_EQ(driver.conditions().contestants.size(), 2u);
+  EXPECT_EQ(driver.conditions().contestants[0].name, "Fake* [arm]");
+  EXPECT_EQ(driver.conditions().contestants[1].name, "Fake* [leg]");
+}
+
+TEST_F(DriverTest, ContestantsHaveConditionsOfTheirOwn) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  std::vector<LineUpEntry> line_up = LineUp({"arm"});
+  line_up[0].contestant.edge_resolution_m = 0.05;
+  line_up[0].contestant.edge_check = EdgeCheck::kCertified;
+  line_up[0].contestant.name = "Arm (coarse)";
+  line_up[0].directions = Directions::kForward;
+  Driver driver(&bus_, Options(), line_up, {});
+  driver.Discover(false, Idle);
+  driver.Run(Never, Idle);
+  ASSERT_EQ(driver.records().size(), 2u);
+  const RunRecordMessage& record = driver.records()[0];
+  EXPECT_EQ(record.contestant, "Arm (coarse)");
+  EXPECT_EQ(record.request.edge_resolution_m, 0.05);
+  EXPECT_EQ(record.request.edge_check, EdgeCheck::kCertified);
+  EXPECT_EQ(driver.conditions().referee_step_m, 0.01);  // the referee is the session's
 }
 
 TEST_F(DriverTest, PlannersMayWorkAtOnce) {
@@ -95,9 +172,8 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
-  options.planners = {"arm", "leg"};
   options.conditions.parallel = true;
-  Driver driver(&bus_, options, {});
+  Driver driver(&bus_, options, LineUp({"arm", "leg"}), {});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.records().size(), 8u);
@@ -107,7 +183,7 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
 TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
-  Driver driver(&bus_, Options(), {});
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   driver.Discover(false, Idle);
   EXPECT_FALSE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.records().size(), 4u);
@@ -118,18 +194,18 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
-  options.directions = {Direction::kForward};
+  options.directions = Directions::kForward;
   EarlierSession earlier;
   {
-    Driver driver(&bus_, options, {});
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
     driver.Discover(true, Idle);
     EXPECT_TRUE(driver.Run(Never, Idle));
     earlier = {logger.sessions().messages(), driver.records()};
   }
   const std::set<std::string> recorded_before = Ids(logger.records());
   options.problem_indices = {1};  // no longer 2
-  options.directions = {Direction::kForward, Direction::kBackward};
-  Driver driver(&bus_, options, {}, earlier);
+  options.directions = Directions::kBoth;
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   std::set<std::string> recorded = Ids(logger.records());
@@ -139,11 +215,11 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
 
   options.conditions.request.time_limit_s = 7;
-  Driver other(&bus_, options, {}, earlier);
+  Driver other(&bus_, options, LineUp({"arm"}), {}, earlier);
   ExpectInputError([&] { other.Discover(true, Idle); }, {"--resume", "time_limit_s", "60", "7"});
   planner.status.settings["step"] = "6";
   Reannounce(&planner);
-  Driver another(&bus_, Options(), {}, earlier);
+  Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier);
   ExpectInputError([&] { another.Discover(true, Idle); },
                    {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
 }
@@ -155,9 +231,9 @@ TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
   planner.OnRequest([&](const PlanRequest& request) {
     if (request.direction == Direction::kForward) planner.Solve(request);
   });
-  Driver driver(&bus_, Options(), {});
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   driver.Discover(true, Idle);
-  EXPECT_FALSE(driver.Run([&] { return Ids(planner.requests()).size() >= 2; }, Idle));
+  EXPECT_FALSE(driver.Run([&] { return Ids(planner.requests()).size() >= 3; }, Idle));
   EXPECT_EQ(driver.records().size(), 1u);
   EXPECT_FALSE(logger.sessions().messages().back().finished);
 }
@@ -167,7 +243,7 @@ TEST_F(DriverTest, WatchEndsTheSession) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   planner.OnRequest([](const PlanRequest&) {});
-  Driver driver(&bus_, Options(), {});
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   driver.Discover(true, Idle);
   EXPECT_THROW(driver.Run(Never,
                           [&] {
@@ -185,10 +261,16 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.problem_indices = {1};
-  options.directions = {Direction::kForward};
-  Driver driver(&bus_, options, {});
+  options.directions = Directions::kForward;
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
   driver.Discover(true, Idle);
-  planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (request.request_id.ends_with("/warm-up")) {
+      planner.Solve(request);
+    } else {
+      planner.FallSilent();
+    }
+  });
   EXPECT_TRUE(driver.Run(Never, Idle));
   ASSERT_EQ(driver.records().size(), 1u);
   EXPECT_EQ(driver.records()[0].status, PlanStatus::kNoAnswer);
@@ -199,9 +281,8 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
 TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {
   const FakePlanner planner(&bus_);
   DriverOptions options = Options();
-  options.planners = {"arm", "leg"};
   options.discovery_timeout_s = 0.5;
-  Driver driver(&bus_, options, {});
+  Driver driver(&bus_, options, LineUp({"arm", "leg"}), {});
   // Heard before, so that its being there does not depend on the half second.
   NodeRegistry registry(&bus_);
   ASSERT_TRUE(registry.WaitUntil([&] { return !registry.Live().empty(); }, kTestPatience));

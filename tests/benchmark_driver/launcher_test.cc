@@ -8,50 +8,19 @@
 namespace planbench {
 namespace {
 
-DriverOptions WithPlanners(std::vector<std::string> planners) {
-  DriverOptions options;
-  options.planners = std::move(planners);
-  return options;
-}
-
-class RequireKnownPlannersTest : public testing::Test {
- protected:
-  RequireKnownPlannersTest() {
-    for (const char* program : {"planner_rrtc", "planner_ara", "logger"})
-      programs_.Write(program, "");
-  }
-  void Require(const DriverOptions& options) { RequireKnownPlanners(options, programs_.path()); }
-
- private:
-  TemporaryFolder programs_;
-};
-
-TEST_F(RequireKnownPlannersTest, OwnPlannersAndCommandsAreKnown) {
-  DriverOptions options = WithPlanners({"ara", "rrtc", "mine"});
-  options.planner_commands = {{"mine", "./mine"}};
-  options.planner_settings = {{"ara", "epsilon=1"}};
-  EXPECT_NO_THROW(Require(options));
-}
-
-TEST_F(RequireKnownPlannersTest, UnknownPlannerIsNamedWithThoseKnown) {
-  ExpectInputError(
-      [&] {
-        Require(WithPlanners({"ara", "prm"}));
-      },
-      {"--planners", "'prm'", "ara, rrtc", "--planner-command prm="});
-}
-
-TEST_F(RequireKnownPlannersTest, CommandsAndSettingsMustBeOfChosenPlanners) {
-  DriverOptions options = WithPlanners({"ara"});
-  options.planner_commands = {{"mine", "./mine"}};
-  ExpectInputError([&] { Require(options); }, {"--planner-command", "'mine'"});
-  options = WithPlanners({"ara"});
-  options.planner_settings = {{"rrtc", "range=1"}};
-  ExpectInputError([&] { Require(options); }, {"--set", "'rrtc'"});
-  options = WithPlanners({"mine"});
-  options.planner_commands = {{"mine", "./mine"}};
-  options.planner_settings = {{"mine", "range=1"}};
-  ExpectInputError([&] { Require(options); }, {"--set", "'mine'"});
+TEST(RequireProgramsTest, EveryContestantNeedsAProgramOrACommand) {
+  const TemporaryFolder programs;
+  for (const char* program : {"planner_rrtc", "planner_ara", "logger"}) programs.Write(program, "");
+  std::vector<LineUpEntry> line_up(3);
+  line_up[0].program = "ara";
+  line_up[1].program = "rrtc";
+  line_up[2].contestant.planner = "mine";
+  line_up[2].contestant.command = "./mine";
+  EXPECT_NO_THROW(RequirePrograms(line_up, programs.path()));
+  line_up[2].contestant.command = "";
+  line_up[2].program = "prm";
+  ExpectInputError([&] { RequirePrograms(line_up, programs.path()); },
+                   {"'prm'", "ara, rrtc", "--planner-command mine="});
 }
 
 }  // namespace

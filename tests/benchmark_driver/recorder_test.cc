@@ -15,7 +15,7 @@ class RecorderTest : public testing::Test {
     RunRecordMessage record;
     record.run_id = "run";
     record.request_id = id;
-    record.planner = "arm";
+    record.planner = record.contestant = "arm";
     return record;
   }
   static SessionMessage Session() {

@@ -84,11 +84,19 @@ NodeStatusMessage Node(const std::string& name, NodeKind kind) {
   return node;
 }
 
+Contestant Contest(const std::string& planner, const std::string& command) {
+  Contestant contestant;
+  contestant.planner = planner;
+  contestant.name = "the " + planner;
+  contestant.command = command;
+  return contestant;
+}
+
 SessionMessage Session() {
   SessionMessage session;
   session.run_id = "run";
   session.conditions.problem_sets = {{"box", "box-1"}, {"cage", "cage-1"}};
-  session.conditions.planner_commands = {{"ara", ""}, {"mine", "./mine"}};
+  session.conditions.contestants = {Contest("ara", ""), Contest("mine", "./mine")};
   session.nodes = {Node("ara", NodeKind::kPlanner), Node("mine", NodeKind::kPlanner),
                    Node("server", NodeKind::kSceneServer), Node("logger", NodeKind::kLogger)};
   return session;
@@ -122,7 +130,7 @@ TEST(RequireSameConditionsTest, EveryConditionCounts) {
     if (name.empty()) break;
     names.insert(name);
     ASSERT_NE(changed.conditions, Session().conditions) << name;
-    if (name == "problem_set" || name == "planner_command") {
+    if (name == "problem_set" || name == "contestant") {
       EXPECT_NO_THROW(RequireSameConditions(Session(), changed)) << name;  // One more.
     } else {
       ExpectInputError([&] { RequireSameConditions(Session(), changed); }, {"--resume", name});
@@ -158,8 +166,8 @@ TEST(RequireSameConditionsTest, NamesWhatDiffersBeforeAndNow) {
                 {"conditions.request.time_limit_s was 60", "is 10 now"});
   ExpectRefused([](auto& s) { s.conditions.problem_sets["cage"] = "cage-2"; },
                 {"conditions.problem_set[cage].value was \"cage-1\"", "is \"cage-2\" now"});
-  ExpectRefused([](auto& s) { s.conditions.planner_commands["mine"] = "./mine -x"; },
-                {"planner_command[mine]", "\"./mine\"", "\"./mine -x\""});
+  ExpectRefused([](auto& s) { s.conditions.contestants[1].command = "./mine -x"; },
+                {"contestant[mine].command", "\"./mine\"", "\"./mine -x\""});
   ExpectRefused(
       [](auto& s) {
         s.nodes[1].settings = {{"key", "value"}, {"more", "x"}};
@@ -172,7 +180,7 @@ TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
   EXPECT_NO_THROW(Resume([](auto& s) { s.conditions.problem_sets.erase("cage"); }));
   EXPECT_NO_THROW(Resume([](auto& s) {
     s.nodes.erase(s.nodes.begin());
-    s.conditions.planner_commands.erase("ara");
+    s.conditions.contestants.erase(s.conditions.contestants.begin());
   }));
   EXPECT_NO_THROW(Resume([](auto& s) { std::swap(s.nodes[0], s.nodes[3]); }));
   EXPECT_NO_THROW(Resume([](auto& s) { s.settings["trials"] = "3"; }));

@@ -24,11 +24,16 @@ class RunExecutorTest : public testing::Test {
     request.run_id = "run";
     request.robot_id = kFakeRobotId;
     request.time_limit_s = 7;
-    request.collision_model = CollisionModel::kVoxels;
-    request.edge_resolution_m = 0.03;
+    request.edge_resolution_m = 0.02;
     request.simplify = false;
     request.parameters = {{"step", "4"}};
     conditions.referee_step_m = 0.004;
+    Contestant contestant;
+    contestant.planner = "arm";
+    contestant.name = "Arm (fast)";
+    contestant.collision_model = CollisionModel::kVoxels;
+    contestant.edge_resolution_m = 0.03;
+    conditions.contestants = {contestant};
     return conditions;
   }
   static ScheduledRun Scheduled(int index = 2) {
@@ -67,6 +72,7 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
   EXPECT_EQ(record->run_id, "run");
   EXPECT_EQ(record->request_id, "run/cans/2/arm/backward/3");
   EXPECT_EQ(record->planner, "arm");
+  EXPECT_EQ(record->contestant, "Arm (fast)");
   EXPECT_EQ(record->problem_set, "cans");
   EXPECT_EQ(record->problem_index, 2);
   EXPECT_EQ(record->trial, 3);
@@ -87,6 +93,8 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
   expected.goal = {{"a", 1, 0, 0}, {"b", 0.5, 0, 0}};
   expected.direction = Direction::kBackward;
   expected.seed = 9;
+  expected.collision_model = CollisionModel::kVoxels;  // the contestant's
+  expected.edge_resolution_m = 0.03;
   // The time limit is the driver's, not the problem's.
   EXPECT_EQ(requests[0], expected);
   EXPECT_EQ(record->request, expected);
@@ -232,6 +240,19 @@ TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {
   planner_.OnRequest([&](const PlanRequest&) { interrupted_ = true; });
   EXPECT_FALSE(Execute());
   EXPECT_FALSE(planner_.cancels().WaitFor(1).empty());
+}
+
+TEST_F(RunExecutorTest, WarmsUpWithARequestThatIsNotJudged) {
+  FakeSceneServer server(&bus_);
+  EXPECT_TRUE(executor_.WarmUp(Scheduled(), 0.5, &client_, [] { return false; }));
+  ASSERT_EQ(planner_.requests().messages().size(), 1u);
+  const PlanRequest request = planner_.requests().messages()[0];
+  EXPECT_EQ(request.time_limit_s, 0.5);
+  EXPECT_THAT(request.request_id, testing::EndsWith("/warm-up"));
+  EXPECT_EQ(request.collision_model, CollisionModel::kVoxels);
+  EXPECT_TRUE(server.path_checks().messages().empty());
+  ASSERT_TRUE(Execute());
+  EXPECT_NE(planner_.requests().messages().back().request_id, request.request_id);
 }
 
 }  // namespace

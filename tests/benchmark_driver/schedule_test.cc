@@ -1,7 +1,10 @@
 #include "benchmark_driver/schedule.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "tests/support/expect_input_error.h"
@@ -9,17 +12,29 @@
 namespace planbench {
 namespace {
 
+using testing::ElementsAre;
+using testing::UnorderedElementsAre;
+
 ProblemSetsMessage Served() {
   ProblemSetsMessage served;
   served.sets = {{"box", {1, 2, 3}, "box-1"}, {"cage", {2, 5}, "cage-1"}};
   return served;
 }
 
-DriverOptions Options() {
+/// One problem of one set.
+DriverOptions OneProblem() {
   DriverOptions options;
-  options.planners = {"ara", "rrtc"};
+  options.sets = {"cage"};
+  options.problem_indices = {2};
   options.conditions.request.run_id = "run";
   return options;
+}
+
+Entrant Of(const std::string& planner, Directions directions = Directions::kForward) {
+  Entrant entrant;
+  entrant.planner = planner;
+  entrant.directions = directions;
+  return entrant;
 }
 
 std::vector<std::string> Ids(const std::vector<ScheduledRun>& schedule) {
@@ -28,74 +43,121 @@ std::vector<std::string> Ids(const std::vector<ScheduledRun>& schedule) {
   return ids;
 }
 
-TEST(ScheduleTest, GoesProblemByProblemThenPlannerTrialDirection) {
-  DriverOptions options = Options();
-  options.sets = {"cage"};
-  options.problem_indices = {2};
+TEST(ScheduleTest, EveryContestantMeetsEveryProblemInEveryTrial) {
+  DriverOptions options;
+  options.conditions.request.run_id = "run";
   options.trials = 2;
-  EXPECT_EQ(Ids(MakeSchedule(options, Served())),
-            (std::vector<std::string>{"run/cage/2/ara/forward/1", "run/cage/2/ara/backward/1",
-                                      "run/cage/2/ara/forward/2", "run/cage/2/ara/backward/2",
-                                      "run/cage/2/rrtc/forward/1", "run/cage/2/rrtc/backward/1",
-                                      "run/cage/2/rrtc/forward/2", "run/cage/2/rrtc/backward/2"}));
-}
-
-TEST(ScheduleTest, RunsCarryWhatTheirIdSays) {
-  DriverOptions options = Options();
-  options.sets = {"cage"};
-  options.problem_indices = {5};
-  options.planners = {"rrtc"};
-  options.directions = {Direction::kBackward};
-  options.trials = 3;
-  options.conditions.request.seed = 10;
-  const std::vector<ScheduledRun> schedule = MakeSchedule(options, Served());
-  ASSERT_EQ(schedule.size(), 3u);
-  EXPECT_EQ(schedule[2].planner, "rrtc");
-  EXPECT_EQ(schedule[2].problem_set, "cage");
-  EXPECT_EQ(schedule[2].problem_index, 5);
-  EXPECT_EQ(schedule[2].direction, Direction::kBackward);
-  EXPECT_EQ(schedule[2].trial, 3);
-  EXPECT_EQ(schedule[0].seed, 10u);
-  EXPECT_EQ(schedule[2].seed, 12u);
-}
-
-TEST(ScheduleTest, EverythingServedIsTheDefault) {
-  const std::vector<ScheduledRun> schedule = MakeSchedule(Options(), Served());
-  EXPECT_EQ(schedule.size(), 5u * 2 * 2);
+  const auto schedule = MakeSchedule(options, {Of("ara"), Of("rrtc", Directions::kBoth)}, Served());
   const std::vector<std::string> ids = Ids(schedule);
+  EXPECT_EQ(ids.size(), 5u * 2 * 3);
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
-  EXPECT_EQ(schedule.front().problem_set, "box");
-  EXPECT_EQ(schedule.back().problem_set, "cage");
-  EXPECT_EQ(schedule.back().problem_index, 5);
+  // Problem by problem, trial by trial.
+  EXPECT_TRUE(std::is_sorted(schedule.begin(), schedule.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.problem_set, a.problem_index, a.trial) <
+           std::tie(b.problem_set, b.problem_index, b.trial);
+  }));
+}
+
+TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {
+  using enum Directions;
+  const auto ids = [](Entrant entrant) {
+    std::vector<std::string> made;
+    for (const ScheduledRun& run : MakeSchedule(OneProblem(), {entrant}, Served())) {
+      made.push_back(std::string(EnumName(run.direction)) +
+                     (run.unless_solved ? " if failed" : ""));
+    }
+    return made;
+  };
+  EXPECT_THAT(ids(Of("a", kForward)), ElementsAre("forward"));
+  EXPECT_THAT(ids(Of("a", kBackward)), ElementsAre("backward"));
+  EXPECT_THAT(ids(Of("a", kBoth)), ElementsAre("forward", "backward"));
+  EXPECT_THAT(ids(Of("a", kAuto)), ElementsAre("forward", "backward if failed"));
+  Entrant bidirectional = Of("a", kAuto);
+  bidirectional.bidirectional = true;
+  EXPECT_THAT(ids(bidirectional), ElementsAre("forward"));
+  Entrant one_way = Of("a", kAuto);
+  one_way.can_backward = false;
+  EXPECT_THAT(ids(one_way), ElementsAre("forward"));
+}
+
+TEST(ScheduleTest, TheSecondAttemptKnowsTheFirst) {
+  const auto schedule = MakeSchedule(OneProblem(), {Of("a", Directions::kAuto)}, Served());
+  ASSERT_EQ(schedule.size(), 2u);
+  EXPECT_EQ(schedule[0].unless_solved, std::nullopt);
+  EXPECT_EQ(schedule[1].unless_solved, schedule[0].request_id);
+}
+
+TEST(ScheduleTest, DeterministicContestantsMakeOneTrial) {
+  DriverOptions options = OneProblem();
+  options.trials = 3;
+  Entrant deterministic = Of("a");
+  deterministic.deterministic = true;
+  EXPECT_THAT(Ids(MakeSchedule(options, {deterministic, Of("b")}, Served())),
+              UnorderedElementsAre("run/cage/2/a/forward/1", "run/cage/2/b/forward/1",
+                                   "run/cage/2/b/forward/2", "run/cage/2/b/forward/3"));
+}
+
+TEST(ScheduleTest, SeedsAreOfTheRunAndTheSameForAllContestants) {
+  DriverOptions options;
+  options.trials = 4;
+  options.conditions.request.seed = 10;
+  const auto schedule =
+      MakeSchedule(options, {Of("a", Directions::kBoth), Of("b", Directions::kBoth)}, Served());
+  std::map<std::uint64_t, int> uses;
+  for (const ScheduledRun& run : schedule) {
+    EXPECT_EQ(run.seed, RunSeed(10, run.problem_set, run.problem_index, run.direction, run.trial));
+    EXPECT_LT(run.seed, 1ull << 63);
+    ++uses[run.seed];
+  }
+  EXPECT_EQ(uses.size(), 5u * 4 * 2);
+  for (const auto& [seed, count] : uses) EXPECT_EQ(count, 2);  // both contestants
+  EXPECT_NE(RunSeed(10, "box", 1, Direction::kForward, 1),
+            RunSeed(11, "box", 1, Direction::kForward, 1));
+}
+
+TEST(ScheduleTest, SeedsDoNotChangeFromVersionToVersion) {
+  EXPECT_EQ(RunSeed(1, "box", 1, Direction::kForward, 1), 2910869325277425041u);
+}
+
+TEST(ScheduleTest, EveryContestantComesFirstAboutEquallyOften) {
+  DriverOptions options = OneProblem();
+  options.trials = 3000;
+  const auto schedule = MakeSchedule(options, {Of("a"), Of("b"), Of("c")}, Served());
+  std::map<std::string, int> first;
+  for (std::size_t i = 0; i < schedule.size(); i += 3) ++first[schedule[i].planner];
+  // 1000 +- 26 each; six standard deviations.
+  for (const auto& [planner, count] : first) EXPECT_NEAR(count, 1000, 156) << planner;
+  options.conditions.request.seed = 2;
+  EXPECT_NE(Ids(MakeSchedule(options, {Of("a"), Of("b"), Of("c")}, Served())), Ids(schedule));
 }
 
 TEST(ScheduleTest, SetsComeInTheOrderAsked) {
-  DriverOptions options = Options();
+  DriverOptions options;
   options.sets = {"cage", "box"};
-  EXPECT_EQ(MakeSchedule(options, Served()).front().problem_set, "cage");
+  EXPECT_EQ(MakeSchedule(options, {Of("a")}, Served()).front().problem_set, "cage");
 }
 
 TEST(ScheduleTest, RangeSelectsWhatASetHas) {
-  DriverOptions options = Options();
-  options.planners = {"ara"};
-  options.directions = {Direction::kForward};
+  DriverOptions options;
+  options.conditions.request.run_id = "run";
   options.problem_indices = {2, 3, 4, 5};
-  EXPECT_EQ(Ids(MakeSchedule(options, Served())),
-            (std::vector<std::string>{"run/box/2/ara/forward/1", "run/box/3/ara/forward/1",
-                                      "run/cage/2/ara/forward/1", "run/cage/5/ara/forward/1"}));
+  EXPECT_THAT(Ids(MakeSchedule(options, {Of("ara")}, Served())),
+              ElementsAre("run/box/2/ara/forward/1", "run/box/3/ara/forward/1",
+                          "run/cage/2/ara/forward/1", "run/cage/5/ara/forward/1"));
 }
 
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
-  DriverOptions options = Options();
+  DriverOptions options;
   options.sets = {"kitchen"};
-  ExpectInputError([&] { MakeSchedule(options, Served()); }, {"--sets", "'kitchen'", "box, cage"});
+  ExpectInputError([&] { MakeSchedule(options, {Of("a")}, Served()); },
+                   {"--sets", "'kitchen'", "box, cage"});
   options.sets = {"cage"};
   options.problem_indices = {3, 4};
-  ExpectInputError([&] { MakeSchedule(options, Served()); },
+  ExpectInputError([&] { MakeSchedule(options, {Of("a")}, Served()); },
                    {"--problems-range", "'cage'", "2 from 2 to 5"});
   ProblemSetsMessage served;
   served.sets = {{"void", {}, "void-1"}};
-  ExpectInputError([&] { MakeSchedule(Options(), served); }, {"'void'", "empty"});
+  ExpectInputError([&] { MakeSchedule(DriverOptions{}, {Of("a")}, served); }, {"'void'", "empty"});
 }
 
 }  // namespace

@@ -9,10 +9,11 @@
 #include <limits>
 #include <sstream>
 
+#include "benchmark_driver/text_table.h"
+
 namespace planbench {
 namespace {
 
-using Kind = ProblemOutcome::Kind;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
@@ -22,12 +23,20 @@ RunRecordMessage Attempt(PlanStatus status, double planning_time_s,
                          Direction direction = Direction::kForward) {
   RunRecordMessage record;
   record.planner = "ara";
+  record.contestant = "ARA*";
   record.problem_set = "box";
   record.problem_index = 1;
   record.status = status;
   record.request.direction = direction;
+  record.request.time_limit_s = 60;
   record.roundtrip_time_s = planning_time_s + 0.001;
-  record.result.result.planning_time_s = record.result.result.total_time_s = planning_time_s;
+  PlanResult& result = record.result.result;
+  result.planning_time_s = result.total_time_s = planning_time_s;
+  result.status = status;
+  if (status == PlanStatus::kSolved || status == PlanStatus::kInvalidPath) {
+    result.status = PlanStatus::kSolved;
+    result.path = {{0}, {1}};
+  }
   return record;
 }
 
@@ -40,9 +49,30 @@ RunRecordMessage OfProblem(int index, RunRecordMessage record) {
   return record;
 }
 
-RunRecordMessage OfPlanner(const std::string& planner, RunRecordMessage record) {
-  record.planner = planner;
+RunRecordMessage OfRrtConnect(RunRecordMessage record) {
+  record.planner = "rrtc";
+  record.contestant = "RRT-Connect";
   return record;
+}
+
+SessionConditions Conditions() {
+  SessionConditions conditions;
+  for (const char* name : {"RRT-Connect", "ARA*"}) {
+    Contestant& contestant = conditions.contestants.emplace_back();
+    contestant.planner = contestant.name = name;
+    contestant.about = fmt::format("what {} is", name);
+    contestant.collision_model = CollisionModel::kSpheres;
+    contestant.edge_check = EdgeCheck::kFixed;
+    contestant.edge_resolution_m = 0.02;
+  }
+  return conditions;
+}
+
+std::string Brief(const std::vector<RunRecordMessage>& records) {
+  return MakeTables(Conditions(), records).brief;
+}
+std::string Full(const std::vector<RunRecordMessage>& records) {
+  return MakeTables(Conditions(), records).full;
 }
 
 /// The lines of the table of that title, words joined by single blanks: header, rule, rows, notes.
@@ -65,86 +95,27 @@ std::vector<std::string> Table(const std::string& text, const std::string& title
   return lines;
 }
 
-/// A row of a table by its beginning; "" if there is none.
-std::string Row(const std::vector<RunRecordMessage>& records, const std::string& title,
-                const std::string& beginning) {
-  for (const std::string& line : Table(FormatTables(records), title)) {
-    if (line.rfind(beginning + " ", 0) == 0) return line.substr(beginning.size() + 1);
+/// The rest of a row of a table by its beginning; "" if there is none.
+std::string Row(const std::string& text, const std::string& title, const std::string& beginning) {
+  for (const std::string& line : Table(text, title)) {
+    if (line.starts_with(beginning + " ")) return line.substr(beginning.size() + 1);
   }
   return "";
 }
 
 constexpr char kSuccess[] = "Success";
-constexpr char kTimes[] = "Planning time of the solved, ms";
-constexpr char kEffort[] = "Effort and quality over the solved runs, medians";
+constexpr char kTimes[] = "Planning time, ms";
+constexpr char kPairs[] = "Problem by problem";
+constexpr char kDirections[] = "Planning time of confirmed attempts by direction, ms";
+constexpr char kEffort[] = "Effort and quality over the confirmed runs, medians";
 constexpr char kMeshes[] = "Paths judged with the robot's meshes";
-
-TEST(FoldAttemptsTest, ForwardSuccessCountsFirst) {
-  const auto forward = Attempt(PlanStatus::kSolved, 0.5);
-  const auto backward = Backward(PlanStatus::kSolved, 0.25);
-  const ProblemOutcome outcome = FoldAttempts(&forward, &backward);
-  EXPECT_EQ(outcome.kind, Kind::kForward);
-  EXPECT_TRUE(outcome.solved_forward);
-  EXPECT_TRUE(outcome.solved_backward);
-  EXPECT_EQ(outcome.forward_time_s, 0.5);
-  EXPECT_EQ(outcome.backward_time_s, 0.25);
-  EXPECT_EQ(outcome.either_time_s, 0.5);
-}
-
-TEST(FoldAttemptsTest, BackwardSuccessBearsTheTimeOfTheFailedForwardAttempt) {
-  const auto forward = Attempt(PlanStatus::kTimedOut, 60);
-  const auto backward = Backward(PlanStatus::kSolved, 0.25);
-  const ProblemOutcome outcome = FoldAttempts(&forward, &backward);
-  EXPECT_EQ(outcome.kind, Kind::kBackward);
-  EXPECT_FALSE(outcome.solved_forward);
-  EXPECT_EQ(outcome.either_time_s, 60.25);
-}
-
-TEST(FoldAttemptsTest, AttemptWithoutAnswerTookAsLongAsItWasWaitedFor) {
-  auto forward = Attempt(PlanStatus::kNoAnswer, 0);
-  forward.roundtrip_time_s = 5;
-  const auto backward = Backward(PlanStatus::kSolved, 0.25);
-  EXPECT_EQ(FoldAttempts(&forward, &backward).either_time_s, 5.25);
-}
-
-TEST(FoldAttemptsTest, OneDirectionMayBeMissing) {
-  const auto forward = Attempt(PlanStatus::kSolved, 0.5);
-  EXPECT_EQ(FoldAttempts(&forward, nullptr).kind, Kind::kForward);
-  EXPECT_EQ(FoldAttempts(&forward, nullptr).either_time_s, 0.5);
-  const auto backward = Backward(PlanStatus::kSolved, 0.25);
-  EXPECT_EQ(FoldAttempts(nullptr, &backward).kind, Kind::kBackward);
-  EXPECT_EQ(FoldAttempts(nullptr, &backward).either_time_s, 0.25);
-}
-
-TEST(FoldAttemptsTest, FailuresAreToldApart) {
-  struct Case {
-    PlanStatus forward;
-    PlanStatus backward;
-    Kind kind;
-  };
-  using enum PlanStatus;
-  for (const Case& c : std::vector<Case>{{kTimedOut, kTimedOut, Kind::kFailure},
-                                         {kExhausted, kTimedOut, Kind::kFailure},
-                                         {kTimedOut, kMemoryLimit, Kind::kFailure},
-                                         {kStartInvalid, kStartInvalid, Kind::kUnsolvable},
-                                         {kGoalInvalid, kTimedOut, Kind::kUnsolvable},
-                                         {kNoAnswer, kGoalInvalid, Kind::kUnsolvable},
-                                         {kGoalInvalid, kSolved, Kind::kBackward},
-                                         {kTimedOut, kInvalidPath, Kind::kOther},
-                                         {kNoAnswer, kTimedOut, Kind::kOther},
-                                         {kCancelled, kExhausted, Kind::kOther},
-                                         {kInvalidRequest, kInvalidRequest, Kind::kOther}}) {
-    const auto forward = Attempt(c.forward, 1);
-    const auto backward = Backward(c.backward, 1);
-    EXPECT_EQ(FoldAttempts(&forward, &backward).kind, c.kind)
-        << EnumName(c.forward) << " " << EnumName(c.backward);
-  }
-}
+constexpr char kFailed[] = "Attempts without a confirmed path";
 
 /// Four problems of which ARA* solves the first forward, the second backward, the third not; the
-/// fourth's goal is in collision. RRT-Connect solves the first.
+/// fourth's goal is in collision. RRT-Connect solves the first; its path for the second is
+/// rejected.
 std::vector<RunRecordMessage> Session() {
-  return {
+  std::vector<RunRecordMessage> session = {
       OfProblem(1, Attempt(PlanStatus::kSolved, 0.1)),
       OfProblem(1, Backward(PlanStatus::kSolved, 0.02)),
       OfProblem(2, Attempt(PlanStatus::kTimedOut, 60)),
@@ -153,51 +124,92 @@ std::vector<RunRecordMessage> Session() {
       OfProblem(3, Backward(PlanStatus::kExhausted, 2)),
       OfProblem(4, Attempt(PlanStatus::kGoalInvalid, 0)),
       OfProblem(4, Backward(PlanStatus::kGoalInvalid, 0)),
-      OfProblem(1, OfPlanner("rrtc", Attempt(PlanStatus::kSolved, 0.0051234))),
-      OfProblem(2, OfPlanner("rrtc", Attempt(PlanStatus::kInvalidPath, 0.2))),
+      OfProblem(1, OfRrtConnect(Attempt(PlanStatus::kSolved, 0.0051234))),
+      OfProblem(2, OfRrtConnect(Attempt(PlanStatus::kInvalidPath, 0.2))),
   };
+  session.back().message = "elbow hits board";
+  return session;
 }
 
-TEST(TablesTest, SuccessCountsProblemsAsTheStudyDoes) {
-  const auto session = Session();
-  EXPECT_EQ(Table(FormatTables(session), kSuccess).at(0),
-            "set planner problems forward backward failure unsolvable other backward alone");
-  EXPECT_EQ(Row(session, kSuccess, "box ara"), "4 1 1 1 1 0 2");
-  EXPECT_EQ(Row(session, kSuccess, "box rrtc"), "2 1 - 0 0 1 -");  // no backward attempts made
+TEST(TablesTest, SuccessCountsClaimedAndConfirmed) {
+  const std::string text = Brief(Session());
+  EXPECT_EQ(Table(text, kSuccess).at(0),
+            "contestant runs claimed confirmed % [95 %] fwd bwd failed blocked");
+  EXPECT_EQ(Row(text, kSuccess, "ARA*"), "4 2 2 50.0 [15.0, 85.0] 1 1 1 1");
+  EXPECT_EQ(Row(text, kSuccess, "RRT-Connect"), "2 2 1 50.0 [9.5, 90.5] 1 0 0 0");
 }
 
-TEST(TablesTest, TimesAreOfTheSolvedInMilliseconds) {
-  const auto session = Session();
-  EXPECT_EQ(Table(FormatTables(session), kTimes).at(0),
-            "set planner direction solved median mean 25 % 75 % 95 %");
-  EXPECT_EQ(Row(session, kTimes, "box ara forward"), "1 100.0 100.0 100.0 100.0 100.0");
-  EXPECT_EQ(Row(session, kTimes, "box ara backward"), "2 30.0 30.0 25.0 35.0 39.0");
-  // 0.1 s, and 60 s of failure before 0.04 s.
-  EXPECT_EQ(Row(session, kTimes, "box ara either"), "2 30070 30070 15085 45055 57043");
-  EXPECT_EQ(Row(session, kTimes, "box rrtc forward"), "1 5.123 5.123 5.123 5.123 5.123");
-  EXPECT_EQ(Row(session, kTimes, "box rrtc either"), "");
+TEST(TablesTest, TimesIncludeFailedAttempts) {
+  const std::string text = Brief(Session());
+  EXPECT_EQ(Table(text, kTimes).at(0), "contestant solved median [95 %] mean 95 % penalised mean");
+  // 0.1 s, and 60 s of failure before 0.04 s; two of four runs count as 600 s.
+  EXPECT_EQ(Row(text, kTimes, "ARA*"), "2 30070 30070 57043 315035");
+  EXPECT_EQ(Row(text, kTimes, "RRT-Connect"), "1 5.123 5.123 5.123 300003");
+}
+
+TEST(TablesTest, DirectionsAreToldApartInTheFullTables) {
+  const std::string text = Full(Session());
+  EXPECT_EQ(Row(text, kDirections, "box ARA* forward"), "4 1 100.0 100.0 100.0 100.0 100.0");
+  EXPECT_EQ(Row(text, kDirections, "box ARA* backward"), "4 2 30.0 30.0 25.0 35.0 39.0");
+  EXPECT_EQ(Row(text, kDirections, "box RRT-Connect forward"), "2 1 5.123 5.123 5.123 5.123 5.123");
+  EXPECT_EQ(Row(text, kDirections, "box RRT-Connect backward"), "");
+}
+
+TEST(TablesTest, PairsAreComparedProblemByProblem) {
+  const std::string text = Brief(Session());
+  // RRT-Connect comes first in the line-up. ARA* takes 0.1 s against 0.0051234 s, and is alone in
+  // solving the second.
+  EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "2 50.0 19.5 [19.5, 19.5] 1.0000");
+}
+
+TEST(TablesTest, AllPairsAreInTheFullTables) {
+  auto records = Session();
+  auto more = OfProblem(1, Attempt(PlanStatus::kSolved, 1));
+  more.contestant = "third";  // of an earlier part of the session
+  records.push_back(more);
+  EXPECT_NE(Row(Full(records), kPairs, "third ARA*"), "");
+  EXPECT_EQ(Row(Brief(records), kPairs, "third ARA*"), "");
+  EXPECT_NE(Row(Brief(records), kPairs, "third RRT-Connect"), "");
+}
+
+TEST(TablesTest, FailuresAreListedWithProblemAndReason) {
+  const std::string brief = Brief(Session());
+  EXPECT_THAT(brief, HasSubstr("  box, RRT-Connect: 1 INVALID_PATH, problem 2\n"
+                               "    mostly: elbow hits board\n"));
+  EXPECT_THAT(brief, HasSubstr("  box, ARA*: 2 TIMED_OUT, problems 2 3\n"));
+  EXPECT_THAT(brief, HasSubstr("  box, ARA*: 2 GOAL_INVALID, problem 4\n"));
+  EXPECT_EQ(Row(Full(Session()), kFailed, "box 2 RRT-Connect forward 1 INVALID_PATH"),
+            "elbow hits board");
+}
+
+TEST(TablesTest, NothingFailedIsNotMentioned) {
+  const std::vector<RunRecordMessage> records = {Attempt(PlanStatus::kSolved, 1)};
+  EXPECT_THAT(Brief(records), Not(HasSubstr(kFailed)));
+  EXPECT_THAT(Full(records), Not(HasSubstr(kFailed)));
 }
 
 TEST(TablesTest, NothingSolvedIsNoTime) {
   const std::vector<RunRecordMessage> records = {Attempt(PlanStatus::kTimedOut, 60)};
-  EXPECT_EQ(Row(records, kTimes, "box ara forward"), "0 - - - - -");
-  EXPECT_THAT(Row(records, kEffort, "box ara"), testing::MatchesRegex("-( -)*"));
+  EXPECT_EQ(Row(Brief(records), kTimes, "ARA*"), "0 - - - 600000");
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), testing::MatchesRegex("-( -)*"));
 }
 
-TEST(TablesTest, TrialsCountApart) {
+TEST(TablesTest, TrialsAreRunsOfOneProblem) {
   std::vector<RunRecordMessage> records;
   for (int trial = 1; trial <= 3; ++trial) {
     records.push_back(Attempt(trial == 3 ? PlanStatus::kTimedOut : PlanStatus::kSolved, trial));
     records.back().trial = trial;
   }
-  EXPECT_EQ(Row(records, kSuccess, "box ara"), "3 2 - 1 0 0 -");
+  EXPECT_THAT(Row(Brief(records), kSuccess, "ARA*"), StartsWith("3 2 2 66.7 ["));
+  EXPECT_EQ(Row(Brief(records), kTimes, "ARA*"), "1 1500 1500 1500 201000");
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
   auto session = Session();
-  const std::string text = FormatTables(session);
+  const SessionTables tables = MakeTables(Conditions(), session);
   std::reverse(session.begin(), session.end());
-  EXPECT_EQ(FormatTables(session), text);
+  EXPECT_EQ(MakeTables(Conditions(), session).brief, tables.brief);
+  EXPECT_EQ(MakeTables(Conditions(), session).full, tables.full);
 }
 
 PathVerdict Valid(MeasuredValues measures) {
@@ -221,10 +233,10 @@ TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
   RunRecordMessage failed = OfProblem(4, Attempt(PlanStatus::kTimedOut, 60));
   failed.result.result.counters = {{"edges_checked", 1e9}};
   records.push_back(failed);
-  EXPECT_THAT(Table(FormatTables(records), kEffort).at(0),
-              StartsWith("set planner bus ms simplify ms checking % edges configurations "));
-  EXPECT_THAT(Row(records, kEffort, "box ara"), StartsWith("0.500 40.0 80 20 2000 "));
-  EXPECT_THAT(FormatTables(records), Not(HasSubstr(kMeshes)));
+  EXPECT_THAT(Table(Full(records), kEffort).at(0),
+              StartsWith("set contestant bus ms simplify ms checking % edges configurations "));
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), StartsWith("0.500 40.0 80 20 2000 "));
+  EXPECT_THAT(Full(records), Not(HasSubstr(kMeshes)));
 }
 
 TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
@@ -254,8 +266,8 @@ TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
     add(measure.column.heading, 2 * m);
     add(measure.column.heading_simplified, m);
   }
-  EXPECT_THAT(Table(FormatTables(records), kEffort).at(0), EndsWith("configurations" + header));
-  EXPECT_THAT(Row(records, kEffort, "box ara"), EndsWith(medians));
+  EXPECT_THAT(Table(Full(records), kEffort).at(0), EndsWith("configurations" + header));
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), EndsWith(medians));
 }
 
 TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
@@ -273,7 +285,7 @@ TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
         records.back().simplified_check.verdict->measures[measure.name] = value;
       }
     }
-    return Row(records, kEffort, "box ara");
+    return Row(Full(records), kEffort, "box ARA*");
   };
   EXPECT_THAT(medians({kInfinity, kInfinity, NAN}), EndsWith(" inf inf"));
   EXPECT_THAT(medians({0, 0, kInfinity}), testing::ContainsRegex(" 0[.]0+$"));
@@ -291,81 +303,51 @@ TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
   // A path that the referee rejects on the planners' own model counts for nothing.
   records.push_back(OfProblem(4, Attempt(PlanStatus::kInvalidPath, 1)));
   records.back().path_check.mesh_verdict = Valid({});
-  EXPECT_EQ(Row(records, kMeshes, "box ara"), "3 1 1 1");
+  EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
 }
 
-TEST(TablesTest, PrintedText) {
-  const std::string text = FormatTables(Session());
-  const std::string header =
-      "  set  planner  problems  forward  backward  failure  unsolvable  other  backward alone\n";
-  const std::string rule = "  " + std::string(header.size() - 3, '-') + "\n";
-  EXPECT_THAT(
-      text,
-      HasSubstr(
-          "Success\n" + header + rule +
-          "  box  ara             4        1         1        1           1      0               "
-          "2\n"
-          "  box  rrtc            2        1         -        0           0      1               "
-          "-\n"));
-  EXPECT_THAT(text, HasSubstr("with the time of the failed attempt.\n\nEffort"));
-  std::istringstream lines(text);
+TEST(TablesTest, ContestantsAreExplained) {
+  const std::string text = Brief(Session());
+  EXPECT_THAT(text, StartsWith("Contestants\n  RRT-Connect: what RRT-Connect is [spheres, edges "
+                               "fixed at 0.02 m]\n  ARA*: what ARA* is [spheres, edges fixed at "
+                               "0.02 m]\n\nSuccess\n"));
+  SessionConditions conditions = Conditions();
+  EXPECT_THAT(text, Not(HasSubstr("UNDER LOAD")));
+  conditions.parallel = true;
+  EXPECT_THAT(MakeTables(conditions, Session()).brief, HasSubstr("UNDER LOAD"));
+}
+
+TEST(TablesTest, BriefOnesFitATerminal) {
+  auto records = Session();
+  for (int i = 10; i < 400; ++i) records.push_back(OfProblem(i, Attempt(PlanStatus::kTimedOut, 1)));
+  for (RunRecordMessage& record : records) {
+    record.problem_set = "shelf_height_rot_test";
+    if (record.contestant == "ARA*") record.contestant = "RRT-Connect (canonical)";
+    if (!record.message.empty()) record.message = std::string(30, 'a') + std::string(90, ' ') + "b";
+  }
+  std::istringstream lines(Brief(records));
   for (std::string line; std::getline(lines, line);) {
-    EXPECT_LE(line.size(), 120u) << line;
+    EXPECT_LE(line.size(), kTextWidth) << line;
     EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
   }
 }
 
-/// As a session of the study's: two planners on one of its sets, on one of ours, and a planner that
-/// the study has not.
-std::vector<RunRecordMessage> StudySession(const std::string& set) {
-  std::vector<RunRecordMessage> session;
-  for (const auto& [planner, algorithm] : std::vector<std::pair<std::string, std::string>>{
-           {"ara", "ARA*"}, {"ara_2", "ARA*"}, {"mine", "PRM"}, {"rrtc", "RRT-Connect"}}) {
-    for (const std::string& problem_set : {set, std::string("box")}) {
-      session.push_back(OfPlanner(planner, Attempt(PlanStatus::kSolved, 0.1)));
-      session.back().problem_set = problem_set;
-      session.back().algorithm = algorithm;
-    }
-  }
-  return session;
-}
-
-TEST(TablesTest, PublishedFiguresStandBelowTheStudysSets) {
-  const auto session = StudySession("shelf_height_rot_test");
-  EXPECT_EQ(Row(session, kSuccess, "shelf_height_rot_test published ARA*"), "100 43 43 6 8 - -");
-  EXPECT_EQ(Row(session, kSuccess, "shelf_height_rot_test published RRT-Connect"),
-            "100 76 - 24 - - -");
-  EXPECT_EQ(Row(session, kTimes, "shelf_height_rot_test published ARA*"),
-            "solving one 86 ~170.0 - - - -");
-  EXPECT_EQ(Row(session, kTimes, "shelf_height_rot_test published RRT-Connect"),
-            "forward 76 15000-16000 - - - -");
-  for (const char* title : {kSuccess, kTimes}) {
-    std::vector<std::string> planners;
-    for (const std::string& line : Table(FormatTables(session), title)) {
-      if (line.rfind("shelf_height_rot_test ", 0) != 0) continue;
-      planners.push_back(line.substr(22, line.find(' ', 22) - 22));
-    }
-    EXPECT_THAT(planners,
-                testing::ElementsAre("ara", "ara_2", "mine", "rrtc", "published", "published"));
-  }
-  const std::string text = FormatTables(session);
-  EXPECT_THAT(text, Not(HasSubstr("box published")));
+TEST(TablesTest, PublishedFiguresStandBesideWhoAsksForThem) {
+  SessionConditions conditions = Conditions();
+  conditions.contestants[1].published = "ARA*";
+  auto session = Session();
+  for (RunRecordMessage& record : session) record.problem_set = "shelf_height_rot_test";
+  std::string text = MakeTables(conditions, session).brief;
+  EXPECT_EQ(Row(text, kSuccess, "published ARA*"), "100 86 - 86.0 [77.9, 91.5] 43 43 6 8");
+  EXPECT_EQ(Row(text, kTimes, "of the solving attempt"), "2 70.0 70.0 97.0 -");
+  EXPECT_EQ(Row(text, kTimes, "published ARA*"), "86 ~170.0 - - -");
+  EXPECT_EQ(Row(text, kSuccess, "published RRT-Connect"), "");
   EXPECT_THAT(text, HasSubstr("arXiv 2406.09623"));
-  // Tables that have a published row stay within the width of the others.
-  std::istringstream lines(text.substr(0, text.find(kEffort)));
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+  text = MakeTables(conditions, Session()).brief;  // not a set of the study's
+  EXPECT_THAT(text, Not(HasSubstr("published ARA*")));
 }
 
-TEST(TablesTest, PublishedFiguresAreOfTheAlgorithmsThatRan) {
-  auto session = StudySession("shelf_zero_test");
-  std::erase_if(session, [](const RunRecordMessage& r) { return r.algorithm == "RRT-Connect"; });
-  EXPECT_EQ(Row(session, kSuccess, "shelf_zero_test published ARA*"), "100 47 53 0 0 - -");
-  EXPECT_EQ(Row(session, kSuccess, "shelf_zero_test published RRT-Connect"), "");
-  std::erase_if(session, [](const RunRecordMessage& r) { return r.algorithm == "ARA*"; });
-  EXPECT_THAT(FormatTables(session), Not(HasSubstr("published")));
-}
-
-TEST(TablesTest, NoRunsAreSaid) { EXPECT_EQ(FormatTables({}), "No runs.\n"); }
+TEST(TablesTest, NoRuns) { EXPECT_EQ(Brief({}), "No runs.\n"); }
 
 }  // namespace
 }  // namespace planbench

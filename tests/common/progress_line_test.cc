@@ -20,7 +20,8 @@ std::string Shown(int total, int earlier, int done) {
 }
 
 TEST(ProgressLineTest, ShowsBarCountAndText) {
-  EXPECT_THAT(Shown(8, 0, 4), HasSubstr("[##########..........] 4/8  shelf  0:00"));
+  EXPECT_THAT(Shown(8, 0, 4),
+              HasSubstr("[##########..........] 4/8  0:00 (about 0:00 left)  shelf"));
   EXPECT_THAT(Shown(1, 0, 1), HasSubstr("[####################] 1/1"));
   EXPECT_THAT(Shown(0, 0, 0), HasSubstr("0/0"));
   EXPECT_EQ(Shown(8, 0, 4).back(), '\n');

@@ -214,20 +214,24 @@ TEST_F(ResultsDatabaseTest, PlannersAreToldApartByNameAndSettings) {
   EXPECT_EQ(Count("plannerConfigs"), Int(1));
   EXPECT_EQ(Query("SELECT settings FROM plannerConfigs"),
             SqliteValue("algorithm = ARA*\nplanner_class = search-and-sample\n"
+                        "collision_model = voxels\nedge_check = certified\nedge_resolution = 0.05\n"
                         "epsilon = 5\nimprove = true\n"));
   record = SampleRecord("c");
   record.settings["improve"] = "false";
   database_.Store(record);
   record = SampleRecord("d");
-  record.planner = "ara2";
+  record.contestant = "ARA* (two-way)";
   database_.Store(record);
   record = SampleRecord("e");
   record.request.parameters = {};
   database_.Store(record);
-  EXPECT_EQ(Count("plannerConfigs"), Int(4));
+  record = SampleRecord("f");
+  record.request.edge_resolution_m = 0.02;
+  database_.Store(record);
+  EXPECT_EQ(Count("plannerConfigs"), Int(5));
   EXPECT_EQ(Query("SELECT name FROM plannerConfigs p JOIN runs r ON r.plannerid = p.id "
                   "WHERE request_id = 'd'"),
-            SqliteValue("ara2"));
+            SqliteValue("ARA* (two-way)"));
 }
 
 TEST_F(ResultsDatabaseTest, OneExperimentForEachSessionAndSet) {

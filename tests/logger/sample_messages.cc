@@ -47,6 +47,7 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
   record.run_id = "session-1";
   record.request_id = request_id;
   record.planner = "ara";
+  record.contestant = "ARA*";
   record.algorithm = "ARA*";
   record.planner_class = "search-and-sample";
   record.settings = {{"epsilon", "100"}, {"improve", "true"}};
@@ -123,6 +124,7 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
 RunRecordMessage UnansweredRecord(const std::string& request_id) {
   RunRecordMessage record = SampleRecord(request_id);
   record.planner = "rrtc";
+  record.contestant = "RRT-Connect";
   record.status = PlanStatus::kNoAnswer;
   record.message = "rrtc fell silent";
   record.roundtrip_time_s = 0;

@@ -124,7 +124,7 @@ TEST_F(Codec, WhatNobodyAnsweredHasEmptyParts) {
   RunRecordMessage message;
   message.run_id = "session";
   message.request_id = "r";
-  message.planner = "ara";
+  message.planner = message.contestant = "ara";
   EXPECT_TRUE(Decode<RunRecordMessage>(Encode(message), "CH") == message);
 }
 

@@ -25,7 +25,7 @@ RunRecordMessage Record(const std::string& request_id, double roundtrip_time_s =
   RunRecordMessage run;
   run.run_id = "run";
   run.request_id = request_id;
-  run.planner = "arm";
+  run.planner = run.contestant = "arm";
   run.roundtrip_time_s = roundtrip_time_s;
   return run;
 }

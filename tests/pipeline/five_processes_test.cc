@@ -10,7 +10,8 @@ class FiveProcesses : public PipelineTest {};
 TEST_F(FiveProcesses, FindEachOtherInAnyOrderAndEndCleanly) {
   const auto session = folder() / "session";
   // The driver first, the scene server last.
-  ChildProcess* driver = StartDriver({"--problems-range", "1-2", "--time", "30"});
+  ChildProcess* driver =
+      StartDriver({"--problems-range", "1-2", "--time", "30", "--directions", "both"});
   ChildProcess* logger = StartLogger(session);
   ChildProcess* rrtc = StartPlanner("rrtc");
   ChildProcess* ara = StartPlanner("ara");

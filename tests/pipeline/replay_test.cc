@@ -20,7 +20,8 @@ TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
   ChildProcess* ara = StartPlanner("ara");
   ChildProcess* rrtc = StartPlanner("rrtc");
   ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(log); }));
-  ChildProcess* driver = StartDriver({"--problems-range", "2-3", "--time", "20"});
+  ChildProcess* driver =
+      StartDriver({"--problems-range", "2-3", "--time", "20", "--directions", "both"});
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   for (ChildProcess* process : {server, ara, rrtc, logger}) ExpectEndsCleanly(process);
   recorder->Signal(SIGTERM);

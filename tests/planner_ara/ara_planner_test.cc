@@ -202,7 +202,7 @@ TEST_F(AraPlannerTest, UniformCostsCountMoves) {
 
 TEST_F(AraPlannerTest, DescribesItself) {
   const PlannerDescription description = Make(kPlanarSettings)->Describe();
-  EXPECT_EQ(description.algorithm, "ARA*");
+  EXPECT_EQ(description.algorithm, "ARA* (two-way, guided)");
   EXPECT_EQ(description.planner_class, PlannerClass::kSearchAndSample);
   EXPECT_TRUE(description.backward);
   EXPECT_TRUE(description.anytime);
@@ -212,6 +212,15 @@ TEST_F(AraPlannerTest, DescribesItself) {
   EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings.at("epsilon_initial"), "10");
   EXPECT_EQ(description.settings.at("discretization"), "{elbow: 0.2, shoulder: 0.2, wrist: 0.2}");
+}
+
+TEST_F(AraPlannerTest, ItsNameSaysWhichVariantItIs) {
+  const auto name = [&](const std::string& settings) {
+    return Make(kPlanarSettings + settings)->Describe().algorithm;
+  };
+  EXPECT_EQ(name("two_way: false\ntip_guide: 0\ncrowding: 0"), "ARA*");
+  EXPECT_EQ(name("tip_guide: 0\ncrowding: 0"), "ARA* (two-way)");
+  EXPECT_EQ(name("two_way: false\ntip_guide: 0"), "ARA* (guided)");
 }
 
 TEST_F(AraPlannerTest, TheStudysSettingsSolveWithItsOwnMoves) {

@@ -81,16 +81,16 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
 TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
   const Robot fetch = LoadFetch();
   const YamlNode settings = YamlNode::LoadFile(fetch.planner_settings.at("rrtc").string());
-  EXPECT_EQ(MakeRrtcPlanner(fetch, settings)->Describe().algorithm, "RRT-Connect");
+  EXPECT_EQ(MakeRrtcPlanner(fetch, settings)->Describe().algorithm, "RRT-Connect (balanced)");
   const YamlNode study = YamlNode::LoadFile((fetch.folder / "rrtc_study.yaml").string());
   const PlannerDescription description = MakeRrtcPlanner(fetch, study)->Describe();
-  EXPECT_EQ(description.algorithm, "RRTConnect");
+  EXPECT_EQ(description.algorithm, "RRTConnect (OMPL)");
   EXPECT_EQ(description.settings.at("range"), "2");
 }
 
 TEST_F(RrtcPlannerTest, Describes) {
   const PlannerDescription description = MakeRrtcPlanner(robot_, Settings(""))->Describe();
-  EXPECT_EQ(description.algorithm, "RRT-Connect");
+  EXPECT_EQ(description.algorithm, "RRT-Connect (balanced)");
   EXPECT_EQ(description.planner_class, PlannerClass::kSamplingGuided);
   EXPECT_TRUE(description.backward);
   EXPECT_FALSE(description.anytime);
@@ -105,11 +105,21 @@ TEST_F(RrtcPlannerTest, Describes) {
                                                                       {"domain_radius", "0"}}));
 }
 
+TEST_F(RrtcPlannerTest, ItsNameSaysWhichVariantItIs) {
+  const auto name = [&](const std::string& settings) {
+    return MakeRrtcPlanner(robot_, Settings(settings))->Describe().algorithm;
+  };
+  EXPECT_EQ(name("{extension: step, balance: false}"), "RRT-Connect (canonical)");
+  EXPECT_EQ(name("{extension: connect, balance: false}"), "RRT-Connect (connect, alternating)");
+  EXPECT_EQ(name("{extension: step, balance: true}"), "RRT-Connect (step, balanced)");
+  EXPECT_EQ(name("{domain_radius: 4}"), "RRT-Connect (balanced, dynamic domain)");
+}
+
 TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
   const PlannerDescription description =
       MakeRrtcPlanner(robot_, Settings("{algorithm: BITstar, ompl: {samples_per_batch: 50}}"))
           ->Describe();
-  EXPECT_EQ(description.algorithm, "BITstar");
+  EXPECT_EQ(description.algorithm, "BITstar (OMPL)");
   EXPECT_EQ(description.planner_class, PlannerClass::kSearchAndSample);
   EXPECT_TRUE(description.anytime);
   EXPECT_FALSE(description.bidirectional);

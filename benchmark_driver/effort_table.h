@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "benchmark_driver/session_results.h"
+
+namespace planbench {
+
+/// Medians of effort and path quality over the runs whose path was confirmed.
+std::string EffortTable(const SessionResults& results);
+
+/// What the mesh robot says of confirmed paths; empty if it did not judge.
+std::string MeshTable(const SessionResults& results);
+
+}  // namespace planbench

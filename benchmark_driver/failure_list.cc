@@ -1,0 +1,80 @@
+#include "benchmark_driver/failure_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "benchmark_driver/text_table.h"
+
+namespace planbench {
+namespace {
+
+struct Failures {
+  int num_runs = 0;
+  std::map<int, int> by_problem;
+  std::map<std::string, int> reasons;
+
+  const std::string& CommonestReason() const {
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    return std::max_element(reasons.begin(), reasons.end(), fewer)->first;
+  }
+};
+
+std::string Shortened(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  text.resize(std::min(text.find_last_of(' ', width - 4), width - 4));
+  return text.substr(0, text.find_last_not_of(' ') + 1) + " ...";
+}
+
+}  // namespace
+
+std::string FailureSummary(const SessionResults& results) {
+  std::string text;
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& one : set.contestants) {
+      std::map<PlanStatus, Failures> by_status;
+      for (const RunRecordMessage* record : one.records) {
+        if (record->status == PlanStatus::kSolved) continue;
+        Failures& failures = by_status[record->status];
+        ++failures.num_runs;
+        ++failures.by_problem[record->problem_index];
+        ++failures.reasons[record->message];
+      }
+      for (const auto& [status, failures] : by_status) {
+        std::string line = fmt::format("  {}, {}: {} {}, problem{}", set.name, one.contestant->name,
+                                       failures.num_runs, EnumName(status),
+                                       failures.by_problem.size() > 1 ? "s" : "");
+        for (const auto& [problem, count] : failures.by_problem)
+          line += fmt::format(" {}", problem);
+        text += Shortened(line, kTextWidth) + "\n";
+        if (const std::string& reason = failures.CommonestReason(); !reason.empty()) {
+          text += Shortened("    mostly: " + reason, kTextWidth) + "\n";
+        }
+      }
+    }
+  }
+  return text.empty() ? "" : "Attempts without a confirmed path\n" + text + "\n";
+}
+
+std::string FailureList(const SessionResults& results) {
+  TextTable table("Attempts without a confirmed path",
+                  {"set", "problem", "contestant", "direction", "trial", "status", "reason"}, 7);
+  bool any = false;
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& one : set.contestants) {
+      for (const RunRecordMessage* record : one.records) {
+        if (record->status == PlanStatus::kSolved) continue;
+        any = true;
+        table.Add({set.name, fmt::format("{}", record->problem_index), one.contestant->name,
+                   std::string(EnumName(record->request.direction)),
+                   fmt::format("{}", record->trial), std::string(EnumName(record->status)),
+                   record->message});
+      }
+    }
+  }
+  return any ? table.Format("\n") : "";
+}
+
+}  // namespace planbench

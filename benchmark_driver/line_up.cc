@@ -1,0 +1,218 @@
+#include "benchmark_driver/line_up.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "common/error.h"
+#include "common/yaml.h"
+#include "messaging/channels.h"
+
+namespace planbench {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;  // key, value as YAML
+
+Settings ReadSettings(const YamlNode& map) {
+  Settings settings;
+  for (const std::string& key : map.Keys()) settings.emplace_back(key, map.At(key).String());
+  return settings;
+}
+
+/// Every choice of one value for each key, the last key varying fastest.
+std::vector<Settings> ReadSweep(const YamlNode& map) {
+  std::vector<Settings> choices = {{}};
+  for (const std::string& key : map.Keys()) {
+    const YamlNode values = map.At(key);
+    if (values.Size() == 0) values.Fail("no value to sweep over");
+    std::vector<Settings> longer;
+    for (const Settings& choice : choices) {
+      for (const YamlNode& value : values.Elements()) {
+        longer.push_back(choice);
+        longer.back().emplace_back(key, value.String());
+      }
+    }
+    choices = std::move(longer);
+  }
+  return choices;
+}
+
+/// `text` as a part of a node's name.
+std::string AsNodeName(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return text;
+}
+
+std::filesystem::path FindConfig(const YamlNode& node, const std::filesystem::path& line_up,
+                                 const std::filesystem::path& robot_folder) {
+  const std::filesystem::path name = node.String();
+  for (const std::filesystem::path& folder : {line_up.parent_path(), robot_folder}) {
+    if (std::filesystem::is_regular_file(folder / name)) return folder / name;
+  }
+  node.Fail(fmt::format("no such file beside the line-up or in {}", robot_folder.string()));
+}
+
+std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNode& node,
+                                        const std::filesystem::path& file,
+                                        const std::optional<std::filesystem::path>& robot_folder) {
+  node.AllowOnly({"name", "about", "published", "program", "command", "config", "set", "sweep",
+                  "collision_model", "edge_resolution", "edge_check", "directions"});
+  if (!IsNodeName(planner)) node.Fail(kNodeNameRule);
+  LineUpEntry entry;
+  Contestant& contestant = entry.contestant;
+  contestant.planner = planner;
+  contestant.name = node.StringOr("name", "");
+  contestant.about = node.StringOr("about", "");
+  contestant.published = node.StringOr("published", "");
+  contestant.command = node.StringOr("command", "");
+  entry.program = node.StringOr("program", contestant.command.empty() ? planner : "");
+  if (const auto model = node.Find("collision_model")) {
+    contestant.collision_model = model->Enum<CollisionModel>();
+  }
+  if (const auto step = node.Find("edge_resolution")) {
+    contestant.edge_resolution_m = step->PositiveDouble();
+  }
+  if (const auto check = node.Find("edge_check")) contestant.edge_check = check->Enum<EdgeCheck>();
+  if (const auto directions = node.Find("directions")) {
+    entry.directions = directions->Enum<Directions>();
+  }
+  if (!contestant.command.empty()) {
+    for (const char* key : {"program", "config", "set", "sweep"}) {
+      if (const auto found = node.Find(key)) {
+        found->Fail("a contestant with a command of its own is told its settings there");
+      }
+    }
+  }
+  const auto config = node.Find("config");
+  if (config && robot_folder) entry.config = FindConfig(*config, file, *robot_folder);
+  if (const auto set = node.Find("set")) {
+    for (const auto& [key, value] : ReadSettings(*set)) entry.settings.push_back(key + "=" + value);
+  }
+  const auto sweep = node.Find("sweep");
+  if (!sweep) return {entry};
+
+  std::vector<LineUpEntry> entries;
+  for (const Settings& choice : ReadSweep(*sweep)) {
+    LineUpEntry one = entry;
+    for (const auto& [key, value] : choice) {
+      one.settings.push_back(key + "=" + value);
+      one.contestant.planner += AsNodeName("_" + key + "_" + value);
+      if (!one.contestant.name.empty()) one.contestant.name += fmt::format(", {} {}", key, value);
+    }
+    if (!IsNodeName(one.contestant.planner)) {
+      sweep->Fail(fmt::format("'{}': {}", one.contestant.planner, kNodeNameRule));
+    }
+    entries.push_back(std::move(one));
+  }
+  return entries;
+}
+
+/// The entry of a planner; null if there is none.
+LineUpEntry* Find(std::vector<LineUpEntry>* entries, const std::string& planner) {
+  const auto found = std::find_if(entries->begin(), entries->end(), [&](const LineUpEntry& entry) {
+    return entry.contestant.planner == planner;
+  });
+  return found == entries->end() ? nullptr : &*found;
+}
+
+/// The flags' entry of a planner; throws if it is not among those that are chosen.
+LineUpEntry& Chosen(std::vector<LineUpEntry>* entries, const std::string& planner,
+                    const char* flag) {
+  LineUpEntry* entry = Find(entries, planner);
+  if (entry == nullptr)
+    throw InputError(fmt::format("{}: '{}' is not among the planners", flag, planner));
+  return *entry;
+}
+
+std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
+                              const std::vector<std::string>& planners,
+                              const std::filesystem::path& file) {
+  if (planners.empty()) return entries;
+  std::vector<LineUpEntry> picked;
+  for (const std::string& planner : planners) {
+    const LineUpEntry* entry = Find(&entries, planner);
+    if (entry == nullptr) {
+      std::vector<std::string> known;
+      for (const LineUpEntry& one : entries) known.push_back(one.contestant.planner);
+      throw InputError(fmt::format("--planners: {} has no '{}'; it has: {}", file.string(), planner,
+                                   fmt::join(known, ", ")));
+    }
+    picked.push_back(*entry);
+  }
+  return picked;
+}
+
+void RequireDistinct(const std::vector<LineUpEntry>& entries) {
+  std::map<std::string, std::string> by_channel;
+  std::map<std::string, std::string> by_name;
+  for (const auto& [contestant, program, config, settings, directions] : entries) {
+    const std::string& planner = contestant.planner;
+    const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
+    if (!is_new) {
+      throw InputError(same->second == planner
+                           ? fmt::format("the planner '{}' occurs twice", planner)
+                           : fmt::format("the planners '{}' and '{}' would share their channels "
+                                         "({})",
+                                         same->second, planner, same->first));
+    }
+    if (contestant.name.empty()) continue;
+    const auto [other, is_new_name] = by_name.emplace(contestant.name, planner);
+    if (!is_new_name) {
+      throw InputError(fmt::format("the planners '{}' and '{}' have one name: '{}'", other->second,
+                                   planner, contestant.name));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
+                                    const std::optional<std::filesystem::path>& robot_folder) {
+  const YamlNode document = YamlNode::LoadFile(file.string());
+  document.AllowOnly({"contestants"});
+  const YamlNode contestants = document.At("contestants");
+  std::vector<LineUpEntry> entries;
+  for (const std::string& planner : contestants.Keys()) {
+    const auto more = ReadContestant(planner, contestants.At(planner), file, robot_folder);
+    entries.insert(entries.end(), more.begin(), more.end());
+  }
+  if (entries.empty()) contestants.Fail("no contestant");
+  return entries;
+}
+
+std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
+                                    const std::optional<std::filesystem::path>& robot_folder) {
+  std::vector<LineUpEntry> entries;
+  if (flags.file) {
+    entries = Pick(ReadLineUp(*flags.file, robot_folder), flags.planners, *flags.file);
+  } else {
+    static const std::vector<std::string> kOwn = {"ara", "rrtc"};
+    for (const std::string& planner : flags.planners.empty() ? kOwn : flags.planners) {
+      LineUpEntry& entry = entries.emplace_back();
+      entry.contestant.planner = entry.program = planner;
+    }
+  }
+  RequireDistinct(entries);
+  for (const auto& [planner, command] : flags.commands) {
+    LineUpEntry& entry = Chosen(&entries, planner, "--planner-command");
+    if (!entry.contestant.command.empty()) {
+      throw InputError("--planner-command: '" + planner + "' has a command already");
+    }
+    entry.contestant.command = command;
+  }
+  for (const auto& [planner, setting] : flags.settings) {
+    LineUpEntry& entry = Chosen(&entries, planner, "--set");
+    if (!entry.contestant.command.empty()) {
+      throw InputError("--set: '" + planner +
+                       "' is started by its own command; give settings there");
+    }
+    entry.settings.push_back(setting);
+  }
+  return entries;
+}
+
+}  // namespace planbench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// In which directions a contestant is asked to search.
+enum class Directions {
+  kAuto,  ///< Forward; then backward if that failed, unless it searches from both ends at once.
+  kForward,
+  kBackward,
+  kBoth,
+};
+template <>
+struct EnumNames<Directions> {
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"auto", "forward", "backward", "both"});
+};
+
+/// A contestant, how it is started, and which runs it makes.
+struct LineUpEntry {
+  Contestant contestant;
+  std::string program;                          ///< planner_PROGRAM, unless it has a command.
+  std::optional<std::filesystem::path> config;  ///< Its settings file; none: the robot folder's.
+  std::vector<std::string> settings;            ///< "KEY=VALUE", over those of the file.
+  std::optional<Directions> directions;         ///< None: the session's.
+};
+
+/// What the flags say of the contestants.
+struct LineUpFlags {
+  std::optional<std::filesystem::path> file;
+  std::vector<std::string> planners;  ///< Which ones; empty: all of the file, else ara and rrtc.
+  std::vector<std::pair<std::string, std::string>> commands;  ///< Planner, command.
+  std::vector<std::pair<std::string, std::string>> settings;  ///< Planner, "KEY=VALUE".
+};
+
+/// Reads a line-up (docs/lineups.md). A settings file is looked for beside it, then in
+/// `robot_folder`; with none of these (planners that run already) it is not looked for. Throws
+/// InputError with file, line and field.
+std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
+                                    const std::optional<std::filesystem::path>& robot_folder);
+
+/// The contestants that the flags ask for, in the order of --planners or else of the line-up;
+/// without a line-up each is named as its program. Throws InputError for names that are unknown,
+/// occur twice or would share their channels, and for commands and settings of others.
+std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
+                                    const std::optional<std::filesystem::path>& robot_folder);
+
+}  // namespace planbench

@@ -1,0 +1,64 @@
+#include "benchmark_driver/session_results.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace planbench {
+namespace {
+
+Attempt AttemptOf(const RunRecordMessage& record) {
+  const PlanResult& result = record.result.result;
+  Attempt attempt;
+  attempt.problem_set = record.problem_set;
+  attempt.problem_index = record.problem_index;
+  attempt.contestant = record.contestant;
+  attempt.trial = record.trial;
+  attempt.direction = record.request.direction;
+  attempt.status = record.status;
+  attempt.claimed = result.Solves();
+  attempt.time_s =
+      record.status == PlanStatus::kNoAnswer ? record.roundtrip_time_s : result.planning_time_s;
+  attempt.time_limit_s = record.request.time_limit_s;
+  return attempt;
+}
+
+}  // namespace
+
+SessionResults::SessionResults(const SessionConditions& conditions,
+                               const std::vector<RunRecordMessage>& records)
+    : contestants_(conditions.contestants) {
+  std::vector<const RunRecordMessage*> ordered;
+  std::vector<Attempt> attempts;
+  for (const RunRecordMessage& record : records) {
+    ordered.push_back(&record);
+    attempts.push_back(AttemptOf(record));
+    const auto is_its = [&](const Contestant& one) { return one.name == record.contestant; };
+    if (std::none_of(contestants_.begin(), contestants_.end(), is_its)) {
+      Contestant& contestant = contestants_.emplace_back();
+      contestant.planner = record.planner;
+      contestant.name = record.contestant;
+    }
+  }
+  const auto key = [](const RunRecordMessage* record) {
+    return std::tie(record->problem_index, record->trial, record->request.direction);
+  };
+  std::sort(ordered.begin(), ordered.end(),
+            [&](const auto* a, const auto* b) { return key(a) < key(b); });
+  for (auto& [set, by_contestant] : GroupOutcomes(attempts)) {
+    SetResults& results = sets_.emplace_back();
+    results.name = set;
+    for (const Contestant& contestant : contestants_) {
+      const auto found = by_contestant.find(contestant.name);
+      if (found == by_contestant.end()) continue;
+      ContestantResults& one = results.contestants.emplace_back();
+      one.contestant = &contestant;
+      one.outcomes = std::move(found->second);
+      std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(one.records),
+                   [&](const RunRecordMessage* record) {
+                     return record->problem_set == set && record->contestant == contestant.name;
+                   });
+    }
+  }
+}
+
+}  // namespace planbench

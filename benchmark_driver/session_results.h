@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "messaging/messages.h"
+#include "results/outcomes.h"
+
+namespace planbench {
+
+/// One contestant on one set.
+struct ContestantResults {
+  const Contestant* contestant = nullptr;
+  Outcomes outcomes;
+  std::vector<const RunRecordMessage*> records;  ///< By problem, trial and direction.
+};
+
+/// One set: its contestants in the order of the line-up.
+struct SetResults {
+  std::string name;
+  std::vector<ContestantResults> contestants;
+};
+
+/// The records of a session, by set (ascending) and contestant.
+class SessionResults {
+ public:
+  /// Contestants of records that the conditions do not know (of an earlier part of the session)
+  /// come last. The records must outlive this.
+  SessionResults(const SessionConditions& conditions, const std::vector<RunRecordMessage>& records);
+  SessionResults(const SessionResults&) = delete;
+  SessionResults& operator=(const SessionResults&) = delete;
+
+  const std::vector<Contestant>& contestants() const { return contestants_; }
+  const std::vector<SetResults>& sets() const { return sets_; }
+
+ private:
+  std::vector<Contestant> contestants_;
+  std::vector<SetResults> sets_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,77 @@
+#include "benchmark_driver/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace planbench {
+
+TextTable::TextTable(std::string title, std::vector<std::string> header, int num_left)
+    : title_(std::move(title)), num_left_(num_left) {
+  rows_.push_back(std::move(header));
+}
+
+void TextTable::Add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+void TextTable::AddHeading(std::string text) { rows_.push_back({std::move(text)}); }
+
+std::string TextTable::Format(const std::string& notes) const {
+  const std::size_t num_columns = rows_[0].size();
+  std::vector<std::size_t> widths(num_columns, 0);
+  for (const auto& row : rows_) {
+    if (row.size() != num_columns) continue;
+    for (std::size_t c = 0; c < num_columns; ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text = title_ + "\n";
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const auto& row = rows_[r];
+    std::string line = "  ";
+    if (row.size() != num_columns) line += row[0];
+    for (std::size_t c = 0; c < num_columns && row.size() == num_columns; ++c) {
+      line += static_cast<int>(c) < num_left_ ? fmt::format("{:<{}}  ", row[c], widths[c])
+                                              : fmt::format("{:>{}}  ", row[c], widths[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+    if (r == 0) {
+      std::size_t total = 0;
+      for (const std::size_t width : widths) total += width + 2;
+      text += "  " + std::string(total - 2, '-') + "\n";
+    }
+  }
+  return text + BreakLines(notes);
+}
+
+std::string BreakLines(const std::string& text, std::size_t indent) {
+  std::string broken;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string current;
+    for (std::string word; words >> word;) {
+      if (!current.empty() && indent + current.size() + 1 + word.size() > kTextWidth) {
+        broken += std::string(indent, ' ') + current + "\n";
+        current.clear();
+      }
+      current += (current.empty() ? "" : " ") + word;
+    }
+    broken += std::string(current.empty() ? 0 : indent, ' ') + current + "\n";
+  }
+  return broken;
+}
+
+std::string Milliseconds(double seconds) {
+  if (std::isnan(seconds)) return "-";
+  const double ms = seconds * 1e3;
+  return ms < 10     ? fmt::format("{:.3f}", ms)
+         : ms < 1000 ? fmt::format("{:.1f}", ms)
+                     : fmt::format("{:.0f}", ms);
+}
+
+std::string Number(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+}  // namespace planbench

@@ -1,0 +1,92 @@
+#include "results/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace planbench {
+namespace {
+
+std::vector<double> SortedTimes(const std::vector<Outcome>& trials, double Outcome::*time,
+                                bool only_confirmed) {
+  std::vector<double> times;
+  for (const Outcome& trial : trials) {
+    if (!only_confirmed || trial.confirmed()) times.push_back(trial.*time);
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+/// Of each problem that was solved, the median time of the trials that solved it.
+std::vector<double> SolvedTimes(const Outcomes& outcomes, double Outcome::*time) {
+  std::vector<double> times;
+  for (const auto& [problem, trials] : outcomes.by_problem) {
+    const std::vector<double> solved = SortedTimes(trials, time, true);
+    if (!solved.empty()) times.push_back(Quantile(solved, 0.5));
+  }
+  return times;
+}
+
+/// Median over the trials of a problem, positive: a clock may have read the same twice.
+double ProblemTime(const std::vector<Outcome>& trials) {
+  return std::max(Quantile(SortedTimes(trials, &Outcome::time_s, false), 0.5), 1e-9);
+}
+
+/// log(a / b) for positive a and b, either or both infinite.
+double LogRatio(double a, double b) { return a == b ? 0 : std::log(a) - std::log(b); }
+
+}  // namespace
+
+SuccessSummary SummarizeSuccess(const Outcomes& outcomes) {
+  SuccessSummary summary;
+  summary.num_problems = static_cast<int>(outcomes.by_problem.size());
+  summary.num_runs = outcomes.num_runs();
+  double sum_of_shares = 0;
+  for (const auto& [problem, trials] : outcomes.by_problem) {
+    int confirmed = 0;
+    for (const Outcome& trial : trials) {
+      summary.claimed += trial.claimed;
+      ++summary.kinds[trial.kind];
+      confirmed += trial.confirmed();
+    }
+    summary.confirmed += confirmed;
+    sum_of_shares += static_cast<double>(confirmed) / static_cast<double>(trials.size());
+  }
+  summary.share = sum_of_shares / summary.num_problems;
+  summary.interval = WilsonInterval(sum_of_shares, summary.num_problems);
+  return summary;
+}
+
+TimeSummary SummarizeTimes(const Outcomes& outcomes) {
+  TimeSummary summary;
+  const std::vector<double> times = SolvedTimes(outcomes, &Outcome::time_s);
+  summary.median_interval_s = MedianInterval(times);
+  summary.solved_s = Summarize(times);
+  summary.solving_s = Summarize(SolvedTimes(outcomes, &Outcome::solving_time_s));
+  std::vector<double> runs;
+  for (const auto& [problem, trials] : outcomes.by_problem) {
+    const std::vector<double> solved = SortedTimes(trials, &Outcome::time_s, true);
+    runs.insert(runs.end(), solved.begin(), solved.end());
+  }
+  const int num_failed = outcomes.num_runs() - static_cast<int>(runs.size());
+  summary.penalised_mean_s = PenalisedMean(runs, num_failed, outcomes.time_limit_s);
+  return summary;
+}
+
+PairedComparison Compare(const Outcomes& first, const Outcomes& second, std::uint64_t seed) {
+  std::vector<double> times_first, times_second, differences;
+  for (const auto& [problem, trials] : first.by_problem) {
+    const auto other = second.by_problem.find(problem);
+    if (other == second.by_problem.end()) continue;
+    times_first.push_back(ProblemTime(trials));
+    times_second.push_back(ProblemTime(other->second));
+    differences.push_back(LogRatio(times_first.back(), times_second.back()));
+  }
+  PairedComparison comparison;
+  comparison.num_problems = static_cast<int>(times_first.size());
+  comparison.wins = CountWins(times_first, times_second);
+  comparison.ratio = EstimateRatio(times_first, times_second, seed);
+  comparison.test = TestSignedRanks(differences);
+  return comparison;
+}
+
+}  // namespace planbench

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "results/outcomes.h"
+#include "results/paired.h"
+#include "results/signed_rank.h"
+#include "results/statistics.h"
+
+namespace planbench {
+
+/// How often a contestant solved the problems of a set.
+struct SuccessSummary {
+  int num_problems = 0;
+  int num_runs = 0;   ///< Problems times trials.
+  int claimed = 0;    ///< Runs in which the planner says that it found a path.
+  int confirmed = 0;  ///< Runs whose path the referee confirmed.
+  std::map<Outcome::Kind, int> kinds;
+  double share = 0;  ///< Confirmed, mean over the problems of the share of their trials.
+  /// Wilson's, for as many cases as there are problems: trials of one problem are not independent.
+  Interval interval;
+};
+SuccessSummary SummarizeSuccess(const Outcomes& outcomes);
+
+/// How long a contestant took on a set. Each problem counts once, by the median of the trials that
+/// solved it; problems that no trial solved are left out but for the penalised mean.
+struct TimeSummary {
+  Summary solved_s;  ///< Over problems.
+  std::optional<Interval> median_interval_s;
+  Summary solving_s;            ///< The same of the attempt that found the path alone.
+  double penalised_mean_s = 0;  ///< Over runs; one without a confirmed path is ten time limits.
+};
+TimeSummary SummarizeTimes(const Outcomes& outcomes);
+
+/// Two contestants on the problems of a set that both tried. A problem's time is the median over
+/// its trials, those without a confirmed path being longer than any.
+struct PairedComparison {
+  int num_problems = 0;
+  Wins wins;                           ///< Of the first.
+  std::optional<RatioEstimate> ratio;  ///< First / second, of problems with both times finite.
+  SignedRankTest test;                 ///< Of the logarithms' differences.
+};
+PairedComparison Compare(const Outcomes& first, const Outcomes& second, std::uint64_t seed);
+
+}  // namespace planbench

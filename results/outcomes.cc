@@ -1,0 +1,78 @@
+#include "results/outcomes.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace planbench {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool Solved(const Attempt* attempt) {
+  return attempt != nullptr && attempt->status == PlanStatus::kSolved;
+}
+
+Outcome::Kind KindOfUnsolved(const Attempt* forward, const Attempt* backward) {
+  using enum PlanStatus;
+  const auto either_is = [&](std::initializer_list<PlanStatus> statuses) {
+    const auto is = [&](const Attempt* attempt) {
+      return attempt != nullptr &&
+             std::find(statuses.begin(), statuses.end(), attempt->status) != statuses.end();
+    };
+    return is(forward) || is(backward);
+  };
+  if (either_is({kInvalidPath})) return Outcome::Kind::kRejected;
+  if (either_is({kStartInvalid, kGoalInvalid})) return Outcome::Kind::kUnsolvable;
+  if (either_is({kNoAnswer, kInvalidRequest, kCancelled})) return Outcome::Kind::kOther;
+  return Outcome::Kind::kFailure;
+}
+
+}  // namespace
+
+Outcome FoldAttempts(const Attempt* forward, const Attempt* backward) {
+  Outcome outcome;
+  outcome.claimed =
+      (forward != nullptr && forward->claimed) || (backward != nullptr && backward->claimed);
+  if (Solved(forward)) {
+    outcome.kind = Outcome::Kind::kForward;
+    outcome.time_s = outcome.solving_time_s = forward->time_s;
+  } else if (Solved(backward)) {
+    outcome.kind = Outcome::Kind::kBackward;
+    outcome.solving_time_s = backward->time_s;
+    outcome.time_s = backward->time_s + (forward != nullptr ? forward->time_s : 0);
+  } else {
+    outcome.kind = KindOfUnsolved(forward, backward);
+    outcome.time_s = outcome.solving_time_s = kInfinity;
+  }
+  return outcome;
+}
+
+int Outcomes::num_runs() const {
+  std::size_t count = 0;
+  for (const auto& [problem, trials] : by_problem) count += trials.size();
+  return static_cast<int>(count);
+}
+
+OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts) {
+  struct Pair {
+    const Attempt* forward = nullptr;
+    const Attempt* backward = nullptr;
+  };
+  std::map<std::tuple<std::string, std::string, int, int>, Pair> pairs;
+  for (const Attempt& attempt : attempts) {
+    Pair& pair =
+        pairs[{attempt.problem_set, attempt.contestant, attempt.problem_index, attempt.trial}];
+    (attempt.direction == Direction::kForward ? pair.forward : pair.backward) = &attempt;
+  }
+  OutcomesBySet sets;
+  for (const auto& [key, pair] : pairs) {
+    const auto& [set, contestant, problem, trial] = key;
+    Outcomes& outcomes = sets[set][contestant];
+    outcomes.by_problem[problem].push_back(FoldAttempts(pair.forward, pair.backward));
+    outcomes.time_limit_s = (pair.forward != nullptr ? pair.forward : pair.backward)->time_limit_s;
+  }
+  return sets;
+}
+
+}  // namespace planbench

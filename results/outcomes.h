@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planning/plan_status.h"
+
+namespace planbench {
+
+/// What a comparison knows of one run: an attempt at a problem in one direction.
+struct Attempt {
+  std::string problem_set;
+  int problem_index = 0;
+  std::string contestant;
+  int trial = 1;
+  Direction direction = Direction::kForward;
+  PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
+  bool claimed = false;                       ///< The planner says that it found a path.
+  double time_s = 0;  ///< Planning time; without an answer, the time waited.
+  double time_limit_s = 0;
+};
+
+/// How the attempts of one contestant and trial at one problem ended.
+struct Outcome {
+  enum class Kind {
+    kForward,     ///< Solved from start to goal.
+    kBackward,    ///< Solved from goal to start, and not from start to goal.
+    kFailure,     ///< Out of time, memory or search space.
+    kUnsolvable,  ///< Start or goal found invalid.
+    kRejected,    ///< The referee refused the path.
+    kOther,       ///< No answer, request refused, cancelled.
+  };
+  Kind kind = Kind::kOther;
+  bool claimed = false;
+  double time_s = 0;  ///< To the confirmed path, failed attempts before it included; else infinite.
+  double solving_time_s = 0;  ///< Of the attempt that found it alone; else infinite.
+
+  bool confirmed() const { return kind == Kind::kForward || kind == Kind::kBackward; }
+};
+
+/// Either may be null, not both: success counts first, forward before backward; then a path that
+/// was refused, an invalid end, no proper answer; failure if there was nothing else.
+Outcome FoldAttempts(const Attempt* forward, const Attempt* backward);
+
+/// The outcomes of one contestant on one set.
+struct Outcomes {
+  std::map<int, std::vector<Outcome>> by_problem;  ///< By index; the trials in ascending order.
+  double time_limit_s = 0;                         ///< Of a single attempt.
+
+  int num_runs() const;
+};
+
+/// By problem set, then by contestant.
+using OutcomesBySet = std::map<std::string, std::map<std::string, Outcomes>>;
+/// The attempts may come in any order.
+OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts);
+
+}  // namespace planbench

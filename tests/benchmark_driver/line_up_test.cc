@@ -1,0 +1,164 @@
+#include "benchmark_driver/line_up.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class LineUpTest : public testing::Test {
+ protected:
+  LineUpTest() {
+    folder_.Write("robot/rrtc_study.yaml", "range: 2");
+    folder_.Write("lineups/near.yaml", "range: 1");
+  }
+  std::filesystem::path robot() const { return folder_.path() / "robot"; }
+  std::filesystem::path Write(const std::string& text) {
+    folder_.Write("lineups/test.yaml", text);
+    return folder_.path() / "lineups/test.yaml";
+  }
+  std::vector<LineUpEntry> Read(const std::string& text) {
+    return ReadLineUp(Write(text), robot());
+  }
+  void ExpectRefused(const std::string& text, std::vector<std::string> parts) {
+    parts.emplace_back("test.yaml");
+    ExpectInputError([&] { Read(text); }, parts);
+  }
+  LineUpFlags Flags(const std::string& text) {
+    LineUpFlags flags;
+    flags.file = Write(text);
+    return flags;
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::vector<std::string> Planners(const std::vector<LineUpEntry>& entries) {
+  std::vector<std::string> planners;
+  for (const LineUpEntry& entry : entries) planners.push_back(entry.contestant.planner);
+  return planners;
+}
+
+TEST_F(LineUpTest, ReadsEverythingAContestantCanBe) {
+  const auto entries = Read(R"(contestants:
+  study:
+    name: RRTConnect (study)
+    about: as the study ran it
+    published: RRT-Connect
+    program: rrtc
+    config: rrtc_study.yaml
+    set: {range: 0.5, balance: false}
+    collision_model: voxels
+    edge_resolution: 0.05
+    edge_check: fixed
+    directions: both
+  ara: {config: near.yaml}
+  mine: {command: ./mine --fast}
+)");
+  ASSERT_THAT(Planners(entries), ElementsAre("study", "ara", "mine"));
+  const LineUpEntry& study = entries[0];
+  EXPECT_EQ(study.contestant.name, "RRTConnect (study)");
+  EXPECT_EQ(study.contestant.about, "as the study ran it");
+  EXPECT_EQ(study.contestant.published, "RRT-Connect");
+  EXPECT_EQ(study.program, "rrtc");
+  EXPECT_EQ(study.config, robot() / "rrtc_study.yaml");
+  EXPECT_THAT(study.settings, ElementsAre("range=0.5", "balance=false"));
+  EXPECT_EQ(study.contestant.collision_model, CollisionModel::kVoxels);
+  EXPECT_EQ(study.contestant.edge_resolution_m, 0.05);
+  EXPECT_EQ(study.contestant.edge_check, EdgeCheck::kFixed);
+  EXPECT_EQ(study.directions, Directions::kBoth);
+
+  const LineUpEntry& ara = entries[1];
+  EXPECT_EQ(ara.program, "ara");
+  EXPECT_EQ(ara.config, folder_.path() / "lineups/near.yaml");
+  EXPECT_EQ(ara.contestant.name, "");
+  EXPECT_FALSE(ara.contestant.collision_model || ara.contestant.edge_resolution_m ||
+               ara.contestant.edge_check || ara.directions);
+  EXPECT_EQ(entries[2].contestant.command, "./mine --fast");
+}
+
+TEST_F(LineUpTest, ASweepIsAContestantForEachValue) {
+  const auto entries = Read(R"(contestants:
+  rrtc:
+    name: RRT-Connect
+    set: {sampler: halton}
+    sweep: {range: [0.5, 1], balance: [true, false]}
+)");
+  EXPECT_THAT(Planners(entries),
+              ElementsAre("rrtc_range_0_5_balance_true", "rrtc_range_0_5_balance_false",
+                          "rrtc_range_1_balance_true", "rrtc_range_1_balance_false"));
+  EXPECT_EQ(entries[1].contestant.name, "RRT-Connect, range 0.5, balance false");
+  EXPECT_EQ(entries[1].program, "rrtc");
+  EXPECT_THAT(entries[1].settings, ElementsAre("sampler=halton", "range=0.5", "balance=false"));
+}
+
+TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
+  ExpectRefused("contestants: {}", {"contestants", "no contestant"});
+  ExpectRefused("lineup: {}", {":1", "lineup"});
+  ExpectRefused("contestants:\n  ara: {colision_model: voxels}", {":2", "colision_model"});
+  ExpectRefused("contestants:\n  ara: {collision_model: balls}",
+                {":2", "spheres, voxels or meshes"});
+  ExpectRefused("contestants:\n  ara: {edge_resolution: 0}", {":2", "edge_resolution"});
+  ExpectRefused("contestants:\n  ara: {directions: up}", {":2", "auto, forward, backward or both"});
+  ExpectRefused("contestants:\n  ara: {config: none.yaml}", {":2", "config", robot().string()});
+  ExpectRefused("contestants:\n  ara: {sweep: {range: []}}", {":2", "range", "no value"});
+  ExpectRefused("contestants:\n  a b: {}", {":2", "a b", "letters"});
+  ExpectRefused("contestants:\n  ara: {command: ./x, set: {a: 1}}", {":2", "set", "command"});
+  ExpectRefused("contestants:\n  ara: {sweep: {a_very_long_name_of_a_setting: [100000000000]}}",
+                {":2", "sweep", "letters"});
+}
+
+TEST_F(LineUpTest, WithoutARobotFolderNoSettingsFileIsLookedFor) {
+  const auto file = Write("contestants: {ara: {config: none.yaml}}");
+  EXPECT_FALSE(ReadLineUp(file, std::nullopt)[0].config);
+}
+
+TEST_F(LineUpTest, WithoutAFileThePlannersAreThemselves) {
+  EXPECT_THAT(Planners(MakeLineUp({}, std::nullopt)), ElementsAre("ara", "rrtc"));
+  LineUpFlags flags;
+  flags.planners = {"mine", "ara"};
+  flags.commands = {{"mine", "./mine"}};
+  flags.settings = {{"ara", "epsilon_initial=5"}};
+  const auto entries = MakeLineUp(flags, std::nullopt);
+  EXPECT_THAT(Planners(entries), ElementsAre("mine", "ara"));
+  EXPECT_EQ(entries[0].contestant.command, "./mine");
+  EXPECT_EQ(entries[1].program, "ara");
+  EXPECT_THAT(entries[1].settings, ElementsAre("epsilon_initial=5"));
+}
+
+TEST_F(LineUpTest, PlannersPickFromTheFile) {
+  LineUpFlags flags = Flags("contestants: {a: {program: ara}, b: {program: rrtc}, c: {}}");
+  flags.planners = {"c", "a"};
+  EXPECT_THAT(Planners(MakeLineUp(flags, robot())), ElementsAre("c", "a"));
+  flags.planners = {"d"};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--planners", "'d'", "a, b, c"});
+}
+
+TEST_F(LineUpTest, NamesMustBeDistinct) {
+  ExpectInputError([&] { MakeLineUp(Flags("contestants: {a: {name: X}, b: {name: X}}"), robot()); },
+                   {"'a'", "'b'", "'X'"});
+  ExpectInputError([&] { MakeLineUp(Flags("contestants: {ara-2: {}, Ara_2: {}}"), robot()); },
+                   {"'ara-2'", "'Ara_2'", "PLAN_REQUEST_ARA_2"});
+}
+
+TEST_F(LineUpTest, CommandsAndSettingsAreOfThosePicked) {
+  LineUpFlags flags = Flags("contestants: {a: {command: ./a}, b: {}}");
+  flags.commands = {{"x", "./x"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--planner-command", "'x'"});
+  flags.commands = {{"a", "./x"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--planner-command", "'a'", "already"});
+  flags.commands = {};
+  flags.settings = {{"a", "range=1"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--set", "'a'", "command"});
+  flags.settings = {{"x", "range=1"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--set", "'x'"});
+}
+
+}  // namespace
+}  // namespace planbench
