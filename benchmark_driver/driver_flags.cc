@@ -185,6 +185,16 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
                   "how long to wait for the other processes, s")
       ->check(Positive())
       ->capture_default_str();
+  app->add_option_function<std::vector<std::string>>(
+         "--reference",
+         [=](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             options->references.push_back(SplitNameValue(text, "--reference", "NAME=FILE"));
+           }
+         },
+         "NAME=FILE: results from elsewhere (CSV, docs/lineups.md) to stand in the tables; "
+         "repeatable")
+      ->allow_extra_args(false);
   app->add_flag("--skip-bad-problems", options->skip_bad_problems,
                 "leave out problems that cannot be read; default: end before the first run");
   CLI::Option* resume = app->add_option(

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmark_driver/line_up.h"
@@ -20,6 +21,9 @@ struct DriverOptions {
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
   double discovery_timeout_s = 5;
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
+
+  /// Results from elsewhere to stand in the tables: name, CSV file (results/reference.h).
+  std::vector<std::pair<std::string, std::string>> references;
 
   bool launch = false;
   std::optional<std::filesystem::path> resume;  ///< Session folder to go on with.

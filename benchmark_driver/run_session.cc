@@ -18,6 +18,7 @@
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/program.h"
+#include "results/reference.h"
 #include "robot_model/robot_folder.h"
 
 namespace planbench {
@@ -70,6 +71,11 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     run_id = earlier.sessions.back().run_id;
   }
 
+  std::vector<Attempt> references;
+  for (const auto& [name, file] : options.references) {
+    const auto more = ReadReference(file, name, options.conditions.request.time_limit_s);
+    references.insert(references.end(), more.begin(), more.end());
+  }
   std::string url = lcm_url;
   std::filesystem::path session_folder;
   const std::vector<LineUpEntry> line_up =
@@ -111,7 +117,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (supervisor) supervisor->ThrowIfHopeless();
   });
 
-  const SessionTables tables = MakeTables(driver.conditions(), driver.records());
+  const SessionTables tables = MakeTables(driver.conditions(), driver.records(), references);
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     std::ofstream(session_folder / "tables.txt") << tables.full;

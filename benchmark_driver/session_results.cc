@@ -1,7 +1,10 @@
 #include "benchmark_driver/session_results.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace planbench {
 namespace {
@@ -25,19 +28,31 @@ Attempt AttemptOf(const RunRecordMessage& record) {
 }  // namespace
 
 SessionResults::SessionResults(const SessionConditions& conditions,
-                               const std::vector<RunRecordMessage>& records)
+                               const std::vector<RunRecordMessage>& records,
+                               const std::vector<Attempt>& references)
     : contestants_(conditions.contestants) {
+  const auto add_contestant = [this](const std::string& planner, const std::string& name) {
+    const auto has_name = [&](const Contestant& one) { return one.name == name; };
+    if (std::any_of(contestants_.begin(), contestants_.end(), has_name)) return;
+    Contestant& contestant = contestants_.emplace_back();
+    contestant.planner = planner;
+    contestant.name = name;
+  };
   std::vector<const RunRecordMessage*> ordered;
   std::vector<Attempt> attempts;
+  std::set<std::pair<std::string, int>> problems;
   for (const RunRecordMessage& record : records) {
     ordered.push_back(&record);
     attempts.push_back(AttemptOf(record));
-    const auto is_its = [&](const Contestant& one) { return one.name == record.contestant; };
-    if (std::none_of(contestants_.begin(), contestants_.end(), is_its)) {
-      Contestant& contestant = contestants_.emplace_back();
-      contestant.planner = record.planner;
-      contestant.name = record.contestant;
-    }
+    problems.emplace(record.problem_set, record.problem_index);
+    add_contestant(record.planner, record.contestant);
+  }
+  std::set<std::string> reference_names;
+  for (const Attempt& attempt : references) {
+    if (!problems.contains({attempt.problem_set, attempt.problem_index})) continue;
+    attempts.push_back(attempt);
+    reference_names.insert(attempt.contestant);
+    add_contestant("", attempt.contestant);
   }
   const auto key = [](const RunRecordMessage* record) {
     return std::tie(record->problem_index, record->trial, record->request.direction);
@@ -52,6 +67,7 @@ SessionResults::SessionResults(const SessionConditions& conditions,
       if (found == by_contestant.end()) continue;
       ContestantResults& one = results.contestants.emplace_back();
       one.contestant = &contestant;
+      one.is_reference = reference_names.contains(contestant.name);
       one.outcomes = std::move(found->second);
       std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(one.records),
                    [&](const RunRecordMessage* record) {

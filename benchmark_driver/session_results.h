@@ -12,6 +12,7 @@ namespace planbench {
 /// One contestant on one set.
 struct ContestantResults {
   const Contestant* contestant = nullptr;
+  bool is_reference = false;  ///< Results from elsewhere, which no referee has seen.
   Outcomes outcomes;
   std::vector<const RunRecordMessage*> records;  ///< By problem, trial and direction.
 };
@@ -26,8 +27,10 @@ struct SetResults {
 class SessionResults {
  public:
   /// Contestants of records that the conditions do not know (of an earlier part of the session)
-  /// come last. The records must outlive this.
-  SessionResults(const SessionConditions& conditions, const std::vector<RunRecordMessage>& records);
+  /// come last, after these those of `references`, of which the problems that the session has are
+  /// kept. The records must outlive this.
+  SessionResults(const SessionConditions& conditions, const std::vector<RunRecordMessage>& records,
+                 const std::vector<Attempt>& references);
   SessionResults(const SessionResults&) = delete;
   SessionResults& operator=(const SessionResults&) = delete;
 

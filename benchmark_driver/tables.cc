@@ -63,10 +63,10 @@ std::string SuccessTable(const SessionResults& results) {
       [&](const SetResults& set, const ContestantResults& one) {
         using Kind = Outcome::Kind;
         SuccessSummary s = SummarizeSuccess(one.outcomes);
-        table.Add({one.contestant->name, Count(s.num_runs), Count(s.claimed), Count(s.confirmed),
-                   Percent(s.share, s.interval), Count(s.kinds[Kind::kForward]),
-                   Count(s.kinds[Kind::kBackward]), Count(s.kinds[Kind::kFailure]),
-                   Count(s.kinds[Kind::kUnsolvable])});
+        table.Add({one.contestant->name, Count(s.num_runs), Count(s.claimed),
+                   one.is_reference ? "-" : Count(s.confirmed), Percent(s.share, s.interval),
+                   Count(s.kinds[Kind::kForward]), Count(s.kinds[Kind::kBackward]),
+                   Count(s.kinds[Kind::kFailure]), Count(s.kinds[Kind::kUnsolvable])});
         if (const PublishedFigures* row = PublishedBeside(set, one)) {
           published = true;
           const int claimed = row->solved_forward + row->solved_backward.value_or(0);
@@ -216,9 +216,10 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
 }  // namespace
 
 SessionTables MakeTables(const SessionConditions& conditions,
-                         const std::vector<RunRecordMessage>& records) {
+                         const std::vector<RunRecordMessage>& records,
+                         const std::vector<Attempt>& references) {
   if (records.empty()) return {"No runs.\n", "No runs.\n"};
-  const SessionResults results(conditions, records);
+  const SessionResults results(conditions, records, references);
   const std::uint64_t seed = conditions.request.seed;
   const std::string begin =
       Preface(conditions, results) + SuccessTable(results) + TimeTable(results);

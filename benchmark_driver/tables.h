@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "messaging/messages.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 
@@ -20,6 +21,7 @@ struct SessionTables {
 /// Beside a contestant that asks for it stand the figures that the study published
 /// (published_study.h). Definitions stand below each table and in docs/tables.md.
 SessionTables MakeTables(const SessionConditions& conditions,
-                         const std::vector<RunRecordMessage>& records);
+                         const std::vector<RunRecordMessage>& records,
+                         const std::vector<Attempt>& references = {});
 
 }  // namespace planbench

@@ -19,8 +19,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-RunRecordMessage Attempt(PlanStatus status, double planning_time_s,
-                         Direction direction = Direction::kForward) {
+RunRecordMessage AttemptOf(PlanStatus status, double planning_time_s,
+                           Direction direction = Direction::kForward) {
   RunRecordMessage record;
   record.planner = "ara";
   record.contestant = "ARA*";
@@ -41,7 +41,7 @@ RunRecordMessage Attempt(PlanStatus status, double planning_time_s,
 }
 
 RunRecordMessage Backward(PlanStatus status, double planning_time_s) {
-  return Attempt(status, planning_time_s, Direction::kBackward);
+  return AttemptOf(status, planning_time_s, Direction::kBackward);
 }
 
 RunRecordMessage OfProblem(int index, RunRecordMessage record) {
@@ -116,16 +116,16 @@ constexpr char kFailed[] = "Attempts without a confirmed path";
 /// rejected.
 std::vector<RunRecordMessage> Session() {
   std::vector<RunRecordMessage> session = {
-      OfProblem(1, Attempt(PlanStatus::kSolved, 0.1)),
+      OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.1)),
       OfProblem(1, Backward(PlanStatus::kSolved, 0.02)),
-      OfProblem(2, Attempt(PlanStatus::kTimedOut, 60)),
+      OfProblem(2, AttemptOf(PlanStatus::kTimedOut, 60)),
       OfProblem(2, Backward(PlanStatus::kSolved, 0.04)),
-      OfProblem(3, Attempt(PlanStatus::kTimedOut, 60)),
+      OfProblem(3, AttemptOf(PlanStatus::kTimedOut, 60)),
       OfProblem(3, Backward(PlanStatus::kExhausted, 2)),
-      OfProblem(4, Attempt(PlanStatus::kGoalInvalid, 0)),
+      OfProblem(4, AttemptOf(PlanStatus::kGoalInvalid, 0)),
       OfProblem(4, Backward(PlanStatus::kGoalInvalid, 0)),
-      OfProblem(1, OfRrtConnect(Attempt(PlanStatus::kSolved, 0.0051234))),
-      OfProblem(2, OfRrtConnect(Attempt(PlanStatus::kInvalidPath, 0.2))),
+      OfProblem(1, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 0.0051234))),
+      OfProblem(2, OfRrtConnect(AttemptOf(PlanStatus::kInvalidPath, 0.2))),
   };
   session.back().message = "elbow hits board";
   return session;
@@ -164,7 +164,7 @@ TEST(TablesTest, PairsAreComparedProblemByProblem) {
 
 TEST(TablesTest, AllPairsAreInTheFullTables) {
   auto records = Session();
-  auto more = OfProblem(1, Attempt(PlanStatus::kSolved, 1));
+  auto more = OfProblem(1, AttemptOf(PlanStatus::kSolved, 1));
   more.contestant = "third";  // of an earlier part of the session
   records.push_back(more);
   EXPECT_NE(Row(Full(records), kPairs, "third ARA*"), "");
@@ -183,13 +183,13 @@ TEST(TablesTest, FailuresAreListedWithProblemAndReason) {
 }
 
 TEST(TablesTest, NothingFailedIsNotMentioned) {
-  const std::vector<RunRecordMessage> records = {Attempt(PlanStatus::kSolved, 1)};
+  const std::vector<RunRecordMessage> records = {AttemptOf(PlanStatus::kSolved, 1)};
   EXPECT_THAT(Brief(records), Not(HasSubstr(kFailed)));
   EXPECT_THAT(Full(records), Not(HasSubstr(kFailed)));
 }
 
 TEST(TablesTest, NothingSolvedIsNoTime) {
-  const std::vector<RunRecordMessage> records = {Attempt(PlanStatus::kTimedOut, 60)};
+  const std::vector<RunRecordMessage> records = {AttemptOf(PlanStatus::kTimedOut, 60)};
   EXPECT_EQ(Row(Brief(records), kTimes, "ARA*"), "0 - - - 600000");
   EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), testing::MatchesRegex("-( -)*"));
 }
@@ -197,7 +197,7 @@ TEST(TablesTest, NothingSolvedIsNoTime) {
 TEST(TablesTest, TrialsAreRunsOfOneProblem) {
   std::vector<RunRecordMessage> records;
   for (int trial = 1; trial <= 3; ++trial) {
-    records.push_back(Attempt(trial == 3 ? PlanStatus::kTimedOut : PlanStatus::kSolved, trial));
+    records.push_back(AttemptOf(trial == 3 ? PlanStatus::kTimedOut : PlanStatus::kSolved, trial));
     records.back().trial = trial;
   }
   EXPECT_THAT(Row(Brief(records), kSuccess, "ARA*"), StartsWith("3 2 2 66.7 ["));
@@ -222,7 +222,7 @@ PathVerdict Valid(MeasuredValues measures) {
 TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 3; ++i) {
-    RunRecordMessage record = OfProblem(i, Attempt(PlanStatus::kSolved, 0.1 * i));
+    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 0.1 * i));
     PlanResult& result = record.result.result;
     result.phases.collision_s = 0.08 * i;
     result.phases.simplification_s = 0.02 * i;
@@ -230,7 +230,7 @@ TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
     record.roundtrip_time_s = 0.12 * i + 0.0005;
     records.push_back(record);
   }
-  RunRecordMessage failed = OfProblem(4, Attempt(PlanStatus::kTimedOut, 60));
+  RunRecordMessage failed = OfProblem(4, AttemptOf(PlanStatus::kTimedOut, 60));
   failed.result.result.counters = {{"edges_checked", 1e9}};
   records.push_back(failed);
   EXPECT_THAT(Table(Full(records), kEffort).at(0),
@@ -243,7 +243,7 @@ TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
   // Of problem i the m-th measure is m i, half as much on the simplified path.
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 3; ++i) {
-    RunRecordMessage record = OfProblem(i, Attempt(PlanStatus::kSolved, 1));
+    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 1));
     record.path_check.verdict = record.simplified_check.verdict = Valid({});
     double m = 0;
     for (const PathMeasure& measure : PathMeasures()) {
@@ -277,7 +277,7 @@ TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
     std::vector<RunRecordMessage> records;
     for (const double value : values) {
       const int index = static_cast<int>(records.size());
-      records.push_back(OfProblem(index, Attempt(PlanStatus::kSolved, 1)));
+      records.push_back(OfProblem(index, AttemptOf(PlanStatus::kSolved, 1)));
       if (std::isnan(value)) continue;
       records.back().path_check.verdict = records.back().simplified_check.verdict = Valid({});
       for (const PathMeasure& measure : PathMeasures()) {
@@ -295,13 +295,13 @@ TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
 TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 3; ++i) {
-    records.push_back(OfProblem(i, Attempt(PlanStatus::kSolved, 1)));
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
     records.back().path_check.mesh_verdict = Valid({});
     records.back().path_check.mesh_verdict->valid = i == 1;
   }
   records[0].simplified_check.mesh_verdict = Valid({});
   // A path that the referee rejects on the planners' own model counts for nothing.
-  records.push_back(OfProblem(4, Attempt(PlanStatus::kInvalidPath, 1)));
+  records.push_back(OfProblem(4, AttemptOf(PlanStatus::kInvalidPath, 1)));
   records.back().path_check.mesh_verdict = Valid({});
   EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
 }
@@ -319,7 +319,8 @@ TEST(TablesTest, ContestantsAreExplained) {
 
 TEST(TablesTest, BriefOnesFitATerminal) {
   auto records = Session();
-  for (int i = 10; i < 400; ++i) records.push_back(OfProblem(i, Attempt(PlanStatus::kTimedOut, 1)));
+  for (int i = 10; i < 400; ++i)
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kTimedOut, 1)));
   for (RunRecordMessage& record : records) {
     record.problem_set = "shelf_height_rot_test";
     if (record.contestant == "ARA*") record.contestant = "RRT-Connect (canonical)";
@@ -345,6 +346,18 @@ TEST(TablesTest, PublishedFiguresStandBesideWhoAsksForThem) {
   EXPECT_THAT(text, HasSubstr("arXiv 2406.09623"));
   text = MakeTables(conditions, Session()).brief;  // not a set of the study's
   EXPECT_THAT(text, Not(HasSubstr("published ARA*")));
+}
+
+TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
+  std::vector<Attempt> references;
+  for (int problem = 1; problem <= 9; ++problem) {
+    references.push_back({"box", problem, "published", 1, Direction::kForward, PlanStatus::kSolved,
+                          true, 1.0 * problem, 60});
+  }
+  const std::string text = MakeTables(Conditions(), Session(), references).brief;
+  EXPECT_EQ(Row(text, kSuccess, "published"), "4 4 - 100.0 [51.0, 100.0] 4 0 0 0");
+  EXPECT_EQ(Row(text, kTimes, "published"), "4 2500 2500 3850 2500");
+  EXPECT_NE(Row(text, kPairs, "published RRT-Connect"), "");
 }
 
 TEST(TablesTest, NoRuns) { EXPECT_EQ(Brief({}), "No runs.\n"); }

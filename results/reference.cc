@@ -1,0 +1,124 @@
+#include "results/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/read_text.h"
+
+namespace planbench {
+namespace {
+
+std::vector<std::string> SplitLine(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  if (line.ends_with(',')) cells.emplace_back();
+  return cells;
+}
+
+/// The cells of one line, by column.
+class Row {
+ public:
+  Row(const std::string& file, int line, const std::vector<std::string>& header,
+      std::vector<std::string> cells)
+      : file_(file), line_(line), header_(header), cells_(std::move(cells)) {
+    if (cells_.size() != header.size()) {
+      throw InputError(
+          fmt::format("{}:{}: {} values for {} columns", file, line, cells_.size(), header.size()));
+    }
+  }
+
+  bool Has(const std::string& column) const { return Find(column) != nullptr; }
+  const std::string& Text(const std::string& column) const {
+    const std::string* cell = Find(column);
+    if (cell == nullptr) throw InputError(fmt::format("{}: no column '{}'", file_, column));
+    return *cell;
+  }
+  double Number(const std::string& column, double least, double most) const {
+    const std::string& text = Text(column);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !(value >= least) ||
+        !(value <= most)) {
+      Fail(column, fmt::format("a number from {} to {}", least, most));
+    }
+    return value;
+  }
+  int Int(const std::string& column, int least, int most) const {
+    const double value = Number(column, least, most);
+    if (value != std::floor(value))
+      Fail(column, fmt::format("a whole number from {} to {}", least, most));
+    return static_cast<int>(value);
+  }
+  [[noreturn]] void Fail(const std::string& column, const std::string& wanted) const {
+    throw InputError(
+        fmt::format("{}:{}: {}: '{}' is not {}", file_, line_, column, Text(column), wanted));
+  }
+
+ private:
+  const std::string* Find(const std::string& column) const {
+    const auto found = std::find(header_.begin(), header_.end(), column);
+    return found == header_.end() ? nullptr
+                                  : &cells_[static_cast<std::size_t>(found - header_.begin())];
+  }
+
+  const std::string& file_;
+  int line_;
+  const std::vector<std::string>& header_;
+  std::vector<std::string> cells_;
+};
+
+constexpr int kMostProblems = 1'000'000;
+constexpr double kLongest = 1e9;  // s
+
+Attempt ReadAttempt(const Row& row, const std::string& name, double time_limit_s) {
+  Attempt attempt;
+  attempt.contestant = name;
+  attempt.problem_set = row.Text("problem_set");
+  attempt.problem_index = row.Has("query_index") ? row.Int("query_index", 0, kMostProblems) + 1
+                                                 : row.Int("problem_index", 0, kMostProblems);
+  attempt.claimed = row.Int("solved", 0, 1) == 1;
+  attempt.status = attempt.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
+  attempt.time_s = row.Number("time_s", 0, kLongest);
+  attempt.time_limit_s =
+      row.Has("time_limit_s") ? row.Number("time_limit_s", 0, kLongest) : time_limit_s;
+  if (row.Has("trial")) attempt.trial = row.Int("trial", 1, kMostProblems);
+  if (row.Has("direction")) {
+    const auto direction = ParseEnum<Direction>(row.Text("direction"));
+    if (!direction) row.Fail("direction", "forward or backward");
+    attempt.direction = *direction;
+  }
+  return attempt;
+}
+
+}  // namespace
+
+std::vector<Attempt> ReadReference(const std::filesystem::path& file, const std::string& name,
+                                   double time_limit_s) {
+  std::istringstream lines(ReadText(file));
+  const std::string file_name = file.string();
+  std::vector<std::string> header;
+  std::vector<Attempt> attempts;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) continue;
+    if (header.empty()) {
+      header = SplitLine(line);
+      continue;
+    }
+    const Row row(file_name, number, header, SplitLine(line));
+    attempts.push_back(ReadAttempt(row, name, time_limit_s));
+  }
+  if (attempts.empty()) throw InputError(file.string() + ": no results");
+  return attempts;
+}
+
+}  // namespace planbench
