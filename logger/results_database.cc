@@ -119,8 +119,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
       insert_run_(connection_.Prepare(InsertRunSql())),
       // Two improvements at one reading of the clock: the later one stands.
       insert_progress_(connection_.Prepare(
-          "INSERT OR REPLACE INTO progress (runid, time, epsilon, cost, expansions) "
-          "VALUES (?, ?, ?, ?, ?)")),
+          "INSERT OR REPLACE INTO progress (runid, time, epsilon, cost, expansions, best_cost) "
+          "VALUES (?1, ?2, ?3, ?4, ?5, ?4)")),
       insert_counter_(connection_.Prepare("INSERT INTO counters VALUES (?, ?, ?)")),
       insert_position_(connection_.Prepare("INSERT INTO paths VALUES (?, ?, ?, ?, ?)")) {}
 

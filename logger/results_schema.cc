@@ -11,7 +11,8 @@ namespace {
 // Planner Arena takes every column of `experiments` after the twelfth for a parameter of the
 // problem, and OMPL's importer fills `plannerConfigs` and `enums` by position: our own facts stand
 // in tables of their own. It also appends rows to `runs` that know nothing of our columns, so these
-// may all be NULL.
+// may all be NULL, and adds the columns that PRAGMA table_info does not show, so that none may be
+// generated.
 constexpr char kOmplTables[] = R"sql(
 CREATE TABLE experiments (
   id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512),
@@ -32,25 +33,11 @@ CREATE INDEX runs_by_experiment ON runs (experimentid, plannerid);
 CREATE INDEX runs_by_problem ON runs (problem_set, problem_index);
 )sql";
 
-// OMPL's names of quantities that `runs` has under the names used throughout here.
-constexpr char kOmplRunColumns[] = R"sql(
-  solution_length REAL GENERATED ALWAYS AS (path_length) VIRTUAL,
-  solution_clearance REAL GENERATED ALWAYS AS (clearance) VIRTUAL,
-  solution_smoothness REAL GENERATED ALWAYS AS (smoothness) VIRTUAL,
-  solution_segments INTEGER GENERATED ALWAYS AS (num_waypoints - 1) VIRTUAL,
-  correct_solution BOOLEAN GENERATED ALWAYS AS (referee_valid) VIRTUAL,
-  simplified_solution_length REAL GENERATED ALWAYS AS (path_length_simplified) VIRTUAL,
-  simplified_solution_clearance REAL GENERATED ALWAYS AS (clearance_simplified) VIRTUAL,
-  simplified_solution_smoothness REAL GENERATED ALWAYS AS (smoothness_simplified) VIRTUAL,
-  simplified_solution_segments INTEGER
-    GENERATED ALWAYS AS (num_waypoints_simplified - 1) VIRTUAL,
-  simplified_correct_solution BOOLEAN GENERATED ALWAYS AS (simplified_valid) VIRTUAL,)sql";
-
 // Planner Arena cannot do without progress.best_cost.
 constexpr char kOtherTables[] = R"sql(
 CREATE TABLE progress (
   runid INTEGER, time REAL, epsilon REAL, cost REAL, expansions INTEGER,
-  best_cost REAL GENERATED ALWAYS AS (cost) VIRTUAL,
+  best_cost REAL,
   PRIMARY KEY (runid, time),
   FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
 CREATE TABLE counters (
@@ -86,7 +73,6 @@ std::string ResultsSchema() {
   for (const RunColumn& column : RunColumns()) {
     sql += fmt::format("  {} {},\n", column.name, column.type);
   }
-  sql += kOmplRunColumns;
   sql += kRunsKeys;
   sql += kOtherTables;
   sql += fmt::format("PRAGMA user_version = {};\n", kResultsSchemaVersion);

@@ -1,5 +1,6 @@
 #include "logger/run_columns.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -187,6 +188,29 @@ std::vector<RunColumn> MakeRunColumns() {
       Counter("expansions"),
       Counter("states"),
   });
+  // OMPL's names of quantities that have names used throughout here.
+  const auto ompl = [&](std::string name, const std::string& own, auto convert) {
+    const auto column = std::find_if(columns.begin(), columns.end(),
+                                     [&](const RunColumn& one) { return one.name == own; });
+    RunColumn copy = *column;
+    copy.name = std::move(name);
+    copy.value = [value = column->value, convert](const Record& r) { return convert(value(r)); };
+    columns.push_back(std::move(copy));
+  };
+  const auto same = [](SqliteValue value) { return value; };
+  const auto one_less = [](SqliteValue value) {
+    if (auto* count = std::get_if<std::int64_t>(&value)) --*count;
+    return value;
+  };
+  for (const char* measure : {"length", "clearance", "smoothness"}) {
+    const std::string own = std::string(measure) == "length" ? "path_length" : measure;
+    ompl(std::string("solution_") + measure, own, same);
+    ompl(std::string("simplified_solution_") + measure, own + "_simplified", same);
+  }
+  ompl("solution_segments", "num_waypoints", one_less);
+  ompl("simplified_solution_segments", "num_waypoints_simplified", one_less);
+  ompl("correct_solution", "referee_valid", same);
+  ompl("simplified_correct_solution", "simplified_valid", same);
   return columns;
 }
 

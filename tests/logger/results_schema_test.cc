@@ -51,8 +51,9 @@ TEST_F(ResultsSchemaTest, TablesOfOmplAreAsOmplsToolsMakeThem) {
   EXPECT_THAT(std::vector<std::string>(runs.begin(), runs.begin() + 7),
               ElementsAre("id INTEGER", "experimentid INTEGER", "plannerid INTEGER", "time REAL",
                           "memory REAL", "solved BOOLEAN", "status ENUM"));
-  EXPECT_THAT(Columns("progress"), ElementsAre("runid INTEGER", "time REAL", "epsilon REAL",
-                                               "cost REAL", "expansions INTEGER"));
+  EXPECT_THAT(Columns("progress"),
+              ElementsAre("runid INTEGER", "time REAL", "epsilon REAL", "cost REAL",
+                          "expansions INTEGER", "best_cost REAL"));
 }
 
 TEST_F(ResultsSchemaTest, RowsOfOmplsImporterFitIn) {
@@ -64,12 +65,32 @@ TEST_F(ResultsSchemaTest, RowsOfOmplsImporterFitIn) {
       "INSERT INTO runs (experimentid, plannerid, time, solved) VALUES (1, 1, 2, 1)");
   connection.Execute(
       "INSERT INTO runs (experimentid, plannerid, time, solved) VALUES (1, 1, 3, 1)");
-  connection.Execute("INSERT INTO progress (runid, time, cost) VALUES (1, 0.5, 9)");
-  EXPECT_EQ(connection.QueryValue("SELECT best_cost FROM progress"), SqliteValue(9.0));
+  connection.Execute("INSERT INTO progress (runid, time, best_cost) VALUES (1, 0.5, 9)");
   connection.Execute("DELETE FROM experiments");
   EXPECT_EQ(connection.QueryValue("SELECT (SELECT count(*) FROM runs) + "
                                   "(SELECT count(*) FROM progress)"),
             SqliteValue(std::int64_t{0}));
+}
+
+// readBenchmarkLog of ompl_benchmark_statistics.py adds the columns that table_info does not show.
+TEST_F(ResultsSchemaTest, NoColumnIsHiddenFromOmplsImporter) {
+  SqliteConnection connection(file_, Mode::kReadOnly);
+  for (const char* table : {"runs", "progress", "experiments", "plannerConfigs", "enums"}) {
+    const auto count = [&](const char* pragma) {
+      return connection.QueryValue(
+          fmt::format("SELECT group_concat(name) FROM {}('{}')", pragma, table));
+    };
+    EXPECT_EQ(count("pragma_table_info"), count("pragma_table_xinfo")) << table;
+  }
+  for (const char* column : {"solution length", "solution segments", "correct solution",
+                             "simplified solution clearance", "solution smoothness"}) {
+    std::string name = column;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    EXPECT_EQ(connection.QueryValue(
+                  "SELECT count(*) FROM pragma_table_info('runs') WHERE name = '" + name + "'"),
+              SqliteValue(std::int64_t{1}))
+        << name;
+  }
 }
 
 TEST_F(ResultsSchemaTest, StatusesAreNamedInEnums) {
