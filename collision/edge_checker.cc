@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "common/error.h"
+#include "common/stopwatch.h"
 
 namespace planbench {
 namespace {
@@ -21,25 +24,11 @@ constexpr double kFirstStretch = 4;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
 
-/// Adds the time a call takes to a total, times kTimedCalls.
-class Stopwatch {
- public:
-  /// Null: takes no time, and none is taken.
-  explicit Stopwatch(double* total_s) : total_s_(total_s) {
-    if (total_s_ != nullptr) begin_ = std::chrono::steady_clock::now();
-  }
-  ~Stopwatch() {
-    if (total_s_ == nullptr) return;
-    *total_s_ += kTimedCalls *
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double* total_s_;
-  std::chrono::steady_clock::time_point begin_;
-};
+/// Times one call in kTimedCalls, for all of them.
+std::optional<ScopedTimer> TimeCall(std::int64_t* num_calls, double* total_s) {
+  if ((*num_calls)++ % kTimedCalls != 0) return std::nullopt;
+  return std::optional<ScopedTimer>(std::in_place, total_s, kTimedCalls);
+}
 
 /// Neighbouring samples collide together, so the next sample worth trying is the one furthest from
 /// all before: the far end, the middle, the quarters, ... (van der Corput's sequence). Parts are
@@ -84,7 +73,7 @@ void EdgeChecker::RequireSize(std::span<const double> q) const {
 
 bool EdgeChecker::IsValidState(std::span<const double> q) {
   RequireSize(q);
-  const Stopwatch stopwatch(num_calls_++ % kTimedCalls == 0 ? &counters_.seconds : nullptr);
+  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
   ++counters_.states;
   if (!space().WithinLimits(q)) return false;
   ++counters_.configurations;
@@ -100,7 +89,7 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
                     "joints",
                     qs.size(), valid.size(), num, n));
   }
-  const Stopwatch stopwatch(num_calls_++ % kTimedCalls == 0 ? &counters_.seconds : nullptr);
+  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
   counters_.states += num;
   std::size_t begin = 0;  // of a run of states within limits, which go to the engine together
   const auto check_run = [&](std::size_t end) {
@@ -122,7 +111,7 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
                               bool from_is_free) {
   RequireSize(from);
   RequireSize(to);
-  const Stopwatch stopwatch(num_calls_++ % kTimedCalls == 0 ? &counters_.seconds : nullptr);
+  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
   ++counters_.edges;
   return space().WithinLimits(from) && space().WithinLimits(to) &&
          !FindBlocked(from, to, from_is_free);

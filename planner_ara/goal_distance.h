@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "planning/planner.h"
+#include "planning/goal_box.h"
 #include "robot_model/joint_space.h"
 
 namespace planbench {

@@ -15,7 +15,7 @@
 #include "planner_ara/lattice.h"
 #include "planner_ara/motion_primitives.h"
 #include "planner_ara/tip_distance.h"
-#include "planning/planner.h"
+#include "planning/goal_box.h"
 
 namespace planbench {
 

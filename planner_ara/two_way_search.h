@@ -9,7 +9,8 @@
 
 #include "planner_ara/ara_star.h"
 #include "planner_ara/manipulation_graph.h"
-#include "planning/planner.h"
+#include "planning/goal_box.h"
+#include "planning/plan_result.h"
 
 namespace planbench {
 

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <random>
 
-#include "planning/planner.h"
+#include "planning/goal_box.h"
+#include "planning/plan_result.h"
 
 namespace planbench {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "planning/planner.h"
+#include "planning/planner_description.h"
 
 namespace planbench {
 

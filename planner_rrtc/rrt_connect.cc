@@ -1,10 +1,10 @@
 #include "planner_rrtc/rrt_connect.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "common/stopwatch.h"
 #include "planner_rrtc/stopped_search.h"
 
 namespace planbench {
@@ -17,19 +17,6 @@ constexpr int kLargestBatch = 16;
 
 /// Change of a node's domain at a success or a failure, relative.
 constexpr double kDomainChange = 1e-4;
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double* total_s) : total_s_(total_s) {}
-  ~Stopwatch() { *total_s_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double* total_s_;
-  Clock::time_point begin_ = Clock::now();
-};
 
 }  // namespace
 
@@ -86,7 +73,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
   const std::size_t n = flat_.size();
   for (; num_drawn_ < num; ++num_drawn_) sampler->Sample(samples_.data() + At(num_drawn_));
   {
-    const Stopwatch stopwatch(&nearest_s_);
+    const ScopedTimer timer(&nearest_s_);
     for (int k = 0; k < num; ++k) {
       Candidate& candidate = candidates_[static_cast<std::size_t>(k)];
       candidate.tree = last = NextTree(last);
@@ -145,7 +132,7 @@ int RrtConnect::Connect(int tree, const double* q) {
   const NodeTree& nodes = trees_[tree].nodes;
   NodeTree::Neighbor near;
   {
-    const Stopwatch stopwatch(&nearest_s_);
+    const ScopedTimer timer(&nearest_s_);
     near = nodes.Nearest(q);
   }
   const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / settings_->range)));

@@ -10,7 +10,9 @@
 #include "planner_rrtc/joint_sampler.h"
 #include "planner_rrtc/node_tree.h"
 #include "planner_rrtc/rrtc_settings.h"
-#include "planning/planner.h"
+#include "planning/plan_result.h"
+#include "planning/search_query.h"
+#include "planning/search_result.h"
 
 namespace planbench {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "planning/planner.h"
+#include "planning/search_query.h"
+#include "planning/search_result.h"
 
 namespace planbench {
 

@@ -1,6 +1,6 @@
-#include <cstddef>
+#include "planning/goal_box.h"
 
-#include "planning/planner.h"
+#include <cstddef>
 
 namespace planbench {
 

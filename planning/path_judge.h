@@ -5,8 +5,9 @@
 #include <string>
 
 #include "collision/collision_checker.h"
+#include "planning/goal_box.h"
 #include "planning/path_measures.h"
-#include "planning/planner.h"
+#include "planning/plan_result.h"
 
 namespace planbench {
 

@@ -18,18 +18,12 @@
 namespace planbench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Random shortcuts tried on every path, whatever planner found it.
 constexpr int kShortcutAttempts = 200;
 
 /// Ends of a path may differ from the asked ones by this much (rad or m), the rounding of
 /// interpolation.
 constexpr double kEndRounding = 1e-9;
-
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 [[noreturn]] void BrokenInvariant(const std::string& algorithm, const std::string& what) {
   fmt::print(stderr, "{}: broken invariant: {}\n", algorithm, what);
@@ -111,37 +105,34 @@ void RequireSearchStatus(const std::string& algorithm, PlanStatus status) {
 
 CollisionChecker& Planner::CheckerFor(const PlanningGroup& group, CollisionModel model) {
   std::unique_ptr<CollisionChecker>& checker = checkers_[{group.name, model}];
-  if (!checker) {
-    checker = exact_ ? MakeReferenceChecker(*robot_, group, model)
-                     : MakeCollisionChecker(*robot_, group, model);
-  }
+  if (!checker) checker = MakeCollisionChecker(*robot_, group, model);
   return *checker;
 }
 
 PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanControl* control) {
   ResetPeakMemory();
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch clock;
   PlanResult result;
   try {
     PlanControl unwatched;
-    PlanInScene(request, scene, control != nullptr ? control : &unwatched, begin, &result);
+    PlanInScene(request, scene, control != nullptr ? control : &unwatched, clock, &result);
   } catch (const InputError& error) {
     result = {};
     result.status = PlanStatus::kInvalidRequest;
     result.message = error.what();
-    result.planning_time_s = result.total_time_s = SecondsSince(begin);
+    result.planning_time_s = result.total_time_s = clock.seconds();
   } catch (const std::bad_alloc&) {
     result = {};
     result.status = PlanStatus::kMemoryLimit;
     result.message = "out of memory";
-    result.planning_time_s = result.total_time_s = SecondsSince(begin);
+    result.planning_time_s = result.total_time_s = clock.seconds();
   }
   result.peak_memory_mb = PeakMemoryMb();
   return result;
 }
 
 void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanControl* control,
-                          Clock::time_point begin, PlanResult* result) {
+                          const Stopwatch& clock, PlanResult* result) {
   const std::string origin =
       request.request_id.empty() ? "request" : "request " + request.request_id;
   const PlannerDescription description = Describe();
@@ -154,7 +145,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   checker.SetScene(scene, resolved.base_positions);
   EdgeChecker edges(&checker, request.edge_resolution_m.value_or(robot_->edge_resolution_m),
                     request.edge_check.value_or(robot_->edge_check));
-  result->phases.setup_s = SecondsSince(begin);
+  result->phases.setup_s = clock.seconds();
 
   SearchQuery query;
   const bool backward = request.direction == Direction::kBackward;
@@ -167,7 +158,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   query.anytime_ = request.anytime && description.anytime;
   query.parameters_ = &request.parameters;
   query.control_ = control;
-  query.begin_ = begin;
+  query.clock_ = clock;
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
@@ -189,7 +180,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
     }
   }
 
-  result->total_time_s = SecondsSince(begin);
+  result->total_time_s = clock.seconds();
   result->planning_time_s =
       query.progress_.empty() ? result->total_time_s : query.progress_.front().elapsed_s;
   const EdgeChecker::Counters counters = edges.counters();
@@ -217,10 +208,9 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   result->epsilon = found.epsilon;
   result->cost = found.cost;
   if (!request.simplify) return;
-  const Clock::time_point simplification_begin = Clock::now();
+  const ScopedTimer timer(&result->phases.simplification_s);
   result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutAttempts,
                                          [&query] { return query.Cancelled(); });
-  result->phases.simplification_s = SecondsSince(simplification_begin);
 }
 
 }  // namespace planbench

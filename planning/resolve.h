@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "planning/planner.h"
+#include "planning/goal_box.h"
+#include "planning/plan_result.h"
 #include "robot_model/robot_folder.h"
 #include "scene/problem.h"
 

@@ -1,19 +1,17 @@
-#include "planning/planner.h"
+#include "planning/search_query.h"
+
+#include <atomic>
 
 namespace planbench {
 
-double SearchQuery::ElapsedSeconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
-
 bool SearchQuery::Cancelled() const { return control_->cancelled.load(std::memory_order_relaxed); }
 
-double SearchQuery::RemainingSeconds() const { return time_limit_s_ - ElapsedSeconds(); }
+double SearchQuery::RemainingSeconds() const { return time_limit_s_ - clock_.seconds(); }
 
 bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() <= 0; }
 
 void SearchQuery::ReportSolution(double epsilon, double cost, std::int64_t expansions) {
-  progress_.push_back({ElapsedSeconds(), epsilon, cost, expansions});
+  progress_.push_back({clock_.seconds(), epsilon, cost, expansions});
   if (control_->on_progress) control_->on_progress(progress_.back());
 }
 

@@ -26,8 +26,10 @@ class ScriptedPlanner final : public Planner {
 
   PlannerDescription Describe() const override { return description; }
 
-  PlannerDescription description = {
-      .algorithm = "scripted", .anytime = true, .collision_models = {CollisionModel::kSpheres}};
+  PlannerDescription description = {.algorithm = "scripted",
+                                    .anytime = true,
+                                    .collision_models = {CollisionModel::kSpheres},
+                                    .settings = {}};
   int num_searches = 0;
 
  protected:

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "planning/plan_result.h"
+#include "robot_model/joint_space.h"
+
+namespace planbench {
+
+/// Goal of a search: a box in configuration space around a nominal point.
+struct GoalBox {
+  Configuration nominal;
+  Configuration lower;  ///< <= nominal
+  Configuration
+      upper;  ///< >= nominal; continuous joints are not wrapped: lower <= nominal <= upper holds.
+
+  /// True if q is inside (continuous joints compared the short way round from nominal), limits
+  /// inclusive with 1e-9 to spare for rounding.
+  bool Contains(const JointSpace& space, std::span<const double> q) const;
+};
+
+}  // namespace planbench

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "common/stopwatch.h"
+#include "planning/goal_box.h"
+#include "planning/plan_control.h"
+#include "planning/plan_result.h"
+#include "robot_model/joint_space.h"
+#include "scene/scene.h"
+
+namespace planbench {
+
+/// One search, from `start` to `goal` whatever the request's direction was (Planner has swapped
+/// them). Start and nominal goal have been found valid.
+class SearchQuery {
+ public:
+  const JointSpace& space() const { return edges_->space(); }
+  const Configuration& start() const { return start_; }
+  const GoalBox& goal() const { return goal_; }
+  /// The scene and the full positions that joints outside the group are held at.
+  const Scene& scene() const { return *scene_; }
+  const std::vector<double>& base_positions() const { return *base_positions_; }
+  /// Validity of states and edges; the only way to ask.
+  EdgeChecker& edges() const { return *edges_; }
+  std::uint64_t seed() const { return seed_; }
+  bool anytime() const { return anytime_; }
+  /// Settings of this request, to be applied over the planner's own (see YamlNode::Override).
+  const std::map<std::string, std::string>& parameters() const { return *parameters_; }
+
+  /// True once the time limit has passed or the request was cancelled. Cheap (one clock reading).
+  bool ShouldStop() const;
+  bool Cancelled() const;
+  double RemainingSeconds() const;
+  /// Reports a solution of an anytime search the moment it is ready: the first stops the planning
+  /// clock.
+  void ReportSolution(double epsilon, double cost, std::int64_t expansions);
+
+ private:
+  friend class Planner;
+
+  Configuration start_;
+  GoalBox goal_;
+  const Scene* scene_ = nullptr;
+  const std::vector<double>* base_positions_ = nullptr;
+  EdgeChecker* edges_ = nullptr;
+  std::uint64_t seed_ = 0;
+  bool anytime_ = false;
+  const std::map<std::string, std::string>* parameters_ = nullptr;
+  PlanControl* control_ = nullptr;
+  Stopwatch clock_;
+  double time_limit_s_ = 0;
+  std::vector<PlanProgress> progress_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "planning/plan_result.h"
+#include "planning/plan_status.h"
+
+namespace planbench {
+
+/// What a search found. Status is one of kSolved, kTimedOut, kExhausted, kCancelled, kMemoryLimit;
+/// a cancelled or timed-out anytime search that has a path returns it as kSolved.
+struct SearchResult {
+  PlanStatus status = PlanStatus::kTimedOut;
+  std::string message;
+  Path path;  ///< Query start to a point of the goal box; waypoints' edges all found valid by
+              ///< SearchQuery::edges().
+  double epsilon = 0;
+  double cost = 0;
+  double guidance_s = 0;  ///< Time spent on heuristic or nearest neighbours, if measured.
+  std::map<std::string, double> counters;
+};
+
+}  // namespace planbench
