@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -17,7 +16,6 @@
 #include <thread>
 
 #include "common/error.h"
-#include "common/utime.h"
 
 namespace planbench {
 namespace {
@@ -103,12 +101,6 @@ void WarnIfReceiveBufferIsCapped(const std::string& url) {
 }
 
 }  // namespace
-
-std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime) {
-  const std::int64_t age_us = NowUtime() - utime;
-  return std::chrono::steady_clock::now() -
-         std::chrono::microseconds(std::max<std::int64_t>(age_us, 0));
-}
 
 struct Subscription::State {
   lcm_subscription_t* subscription = nullptr;

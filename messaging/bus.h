@@ -12,9 +12,6 @@
 
 namespace planbench {
 
-/// A moment just past, us since the Unix epoch, on the steady clock; now, if it seems to lie ahead.
-std::chrono::steady_clock::time_point SteadyTimeOf(std::int64_t utime);
-
 /// Keeps a handler subscribed while it lives. Destroying it waits for a running call of the handler
 /// to end, after which there is none: it must not be destroyed from within the handler, nor outlive
 /// the bus.
@@ -72,8 +69,8 @@ class Bus {
                                        std::chrono::steady_clock::time_point) { handler(message); },
         std::move(on_bad_message), queue_capacity);
   }
-  /// The same for a handler that is also told when the message arrived at this process, before it
-  /// waited for the bus thread and was decoded.
+  /// The same for a handler that is also told when the message arrived, before it was decoded.
+  /// (LCM's own time of receipt is of the system clock, which may jump.)
   template <typename Message>
   [[nodiscard]] Subscription SubscribeTimed(
       const std::string& channel,
@@ -84,8 +81,8 @@ class Bus {
         channel,
         [handler = std::move(handler), on_bad_message = std::move(on_bad_message)](
             const std::string& received_on, std::span<const std::uint8_t> bytes,
-            std::int64_t utime) {
-          const std::chrono::steady_clock::time_point arrival = SteadyTimeOf(utime);
+            std::int64_t /*utime*/) {
+          const auto arrival = std::chrono::steady_clock::now();
           try {
             handler(Decode<Message>(bytes, received_on), arrival);
           } catch (const MessageError& error) {
