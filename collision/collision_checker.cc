@@ -25,6 +25,15 @@ bool AllFinite(std::span<const double> values) {
 
 }  // namespace
 
+std::string Describe(const Contact& contact) {
+  constexpr double kLeastShown = 0.00005;  // m
+  if (contact.depth_m < kLeastShown) {
+    return fmt::format("'{}' and '{}' in contact", contact.body_a, contact.body_b);
+  }
+  return fmt::format("'{}' and '{}', {:.4f} m deep", contact.body_a, contact.body_b,
+                     contact.depth_m);
+}
+
 void CollisionChecker::SetScene(const Scene& scene, std::span<const double> base_positions) {
   const int expected = robot_->model.num_positions();
   if (static_cast<int>(base_positions.size()) != expected) {

@@ -18,9 +18,14 @@ namespace planbench {
 struct Contact {
   std::string body_a;  ///< A link or attached object.
   std::string body_b;
-  double depth_m = 0;  ///< Depth of the deepest pair of their shapes, >= 0.
+  /// Depth of the deepest pair of their shapes, >= 0; 0 if they but touch or the engine does not
+  /// know it, as of meshes and of two shapes none of which is a sphere.
+  double depth_m = 0;
   bool operator==(const Contact&) const = default;
 };
+
+/// "'arm' and 'table', 0.0120 m deep", or without a depth to tell "'arm' and 'table' in contact".
+std::string Describe(const Contact& contact);
 
 /// The two nearest bodies.
 struct ClosestPair {

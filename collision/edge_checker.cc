@@ -19,6 +19,9 @@ namespace {
 constexpr std::int64_t kTimedCalls = 8;
 /// Samples that CheckSamples takes at once.
 constexpr int kMaxBlock = 64;
+/// Within an edge, whether to stop is asked after this many samples: seldom enough to cost nothing,
+/// often enough where each is the work of an exact engine on meshes.
+constexpr std::int64_t kSamplesUnasked = 64;
 /// Certified edges are first cut into stretches of this many edge resolutions ...
 constexpr double kFirstStretch = 4;
 /// ... and those not proven free into this many parts.
@@ -69,6 +72,18 @@ void EdgeChecker::RequireSize(std::span<const double> q) const {
     throw InputError(fmt::format("edge checker: a configuration of {} values given for {} joints",
                                  q.size(), space().size()));
   }
+}
+
+void EdgeChecker::StopWhen(std::function<bool()> should_stop) {
+  should_stop_ = std::move(should_stop);
+  stopped_ = false;
+}
+
+bool EdgeChecker::GiveUp() {
+  if (unasked_ < kSamplesUnasked) return false;
+  unasked_ = 0;
+  stopped_ = stopped_ || (should_stop_ && should_stop_());
+  return stopped_;
 }
 
 bool EdgeChecker::IsValidState(std::span<const double> q) {
@@ -127,12 +142,14 @@ std::optional<double> EdgeChecker::FindBlocked(std::span<const double> from,
     motion_[j] = space().Difference(static_cast<int>(j), from[j], to[j]);
     motion_m += std::abs(motion_[j]) * checker_->motion_bound().reach()[j];
   }
+  unasked_ = 0;
   return method_ == EdgeCheck::kFixed ? FindBlockedSample(from, motion_m, from_is_free)
                                       : FindBlockedStretch(from, motion_m);
 }
 
 SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
   counters_.configurations += static_cast<std::int64_t>(block_.size());
+  unasked_ += static_cast<std::int64_t>(block_.size());
   return checker_->CheckSamples(from, motion_, block_);
 }
 
@@ -153,6 +170,7 @@ std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> fro
       block_.push_back({SamplePosition(part, num_parts)});
       part = NextSample(part, num_parts);
     }
+    if (GiveUp()) return block_.front().position;
     const std::uint64_t blocked = CheckBlock(from).blocked;
     if (blocked != 0) return block_[static_cast<std::size_t>(std::countr_zero(blocked))].position;
   }
@@ -175,6 +193,7 @@ std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> fr
     const auto size = std::min(static_cast<std::size_t>(batch), pending_.size() - next);
     const auto begin = pending_.begin() + static_cast<std::ptrdiff_t>(next);
     block_.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
+    if (GiveUp()) return block_.front().position;
     const SampleVerdicts verdicts = CheckBlock(from);
     if (verdicts.certain != 0) {
       return block_[static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;

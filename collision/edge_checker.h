@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,6 +20,9 @@ namespace planbench {
 ///   into stretches; those that are not proven free as a whole are cut again, down to stretches
 ///   over which nothing moves more than kCertifiedDepth, which count as in collision. So an edge
 ///   that passes obstacles at less than that may be refused, and none that collides is accepted.
+///
+/// Free is what the checker's model says of every configuration on the edge: with a distance field,
+/// that no centre of a sphere comes into a cell whose value is below the radius.
 ///
 /// Configurations of the wrong size throw InputError; joint positions that are not finite are
 /// outside the limits.
@@ -43,6 +47,13 @@ class EdgeChecker {
   const JointSpace& space() const { return checker_->space(); }
   CollisionChecker& checker() const { return *checker_; }
   double edge_resolution_m() const { return edge_resolution_m_; }
+
+  /// A long edge can take long. `should_stop` is asked within edges, every so many configurations;
+  /// once it says yes, edges that need more are given up: they count as blocked, and Stopped says
+  /// so. An empty function: never.
+  void StopWhen(std::function<bool()> should_stop);
+  /// True if an edge was given up since StopWhen.
+  bool Stopped() const { return stopped_; }
   EdgeCheck method() const { return method_; }
 
   bool IsValidState(std::span<const double> q);
@@ -87,12 +98,17 @@ class EdgeChecker {
                                           bool from_is_free);
   std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
   SampleVerdicts CheckBlock(std::span<const double> from);
+  /// True if the edge at hand is to be given up.
+  bool GiveUp();
 
   CollisionChecker* checker_;
   double edge_resolution_m_;
   EdgeCheck method_;
   Counters counters_;
   std::int64_t num_calls_ = 0;
+  std::function<bool()> should_stop_;
+  bool stopped_ = false;
+  std::int64_t unasked_ = 0;  ///< Configurations of the edge at hand since should_stop_ was asked.
 
   // Scratch.
   std::vector<double> motion_;         ///< The edge's signed motion, by joint.

@@ -1,5 +1,6 @@
 #include "planner_ara/ara_planner.h"
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -77,6 +78,8 @@ class AraPlanner : public Planner {
 
     double bound = std::numeric_limits<double>::infinity();
     const auto report = [&](double proven) {
+      // Without an edge that was given up nothing is proven.
+      if (query.edges().Stopped()) return;
       bound = proven;
       query.ReportSolution(bound, search.cost(), search.counts().expansions);
     };
@@ -102,7 +105,8 @@ class AraPlanner : public Planner {
         {"search_iterations", static_cast<double>(counts.iterations)},
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
     };
-    if (!search.path().empty()) {
+    const bool reported = std::isfinite(bound) || !query.edges().Stopped();
+    if (!search.path().empty() && reported) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
       result.epsilon = bound;

@@ -92,10 +92,7 @@ bool JudgeCollisions(const EdgeChecker& edges, const Path& path, PathVerdict* ve
     if (checker.IsFree(q)) return true;
     free = false;
     verdict->contact = checker.FindContact(q);
-    const std::string bodies =
-        verdict->contact ? fmt::format("'{}' and '{}', {:.4f} m deep", verdict->contact->body_a,
-                                       verdict->contact->body_b, verdict->contact->depth_m)
-                         : "no contact found";
+    const std::string bodies = verdict->contact ? Describe(*verdict->contact) : "no contact found";
     Reject(verdict, fmt::format("collision on segment {} at {:.3f}: {}", segment, fraction, bodies),
            segment, fraction);
     return false;

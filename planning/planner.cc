@@ -63,8 +63,7 @@ std::string FindFault(EdgeChecker* edges, const Configuration& q, std::string_vi
   }
   const std::optional<Contact> contact = edges->checker().FindContact(q);
   if (!contact) return fmt::format("{} is in collision", what);
-  return fmt::format("{} is in collision: '{}' and '{}', {:.4f} m deep", what, contact->body_a,
-                     contact->body_b, contact->depth_m);
+  return fmt::format("{} is in collision: {}", what, Describe(*contact));
 }
 
 GoalBox PointGoal(const Configuration& q) { return {q, q, q}; }
@@ -172,8 +171,13 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
   } else {
+    edges.StopWhen([&query] { return query.ShouldStop(); });
     found = Search(query);
     RequireSearchStatus(description.algorithm, found.status);
+    if (edges.Stopped() && found.status == PlanStatus::kExhausted) {
+      // Of a space that lacks the edge given up.
+      found.status = query.Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
+    }
     if (found.status == PlanStatus::kSolved) {
       AcceptPath(query, description.algorithm, &found.path);
       if (backward) std::reverse(found.path.begin(), found.path.end());
@@ -209,6 +213,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   result->cost = found.cost;
   if (!request.simplify) return;
   const ScopedTimer timer(&result->phases.simplification_s);
+  edges.StopWhen([&query] { return query.Cancelled(); });
   result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutAttempts,
                                          [&query] { return query.Cancelled(); });
 }

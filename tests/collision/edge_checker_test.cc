@@ -43,7 +43,9 @@ class ScriptedChecker : public CollisionChecker {
     return !collides(q);
   }
   std::optional<Contact> DoFindContact(std::span<const double>) override { return std::nullopt; }
-  ClosestPair DoFindClosest(std::span<const double>) override { return {}; }
+  ClosestPair DoFindClosest(std::span<const double> q) override {
+    return {collides(q) ? 0.0 : 1.0, "", ""};
+  }
 
  private:
   int batch_size_;
@@ -262,6 +264,30 @@ TEST(EdgeCheckerTest, ChecksStatesTogetherAsOneByOne) {
   EXPECT_EQ(edges.counters().configurations, 5);
   edges.CheckStates({}, 0, {});
   ExpectInputError([&] { edges.CheckStates(states, 7, valid); }, {"16 values", "7 states"});
+}
+
+TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0, 0};
+  const std::vector<double> to = {1, 3};
+  const std::vector<double> near = {0.01, 0};
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    SCOPED_TRACE(EnumName(method));
+    ScriptedChecker checker(robot, 1);
+    EdgeChecker edges(&checker, 1e-3, method);
+    int num_asked = 0;
+    edges.StopWhen([&] { return ++num_asked > 3; });
+    EXPECT_FALSE(edges.IsValidEdge(from, to));
+    EXPECT_TRUE(edges.Stopped());
+    const std::int64_t configurations = edges.counters().configurations;
+    EXPECT_GT(configurations, 64);
+    EXPECT_LE(configurations, 4 * 64);
+    EXPECT_TRUE(edges.IsValidEdge(from, near)) << "which is short";
+    edges.StopWhen({});
+    EXPECT_FALSE(edges.Stopped());
+    EXPECT_TRUE(edges.IsValidEdge(from, to));
+    EXPECT_GT(edges.counters().configurations - configurations, 4 * 64);
+  }
 }
 
 }  // namespace
