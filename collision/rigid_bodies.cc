@@ -119,4 +119,11 @@ bool RigidBodies::Descends(int body, int ancestor) const {
   return body == ancestor;
 }
 
+std::vector<int> RigidBodies::JointsBelowCommon(int body, int other) const {
+  std::vector<int> joints;
+  for (; !Descends(other, body); body = Parent(body))
+    joints.push_back(At(bodies_, body).group_index);
+  return joints;
+}
+
 }  // namespace planbench

@@ -65,6 +65,9 @@ class RigidBodies {
   /// it.
   Ball Reach(int ancestor, int body, const Ball& ball) const;
   bool Descends(int body, int ancestor) const;
+  /// The joints (group indices) that move `body` relative to the nearest body that carries it and
+  /// `other`; with those of the two the other way round, all that move one relative to the other.
+  std::vector<int> JointsBelowCommon(int body, int other) const;
   /// True if no prismatic joint of the group is further from its zero than its limits allow
   /// (configurations beyond limits are not planned with, but may be checked).
   bool WithinTravel(std::span<const double> q) const;

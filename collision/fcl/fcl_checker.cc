@@ -48,7 +48,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
   for (int link = 0; link < robot.model.num_links(); ++link) {
     LinkGeometry geometry{link, SphereTree(), {}};
     const std::size_t num_balls = balls.size();
-    if (model == CollisionModel::kSpheres) {
+    if (model != CollisionModel::kMeshes) {
       std::vector<Ball> spheres;
       for (const LinkSphere& sphere : robot.spheres) {
         if (sphere.link != link) continue;
@@ -85,7 +85,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
   if (links_.empty()) {
     throw InputError(
         fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
-                    model == CollisionModel::kSpheres ? "collision spheres" : "collision geometry",
+                    model != CollisionModel::kMeshes ? "collision spheres" : "collision geometry",
                     EnumName(model)));
   }
   geometry_bound_.emplace(robot.model, group, std::move(balls));
@@ -172,8 +172,9 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
   }
   ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
   placed_at_.assign(geometries_.size(), -1);
+  geometry_bound_->Set(scene, base_positions);
   ListPairs(scene);
-  return geometry_bound_->Compute(scene, base_positions);
+  return geometry_bound_->OfAll();
 }
 
 bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const Body& a,
@@ -184,7 +185,8 @@ bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const 
     case Kind::kLink:
       if (b.kind == Kind::kLink) return rules.ChecksLinks(a.index, b.index);
       if (b.kind == Kind::kObject) {
-        return rules.ChecksLinkWithObject(a.index, At(scene.objects, b.index));
+        return model() != CollisionModel::kVoxels &&
+               rules.ChecksLinkWithObject(a.index, At(scene.objects, b.index));
       }
       return rules.ChecksAttachedWithLink(At(scene.attached, b.index), a.index);
     case Kind::kObject:
@@ -208,6 +210,7 @@ void FclChecker::ListPairs(const Scene& scene) {
   }
 
   pairs_.clear();
+  reaches_.clear();
   std::vector<Pair> standing;
   const int num_geometries = static_cast<int>(geometries_.size());
   for (int g = 0; g < num_geometries; ++g) {
@@ -220,30 +223,69 @@ void FclChecker::ListPairs(const Scene& scene) {
       }
       const bool b_is_source =
           b.tree != nullptr && (a.tree == nullptr || b.tree->num_spheres() < a.tree->num_spheres());
-      const Pair pair{b_is_source ? h : g, b_is_source ? g : h,
-                      !OutOfReach(a, b) && !OutOfReach(b, a)};
-      (a.rigid_body == b.rigid_body ? standing : pairs_).push_back(pair);
+      Pair pair{b_is_source ? h : g, b_is_source ? g : h, !OutOfReach(a, b) && !OutOfReach(b, a)};
+      if (a.rigid_body == b.rigid_body) {
+        standing.push_back(pair);
+        continue;
+      }
+      pair.reach = static_cast<int>(reaches_.size());
+      AddReach(a, b);
+      pairs_.push_back(pair);
     }
   }
-
-  order_.clear();
-  for (bool can_meet : {true, false}) {
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (pairs_[i].can_meet == can_meet) order_.push_back(static_cast<int>(i));
-    }
-    if (can_meet) num_meeting_ = order_.size();
-  }
+  all_ = List([](const Pair&) { return true; });
+  selected_ = {};
 
   // Where the robot stands does not matter to pairs that keep their relative pose.
   Place(std::vector<double>(group().joints.size(), 0.0));
   standing_contact_.reset();
   standing_closest_ = {kInfinity, "", ""};
   for (const Pair& pair : standing) {
-    if (!standing_contact_ && Touch(pair)) standing_contact_ = ContactOf(standing, pair);
+    if (!standing_contact_ && Within(pair, 0)) standing_contact_ = ContactOf(standing, pair);
     const double distance = Distance(pair, standing_closest_.distance_m);
     if (distance < standing_closest_.distance_m) SetClosest(pair, distance, &standing_closest_);
   }
   by_bound_.reserve(pairs_.size());
+}
+
+void FclChecker::AddReach(const Geometry& a, const Geometry& b) {
+  const std::size_t first = reaches_.size();
+  reaches_.resize(first + group().joints.size(), 0.0);
+  for (const auto& [moving, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    const Body& body = At(bodies_, moving->body);
+    if (body.kind == Body::Kind::kObject) continue;
+    const MotionBound& bound = body.kind == Body::Kind::kLink
+                                   ? geometry_bound_->OfLink(body.index)
+                                   : geometry_bound_->OfAttached(body.index);
+    for (const int joint :
+         rigid_bodies_->JointsBelowCommon(moving->rigid_body, other->rigid_body)) {
+      At(reaches_, first + static_cast<std::size_t>(joint)) = At(bound.reach(), joint);
+    }
+  }
+}
+
+template <typename Takes>
+FclChecker::PairList FclChecker::List(Takes takes) const {
+  PairList list;
+  for (const bool can_meet : {true, false}) {
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (pairs_[i].can_meet == can_meet && takes(pairs_[i])) {
+        list.order.push_back(static_cast<int>(i));
+      }
+    }
+    if (can_meet) list.num_meeting = list.order.size();
+  }
+  return list;
+}
+
+void FclChecker::Select(std::span<const unsigned char> objects) {
+  const auto is_selected = [&](int geometry) {
+    const Body& body = At(bodies_, At(geometries_, geometry).body);
+    return body.kind == Body::Kind::kAttached ||
+           (body.kind == Body::Kind::kObject && At(objects, body.index) != 0);
+  };
+  selected_ =
+      List([&](const Pair& pair) { return is_selected(pair.source) || is_selected(pair.target); });
 }
 
 bool FclChecker::OutOfReach(const Geometry& moving, const Geometry& carrier) const {
@@ -277,21 +319,30 @@ void FclChecker::PlaceNodes(int g) {
   for (const SphereTree::Node& node : geometry.tree->nodes()) *position++ = X_WS * node.center;
 }
 
-bool FclChecker::Touch(const Pair& pair) {
+double FclChecker::RelativeMotion(const Pair& pair, std::span<const double> motion) const {
+  const double* reach = reaches_.data() + pair.reach;
+  double bound = 0;
+  for (std::size_t j = 0; j < motion.size(); ++j) bound += std::abs(motion[j]) * reach[j];
+  return bound;
+}
+
+bool FclChecker::Within(const Pair& pair, double margin) {
   const Geometry& source = At(geometries_, pair.source);
   const Geometry& target = At(geometries_, pair.target);
   const Pose& X_WT = At(poses_, target.pose);
-  if (BallMissesBox(X_WT.InverseTimes(At(ball_positions_, pair.source)), source.ball_radius,
-                    target.box_center, target.box_half_size)) {
+  if (BallMissesBox(X_WT.InverseTimes(At(ball_positions_, pair.source)),
+                    source.ball_radius + margin, target.box_center, target.box_half_size)) {
     return false;
   }
   if (source.tree == nullptr) {
     const Pose& X_WS = At(poses_, source.pose);
-    if (BallMissesBox(X_WS.InverseTimes(At(ball_positions_, pair.target)), target.ball_radius,
-                      source.box_center, source.box_half_size)) {
+    if (BallMissesBox(X_WS.InverseTimes(At(ball_positions_, pair.target)),
+                      target.ball_radius + margin, source.box_center, source.box_half_size)) {
       return false;
     }
-    return target.shape->Touches(*source.shape, X_WT.Inverse() * X_WS);
+    const Pose X_TS = X_WT.Inverse() * X_WS;
+    if (margin == 0) return target.shape->Touches(*source.shape, X_TS);
+    return target.shape->Distance(*source.shape, X_TS, 2 * margin) <= margin;
   }
 
   PlaceNodes(pair.source);
@@ -299,18 +350,19 @@ bool FclChecker::Touch(const Pair& pair) {
   const int end = static_cast<int>(nodes.size());
   for (int i = 0; i < end;) {
     const SphereTree::Node& node = At(nodes, i);
+    const double radius = node.radius + margin;
     const Eigen::Vector3d center = X_WT.InverseTimes(At(node_positions_, source.first_node + i));
-    if (BallMissesBox(center, node.radius, target.box_center, target.box_half_size)) {
+    if (BallMissesBox(center, radius, target.box_center, target.box_half_size)) {
       i = node.next;
       continue;
     }
     if (target.tree != nullptr) {
-      if (!target.tree->Touches(center, node.radius)) {
+      if (!target.tree->Touches(center, radius)) {
         i = node.next;
         continue;
       }
       if (node.leaf) return true;
-    } else if (node.leaf && target.shape->TouchesBall(center, node.radius)) {
+    } else if (node.leaf && target.shape->TouchesBall(center, radius)) {
       return true;
     }
     ++i;
@@ -318,24 +370,53 @@ bool FclChecker::Touch(const Pair& pair) {
   return false;
 }
 
-bool FclChecker::DoIsFree(std::span<const double> q) {
-  if (standing_contact_) return false;
+SampleVerdicts FclChecker::CheckStretch(std::span<const double> q, std::span<const double> motion,
+                                        double half_length, Pairs pairs) {
+  if (standing_contact_) return {1, 1};
   Place(q);
-  const std::size_t end = rigid_bodies_->WithinTravel(q) ? num_meeting_ : order_.size();
+  PairList& list = pairs == Pairs::kAll ? all_ : selected_;
+  auto& order = list.order;
+  const std::size_t end = rigid_bodies_->WithinTravel(q) ? list.num_meeting : order.size();
+  SampleVerdicts verdict;
   for (std::size_t i = 0; i < end; ++i) {
-    if (!Touch(At(pairs_, order_[i]))) continue;
+    const Pair& pair = At(pairs_, order[i]);
+    // Once the stretch is not proven free, only what is certain matters.
+    const bool around = half_length > 0 && verdict.blocked == 0;
+    const double margin = around ? half_length * RelativeMotion(pair, motion) : 0.0;
+    if (!Within(pair, margin)) continue;
+    verdict.blocked = 1;
+    if (margin > 0 && !Within(pair, 0)) continue;
+    verdict.certain = 1;
     // Pairs that hit move to the front, one step at a time: the next check will find them sooner.
-    if (i > 0 && i != num_meeting_) std::swap(order_[i], order_[i - 1]);
-    return false;
+    if (i > 0 && i != list.num_meeting) std::swap(order[i], order[i - 1]);
+    break;
   }
-  return true;
+  return verdict;
+}
+
+bool FclChecker::DoIsFree(std::span<const double> q) {
+  return CheckStretch(q, {}, 0, Pairs::kAll).blocked == 0;
+}
+
+SampleVerdicts FclChecker::DoCheckSamples(std::span<const double> start,
+                                          std::span<const double> motion,
+                                          std::span<const MotionSample> samples) {
+  q_.resize(start.size());
+  SampleVerdicts verdicts;
+  for (std::size_t k = 0; k < samples.size() && verdicts.certain == 0; ++k) {
+    for (std::size_t j = 0; j < q_.size(); ++j) q_[j] = start[j] + samples[k].position * motion[j];
+    const SampleVerdicts one = CheckStretch(q_, motion, samples[k].half_length, Pairs::kAll);
+    verdicts.blocked |= one.blocked << k;
+    verdicts.certain |= one.certain << k;
+  }
+  return verdicts;
 }
 
 std::optional<Contact> FclChecker::DoFindContact(std::span<const double> q) {
   if (standing_contact_) return standing_contact_;
   Place(q);
   for (const Pair& pair : pairs_) {
-    if (Touch(pair)) return ContactOf(pairs_, pair);
+    if (Within(pair, 0)) return ContactOf(pairs_, pair);
   }
   return std::nullopt;
 }
@@ -350,7 +431,7 @@ Contact FclChecker::ContactOf(std::span<const Pair> pairs, const Pair& touching)
     const auto [a, b] = bodies_of(pair);
     if (a == first && b == second) distance = Distance(pair, distance);
   }
-  Contact contact{At(bodies_, first).name, At(bodies_, second).name, -distance};
+  Contact contact{At(bodies_, first).name, At(bodies_, second).name, std::max(0.0, -distance)};
   if (At(bodies_, first).kind == Body::Kind::kObject) std::swap(contact.body_a, contact.body_b);
   return contact;
 }

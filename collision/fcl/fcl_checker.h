@@ -24,10 +24,13 @@ namespace planbench {
 /// all, decides once those that do not move relative to each other, and drops those out of each
 /// other's reach. A check moves one frame per group joint and then asks, pair by pair, first the
 /// bounding sphere of one against the bounding box of the other, then (sphere against sphere) plain
-/// arithmetic or (anything else) FCL's narrow phase.
+/// arithmetic or (anything else) FCL's narrow phase. A stretch of a motion is free if each pair is
+/// further apart at its middle than the bound on the motion of that pair, of one relative to the
+/// other.
 class FclChecker : public CollisionChecker {
  public:
-  /// `model`: kSpheres or kMeshes. Throws InputError if the robot has no spheres, no collision
+  /// `model`: with kVoxels links are not checked against objects, which a distance field does; all
+  /// else is as with kSpheres. Throws InputError if the robot has no spheres, no collision
   /// geometry, or a mesh that cannot be read.
   FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model);
 
@@ -36,9 +39,20 @@ class FclChecker : public CollisionChecker {
   /// the scene set last is free.
   bool AlwaysCollides() const { return standing_contact_.has_value(); }
 
+  enum class Pairs { kAll, kSelected };
+  /// Selects, for the scene set last, the pairs with an attached object or with one of the scene's
+  /// objects for which `objects` (by place in its list) is not 0.
+  void Select(std::span<const unsigned char> objects);
+  /// The verdict, in bit 0, on the stretch q +- half_length * motion: the configuration q alone if
+  /// half_length is 0. Sizes are not checked.
+  SampleVerdicts CheckStretch(std::span<const double> q, std::span<const double> motion,
+                              double half_length, Pairs pairs);
+
  protected:
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
   bool DoIsFree(std::span<const double> q) override;
+  SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
+                                std::span<const MotionSample> samples) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
   ClosestPair DoFindClosest(std::span<const double> q) override;
 
@@ -76,6 +90,12 @@ class FclChecker : public CollisionChecker {
     int source;
     int target;
     bool can_meet;
+    int reach = 0;  // where the bound on its relative motion begins in reaches_
+  };
+  /// Indices into pairs_: those that can meet (often hit first), then the others.
+  struct PairList {
+    std::vector<int> order;
+    std::size_t num_meeting = 0;
   };
 
   void AddLink(const LinkGeometry& link);
@@ -86,11 +106,16 @@ class FclChecker : public CollisionChecker {
   bool ChecksBodies(const class PairRules& rules, const Scene& scene, const Body& a,
                     const Body& b) const;
   bool OutOfReach(const Geometry& moving, const Geometry& carrier) const;
+  void AddReach(const Geometry& a, const Geometry& b);
+  template <typename Takes>
+  PairList List(Takes takes) const;
 
   void Place(std::span<const double> q);
   void PlaceNodes(int geometry);
   bool Apart(const Geometry& a, const Geometry& b) const;
-  bool Touch(const Pair& pair);
+  double RelativeMotion(const Pair& pair, std::span<const double> motion) const;
+  /// Whether the pair is no further apart than `margin`, m.
+  bool Within(const Pair& pair, double margin);
   double Distance(const Pair& pair, double at_most);
   double DistanceBound(const Pair& pair) const;
   Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);
@@ -108,9 +133,9 @@ class FclChecker : public CollisionChecker {
   std::vector<Pair> pairs_;                  // whose relative pose varies, in fixed order
   std::optional<Contact> standing_contact_;  // of pairs whose relative pose does not vary
   ClosestPair standing_closest_;
-  std::vector<int>
-      order_;  // indices into pairs_: those that can meet (often hit first), then the others
-  std::size_t num_meeting_ = 0;
+  std::vector<double> reaches_;  // m/rad: n values by pair, see MotionBound
+  PairList all_;
+  PairList selected_;
 
   // Of the configuration checked last.
   std::vector<Pose> poses_;         // rigid bodies, then shapes
@@ -120,6 +145,7 @@ class FclChecker : public CollisionChecker {
   std::vector<std::int64_t> placed_at_;  // by geometry: the value of placement_ its nodes are of
   std::int64_t placement_ = 0;
   std::vector<std::pair<double, int>> by_bound_;  // scratch of FindClosest
+  std::vector<double> q_;                         // scratch of CheckSamples
 };
 
 }  // namespace planbench

@@ -258,9 +258,7 @@ void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool d
   kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
   // The joints between each and the nearest body that carries both.
   for (const auto& [tree, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (int body = tree->body; !rigid_bodies_.Descends(other->body, body);
-         body = rigid_bodies_.Parent(body)) {
-      const int joint = At(kernel.bodies, body).joint;
+    for (const int joint : rigid_bodies_.JointsBelowCommon(tree->body, other->body)) {
       At(kernel.reaches, offset + joint) = At(kernel.reaches, tree->reach + joint);
     }
   }

@@ -67,14 +67,11 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     CompilePairs(rules);
     pairs_hold_ = scene.attached.empty();
   }
-  if (field_ == nullptr) {
-    world_.SetObjects(scene_, *compiled_robot_);
-  } else {
-    world_.SetObjects({}, *compiled_robot_);
-    SetGrid();
-  }
+  world_.SetObjects(scene_, *compiled_robot_);
+  if (field_ != nullptr) SetGrid();
   CompileTrees(rules);
-  motion_bound_ = geometry_bound_.Compute(scene_, base_positions);
+  geometry_bound_.Set(scene_, base_positions);
+  motion_bound_ = geometry_bound_.OfAll();
 }
 
 void CompiledScene::SetGrid() {
@@ -86,6 +83,7 @@ void CompiledScene::SetGrid() {
   }
   grid.resolution = field.resolution;
   grid.outside = field.outside;
+  grid.rounding = static_cast<float>(kRadiusPadding);
   grid.values = field.values.data();
 }
 
@@ -127,16 +125,17 @@ void CompiledScene::CompilePairs(const PairRules& rules) {
 }
 
 void CompiledScene::CompileTrees(const PairRules& rules) {
-  // Objects that the matrix does not name count for every link, unless links allow by default.
+  // Objects that the matrix does not name count for every link, unless links allow by default; with
+  // a field none does.
   const bool by_default = !scene_.allowed_collisions.default_entries().empty();
   const std::vector<unsigned char> all(scene_.objects.size(), 1);
+  std::vector<unsigned char> checked(scene_.objects.size(), field_ == nullptr ? 1 : 0);
   std::vector<int> named;
   for (std::size_t i = 0; field_ == nullptr && i < scene_.objects.size(); ++i) {
     if (by_default || allowed_names_.contains(scene_.objects[i].id)) {
       named.push_back(static_cast<int>(i));
     }
   }
-  std::vector<unsigned char> checked = all;
   const auto add_all = [&](bool moving) {
     for (const CompiledTree& tree :
          named.empty() ? compiled_robot_->bodies : compiled_robot_->links) {

@@ -48,6 +48,10 @@ class CompiledScene {
   /// Of every link that has spheres, in link order.
   const std::vector<CompiledTree>& links() const { return compiled_robot_->links; }
   const Standing& standing() const { return standing_; }
+  /// By object of the scene: whether the kernels know no more than bounds of some of its shapes.
+  std::vector<unsigned char> DoubtfulObjects() const {
+    return world_.DoubtfulObjects(scene_.objects.size());
+  }
   const MotionBound& motion_bound() const { return motion_bound_; }
 
  private:

@@ -204,6 +204,14 @@ void CompiledWorld::AddSolid(Solid solid, const Source& source) {
   sources_.push_back(source);
 }
 
+std::vector<unsigned char> CompiledWorld::DoubtfulObjects(std::size_t num_objects) const {
+  std::vector<unsigned char> doubtful(num_objects, 0);
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (kernel.solids[i].doubtful) At(doubtful, sources_[i].object) = 1;
+  }
+  return doubtful;
+}
+
 void CompiledWorld::AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked,
                             bool doubtful) {
   const int first = static_cast<int>(kernel.candidates.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "collision/pair_rules.h"
@@ -28,6 +29,9 @@ class CompiledWorld {
   /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
   /// `checked[i]`: whether object i of the scene counts.
   void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked, bool doubtful);
+
+  /// By object, of so many: whether one of its solids is doubtful.
+  std::vector<unsigned char> DoubtfulObjects(std::size_t num_objects) const;
 
   kernels::SphereWorld kernel;
 

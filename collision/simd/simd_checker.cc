@@ -33,7 +33,7 @@ float Reduced(double position, bool slides) {
 SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
     : CollisionChecker(robot, group, model),
       compiled_(robot, group, model),
-      exact_(robot, group, CollisionModel::kSpheres) {
+      exact_(robot, group, model) {
   const auto n = static_cast<std::size_t>(group.space.size());
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
@@ -59,6 +59,7 @@ MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> 
 FclChecker& SimdChecker::Exact() {
   if (!exact_is_set_) {
     exact_.SetScene(compiled_.scene(), compiled_.base_positions());
+    exact_.Select(compiled_.DoubtfulObjects());
     exact_is_set_ = true;
   }
   return exact_;
@@ -77,14 +78,16 @@ BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_width
   BlockQuery query;
   query.q = q_.data();
   query.half_widths = half_widths;
-  query.lanes = lanes & ~unfit;
+  // The field's verdict holds beyond the joint limits, too.
+  query.lanes = model() == CollisionModel::kVoxels ? lanes : lanes & ~unfit;
   query.stop_at_first = stop_at_first;
   BlockVerdict verdict =
       kernels::CheckBlock(compiled_.robot(), compiled_.world(), &scratch_, query);
   if (stop_at_first && verdict.certain != 0) return verdict;
-  for (LaneMask open = (verdict.doubts & ~verdict.certain) | unfit; open != 0; open &= open - 1) {
+  for (LaneMask open = (verdict.doubts | unfit) & ~verdict.hits; open != 0; open &= open - 1) {
     const int lane = std::countr_zero(open);
-    const SampleVerdicts judged = exact(lane);
+    const SampleVerdicts judged = exact(
+        lane, (unfit >> lane & 1) != 0 ? FclChecker::Pairs::kAll : FclChecker::Pairs::kSelected);
     verdict.hits |= static_cast<LaneMask>(judged.blocked) << lane;
     verdict.certain |= static_cast<LaneMask>(judged.certain) << lane;
     if (judged.certain != 0 && stop_at_first) break;
@@ -92,14 +95,12 @@ BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_width
   return verdict;
 }
 
-SampleVerdicts SimdChecker::ExactVerdict(std::span<const double> q) {
-  const std::uint64_t collides = Exact().IsFree(q) ? 0 : 1;
-  return {collides, collides};
-}
-
 bool SimdChecker::DoIsFree(std::span<const double> q) {
   const LaneMask unfit = SetLanes(q, 1);
-  return Check(1, unfit, nullptr, true, [&](int) { return ExactVerdict(q); }).certain == 0;
+  const auto exact = [&](int, FclChecker::Pairs pairs) {
+    return Exact().CheckStretch(q, {}, 0, pairs);
+  };
+  return Check(1, unfit, nullptr, true, exact).certain == 0;
 }
 
 void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) {
@@ -108,9 +109,11 @@ void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsi
     const int count = std::min(kBlock, num - first);
     const auto rows = qs.subspan(static_cast<std::size_t>(first) * n);
     const LaneMask unfit = SetLanes(rows, count);
-    const BlockVerdict verdict = Check(count, unfit, nullptr, false, [&](int lane) {
-      return ExactVerdict(rows.subspan(static_cast<std::size_t>(lane) * n, n));
-    });
+    const auto exact = [&](int lane, FclChecker::Pairs pairs) {
+      return Exact().CheckStretch(rows.subspan(static_cast<std::size_t>(lane) * n, n), {}, 0,
+                                  pairs);
+    };
+    const BlockVerdict verdict = Check(count, unfit, nullptr, false, exact);
     for (int lane = 0; lane < count; ++lane) {
       At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
     }
@@ -133,6 +136,7 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
     fits = fits && std::min(start[j], end) >= joints_.lower[j] &&
            std::max(start[j], end) <= joints_.upper[j];
   }
+  std::vector<double> q;
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
     const int count = static_cast<int>(std::min<std::size_t>(kBlock, samples.size() - first));
@@ -145,11 +149,14 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
       around = around || sample.half_length > 0;
     }
     kernels::PlaceSamples(joints_, block, q_.data(), half_widths_.data());
-    const BlockVerdict verdict =
-        Check(count, fits ? 0 : FirstLanes(count), around ? half_widths_.data() : nullptr, true,
-              [&](int lane) {
-                return Exact().CheckSamples(start, motion, {&At(lanes, lane), 1});
-              });
+    const auto exact = [&](int lane, FclChecker::Pairs pairs) {
+      const MotionSample& sample = At(lanes, lane);
+      q.assign(start.begin(), start.end());
+      for (std::size_t j = 0; j < n; ++j) q[j] += sample.position * motion[j];
+      return Exact().CheckStretch(q, motion, sample.half_length, pairs);
+    };
+    const BlockVerdict verdict = Check(count, fits ? 0 : FirstLanes(count),
+                                       around ? half_widths_.data() : nullptr, true, exact);
     verdicts.blocked |= static_cast<std::uint64_t>(verdict.hits) << first;
     verdicts.certain |= static_cast<std::uint64_t>(verdict.certain) << first;
     if (verdict.certain != 0) break;
@@ -170,9 +177,10 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
                             static_cast<float>(limit), block);
     for (int lane = 0; lane < count; ++lane) {
       const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
-      const bool exact = (unfit >> lane & 1) != 0;
-      At(distances, first + lane) = exact ? std::min(limit, Exact().FindClosest(q).distance_m)
-                                          : std::min(limit, static_cast<double>(block[lane]));
+      double& distance = At(distances, first + lane);
+      distance = std::min(limit, static_cast<double>(block[lane]));
+      if ((unfit >> lane & 1) != 0)
+        distance = std::min(distance, Exact().FindClosest(q).distance_m);
     }
   }
 }
@@ -209,7 +217,7 @@ std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
     if (DoIsFree(q)) return std::nullopt;
     // What is not the field's is the robot's own, or an attached object's.
     const auto [distance, link] = NearestToField(q);
-    if (distance <= 0) return Contact{link, "voxels", -distance};
+    if (distance <= 0) return Contact{link, "voxels", std::max(0.0, -distance)};
   }
   if (auto contact = Exact().FindContact(q)) return contact;
   if (DoIsFree(q)) return std::nullopt;
@@ -219,12 +227,8 @@ std::optional<Contact> SimdChecker::DoFindContact(std::span<const double> q) {
 }
 
 ClosestPair SimdChecker::DoFindClosest(std::span<const double> q) {
-  if (model() != CollisionModel::kVoxels) return Exact().FindClosest(q);
-  Scene without_objects = compiled_.scene();
-  without_objects.objects.clear();
-  exact_.SetScene(without_objects, compiled_.base_positions());
-  exact_is_set_ = false;
-  ClosestPair closest = exact_.FindClosest(q);
+  ClosestPair closest = Exact().FindClosest(q);
+  if (model() != CollisionModel::kVoxels) return closest;
   const auto [distance, link] = NearestToField(q);
   if (distance < closest.distance_m) closest = {distance, link, "voxels"};
   return closest;

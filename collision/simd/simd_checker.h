@@ -20,10 +20,12 @@ namespace planbench {
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
 /// kernels do not know (scene meshes, attached objects, prismatic joints far beyond their limits,
 /// objects of tens of metres that are not boxes) they pass on as doubts, which the FCL engine
-/// decides; it also names contacts and nearest pairs, in double precision.
+/// decides, over the pairs that are in doubt; it also names contacts and nearest pairs, in double
+/// precision.
 ///
 /// Voxels: a sphere collides with the world if the distance field's value at its centre is less
-/// than its radius. Links that the group does not move are not checked against the field, and a
+/// than its radius. A stretch of a motion is free if no cell that a sphere's centre can reach on it
+/// has such a value. Links that the group does not move are not checked against the field, and a
 /// field cannot tell objects apart: the allowed-collision matrix's entries for objects do not
 /// count. Attached objects are checked against the exact shapes. The grid is Robot::voxels, else
 /// one that covers the robot's reach at 0.02 m.
@@ -51,12 +53,11 @@ class SimdChecker : public CollisionChecker {
   using LaneMask = kernels::LaneMask;
 
   FclChecker& Exact();
-  SampleVerdicts ExactVerdict(std::span<const double> q);
   /// Puts the first `num` configurations into lanes. Returns the lanes that the kernels cannot
   /// judge: what was left out because it cannot be reached is so within the limits only.
   LaneMask SetLanes(std::span<const double> rows, int num);
-  /// Checks the first `num` lanes; `exact(lane)` are the verdicts of the FCL engine (in bit 0),
-  /// asked for lanes in `unfit` and where there are doubts.
+  /// Checks the first `num` lanes; `exact(lane, pairs)` is the verdict of the FCL engine (in bit
+  /// 0), asked of all pairs for lanes in `unfit`, and of those in doubt where there are doubts.
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact);

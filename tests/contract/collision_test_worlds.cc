@@ -1,5 +1,6 @@
 #include "tests/contract/collision_test_worlds.h"
 
+#include <fstream>
 #include <random>
 
 #include "tests/contract/collision_oracle.h"
@@ -105,6 +106,32 @@ Robot MakeTestArm() {
   AddSpheres(&robot, "hand", {0.05, 0, 0}, {0.15, 0, 0}, 0.045, 3);
   AddSpheres(&robot, "finger", {0, 0, 0}, {0.06, 0, 0}, 0.015, 4);
   AddSpheres(&robot, "pad", {0.02, 0, 0}, {0.02, 0, 0.02}, 0.01, 2);
+  return robot;
+}
+
+Robot MakeSolidTestArm(const std::filesystem::path& folder) {
+  std::string urdf = kTestArmUrdf;
+  const auto give = [&urdf](const std::string& link, const std::string& xyz,
+                            const std::string& geometry) {
+    const std::string bare = "<link name=\"" + link + "\"/>";
+    urdf.replace(urdf.find(bare), bare.size(),
+                 "<link name=\"" + link + "\"> <collision> <origin xyz=\"" + xyz +
+                     "\"/> <geometry>" + geometry + "</geometry> </collision> </link>");
+  };
+  give("base", "-0.2 0.05 0.1", R"(<box size="0.2 0.5 0.2"/>)");
+  give("torso", "0 0 0.1", R"(<cylinder radius="0.1" length="0.5"/>)");
+  give("upper", "0.22 0 0", R"(<box size="0.3 0.1 0.08"/>)");
+  give("fore", "0.17 0 0", R"(<mesh filename="wedge.obj"/>)");
+  give("hand", "0.1 0 0", R"(<box size="0.15 0.08 0.06"/>)");
+  give("finger", "0.03 0 0", R"(<sphere radius="0.02"/>)");
+  std::ofstream(folder / "wedge.obj") << "v -0.13 -0.05 -0.04\nv 0.13 -0.03 -0.03\n"
+                                         "v 0.13 0.03 -0.03\nv -0.13 0.05 -0.04\nv 0 0 0.06\n"
+                                         "f 1 4 3\nf 1 3 2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+  Robot robot;
+  robot.name = "solid_test_arm";
+  robot.model = RobotModel::FromUrdf(urdf, "solid_test_arm.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"roll", "lift", "flex", "pan"}, "hand")};
+  robot.resources.base_folder = folder;
   return robot;
 }
 

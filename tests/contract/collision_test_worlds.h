@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ namespace planbench {
 /// that the scene sets, one axis is oblique, the first axis does not pass through the base frame's
 /// origin. Group "arm": roll (continuous), lift (prismatic), flex, pan.
 Robot MakeTestArm();
+
+/// The test arm with boxes, cylinders and, in folder/wedge.obj, which is written, a mesh for
+/// collision geometry: for the meshes model.
+Robot MakeSolidTestArm(const std::filesystem::path& folder);
 
 /// One link "tool" on a vertical rail (group "rail": joint "slide", -10 to 10 m), a sphere of
 /// radius 0.25 m at its origin; the base has none. All of its figures are exact in binary.

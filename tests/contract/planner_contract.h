@@ -120,6 +120,14 @@ TEST_P(PlannerContract, SolvesForTheFetch) {
   }
 }
 
+TEST_P(PlannerContract, SolvesWithADistanceField) {
+  const Scene scene = PostsScene();
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.collision_model = CollisionModel::kVoxels;
+  request.edge_check = EdgeCheck::kCertified;
+  ExpectSolved(planar_, request, scene, Make(planar_)->Plan(request, scene, nullptr));
+}
+
 TEST_P(PlannerContract, TheSameRequestGivesTheSamePathWhateverRanBefore) {
   const Scene scene = PostsScene();
   const PlanRequest request = MakeRequest(planar_, left_, right_);

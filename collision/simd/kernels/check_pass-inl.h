@@ -99,12 +99,13 @@ class CheckPass {
   }
 
   bool TestWorld(const WorldTree& tree) {
-    if (tree.num_candidates == 0 && !world_.grid) return false;
+    const bool on_grid = world_.grid && !tree.doubtful;
+    if (tree.num_candidates == 0 && !on_grid) return false;
     const M before = certain_;
     placement_.PlaceRoot(tree.root, tree.body);
     const V motion = Motion(tree.reach);
     doubtful_ = tree.doubtful;
-    if (world_.grid) VisitGrid(tree.root, tree.body, motion);
+    if (on_grid) VisitGrid(tree.root, tree.body, motion);
     if (tree.num_candidates >= 0) {
       if (tree.num_candidates > 0) {
         VisitWorld(tree.root, tree.body, motion, world_.candidates.data() + tree.first_candidate,
@@ -164,23 +165,20 @@ class CheckPass {
     const Node& node = placement_.node(index);
     const Points p = placement_.Position(index);
     const DistanceGrid& grid = *world_.grid;
-    // Nothing is known of what a ball of balls outside of the grid has inside of it.
-    const bool exact = node.num_children == 0 && !kAround;
-    const V distance = GridDistance(grid, p, exact ? grid.outside : 0.0f);
-    const V grown = Grown(node.radius, motion);
     if (node.num_children == 0) {
       if constexpr (kAround) {
-        // The value of another cell may be less by the slack: boxes of configurations allow for it.
-        const V limit = grown + hn::IfThenZeroElse(hits_, Fill(GridSlack(grid)));
-        hits_ = hn::Or(hits_, hn::And(alive_, hn::Lt(distance, limit)));
-        // Note compares squares; what is certain is compared here.
-        const M certain = hn::Lt(GridDistance(grid, p, grid.outside), Fill(node.radius));
-        return Note(Zero(), node.radius, certain, doubtful_);
+        const M open = hn::AndNot(hits_, alive_);
+        if (!None(open)) {
+          hits_ = hn::Or(hits_, MeetsGridAround(grid, p, motion, node.radius, open));
+        }
       }
-      return Note(Zero(), node.radius, hn::Lt(distance, grown), doubtful_);
+      // Note compares squares; what is certain is compared here.
+      const V distance = GridDistance(grid, p, grid.outside);
+      return Note(Zero(), node.radius, hn::Lt(distance, Fill(node.radius)), false);
     }
-    const V limit = grown + Fill(GridSlack(grid));
-    if (None(hn::And(alive_, hn::Lt(distance, limit)))) return false;
+    // Nothing is known of what a ball of balls outside of the grid has inside of it.
+    const V limit = Grown(node.radius, motion) + Fill(GridSlack(grid));
+    if (None(hn::And(alive_, hn::Lt(GridDistance(grid, p, 0.0f), limit)))) return false;
     placement_.PlaceChildren(index, body);
     for (int i = 0; i < node.num_children; ++i) {
       if (VisitGrid(node.first_child + i, body, motion)) return true;

@@ -47,7 +47,7 @@ class DistancePass {
 
   void TestWorld(const WorldTree& tree) {
     placement_.PlaceRoot(tree.root, tree.body);
-    if (world_.grid) VisitGrid(tree.root, tree.body);
+    if (world_.grid && !tree.doubtful) VisitGrid(tree.root, tree.body);
     if (tree.num_checked >= 0) {
       Visit(tree.root, tree.body, world_.candidates.data() + tree.first_checked, tree.num_checked,
             buffers_.lists.data());

@@ -104,6 +104,7 @@ struct DistanceGrid {
   float resolution = 1;
   int size[3] = {0, 0, 0};
   float outside = 0;              ///< The value everywhere outside.
+  float rounding = 0;             ///< Of the positions of balls, m.
   const float* values = nullptr;  ///< x fastest.
 };
 
@@ -114,7 +115,7 @@ struct SphereWorld {
   std::vector<std::int32_t> candidates;
   std::vector<BvhNode> bvh;
   std::vector<std::int32_t> bvh_solids;
-  std::optional<DistanceGrid> grid;  ///< Tested with every tree, if any.
+  std::optional<DistanceGrid> grid;  ///< Tested with every tree that is not doubtful, if any.
 };
 
 /// Memory of one thread, and the order in which tests are made: those that hit move to the front.
