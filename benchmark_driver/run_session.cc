@@ -12,6 +12,7 @@
 #include "benchmark_driver/resume.h"
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
+#include "collision/collision_checker.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
@@ -45,11 +46,22 @@ void RequireEmptyBus(Bus* bus) {
   }
 }
 
-/// Says what is odd about the robots, once for all the processes that load them.
-void WarnOfRobots(const DriverOptions& options) {
+/// Says what is odd about the robots, once for all the processes that load them. Throws InputError
+/// if the robot lacks the geometry of a contestant's collision model.
+void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& line_up) {
   const auto packages = ParsePackagePaths(options.package_paths);
   const Robot robot = LoadRobot(options.robot, packages);
   for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
+  for (const LineUpEntry& entry : line_up) {
+    const CollisionModel model =
+        entry.contestant.collision_model.value_or(options.conditions.request.collision_model);
+    try {
+      MakeCollisionChecker(robot, robot.Group(""), model);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: collision model {}: {}", entry.contestant.name,
+                                   EnumName(model), error.what()));
+    }
+  }
   if (!options.referee_robot) return;
   for (const std::string& warning :
        LoadRefereeRobot(*options.referee_robot, robot, packages).warnings) {
@@ -82,7 +94,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
       MakeLineUp(options.line_up, options.launch ? std::optional(options.robot) : std::nullopt);
   if (options.launch) {
     RequirePrograms(line_up, ProgramFolder());
-    WarnOfRobots(options);
+    CheckRobots(options, line_up);
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = options.resume ? *options.resume
                      : options.out  ? *options.out

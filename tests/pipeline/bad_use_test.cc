@@ -29,6 +29,12 @@ TEST_F(BadUse, MissingProblemFolder) {
   EXPECT_TRUE(LeftRunning().empty());
 }
 
+TEST_F(BadUse, MeshesModelWithoutTheMeshFiles) {
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--collision-model", "meshes"}),
+                 "--package-path fetch_description=DIR");
+  EXPECT_TRUE(LeftRunning().empty());
+}
+
 TEST_F(BadUse, MissingOrBrokenRobot) {
   ExpectBadInput(Start({Program("planner_ara"), "--robot", "/nowhere"}), "/nowhere");
   ExpectBadInput(StartPlanner("rrtc", {"--set", "rang=1"}), "--set rang");
