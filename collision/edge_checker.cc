@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "common/error.h"
@@ -15,8 +13,6 @@
 namespace planbench {
 namespace {
 
-/// One call in this many is timed: two readings of a clock cost as much as a short edge.
-constexpr std::int64_t kTimedCalls = 8;
 /// Samples that CheckSamples takes at once.
 constexpr int kMaxBlock = 64;
 /// Within an edge, whether to stop is asked after this many samples: seldom enough to cost nothing,
@@ -26,12 +22,6 @@ constexpr std::int64_t kSamplesUnasked = 64;
 constexpr double kFirstStretch = 4;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
-
-/// Times one call in kTimedCalls, for all of them.
-std::optional<ScopedTimer> TimeCall(std::int64_t* num_calls, double* total_s) {
-  if ((*num_calls)++ % kTimedCalls != 0) return std::nullopt;
-  return std::optional<ScopedTimer>(std::in_place, total_s, kTimedCalls);
-}
 
 /// Neighbouring samples collide together, so the next sample worth trying is the one furthest from
 /// all before: the far end, the middle, the quarters, ... (van der Corput's sequence). Parts are
@@ -60,11 +50,21 @@ double SamplePosition(std::int64_t part, std::int64_t num_parts) {
 }  // namespace
 
 EdgeChecker::EdgeChecker(CollisionChecker* checker, double edge_resolution_m, EdgeCheck method)
-    : checker_(checker), edge_resolution_m_(edge_resolution_m), method_(method) {
+    : checker_(checker), resolution_(edge_resolution_m), method_(method) {
   if (!std::isfinite(edge_resolution_m) || edge_resolution_m <= 0) {
     throw InputError(
         fmt::format("edge resolution must be a positive length in m, it is {}", edge_resolution_m));
   }
+}
+
+EdgeChecker::EdgeChecker(CollisionChecker* checker, EdgeSampling sampling)
+    : checker_(checker), resolution_(sampling.step), method_(EdgeCheck::kFixed) {
+  if (!std::isfinite(resolution_) || resolution_ <= 0) {
+    throw InputError(
+        fmt::format("edge sampling: the step must be positive, it is {}", resolution_));
+  }
+  RequireSize(sampling.weights);
+  sampling_ = std::move(sampling);
 }
 
 void EdgeChecker::RequireSize(std::span<const double> q) const {
@@ -88,7 +88,7 @@ bool EdgeChecker::GiveUp() {
 
 bool EdgeChecker::IsValidState(std::span<const double> q) {
   RequireSize(q);
-  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
+  const ScopedTimer timer(&counters_.ticks);
   ++counters_.states;
   if (!space().WithinLimits(q)) return false;
   ++counters_.configurations;
@@ -104,7 +104,7 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
                     "joints",
                     qs.size(), valid.size(), num, n));
   }
-  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
+  const ScopedTimer timer(&counters_.ticks);
   counters_.states += num;
   std::size_t begin = 0;  // of a run of states within limits, which go to the engine together
   const auto check_run = [&](std::size_t end) {
@@ -126,7 +126,7 @@ bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const doub
                               bool from_is_free) {
   RequireSize(from);
   RequireSize(to);
-  const auto timer = TimeCall(&num_calls_, &counters_.seconds);
+  const ScopedTimer timer(&counters_.ticks);
   ++counters_.edges;
   return space().WithinLimits(from) && space().WithinLimits(to) &&
          !FindBlocked(from, to, from_is_free);
@@ -136,15 +136,25 @@ std::optional<double> EdgeChecker::FindBlocked(std::span<const double> from,
                                                std::span<const double> to, bool from_is_free) {
   RequireSize(from);
   RequireSize(to);
-  motion_.resize(from.size());
-  double motion_m = 0;
-  for (std::size_t j = 0; j < motion_.size(); ++j) {
-    motion_[j] = space().Difference(static_cast<int>(j), from[j], to[j]);
-    motion_m += std::abs(motion_[j]) * checker_->motion_bound().reach()[j];
-  }
+  const double motion = Move(from, to, &motion_);
   unasked_ = 0;
-  return method_ == EdgeCheck::kFixed ? FindBlockedSample(from, motion_m, from_is_free)
-                                      : FindBlockedStretch(from, motion_m);
+  return method_ == EdgeCheck::kFixed ? FindBlockedSample(from, motion, from_is_free)
+                                      : FindBlockedStretch(from, motion);
+}
+
+double EdgeChecker::Move(std::span<const double> from, std::span<const double> to,
+                         std::vector<double>* motion) const {
+  const bool squares = sampling_ && sampling_->euclidean;
+  const std::vector<double>& weights =
+      sampling_ ? sampling_->weights : checker_->motion_bound().reach();
+  motion->resize(from.size());
+  double sum = 0;
+  for (std::size_t j = 0; j < from.size(); ++j) {
+    (*motion)[j] = space().Difference(static_cast<int>(j), from[j], to[j]);
+    const double weighted = std::abs((*motion)[j]) * weights[j];
+    sum += squares ? weighted * weighted : weighted;
+  }
+  return squares ? std::sqrt(sum) : sum;
 }
 
 SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
@@ -153,9 +163,9 @@ SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
   return checker_->CheckSamples(from, motion_, block_);
 }
 
-std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> from, double motion_m,
+std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> from, double motion,
                                                      bool from_is_free) {
-  const std::int64_t num_parts = RequireFewIntervals(NumIntervals(motion_m));
+  const std::int64_t num_parts = RequireFewIntervals(NumIntervals(motion));
   const auto batch = static_cast<std::size_t>(std::min(checker_->BatchSize(), kMaxBlock));
   std::int64_t part = 0;
   bool start_is_due = !from_is_free;  // behind the far end
@@ -213,18 +223,19 @@ std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> fr
 double EdgeChecker::NumIntervals(std::span<const double> from, std::span<const double> to) const {
   RequireSize(from);
   RequireSize(to);
-  return NumIntervals(checker_->motion_bound().Between(space(), from, to));
+  std::vector<double> motion;
+  return NumIntervals(Move(from, to, &motion));
 }
 
-double EdgeChecker::NumIntervals(double motion_m) const {
-  return std::max(1.0, std::ceil(motion_m / edge_resolution_m_));
+double EdgeChecker::NumIntervals(double motion) const {
+  return std::max(1.0, std::ceil(motion / resolution_));
 }
 
 std::int64_t EdgeChecker::RequireFewIntervals(double intervals) const {
   constexpr double kMost = 1 << 30;
   if (!(intervals < kMost)) {
-    throw InputError(fmt::format("edge resolution {} m divides an edge into too many parts",
-                                 edge_resolution_m_));
+    throw InputError(
+        fmt::format("edge resolution {} divides an edge into too many parts", resolution_));
   }
   return static_cast<std::int64_t>(intervals);
 }

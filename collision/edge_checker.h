@@ -11,6 +11,15 @@
 
 namespace planbench {
 
+/// A spacing of the samples of edges other than by the motion bound, for planners that reproduce
+/// what another system does: neighbours are at most `step` apart in a norm of the weighted joint
+/// motions.
+struct EdgeSampling {
+  std::vector<double> weights;  ///< n joints, >= 0, per rad or m.
+  double step = 0;              ///< > 0
+  bool euclidean = false;       ///< The root of the sum of squares; else the sum.
+};
+
 /// Validity of states and edges, the same for every planner. A state is valid if it is within the
 /// joint limits and free. An edge is the straight joint motion (continuous joints the short way
 /// round); it is valid if both ends are within limits and, by method,
@@ -37,16 +46,20 @@ class EdgeChecker {
     std::int64_t states = 0;          ///< States checked by themselves.
     std::int64_t edges = 0;           ///< Edges checked.
     std::int64_t configurations = 0;  ///< Configurations (or stretches) checked for both.
-    double seconds = 0;               ///< Time spent in both, estimated from every eighth call.
+    std::uint64_t ticks = 0;          ///< Time spent in both (Ticks).
   };
 
   /// The checker must outlive this and have its scene set. Throws InputError unless
   /// edge_resolution_m > 0.
   EdgeChecker(CollisionChecker* checker, double edge_resolution_m, EdgeCheck method);
+  /// Edges are sampled as `sampling` says. Throws InputError unless its weights are those of n
+  /// joints and its step > 0.
+  EdgeChecker(CollisionChecker* checker, EdgeSampling sampling);
 
   const JointSpace& space() const { return checker_->space(); }
   CollisionChecker& checker() const { return *checker_; }
-  double edge_resolution_m() const { return edge_resolution_m_; }
+  /// m, or in the unit of the sampling of its own.
+  double edge_resolution() const { return resolution_; }
 
   /// A long edge can take long. `should_stop` is asked within edges, every so many configurations;
   /// once it says yes, edges that need more are given up: they count as blocked, and Stopped says
@@ -90,11 +103,15 @@ class EdgeChecker {
 
  private:
   void RequireSize(std::span<const double> q) const;
-  double NumIntervals(double motion_m) const;
+  double NumIntervals(double motion) const;
+  /// Sets motion_ to the edge's and returns its size, in the unit of the resolution.
+  double Move(std::span<const double> from, std::span<const double> to,
+              std::vector<double>* motion) const;
   /// Throws InputError for more than can be counted.
   std::int64_t RequireFewIntervals(double intervals) const;
-  // Of the edge motion_ out of `from`, on which nothing moves more than motion_m.
-  std::optional<double> FindBlockedSample(std::span<const double> from, double motion_m,
+  // Of the edge motion_ out of `from`, of size `motion`; certified, nothing moves more than
+  // motion_m.
+  std::optional<double> FindBlockedSample(std::span<const double> from, double motion,
                                           bool from_is_free);
   std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
   SampleVerdicts CheckBlock(std::span<const double> from);
@@ -102,10 +119,10 @@ class EdgeChecker {
   bool GiveUp();
 
   CollisionChecker* checker_;
-  double edge_resolution_m_;
+  double resolution_;
   EdgeCheck method_;
+  std::optional<EdgeSampling> sampling_;
   Counters counters_;
-  std::int64_t num_calls_ = 0;
   std::function<bool()> should_stop_;
   bool stopped_ = false;
   std::int64_t unasked_ = 0;  ///< Configurations of the edge at hand since should_stop_ was asked.

@@ -21,7 +21,13 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
       channels_(name),
       planner_(std::move(planner)),
       description_(planner_->Describe()),
+      unusable_models_(planner_->WarmUp()),
       status_(MakeNodeStatus(name, NodeKind::kPlanner)) {
+  std::erase_if(description_.collision_models,
+                [this](CollisionModel model) { return unusable_models_.contains(model); });
+  for (const auto& [model, reason] : unusable_models_) {
+    spdlog::info("the collision model '{}' is not offered: {}", EnumName(model), reason);
+  }
   status_.robot_name = planner_->robot().name;
   status_.robot_id = planner_->robot().content_id;
   status_.algorithm = description_.algorithm;
@@ -85,8 +91,10 @@ std::string PlannerNode::ReasonToRefuse(const PlanRequest& request) const {
   }
   if (std::find(description_.collision_models.begin(), description_.collision_models.end(),
                 request.collision_model) == description_.collision_models.end()) {
-    return "the collision model '" + std::string(EnumName(request.collision_model)) +
-           "' is not offered here";
+    const auto unusable = unusable_models_.find(request.collision_model);
+    return fmt::format("the collision model '{}' is not offered here{}",
+                       EnumName(request.collision_model),
+                       unusable == unusable_models_.end() ? "" : ": " + unusable->second);
   }
   if (request.direction == Direction::kBackward && !description_.backward) {
     return description_.algorithm + " cannot search backward";

@@ -67,7 +67,8 @@ class PlannerNode {
   std::string name_;
   PlannerChannels channels_;
   std::unique_ptr<Planner> planner_;
-  PlannerDescription description_;
+  PlannerDescription description_;  // with the collision models that can be used
+  std::map<CollisionModel, std::string> unusable_models_;
   NodeStatusMessage status_;
 
   mutable std::mutex mutex_;

@@ -1,5 +1,7 @@
 #include "planner_ara/ara_planner.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -31,8 +33,10 @@ class AraPlanner : public Planner {
     };
     require_known("discretization", settings_.discretization);
     require_known("joint_weights", settings_.joint_weights);
+    require_known("edge_weights", settings_.edge_weights);
     const PlanningGroup& group = robot.Group("");
     options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
+    OwnEdgeSampling(group, EdgeCheck::kFixed, 1);  // throws now rather than at the first request
     if (!settings_.primitives.empty()) {
       ContentHash hash;
       hash.Add(ReadText(robot.folder / settings_.primitives));
@@ -76,21 +80,28 @@ class AraPlanner : public Planner {
       return out_of_memory || query.ShouldStop();
     };
 
+    // Proven before the limit came within an edge, if it did: without that edge nothing is.
     double bound = std::numeric_limits<double>::infinity();
+    bool reported = false;
     const auto report = [&](double proven) {
-      // Without an edge that was given up nothing is proven.
       if (query.edges().Stopped()) return;
       bound = proven;
-      query.ReportSolution(bound, search.cost(), search.counts().expansions);
+      reported = true;
+      query.ReportSolution(settings.wrap_heuristic ? bound : 0, search.cost(),
+                           search.counts().expansions);
+    };
+    const auto hold = [&](double proven) {
+      query.HoldPath();
+      if (!query.edges().Stopped()) bound = proven;
     };
     ImproveOutcome outcome = ImproveOutcome::kStopped;
     std::optional<double> epsilon = settings.epsilon.initial;
     while (epsilon) {
       outcome = search.Improve(*epsilon, should_stop, [&](double proven) {
-        if (query.anytime()) report(proven);
+        query.anytime() ? report(proven) : hold(proven);
       });
       if (search.path().empty()) break;
-      if (const double proven = search.ProveBound(); proven < bound) report(proven);
+      if (const double proven = search.ProveBound(); !reported || proven < bound) report(proven);
       if (outcome != ImproveOutcome::kConverged || !query.anytime()) break;
       epsilon = settings.epsilon.Next(*epsilon, bound);
     }
@@ -105,11 +116,10 @@ class AraPlanner : public Planner {
         {"search_iterations", static_cast<double>(counts.iterations)},
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
     };
-    const bool reported = std::isfinite(bound) || !query.edges().Stopped();
-    if (!search.path().empty() && reported) {
+    if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
-      result.epsilon = bound;
+      result.epsilon = settings.wrap_heuristic && std::isfinite(bound) ? bound : 0;
       result.cost = search.cost();
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;
@@ -125,6 +135,21 @@ class AraPlanner : public Planner {
       result.message = "the time limit came before a path was found";
     }
     return result;
+  }
+
+  std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& group, EdgeCheck method,
+                                              double resolution_m) const override {
+    if (settings_.edge_weights.empty() || method != EdgeCheck::kFixed) return std::nullopt;
+    EdgeSampling sampling;
+    sampling.step = resolution_m;
+    for (const JointSpace::Joint& joint : group.space.joints()) {
+      const auto weight = settings_.edge_weights.find(joint.name);
+      if (weight == settings_.edge_weights.end()) {
+        throw InputError(fmt::format("{}: edge_weights: joint {} has none", origin_, joint.name));
+      }
+      sampling.weights.push_back(weight->second);
+    }
+    return sampling;
   }
 
  private:

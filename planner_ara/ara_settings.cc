@@ -50,11 +50,33 @@ std::string ByJointAsText(const std::map<std::string, double>& values) {
 }  // namespace
 
 void AraSettings::Apply(const YamlNode& node) {
-  node.AllowOnly({"discretization", "joint_weights", "primitives", "use_long_primitives",
-                  "use_short_primitives", "long_primitives_beyond", "short_primitives_within",
-                  "two_way", "crowding", "crowding_joints", "tip_guide", "cost", "epsilon_initial",
-                  "epsilon_decrement", "epsilon_final", "memory_limit_mb"});
+  node.AllowOnly({"discretization",
+                  "joint_weights",
+                  "primitives",
+                  "use_long_primitives",
+                  "use_short_primitives",
+                  "long_primitives_beyond",
+                  "short_primitives_within",
+                  "two_way",
+                  "crowding",
+                  "crowding_joints",
+                  "tip_guide",
+                  "cost",
+                  "evaluation",
+                  "wrap_heuristic",
+                  "fit_cells",
+                  "edge_weights",
+                  "epsilon_initial",
+                  "epsilon_decrement",
+                  "epsilon_final",
+                  "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
+  ApplyByJoint(node, "edge_weights", &edge_weights);
+  fit_cells = node.BoolOr("fit_cells", fit_cells);
+  if (const std::optional<YamlNode> value = node.Find("evaluation")) {
+    evaluation = value->Enum<Evaluation>();
+  }
+  wrap_heuristic = node.BoolOr("wrap_heuristic", wrap_heuristic);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
     primitives = value->String() == "generated" ? "" : value->String();
@@ -112,6 +134,9 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
       {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
+      {"evaluation", std::string(EnumName(evaluation))},
+      {"wrap_heuristic", fmt::format("{}", wrap_heuristic)},
+      {"fit_cells", fmt::format("{}", fit_cells)},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},
       {"epsilon_decrement", fmt::format("{}", epsilon.decrement)},
       {"epsilon_final", fmt::format("{}", epsilon.final)},
@@ -120,6 +145,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
   if (!crowding_joints.empty()) {
     text["crowding_joints"] = fmt::format("[{}]", fmt::join(crowding_joints, ", "));
   }
+  if (!edge_weights.empty()) text["edge_weights"] = ByJointAsText(edge_weights);
   if (std::isfinite(short_primitives_within)) {
     text["short_primitives_within"] = fmt::format("{}", short_primitives_within);
   }

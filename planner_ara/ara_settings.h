@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "common/yaml.h"
 #include "planner_ara/epsilon_schedule.h"
 
@@ -17,11 +20,20 @@ enum class MoveCost {
   kUniform,   ///< 1, whatever its length; the motion to the goal its weighted length, at least 1.
 };
 
+enum class Evaluation { kLazy, kEager };
+template <>
+struct EnumNames<Evaluation> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"lazy", "eager"});
+};
+
 /// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
 struct AraSettings {
   /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
   /// Absent: DefaultCell.
   std::map<std::string, double> discretization;
+  /// Bounded joints have a whole number of cells between their limits: the nearest to the
+  /// discretization that gives one.
+  bool fit_cells = false;
   /// Weight of a joint in distances, per rad or m, > 0; 1 for joints that are not named.
   std::map<std::string, double> joint_weights;
   /// The file of motion primitives (LoadMotionPrimitives); relative paths start at the robot
@@ -50,6 +62,17 @@ struct AraSettings {
   /// the reported bound.
   double tip_guide = 3;
   MoveCost cost = MoveCost::kDistance;
+  /// When the edges out of a state are checked: as its neighbours' turn comes, or all as it is
+  /// expanded.
+  Evaluation evaluation = Evaluation::kLazy;
+  /// Whether the heuristic takes continuous joints the short way round. If not, a state is as far
+  /// round as the motion that reached it first, the heuristic is no lower bound of the cost, and no
+  /// bound is reported.
+  bool wrap_heuristic = true;
+  /// Where edges are sampled (EdgeCheck::kFixed), stands for the reach of the joints in the bound
+  /// on the motion between samples: m per rad or m, > 0; empty, or one for every joint of the
+  /// group.
+  std::map<std::string, double> edge_weights;
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
   double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.
 

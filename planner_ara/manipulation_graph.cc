@@ -27,8 +27,10 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
     if (cell == settings.discretization.end() && !settings.discretization.empty()) {
       throw InputError(fmt::format("{}: discretization: joint {} has none", origin, joint.name));
     }
-    options.discretization.push_back(settings.discretization.empty() ? DefaultCell(joint)
-                                                                     : cell->second);
+    const double size = settings.discretization.empty() ? DefaultCell(joint) : cell->second;
+    const double range = joint.upper - joint.lower;
+    const bool fits = settings.fit_cells && !joint.continuous;
+    options.discretization.push_back(fits ? range / std::max(1.0, std::round(range / size)) : size);
     const auto weight = settings.joint_weights.find(joint.name);
     options.weights.push_back(weight == settings.joint_weights.end() ? 1 : weight->second);
   }
@@ -44,6 +46,8 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
+  options.evaluation = settings.evaluation;
+  options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
   if (!settings.crowding_joints.empty()) {
@@ -101,6 +105,10 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
     }
   }
   points_.FindOrAdd(lattice_.anchor());
+  if (!options_.wrap_heuristic) {
+    turns_.emplace(start.size());
+    std::fill_n(turns_->Append(), start.size(), std::int8_t{0});
+  }
 }
 
 void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double weight) {
@@ -137,10 +145,44 @@ double ManipulationGraph::SquaredDistance(const std::vector<std::vector<double>>
   return sum;
 }
 
+double ManipulationGraph::SquaredGoalDistance(std::span<const Lattice::Coordinate> coordinates,
+                                              const std::int8_t* turns) const {
+  if (turns == nullptr) return SquaredDistance(goal_terms_, coordinates);
+  double sum = 0;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    const auto joint = static_cast<int>(j);
+    if (!edges_->space().joint(joint).continuous) {
+      sum += goal_terms_[j][coordinates[j]];
+      continue;
+    }
+    const double value = lattice_.Value(joint, coordinates[j]) + 2 * std::numbers::pi * turns[j];
+    const double weighted = options_.weights[j] * (value - goal_.nominal[j]);
+    sum += weighted * weighted;
+  }
+  return sum;
+}
+
 double ManipulationGraph::Heuristic(StateId state) const {
-  return state == kGoal
-             ? 0
-             : unit_ * std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
+  if (state == kGoal) return 0;
+  const std::uint32_t point = state - 1;
+  return unit_ * std::sqrt(SquaredGoalDistance(points_.Coordinates(point),
+                                               turns_ ? turns_->Record(point) : nullptr));
+}
+
+std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move) {
+  const std::uint32_t point = points_.FindOrAdd(target_);
+  if (!turns_ || point < turns_->size()) return point;
+  std::int8_t* turns = turns_->Append();
+  const std::int8_t* before = turns_->Record(source - 1);
+  const std::span<const Lattice::Coordinate> from = points_.Coordinates(source - 1);
+  for (std::size_t j = 0; j < target_.size(); ++j) {
+    const auto joint = static_cast<int>(j);
+    const double motion = move.cells[j] * lattice_.step(joint);
+    const double beyond =
+        lattice_.Value(joint, from[j]) + motion - lattice_.Value(joint, target_[j]);
+    turns[j] = static_cast<std::int8_t>(before[j] + std::lround(beyond / (2 * std::numbers::pi)));
+  }
+  return point;
 }
 
 double ManipulationGraph::CostToGoal(double distance) const {
@@ -180,8 +222,16 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     SelectSource(state);
     detour = unit_ * tip_weight_ * (*tip_distance_)(from_);
   }
-  candidates->push_back({CostToGoal(Heuristic(state)), 0, 0, kToNearestGoal});
-  if (goal_distance_.has_extent()) {
+  const bool eager = options_.evaluation == Evaluation::kEager;
+  const auto is_candidate = [&](std::uint16_t action) {
+    return !eager || IsValidEdge(state, action);
+  };
+  const double to_goal =
+      unit_ * std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
+  if (is_candidate(kToNearestGoal)) {
+    candidates->push_back({CostToGoal(to_goal), 0, 0, kToNearestGoal});
+  }
+  if (goal_distance_.has_extent() && is_candidate(kToNominalGoal)) {
     SelectSource(state);
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
@@ -199,17 +249,21 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   }
   for (std::size_t m = 0; m < moves_.size(); ++m) {
     const Move& move = moves_[m];
+    const auto action = static_cast<std::uint16_t>(kFirstMove + m);
     if (!(move.is_long ? use_long : use_short) || !MoveFrom(state, move)) continue;
-    const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
-    candidates->push_back({move.cost, heuristic, static_cast<float>(crowd * (heuristic + detour)),
-                           static_cast<std::uint16_t>(kFirstMove + m)});
+    if (!is_candidate(action)) continue;
+    const double heuristic = turns_ ? Heuristic(TargetPoint(state, move) + 1)
+                                    : unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
+    candidates->push_back(
+        {move.cost, heuristic, static_cast<float>(crowd * (heuristic + detour)), action});
   }
 }
 
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
   if (action < kFirstMove) return kGoal;
-  MoveFrom(source, moves_[action - kFirstMove]);
-  return points_.FindOrAdd(target_) + 1;
+  const Move& move = moves_[action - kFirstMove];
+  MoveFrom(source, move);
+  return TargetPoint(source, move) + 1;
 }
 
 bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct ManipulationGraphOptions {
   double long_moves_beyond = 0;        ///< See AraSettings::long_primitives_beyond.
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
+  Evaluation evaluation = Evaluation::kLazy;
+  bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
 };
@@ -46,7 +49,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
 /// move costs 1, and the motion to the goal its weighted length, but at least 1. (Weighted lengths
 /// are divided by that of the longest primitive if it is more than 1.) Every edge costs at least
 /// the length of its motion in that unit, so the joint distance to the goal box is a consistent
-/// heuristic.
+/// heuristic (unless it is asked not to wrap).
 class ManipulationGraph {
  public:
   static constexpr StateId kGoal = 0;
@@ -89,6 +92,12 @@ class ManipulationGraph {
   };
 
   void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
+  /// Squared weighted distance to the goal that the heuristic is made of; `turns`: by joint, see
+  /// turns_.
+  double SquaredGoalDistance(std::span<const Lattice::Coordinate> coordinates,
+                             const std::int8_t* turns) const;
+  /// The point at target_, a new one with the turns of the move there from `source`.
+  std::uint32_t TargetPoint(StateId source, const Move& move);
   static double SquaredDistance(const std::vector<std::vector<double>>& terms,
                                 std::span<const Lattice::Coordinate> coordinates);
   void GoalConfiguration(std::uint16_t action, std::span<const double> from,
@@ -114,6 +123,8 @@ class ManipulationGraph {
   std::vector<std::vector<double>> goal_terms_;
   std::vector<std::vector<double>> start_terms_;
   ChunkedArray<std::uint64_t> known_edges_;  // by state
+  // Without wrapping: by point, how many turns of each joint its first arrival was beyond Value().
+  std::optional<ChunkedArray<std::int8_t>> turns_;
   // By joint, the cells of one cell of crowding; 0 for joints that do not count.
   std::vector<int> crowd_cells_;
   std::vector<std::uint16_t> visits_;  // by hash of the cell of crowding

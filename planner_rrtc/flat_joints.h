@@ -7,16 +7,28 @@
 #include <span>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "robot_model/joint_space.h"
 
 namespace planbench {
+
+/// How far configurations are apart.
+enum class Metric {
+  kL2,   ///< Root of the sum of squares over joints, as a space of OMPL's own has it.
+  kSum,  ///< Sum over joints, as MoveIt's joint-group space has it.
+};
+
+template <>
+struct EnumNames<Metric> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"l2", "sum"});
+};
 
 /// Distances and motions of a JointSpace for configurations whose continuous joints are in
 /// [-pi, pi], as every state of an OMPL space is here: without the cases that general positions
 /// need, and without looking at the joints one by one.
 class FlatJoints {
  public:
-  explicit FlatJoints(const JointSpace& joints) {
+  explicit FlatJoints(const JointSpace& joints, Metric metric = Metric::kL2) : metric_(metric) {
     for (const JointSpace::Joint& joint : joints.joints()) {
       half_turn_.push_back(joint.continuous ? std::numbers::pi
                                             : std::numeric_limits<double>::infinity());
@@ -25,9 +37,15 @@ class FlatJoints {
   }
 
   std::size_t size() const { return turn_.size(); }
+  Metric metric() const { return metric_; }
 
+  /// In the metric.
   double Distance(const double* from, const double* to) const {
     double sum = 0;
+    if (metric_ == Metric::kSum) {
+      for (std::size_t j = 0; j < size(); ++j) sum += std::abs(Difference(j, from[j], to[j]));
+      return sum;
+    }
     for (std::size_t j = 0; j < size(); ++j) {
       const double difference = Difference(j, from[j], to[j]);
       sum += difference * difference;
@@ -56,6 +74,7 @@ class FlatJoints {
   }
   double Difference(std::size_t j, double from, double to) const { return Wrap(j, to - from); }
 
+  Metric metric_;
   std::vector<double> half_turn_;  ///< Infinite for bounded joints.
   std::vector<double> turn_;
 };

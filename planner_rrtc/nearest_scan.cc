@@ -12,12 +12,18 @@ HWY_BEFORE_NAMESPACE();
 namespace planbench::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-ScanResult Scan(const ScanPoints& points, const float* query) {
+template <Metric kMetric>
+ScanResult ScanBy(const ScanPoints& points, const float* query) {
   const hn::CappedTag<float, kScanBlock> d;
   const hn::RebindToSigned<decltype(d)> di;
   const std::size_t lanes = hn::Lanes(d);
   const auto turn = hn::Set(d, 2 * std::numbers::pi_v<float>);
   const std::size_t n = points.num_bounded + points.num_continuous;
+
+  const auto add = [](auto difference, auto sum) HWY_ATTR {
+    if constexpr (kMetric == Metric::kSum) return hn::Add(hn::Abs(difference), sum);
+    return hn::MulAdd(difference, difference, sum);
+  };
 
   auto best = hn::Set(d, std::numeric_limits<float>::infinity());
   auto best_point = hn::Zero(di);
@@ -30,12 +36,12 @@ ScanResult Scan(const ScanPoints& points, const float* query) {
       auto square = hn::Zero(d);
       for (std::size_t j = 0; j < points.num_bounded; ++j, x += kScanBlock) {
         const auto difference = hn::Sub(hn::LoadU(d, x), hn::Set(d, query[j]));
-        square = hn::MulAdd(difference, difference, square);
+        square = add(difference, square);
       }
       for (std::size_t j = points.num_bounded; j < n; ++j, x += kScanBlock) {
         const auto direct = hn::Abs(hn::Sub(hn::LoadU(d, x), hn::Set(d, query[j])));
         const auto difference = hn::Min(direct, hn::Sub(turn, direct));
-        square = hn::MulAdd(difference, difference, square);
+        square = add(difference, square);
       }
       const auto closer = hn::Lt(square, best);
       best = hn::IfThenElse(closer, square, best);
@@ -55,6 +61,11 @@ ScanResult Scan(const ScanPoints& points, const float* query) {
     }
   }
   return result;
+}
+
+ScanResult Scan(const ScanPoints& points, const float* query) {
+  return points.metric == Metric::kSum ? ScanBy<Metric::kSum>(points, query)
+                                       : ScanBy<Metric::kL2>(points, query);
 }
 
 }  // namespace planbench::HWY_NAMESPACE

@@ -1,5 +1,7 @@
 #include "planner_rrtc/node_tree.h"
 
+#include <utility>
+
 #include "planner_rrtc/nearest_scan.h"
 
 namespace planbench {
@@ -11,7 +13,7 @@ constexpr float kNowhere = 1e15f;
 
 }  // namespace
 
-NodeTree::NodeTree(const JointSpace& space) : flat_(space) {
+NodeTree::NodeTree(FlatJoints flat, const JointSpace& space) : flat_(std::move(flat)) {
   for (const bool continuous : {false, true}) {
     for (int j = 0; j < space.size(); ++j) {
       if (space.joint(j).continuous == continuous) order_.push_back(static_cast<std::size_t>(j));
@@ -46,7 +48,7 @@ NodeTree::Neighbor NodeTree::Nearest(const double* q) const {
   const std::size_t n = order_.size();
   for (std::size_t j = 0; j < n; ++j) query_[j] = static_cast<float>(q[order_[j]]);
   const ScanPoints points{blocks_.data(), blocks_.size() / (n * kScanBlock), num_bounded_,
-                          n - num_bounded_};
+                          n - num_bounded_, flat_.metric()};
   const int node = ScanForNearest(points, query_.data()).point;
   return {node, flat_.Distance(Positions(node), q)};
 }

@@ -21,10 +21,12 @@ class NodeTree {
 
   struct Neighbor {
     int node = -1;
-    double distance = 0;  ///< Joint-space L2.
+    double distance = 0;  ///< In the metric.
   };
 
-  explicit NodeTree(const JointSpace& space);
+  explicit NodeTree(const JointSpace& space) : NodeTree(FlatJoints(space), space) {}
+  /// With the metric of `flat`, of the same space.
+  NodeTree(FlatJoints flat, const JointSpace& space);
 
   void Clear();
   /// Adds a copy of `q`; returns its number. `q` must not be a node's own positions.

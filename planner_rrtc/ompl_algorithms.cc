@@ -30,6 +30,8 @@
 #include <array>
 #include <memory>
 
+#include "planner_rrtc/scan_neighbors.h"
+
 namespace planbench {
 namespace {
 
@@ -39,6 +41,14 @@ namespace og = ompl::geometric;
 template <typename Algorithm>
 ob::PlannerPtr Make(const ob::SpaceInformationPtr& si) {
   return std::make_shared<Algorithm>(si);
+}
+
+/// One that asks for the nearest state alone, of all it has.
+template <typename Algorithm>
+ob::PlannerPtr MakeScanning(const ob::SpaceInformationPtr& si) {
+  auto planner = std::make_shared<Algorithm>(si);
+  planner->template setNearestNeighbors<ScanNeighbors>();
+  return planner;
 }
 
 /// OMPL's PRM divides its time between growing and expanding by the clock and looks for solutions
@@ -89,8 +99,8 @@ constexpr std::array kAlgorithms = {
     OmplAlgorithm{"PRM", kSampleThenSearch, false, true, Make<RepeatablePrm<false>>},
     OmplAlgorithm{"PRMstar", kSampleThenSearch, false, true, Make<RepeatablePrm<true>>},
     OmplAlgorithm{"ProjEST", kSamplingGuided, false, false, Make<og::ProjEST>},
-    OmplAlgorithm{"RRT", kSamplingGuided, false, false, Make<og::RRT>},
-    OmplAlgorithm{"RRTConnect", kSamplingGuided, false, true, Make<og::RRTConnect>},
+    OmplAlgorithm{"RRT", kSamplingGuided, false, false, MakeScanning<og::RRT>},
+    OmplAlgorithm{"RRTConnect", kSamplingGuided, false, true, MakeScanning<og::RRTConnect>},
     OmplAlgorithm{"RRTXstatic", kSamplingGuided, true, false, Make<og::RRTXstatic>},
     OmplAlgorithm{"RRTsharp", kSamplingGuided, true, false, Make<og::RRTsharp>},
     OmplAlgorithm{"RRTstar", kSamplingGuided, true, false, Make<og::RRTstar>},

@@ -20,9 +20,12 @@ constexpr double kPi = std::numbers::pi;
 /// Header of a block that goes on with the positions.
 class alignas(double) JointSpaceState final : public ob::State {
  public:
+  explicit JointSpaceState(const OmplJointSpace* space) : space(space) {}
   ~JointSpaceState() override = default;
   double* positions() { return reinterpret_cast<double*>(this + 1); }
   const double* positions() const { return reinterpret_cast<const double*>(this + 1); }
+
+  const OmplJointSpace* space;
 };
 
 void DeleteState(ob::State* state) {
@@ -90,6 +93,10 @@ class OmplSampler final : public ob::StateSampler {
 
 }  // namespace
 
+const OmplJointSpace& OmplSpaceOf(const ob::State* state) {
+  return *static_cast<const JointSpaceState*>(state)->space;
+}
+
 double* OmplPositions(ob::State* state) {
   return static_cast<JointSpaceState*>(state)->positions();
 }
@@ -98,7 +105,8 @@ const double* OmplPositions(const ob::State* state) {
   return static_cast<const JointSpaceState*>(state)->positions();
 }
 
-OmplJointSpace::OmplJointSpace(const JointSpace& joints) : joints_(joints), flat_(joints) {
+OmplJointSpace::OmplJointSpace(const JointSpace& joints, Metric metric)
+    : joints_(joints), flat_(joints, metric) {
   setName("JointSpace");
   type_ = ob::STATE_SPACE_TYPE_COUNT + 1;  // a type of its own, none of OMPL's
 }
@@ -111,6 +119,7 @@ void OmplJointSpace::SeedSamplers(SamplerKind kind, std::uint64_t seed) {
   sampler_kind_ = kind;
   next_seed_ = seed;
   num_samples_ = 0;
+  neighbor_ticks_ = 0;
 }
 
 void OmplJointSpace::SetPositions(ob::State* state, const std::vector<double>& q) const {
@@ -124,11 +133,14 @@ unsigned int OmplJointSpace::getDimension() const {
 
 double OmplJointSpace::getMaximumExtent() const {
   double sum = 0;
+  double squares = 0;
   for (const JointSpace::Joint& joint : joints_.joints()) {
-    const double extent = joint.continuous ? kPi : joint.upper - joint.lower;
-    sum += extent * extent;
+    const double extent = joint.upper - joint.lower;  // a turn, of continuous joints
+    const double furthest = joint.continuous ? kPi : extent;
+    sum += extent;
+    squares += furthest * furthest;
   }
-  return std::sqrt(sum);
+  return flat_.metric() == Metric::kSum ? sum : std::sqrt(squares);
 }
 
 double OmplJointSpace::getMeasure() const {
@@ -190,7 +202,7 @@ ob::State* OmplJointSpace::allocState() const {
     return state;
   }
   void* block = ::operator new(sizeof(JointSpaceState) + flat_.size() * sizeof(double));
-  auto* state = new (block) JointSpaceState;
+  auto* state = new (block) JointSpaceState(this);
   std::fill_n(new (state->positions()) double[flat_.size()], flat_.size(), 0.0);
   return state;
 }

@@ -13,18 +13,20 @@
 
 namespace planbench {
 
-/// A JointSpace as a state space of OMPL: n doubles in one block, distances L2 with continuous
-/// joints the short way round, motions straight. Flat, because a compound of OMPL's own spaces
-/// spends more time in virtual calls than a collision checker needs for a configuration. States
-/// that are freed are kept for the next one asked for. Positions of continuous joints must be kept
-/// in [-pi, pi]. Its default projection, for the planners that need one, is onto the first three
-/// joints (all, if there are fewer), those that carry the others. Its samplers are JointSamplers
-/// and do not depend on OMPL's process-wide seed.
+/// A JointSpace as a state space of OMPL: n doubles in one block, distances by the metric with
+/// continuous joints the short way round, motions straight. The extent is that of the joints'
+/// ranges in the metric; continuous joints count pi, the furthest they can be apart, in L2, but 2
+/// pi in the sum, as in MoveIt. Flat, because a compound of OMPL's own spaces spends more time in
+/// virtual calls than a collision checker needs for a configuration. States that are freed are kept
+/// for the next one asked for. Positions of continuous joints must be kept in [-pi, pi]. Its
+/// default projection, for the planners that need one, is onto the first three joints (all, if
+/// there are fewer), those that carry the others. Its samplers are JointSamplers and do not depend
+/// on OMPL's process-wide seed.
 ///
 /// Not thread-safe, unlike OMPL's own spaces. `joints` must outlive it.
 class OmplJointSpace final : public ompl::base::StateSpace {
  public:
-  explicit OmplJointSpace(const JointSpace& joints);
+  OmplJointSpace(const JointSpace& joints, Metric metric);
   ~OmplJointSpace() override;
 
   const JointSpace& joints() const { return joints_; }
@@ -34,6 +36,9 @@ class OmplJointSpace final : public ompl::base::StateSpace {
   void SeedSamplers(SamplerKind kind, std::uint64_t seed);
   /// Configurations drawn from the whole space by all samplers since they were seeded.
   std::int64_t num_samples() const { return num_samples_; }
+  /// Time that planners have spent on nearest neighbours since the samplers were seeded, where
+  /// their structure adds it here.
+  std::uint64_t* neighbor_ticks() const { return &neighbor_ticks_; }
   /// Positions with continuous joints wrapped.
   void SetPositions(ompl::base::State* state, const std::vector<double>& q) const;
 
@@ -64,8 +69,11 @@ class OmplJointSpace final : public ompl::base::StateSpace {
   SamplerKind sampler_kind_ = SamplerKind::kUniform;
   mutable std::uint64_t next_seed_ = 1;
   mutable std::int64_t num_samples_ = 0;
+  mutable std::uint64_t neighbor_ticks_ = 0;
 };
 
+/// The space that a state of such a space belongs to.
+const OmplJointSpace& OmplSpaceOf(const ompl::base::State* state);
 /// The positions of a state of such a space.
 double* OmplPositions(ompl::base::State* state);
 const double* OmplPositions(const ompl::base::State* state);

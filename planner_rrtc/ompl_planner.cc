@@ -21,10 +21,10 @@
 #include <mutex>
 
 #include "common/error.h"
-#include "planner_rrtc/goal_sampler.h"
 #include "planner_rrtc/ompl_algorithms.h"
 #include "planner_rrtc/ompl_joint_space.h"
 #include "planner_rrtc/stopped_search.h"
+#include "planning/goal_sampler.h"
 
 namespace planbench {
 namespace {
@@ -174,8 +174,8 @@ class GoalBoxRegion final : public ob::GoalSampleableRegion {
 /// OMPL's objects for one joint space.
 class OmplPlanner::Workspace {
  public:
-  explicit Workspace(const JointSpace& joints)
-      : space_(std::make_shared<OmplJointSpace>(joints)),
+  Workspace(const JointSpace& joints, Metric metric)
+      : space_(std::make_shared<OmplJointSpace>(joints, metric)),
         si_(std::make_shared<ob::SpaceInformation>(space_)) {
     si_->setStateValidityChecker(std::make_shared<EdgeStateValidity>(si_, &edges_));
     si_->setMotionValidator(std::make_shared<EdgeMotionValidator>(si_, &edges_));
@@ -225,9 +225,12 @@ class OmplPlanner::Workspace {
         result.message = fmt::format("{} gave up: {}", settings.AlgorithmName(), status.asString());
       }
     }
+    result.guidance_ticks = *space_->neighbor_ticks();
     result.counters = {{"iterations", static_cast<double>(space_->num_samples())}};
     return result;
   }
+
+  double Extent() const { return space_->getMaximumExtent(); }
 
   /// OMPL's planner with the settings' range and parameters. Throws InputError, prefixed by
   /// `origin`, for parameters that it refuses.
@@ -237,8 +240,8 @@ class OmplPlanner::Workspace {
     // Where a roadmap has one, it limits how far neighbours may be apart, which is another matter.
     const bool is_roadmap =
         settings.ompl_algorithm->planner_class == PlannerClass::kSampleThenSearch;
-    if (parameters.hasParam("range") && !is_roadmap) {
-      parameters.setParam("range", fmt::format("{}", settings.range));
+    if (settings.range && parameters.hasParam("range") && !is_roadmap) {
+      parameters.setParam("range", fmt::format("{}", *settings.range));
     }
     for (const auto& [key, value] : settings.ompl_parameters) {
       if (!parameters.hasParam(key)) {
@@ -285,7 +288,7 @@ OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::s
     : Planner(robot), settings_(std::move(settings)) {
   RedirectOmplMessages();
   for (const PlanningGroup& group : robot.groups) {
-    workspaces_[&group.space] = std::make_unique<Workspace>(group.space);
+    workspaces_[&group.space] = std::make_unique<Workspace>(group.space, settings_.metric);
   }
   // Refuses bad parameters now rather than at the first request.
   workspaces_.begin()->second->MakePlanner(settings_, origin);
@@ -302,6 +305,18 @@ PlannerDescription OmplPlanner::Describe() const {
   description.collision_models = EnumValues<CollisionModel>();
   description.settings = DescribeSettings(settings_);
   return description;
+}
+
+std::optional<EdgeSampling> OmplPlanner::OwnEdgeSampling(const PlanningGroup& group,
+                                                         EdgeCheck /*method*/,
+                                                         double /*resolution_m*/) const {
+  const std::optional<double> fraction = settings_.longest_valid_segment_fraction;
+  if (!fraction) return std::nullopt;
+  EdgeSampling sampling;
+  sampling.weights.assign(static_cast<std::size_t>(group.space.size()), 1.0);
+  sampling.step = *fraction * workspaces_.at(&group.space)->Extent();
+  sampling.euclidean = settings_.metric == Metric::kL2;
+  return sampling;
 }
 
 SearchResult OmplPlanner::Search(SearchQuery& query) {

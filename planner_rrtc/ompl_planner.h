@@ -22,6 +22,8 @@ class OmplPlanner final : public Planner {
 
  protected:
   SearchResult Search(SearchQuery& query) override;
+  std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& group, EdgeCheck method,
+                                              double resolution_m) const override;
 
  private:
   class Workspace;

@@ -38,7 +38,7 @@ void RrtConnect::Clear() {
   }
   num_iterations_ = num_out_of_domain_ = 0;
   num_goals_drawn_ = num_drawn_ = 0;
-  nearest_s_ = 0;
+  nearest_ticks_ = 0;
 }
 
 int RrtConnect::Add(int tree, const double* q, int parent) {
@@ -73,7 +73,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
   const std::size_t n = flat_.size();
   for (; num_drawn_ < num; ++num_drawn_) sampler->Sample(samples_.data() + At(num_drawn_));
   {
-    const ScopedTimer timer(&nearest_s_);
+    const ScopedTimer timer(&nearest_ticks_);
     for (int k = 0; k < num; ++k) {
       Candidate& candidate = candidates_[static_cast<std::size_t>(k)];
       candidate.tree = last = NextTree(last);
@@ -87,7 +87,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
     candidate.in_domain = InDomain(candidate);
     if (!candidate.in_domain) continue;
     flat_.Interpolate(trees_[candidate.tree].nodes.Positions(candidate.near.node), sample,
-                      std::min(1.0, settings_->range / candidate.near.distance),
+                      std::min(1.0, *settings_->range / candidate.near.distance),
                       ends_.data() + At(k));
     std::copy_n(ends_.data() + At(k), n,
                 unchecked_ends_.data() + At(static_cast<int>(unchecked_.size())));
@@ -110,7 +110,7 @@ int RrtConnect::Extend(int k, double* reached) {
   if (!candidate.end_is_valid || !IsValidEdge(nodes.Positions(candidate.near.node), reached)) {
     if (settings_->domain_radius > 0) {
       domain = std::isinf(domain) ? settings_->domain_radius
-                                  : std::max(settings_->range, domain * (1 - kDomainChange));
+                                  : std::max(*settings_->range, domain * (1 - kDomainChange));
     }
     return -1;
   }
@@ -118,8 +118,8 @@ int RrtConnect::Extend(int k, double* reached) {
   int node = Add(candidate.tree, reached, candidate.near.node);
   if (settings_->extension == Extension::kStep) return node;
   const double* sample = samples_.data() + At(k);
-  for (int i = 1; i * settings_->range < candidate.near.distance; ++i) {
-    const double t = std::min(1.0, (i + 1) * settings_->range / candidate.near.distance);
+  for (int i = 1; i * *settings_->range < candidate.near.distance; ++i) {
+    const double t = std::min(1.0, (i + 1) * *settings_->range / candidate.near.distance);
     flat_.Interpolate(nodes.Positions(candidate.near.node), sample, t, step_.data());
     if (!IsValidEdge(nodes.Positions(node), step_.data())) break;
     std::copy_n(step_.data(), n, reached);
@@ -132,10 +132,10 @@ int RrtConnect::Connect(int tree, const double* q) {
   const NodeTree& nodes = trees_[tree].nodes;
   NodeTree::Neighbor near;
   {
-    const ScopedTimer timer(&nearest_s_);
+    const ScopedTimer timer(&nearest_ticks_);
     near = nodes.Nearest(q);
   }
-  const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / settings_->range)));
+  const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / *settings_->range)));
   int node = near.node;
   for (int i = 1; i <= num_steps; ++i) {
     flat_.Interpolate(nodes.Positions(near.node), q, static_cast<double>(i) / num_steps,
@@ -214,7 +214,7 @@ SearchResult RrtConnect::Search(const RrtcSettings& settings, const SearchQuery&
   } else {
     result = StoppedSearch(query);
   }
-  result.guidance_s = nearest_s_;
+  result.guidance_ticks = nearest_ticks_;
   result.counters = {{"iterations", static_cast<double>(num_iterations_)},
                      {"states_start_tree", NumStates(kStart)},
                      {"states_goal_tree", NumStates(kGoal)}};

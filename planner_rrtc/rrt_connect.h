@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "planner_rrtc/flat_joints.h"
-#include "planner_rrtc/goal_sampler.h"
 #include "planner_rrtc/joint_sampler.h"
 #include "planner_rrtc/node_tree.h"
 #include "planner_rrtc/rrtc_settings.h"
+#include "planning/goal_sampler.h"
 #include "planning/plan_result.h"
 #include "planning/search_query.h"
 #include "planning/search_result.h"
@@ -86,7 +86,7 @@ class RrtConnect {
   std::int64_t num_iterations_ = 0;
   std::int64_t num_out_of_domain_ = 0;
   int num_goals_drawn_ = 0;
-  double nearest_s_ = 0;
+  std::uint64_t nearest_ticks_ = 0;
   /// Samples drawn and not taken yet, the first of which have candidates and ends.
   int num_drawn_ = 0;
   std::vector<double> samples_;

@@ -48,9 +48,6 @@ std::unique_ptr<Planner> MakeRrtcPlanner(const Robot& robot, const YamlNode& nod
   if (settings.ompl_algorithm != nullptr) {
     return std::make_unique<OmplPlanner>(robot, std::move(settings), node.Where());
   }
-  if (!settings.ompl_parameters.empty()) {
-    node.At("ompl").Fail("RRT-Connect has no parameters of OMPL's");
-  }
   return std::make_unique<RrtConnectPlanner>(robot, std::move(settings));
 }
 

@@ -28,6 +28,17 @@ double ReadDomainRadius(const YamlNode& node) {
   return radius;
 }
 
+std::optional<double> ReadRange(const YamlNode& node, bool may_be_default) {
+  if (may_be_default && node.String() == "default") return std::nullopt;
+  return node.PositiveDouble();
+}
+
+double ReadFraction(const YamlNode& node) {
+  const double fraction = node.PositiveDouble();
+  if (fraction > 1) node.Fail(fmt::format("must be at most 1, found {}", fraction));
+  return fraction;
+}
+
 }  // namespace
 
 std::string_view RrtcSettings::AlgorithmName() const {
@@ -45,16 +56,25 @@ std::string RrtcSettings::VariantName() const {
 }
 
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
-  node.AllowOnly(
-      {"algorithm", "sampler", "range", "extension", "balance", "domain_radius", "ompl"});
+  node.AllowOnly({"algorithm", "sampler", "range", "extension", "balance", "domain_radius",
+                  "metric", "longest_valid_segment_fraction", "ompl"});
   RrtcSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
-  if (const auto value = node.Find("range")) settings.range = value->PositiveDouble();
+  const bool is_ompl = settings.ompl_algorithm != nullptr;
+  if (const auto value = node.Find("range")) settings.range = ReadRange(*value, is_ompl);
   if (const auto value = node.Find("extension")) settings.extension = value->Enum<Extension>();
   if (const auto value = node.Find("balance")) settings.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {
     settings.domain_radius = ReadDomainRadius(*value);
+  }
+  for (const char* key : {"metric", "longest_valid_segment_fraction", "ompl"}) {
+    const auto value = node.Find(key);
+    if (value && !is_ompl) value->Fail("is for OMPL's planners only, not for RRT-Connect");
+  }
+  if (const auto value = node.Find("metric")) settings.metric = value->Enum<Metric>();
+  if (const auto value = node.Find("longest_valid_segment_fraction")) {
+    settings.longest_valid_segment_fraction = ReadFraction(*value);
   }
   if (const auto value = node.Find("ompl")) {
     for (const std::string& key : value->Keys()) {
@@ -65,10 +85,15 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
 }
 
 std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings) {
-  std::map<std::string, std::string> text = {{"algorithm", std::string(settings.AlgorithmName())},
-                                             {"sampler", std::string(EnumName(settings.sampler))},
-                                             {"range", fmt::format("{}", settings.range)}};
+  std::map<std::string, std::string> text = {
+      {"algorithm", std::string(settings.AlgorithmName())},
+      {"sampler", std::string(EnumName(settings.sampler))},
+      {"range", settings.range ? fmt::format("{}", *settings.range) : "default"}};
   if (settings.ompl_algorithm != nullptr) {
+    text["metric"] = EnumName(settings.metric);
+    if (const auto fraction = settings.longest_valid_segment_fraction) {
+      text["longest_valid_segment_fraction"] = fmt::format("{}", *fraction);
+    }
     for (const auto& [key, value] : settings.ompl_parameters) text["ompl." + key] = value;
     return text;
   }

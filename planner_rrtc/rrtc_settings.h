@@ -1,10 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "common/yaml.h"
+#include "planner_rrtc/flat_joints.h"
 #include "planner_rrtc/joint_sampler.h"
 
 namespace planbench {
@@ -30,8 +32,9 @@ struct RrtcSettings {
   /// `algorithm`: kRrtConnect, or the name of a planner of OMPL; null: kRrtConnect.
   const OmplAlgorithm* ompl_algorithm = nullptr;
   SamplerKind sampler = SamplerKind::kUniform;
-  /// Longest motion added to a tree, joint-space L2, of every algorithm that has such a limit.
-  double range = 1;
+  /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit. None
+  /// (`default`): OMPL's own choice, 20 % of the space's extent.
+  std::optional<double> range = 1;
 
   // Of RRT-Connect:
   /// Of the tree that draws the sample; the other one always connects.
@@ -44,6 +47,11 @@ struct RrtcSettings {
   /// 0: off.
   double domain_radius = 0;
 
+  // Of OMPL's planners:
+  Metric metric = Metric::kL2;
+  /// Edges are sampled so that neighbours are at most this part of the space's extent apart in the
+  /// metric, whatever edge check a request names. None: the request's edge check.
+  std::optional<double> longest_valid_segment_fraction;
   /// `ompl`: a map of parameters of OMPL's planner, by OMPL's names.
   std::map<std::string, std::string> ompl_parameters;
 

@@ -10,7 +10,9 @@
 #include <new>
 #include <utility>
 
+#include "collision/rigid_bodies.h"
 #include "common/error.h"
+#include "planning/free_goal.h"
 #include "planning/peak_memory.h"
 #include "planning/resolve.h"
 #include "planning/shortcut.h"
@@ -51,21 +53,6 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
   }
 }
 
-/// Why a state is not valid, in one line; empty if it is valid.
-std::string FindFault(EdgeChecker* edges, const Configuration& q, std::string_view what) {
-  if (edges->IsValidState(q)) return "";
-  const JointSpace& space = edges->space();
-  const int j = space.FirstOutsideLimits(q);
-  if (j >= 0) {
-    const JointSpace::Joint& joint = space.joint(j);
-    return fmt::format("{}: joint '{}' at {} is outside its limits [{}, {}]", what, joint.name,
-                       q[static_cast<std::size_t>(j)], joint.lower, joint.upper);
-  }
-  const std::optional<Contact> contact = edges->checker().FindContact(q);
-  if (!contact) return fmt::format("{} is in collision", what);
-  return fmt::format("{} is in collision: {}", what, Describe(*contact));
-}
-
 GoalBox PointGoal(const Configuration& q) { return {q, q, q}; }
 
 /// Holds the search to its contract: what it returns is what every table is made of. Gives the ends
@@ -100,56 +87,105 @@ void RequireSearchStatus(const std::string& algorithm, PlanStatus status) {
   }
 }
 
+/// The parts of a total that do not overlap, as shares of it. What is left is the search's.
+void SetPhases(std::uint64_t total, std::uint64_t setup, std::uint64_t collision,
+               std::uint64_t guidance, PlanResult* result) {
+  const std::uint64_t parts = setup + collision + guidance;
+  total = std::max({total, parts, std::uint64_t{1}});
+  const double tick_s = result->total_time_s / static_cast<double>(total);
+  result->phases.setup_s = tick_s * static_cast<double>(setup);
+  result->phases.collision_s = tick_s * static_cast<double>(collision);
+  result->phases.guidance_s = tick_s * static_cast<double>(guidance);
+  result->phases.search_s = tick_s * static_cast<double>(total - parts);
+}
+
+/// A request that came to nothing before there was a search.
+PlanResult Unsearched(PlanStatus status, const std::string& message, const Stopwatch& clock) {
+  PlanResult result;
+  result.status = status;
+  result.message = message;
+  result.planning_time_s = result.total_time_s = result.phases.setup_s = clock.seconds();
+  return result;
+}
+
 }  // namespace
 
-CollisionChecker& Planner::CheckerFor(const PlanningGroup& group, CollisionModel model) {
-  std::unique_ptr<CollisionChecker>& checker = checkers_[{group.name, model}];
-  if (!checker) checker = MakeCollisionChecker(*robot_, group, model);
-  return *checker;
+void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Scene& scene,
+                      std::span<const double> base_positions) {
+  Compiled& compiled = compiled_[{group.name, model}];
+  std::vector<double> held = HeldPositions(robot_->model, group, base_positions);
+  if (compiled.checker && compiled.held == held &&
+      compiled.allowed_collisions == scene.allowed_collisions) {
+    return;
+  }
+  if (!compiled.checker) {
+    compiled.checker = MakeCollisionChecker(*robot_, group, model);
+  }
+  compiled.held.clear();  // should the scene be refused
+  compiled.checker->SetScene(scene, base_positions);
+  compiled.held = std::move(held);
+  compiled.allowed_collisions = scene.allowed_collisions;
+  ++num_compilations_;
+}
+
+std::map<CollisionModel, std::string> Planner::WarmUp() {
+  std::map<CollisionModel, std::string> unusable;
+  Scene empty;
+  empty.world_frame = robot_->model.links().front().name;
+  const std::vector<double> positions = robot_->model.DefaultPositions();
+  for (const CollisionModel model : Describe().collision_models) {
+    try {
+      for (const PlanningGroup& group : robot_->groups) Compile(group, model, empty, positions);
+    } catch (const InputError& error) {
+      unusable[model] = error.what();
+    }
+  }
+  return unusable;
 }
 
 PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanControl* control) {
   ResetPeakMemory();
-  const Stopwatch clock;
+  Stopwatch clock;
   PlanResult result;
   try {
+    const std::string origin =
+        request.request_id.empty() ? "request" : "request " + request.request_id;
+    RequireValid(request, Describe(), origin);
+    const PlanningGroup& group = robot_->Group(request.group);
+    const ResolvedQuery resolved =
+        ResolveQuery(*robot_, group, request.start, request.goal, origin);
+    Compile(group, request.collision_model, scene, resolved.base_positions);
     PlanControl unwatched;
-    PlanInScene(request, scene, control != nullptr ? control : &unwatched, clock, &result);
+    clock = Stopwatch();
+    PlanInScene(request, resolved, scene, control != nullptr ? control : &unwatched, clock,
+                &result);
   } catch (const InputError& error) {
-    result = {};
-    result.status = PlanStatus::kInvalidRequest;
-    result.message = error.what();
-    result.planning_time_s = result.total_time_s = clock.seconds();
+    result = Unsearched(PlanStatus::kInvalidRequest, error.what(), clock);
   } catch (const std::bad_alloc&) {
-    result = {};
-    result.status = PlanStatus::kMemoryLimit;
-    result.message = "out of memory";
-    result.planning_time_s = result.total_time_s = clock.seconds();
+    result = Unsearched(PlanStatus::kMemoryLimit, "out of memory", clock);
   }
   result.peak_memory_mb = PeakMemoryMb();
   return result;
 }
 
-void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanControl* control,
-                          const Stopwatch& clock, PlanResult* result) {
-  const std::string origin =
-      request.request_id.empty() ? "request" : "request " + request.request_id;
+void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resolved,
+                          const Scene& scene, PlanControl* control, const Stopwatch& clock,
+                          PlanResult* result) {
   const PlannerDescription description = Describe();
-  RequireValid(request, description, origin);
   const PlanningGroup& group = robot_->Group(request.group);
-  const ResolvedQuery resolved = ResolveQuery(*robot_, group, request.start, request.goal, origin);
   CollisionChecker& checker = CheckerFor(group, request.collision_model);
   // Even for the scene of the request before: what a request costs must not depend on its place in
   // the run.
   checker.SetScene(scene, resolved.base_positions);
-  EdgeChecker edges(&checker, request.edge_resolution_m.value_or(robot_->edge_resolution_m),
-                    request.edge_check.value_or(robot_->edge_check));
-  result->phases.setup_s = clock.seconds();
+  const EdgeCheck method = request.edge_check.value_or(robot_->edge_check);
+  const double resolution_m = request.edge_resolution_m.value_or(robot_->edge_resolution_m);
+  std::optional<EdgeSampling> own_sampling = OwnEdgeSampling(group, method, resolution_m);
+  EdgeChecker edges = own_sampling ? EdgeChecker(&checker, std::move(*own_sampling))
+                                   : EdgeChecker(&checker, resolution_m, method);
+  const std::uint64_t setup_ticks = clock.ticks();
 
   SearchQuery query;
   const bool backward = request.direction == Direction::kBackward;
-  query.start_ = backward ? resolved.goal.nominal : resolved.start;
-  query.goal_ = backward ? PointGoal(resolved.start) : resolved.goal;
   query.scene_ = &scene;
   query.base_positions_ = &resolved.base_positions;
   query.edges_ = &edges;
@@ -161,16 +197,20 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
+  GoalBox goal = resolved.goal;
   if (std::string fault = FindFault(&edges, resolved.start, "start"); !fault.empty()) {
     found.status = PlanStatus::kStartInvalid;
     found.message = std::move(fault);
-  } else if (fault = FindFault(&edges, resolved.goal.nominal, "goal"); !fault.empty()) {
-    found.status = PlanStatus::kGoalInvalid;
-    found.message = std::move(fault);
-  } else if (resolved.goal.Contains(group.space, resolved.start)) {
+  } else if (goal.Contains(group.space, resolved.start)) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
+  } else if (fault = FindFreeGoal(&edges, &goal, [&query] { return query.ShouldStop(); });
+             !fault.empty()) {
+    found.status = PlanStatus::kGoalInvalid;
+    found.message = std::move(fault);
   } else {
+    query.start_ = backward ? goal.nominal : resolved.start;
+    query.goal_ = backward ? PointGoal(resolved.start) : std::move(goal);
     edges.StopWhen([&query] { return query.ShouldStop(); });
     found = Search(query);
     RequireSearchStatus(description.algorithm, found.status);
@@ -188,10 +228,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   result->planning_time_s =
       query.progress_.empty() ? result->total_time_s : query.progress_.front().elapsed_s;
   const EdgeChecker::Counters counters = edges.counters();
-  result->phases.collision_s = counters.seconds;
-  result->phases.guidance_s = found.guidance_s;
-  result->phases.search_s = std::max(
-      0.0, result->total_time_s - result->phases.setup_s - counters.seconds - found.guidance_s);
+  SetPhases(clock.ticks(), setup_ticks, counters.ticks, found.guidance_ticks, result);
   result->status = found.status;
   result->message = std::move(found.message);
   result->progress = std::move(query.progress_);
@@ -200,7 +237,7 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
   result->counters["configurations_checked"] = static_cast<double>(counters.configurations);
   if (result->status != PlanStatus::kSolved) return;
 
-  if (result->planning_time_s > request.time_limit_s) {
+  if (query.path_held_s_.value_or(result->planning_time_s) > request.time_limit_s) {
     // Between two looks at the clock: a solution after the limit is none, however late the search
     // noticed.
     result->status = PlanStatus::kTimedOut;
@@ -208,14 +245,17 @@ void Planner::PlanInScene(const PlanRequest& request, const Scene& scene, PlanCo
                                   result->planning_time_s, request.time_limit_s);
     return;
   }
+  // A search that still wanted a better bound when the limit came had its path by then.
+  result->planning_time_s = std::min(result->planning_time_s, request.time_limit_s);
   result->path = std::move(found.path);
   result->epsilon = found.epsilon;
   result->cost = found.cost;
   if (!request.simplify) return;
-  const ScopedTimer timer(&result->phases.simplification_s);
+  const Stopwatch simplification;
   edges.StopWhen([&query] { return query.Cancelled(); });
   result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutAttempts,
                                          [&query] { return query.Cancelled(); });
+  result->phases.simplification_s = simplification.seconds();
 }
 
 }  // namespace planbench

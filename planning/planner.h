@@ -2,11 +2,15 @@
 
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "collision/collision_checker.h"
 #include "collision/collision_model.h"
+#include "collision/edge_checker.h"
 #include "common/stopwatch.h"
 #include "planning/plan_control.h"
 #include "planning/plan_request.h"
@@ -18,6 +22,8 @@
 #include "scene/scene.h"
 
 namespace planbench {
+
+struct ResolvedQuery;
 
 /// A planner: resolves requests against the robot, sets the scene, checks start and goal, runs the
 /// search in the asked direction, takes the times, and simplifies, all the same for every
@@ -34,8 +40,16 @@ class Planner {
   virtual PlannerDescription Describe() const = 0;
   const Robot& robot() const { return *robot_; }
 
+  /// Compiles every announced collision model for every group, so that no request has to. Returns
+  /// the models that cannot be used, with the reason.
+  std::map<CollisionModel, std::string> WarmUp();
+  /// How often a robot was compiled for a model and a group: at most once at warming up, and again
+  /// for other positions of the joints outside the group and another allowed-collision matrix.
+  int num_compilations() const { return num_compilations_; }
+
   /// Solves a request in its scene. Never throws for bad requests: they come back as
-  /// kInvalidRequest with a message. The clock starts on entry (the caller has the scene).
+  /// kInvalidRequest with a message. The clock starts when the robot is compiled as the request
+  /// holds it, which only the first of requests that are alike in this has to wait for.
   /// Deterministic up to the time limit: the same request gives the same path whatever ran before.
   /// A solution that comes after the time limit counts as kTimedOut. A search that breaks its
   /// contract (see SearchResult) aborts the process. `control` may be null.
@@ -46,14 +60,34 @@ class Planner {
 
   /// Throws InputError for bad parameters.
   virtual SearchResult Search(SearchQuery& query) = 0;
+  /// How edges are sampled, for a planner that reproduces another system's way; nothing: as the
+  /// request says, by `method` and at `resolution_m`.
+  virtual std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& /*group*/,
+                                                      EdgeCheck /*method*/,
+                                                      double /*resolution_m*/) const {
+    return std::nullopt;
+  }
 
  private:
-  void PlanInScene(const PlanRequest& request, const Scene& scene, PlanControl* control,
-                   const Stopwatch& clock, PlanResult* result);
-  CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model);
+  /// A checker, and the state of the robot it is compiled for.
+  struct Compiled {
+    std::unique_ptr<CollisionChecker> checker;
+    std::vector<double> held;
+    AllowedCollisionMatrix allowed_collisions;
+  };
+
+  void PlanInScene(const PlanRequest& request, const ResolvedQuery& resolved, const Scene& scene,
+                   PlanControl* control, const Stopwatch& clock, PlanResult* result);
+  CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model) {
+    return *compiled_.at({group.name, model}).checker;
+  }
+  /// Has a checker compiled for what it keeps from one scene to the next.
+  void Compile(const PlanningGroup& group, CollisionModel model, const Scene& scene,
+               std::span<const double> base_positions);
 
   const Robot* robot_;
-  std::map<std::pair<std::string, CollisionModel>, std::unique_ptr<CollisionChecker>> checkers_;
+  std::map<std::pair<std::string, CollisionModel>, Compiled> compiled_;
+  int num_compilations_ = 0;
 };
 
 }  // namespace planbench

@@ -11,8 +11,13 @@ double SearchQuery::RemainingSeconds() const { return time_limit_s_ - clock_.sec
 bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() <= 0; }
 
 void SearchQuery::ReportSolution(double epsilon, double cost, std::int64_t expansions) {
+  HoldPath();
   progress_.push_back({clock_.seconds(), epsilon, cost, expansions});
   if (control_->on_progress) control_->on_progress(progress_.back());
+}
+
+void SearchQuery::HoldPath() {
+  if (!path_held_s_) path_held_s_ = clock_.seconds();
 }
 
 }  // namespace planbench

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class SearchQuery {
   /// Reports a solution of an anytime search the moment it is ready: the first stops the planning
   /// clock.
   void ReportSolution(double epsilon, double cost, std::int64_t expansions);
+  /// Says that there is a path to return, should the limit come before the search has reached the
+  /// bound it wants.
+  void HoldPath();
 
  private:
   friend class Planner;
@@ -55,6 +59,7 @@ class SearchQuery {
   Stopwatch clock_;
   double time_limit_s_ = 0;
   std::vector<PlanProgress> progress_;
+  std::optional<double> path_held_s_;  ///< When there was a path first, if it was said.
 };
 
 }  // namespace planbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -17,7 +18,8 @@ struct SearchResult {
               ///< SearchQuery::edges().
   double epsilon = 0;
   double cost = 0;
-  double guidance_s = 0;  ///< Time spent on heuristic or nearest neighbours, if measured.
+  std::uint64_t guidance_ticks = 0;  ///< Time spent on heuristic or nearest neighbours (Ticks), if
+                                     ///< measured; without collision checking.
   std::map<std::string, double> counters;
 };
 

@@ -112,12 +112,13 @@ std::vector<std::string> UncheckedLinks(const RobotModel& model,
 }
 
 VoxelSettings ReadVoxels(const YamlNode& node) {
-  node.AllowOnly({"resolution_m", "lower", "upper", "walls"});
+  node.AllowOnly({"resolution_m", "lower", "upper", "walls", "hollow"});
   VoxelSettings settings;
   settings.resolution_m = node.At("resolution_m").PositiveDouble();
   settings.lower = Eigen::Vector3d(node.At("lower").Doubles(3).data());
   settings.upper = Eigen::Vector3d(node.At("upper").Doubles(3).data());
   settings.walls = node.At("walls").Bool();
+  settings.hollow = node.BoolOr("hollow", false);
   AtField(node, [&] { return NumVoxels(settings); });
   return settings;
 }

@@ -37,6 +37,7 @@ namespace planbench {
 ///     lower: [-1, -1, 0]           # m, base frame
 ///     upper: [1, 1, 2]
 ///     walls: true                  # whether all outside of the box counts as occupied
+///     hollow: false                # optional: objects are their surface alone
 ///
 /// spheres.yaml:
 ///   links:

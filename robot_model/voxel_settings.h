@@ -12,6 +12,8 @@ struct VoxelSettings {
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();  ///< Covered by the cells, which may go beyond.
   bool walls = false;  ///< Whether the space outside of the grid counts as occupied.
+  /// Whether only cells that the surface of an object meets are occupied, not those inside.
+  bool hollow = false;
 };
 
 /// A grid of more cells than this, or of more along one axis, is refused.

@@ -169,9 +169,41 @@ bool Touches(const PosedHalfSpace& half_space, const AlignedBox3d& box) {
   return half_space.normal.dot(lowest) <= half_space.offset + kTouching;
 }
 
+// Whether a point is in a solid.
+
+bool Contains(const PosedSphere& sphere, const Vector3d& p) {
+  return (p - sphere.center).squaredNorm() < sphere.radius * sphere.radius;
+}
+
+bool Contains(const PosedBox& box, const Vector3d& p) {
+  const Vector3d p_B = box.R_WS.transpose() * (p - box.center);
+  return (p_B.cwiseAbs().array() < box.half_size.array()).all();
+}
+
+bool Contains(const PosedHalfSpace& half_space, const Vector3d& p) {
+  return half_space.normal.dot(p) < half_space.offset;
+}
+
+template <typename S>
+bool Contains(const Posed<S>& solid, const Vector3d& p) {
+  const Vector3d p_S = solid.X_SW * p;
+  return NearestPoint(solid.shape, p_S) == p_S;
+}
+
+/// Whether a convex solid holds all of a box.
+template <typename Solid>
+bool Holds(const Solid& solid, const AlignedBox3d& box) {
+  for (int i = 0; i < 8; ++i) {
+    if (!Contains(solid, box.corner(static_cast<AlignedBox3d::CornerType>(i)))) return false;
+  }
+  return true;
+}
+
 struct Triangle {
   Vector3d a, b, c;
 };
+
+bool Contains(const Triangle& /*triangle*/, const Vector3d& /*p*/) { return false; }
 
 /// By separating axes.
 bool Touches(const Triangle& triangle, const AlignedBox3d& box) {
@@ -218,6 +250,7 @@ struct SolidOf<HalfSpace> {
 VoxelGrid::VoxelGrid(const VoxelSettings& settings)
     : origin_(settings.lower),
       resolution_(settings.resolution_m),
+      hollow_(settings.hollow),
       size_(NumVoxels(settings)),
       cells_(Index(0, 0, size_[2])) {}
 
@@ -269,7 +302,9 @@ void VoxelGrid::MarkConvex(const Solid& solid, const Vector3d& center, double ra
           last = middle - 1;
         }
       }
-      std::fill_n(&cells_[Index(first, j, k)], last - first + 1, std::uint8_t{1});
+      for (int i = first; i <= last; ++i) {
+        if (!hollow_ || !Holds(solid, BoxOf(i, i, j, k))) cells_[Index(i, j, k)] = 1;
+      }
     }
   }
 }
@@ -284,6 +319,7 @@ void VoxelGrid::MarkMesh(const TriangleMesh& mesh, const Isometry3d& X_WS) {
                                    (triangle.b - center).squaredNorm(),
                                    (triangle.c - center).squaredNorm()})));
   }
+  if (hollow_) return;
   const SolidMesh solid(mesh);
   if (!solid.has_inside()) return;
   const Isometry3d X_SW = X_WS.inverse();

@@ -35,7 +35,8 @@ class VoxelGrid {
 
   void Clear();
   /// Marks the cells that a shape at pose X_WS meets, be it in one point of their surfaces (1e-9 m
-  /// apart counts as touching). Shapes are solid; a mesh is, as far as closed components of it
+  /// apart counts as touching); of a grid that is to be hollow, not those wholly inside. Shapes are
+  /// solid; a mesh is, as far as closed components of it
   /// enclose space (SolidMesh), else a surface. Sizes and triangles must be valid
   /// (RequireSolid).
   void Mark(const Shape& shape, const Eigen::Isometry3d& X_WS);
@@ -55,6 +56,7 @@ class VoxelGrid {
 
   Eigen::Vector3d origin_;
   double resolution_;
+  bool hollow_;
   std::array<int, 3> size_;
   std::vector<std::uint8_t> cells_;
 };

@@ -93,6 +93,21 @@ TEST(EdgeCheckerTest, DividesEdgesByTheMotionBound) {
   EXPECT_EQ(edges.NumIntervals(origin, std::vector<double>{0.26, -0.23}), 10);
 }
 
+TEST(EdgeCheckerTest, ASamplingOfItsOwnDividesEdgesByItsNorm) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 1);
+  const std::vector<double> from = {0, 3};
+  const std::vector<double> to = {0.5, -3};  // 0.5 m, 0.2832 rad
+  EdgeChecker sum(&checker, EdgeSampling{{1, 2}, 0.1});
+  EXPECT_EQ(sum.NumIntervals(from, to), 11);
+  EXPECT_TRUE(sum.IsValidEdge(from, to, /*from_is_free=*/true));
+  EXPECT_EQ(checker.asked.size(), 11u);
+  const EdgeChecker root(&checker, EdgeSampling{{1, 2}, 0.1, true});
+  EXPECT_EQ(root.NumIntervals(from, to), 8);
+  ExpectInputError([&] { EdgeChecker(&checker, EdgeSampling{{1}, 0.1}); }, {"1 values"});
+  ExpectInputError([&] { EdgeChecker(&checker, EdgeSampling{{1, 1}, 0}); }, {"step", "0"});
+}
+
 TEST(EdgeCheckerTest, NoPointMovesFurtherThanTheResolutionBetweenSamples) {
   const Robot arm = MakeTestArm();
   ScriptedChecker checker(arm, 1);

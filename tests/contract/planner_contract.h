@@ -65,6 +65,9 @@ class PlannerContract : public testing::TestWithParam<PlannerFactory> {
       const JointSpace& space = robot.Group(request.group).space;
       EXPECT_LE(PathLength(space, result.simplified_path), PathLength(space, result.path) + 1e-9);
     }
+    const PhaseTimes& phases = result.phases;
+    EXPECT_NEAR(phases.setup_s + phases.collision_s + phases.guidance_s + phases.search_s,
+                result.total_time_s, 1e-9 * result.total_time_s);
     EXPECT_GT(result.planning_time_s, 0);
     EXPECT_LE(result.planning_time_s, request.time_limit_s);
   }

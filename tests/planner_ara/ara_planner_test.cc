@@ -228,11 +228,13 @@ TEST_F(AraPlannerTest, TheStudysSettingsSolveWithItsOwnMoves) {
   const std::unique_ptr<Planner> planner =
       MakeAraPlanner(fetch, YamlNode::LoadFile((fetch.folder / "ara_study.yaml").string()));
   EXPECT_EQ(planner->Describe().settings.at("cost"), "uniform");
+  EXPECT_EQ(planner->Describe().settings.at("evaluation"), "eager");
   PlanRequest request = MakeRequest(fetch, FetchTucked(), FetchOverTable());
   request.direction = Direction::kBackward;
   request.simplify = false;
   const PlanResult result = planner->Plan(request, FetchTableScene(fetch), nullptr);
   ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(result.epsilon, 0) << "its heuristic proves nothing";
   // The path runs start to goal: of all its motions only the first, the search's last, is no move
   // of 8 cells.
   const JointSpace& space = fetch.groups.front().space;
@@ -243,7 +245,10 @@ TEST_F(AraPlannerTest, TheStudysSettingsSolveWithItsOwnMoves) {
       const double motion = std::abs(space.Difference(j, result.path[i - 1][k], result.path[i][k]));
       if (motion < 1e-9) continue;
       ++num_moved;
-      EXPECT_NEAR(motion, space.joint(j).prismatic ? 0.04 : 8 * 3.14159265358979 / 180, 1e-9);
+      // A whole number of cells between the limits of each bounded joint.
+      const double range = space.joint(j).upper - space.joint(j).lower;
+      const double nominal = space.joint(j).prismatic ? 0.005 : M_PI / 180;
+      EXPECT_NEAR(motion, 8 * range / std::round(range / nominal), 1e-9);
     }
     EXPECT_EQ(num_moved, 1);
   }

@@ -29,6 +29,10 @@ tip_guide: 1.5
 crowding: 0.3
 crowding_joints: [lift]
 cost: uniform
+evaluation: eager
+wrap_heuristic: false
+fit_cells: true
+edge_weights: {lift: 1, roll: 0.5}
 epsilon_initial: 30
 epsilon_decrement: 2
 epsilon_final: 1.5
@@ -47,6 +51,10 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
   EXPECT_EQ(settings.cost, MoveCost::kUniform);
+  EXPECT_EQ(settings.evaluation, Evaluation::kEager);
+  EXPECT_FALSE(settings.wrap_heuristic);
+  EXPECT_TRUE(settings.fit_cells);
+  EXPECT_EQ(settings.edge_weights, (std::map<std::string, double>{{"lift", 1}, {"roll", 0.5}}));
   EXPECT_EQ(settings.epsilon.initial, 30);
   EXPECT_EQ(settings.epsilon.decrement, 2);
   EXPECT_EQ(settings.epsilon.final, 1.5);
@@ -75,7 +83,8 @@ TEST(AraSettings, TextReadsBackAsTheSameSettings) {
   const AraSettings settings = Read(
       "{discretization: {lift: 0.005, roll: 0.017453292519943295}, joint_weights: {lift: 3}, "
       "primitives: a.mprim, crowding_joints: [lift, roll], two_way: false, "
-      "short_primitives_within: 0.25, cost: uniform, epsilon_initial: 7.5}");
+      "short_primitives_within: 0.25, cost: uniform, epsilon_initial: 7.5, evaluation: eager, "
+      "wrap_heuristic: false, fit_cells: true, edge_weights: {lift: 1, roll: 0.5}}");
   AraSettings again;
   for (const auto& [key, text] : settings.AsText()) {
     YamlNode node = YamlNode::Parse("", "parameter");

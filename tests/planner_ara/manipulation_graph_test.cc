@@ -104,6 +104,49 @@ TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
   EXPECT_GT(graph.num_goal_connections_tried(), 0);
 }
 
+TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
+  ManipulationGraph lazy = Graph(Point(kRight), Options());
+  ManipulationGraphOptions options = Options();
+  options.evaluation = Evaluation::kEager;
+  ManipulationGraph eager = Graph(Point(kRight), options);
+  Spread(&lazy, 100);
+  for (StateId s = 1; s < 100; ++s) {
+    Configuration q(3);
+    lazy.ConfigurationOf(s, q);
+    if (!edges_->IsValidState(q)) continue;
+    ManipulationGraph from_here(edges_.get(), q, Point(kRight), options);
+    std::vector<std::uint16_t> valid;
+    for (const CandidateEdge& edge : EdgesOf(&lazy, s)) {
+      if (lazy.IsValidEdge(s, edge.action)) valid.push_back(edge.action);
+    }
+    std::vector<std::uint16_t> offered;
+    for (const CandidateEdge& edge : EdgesOf(&from_here, ManipulationGraph::kStart)) {
+      offered.push_back(edge.action);
+    }
+    EXPECT_EQ(offered, valid) << "state " << s;
+  }
+}
+
+TEST_F(ManipulationGraphTest, AHeuristicThatDoesNotWrapRemembersTheTurns) {
+  ManipulationGraphOptions options = Options(2 * M_PI / 20);
+  options.wrap_heuristic = false;
+  ManipulationGraph graph = Graph(Point(kRight), options);
+  const StateId start = ManipulationGraph::kStart;
+  EXPECT_NEAR(graph.Heuristic(start), 1.2, 1e-9);
+  // The first joint alone, upwards past half a turn: the way back grows and grows, up to the cell
+  // that the start's move downwards reached first.
+  StateId state = start;
+  for (int i = 1; i < 19; ++i) {
+    const std::vector<CandidateEdge> edges = EdgesOf(&graph, state);
+    const auto up = std::max_element(edges.begin(), edges.end(), [](const auto& a, const auto& b) {
+      return a.target_heuristic < b.target_heuristic;
+    });
+    state = graph.Target(state, up->action);
+    EXPECT_EQ(up->target_heuristic, graph.Heuristic(state));
+    EXPECT_NEAR(graph.Heuristic(state), 1.2 + i * 2 * M_PI / 20, 1e-9);
+  }
+}
+
 TEST_F(ManipulationGraphTest, HeuristicIsConsistent) {
   for (const MoveCost cost : {MoveCost::kDistance, MoveCost::kUniform}) {
     for (const double tolerance : {0.0, 0.25}) {

@@ -35,7 +35,8 @@ class OmplJointSpaceTest : public testing::Test {
                             {"bend", false, false, -1, 2, 1},
                             {"slide", false, true, 0, 0.4, 1},
                             {"roll", true, false, -kPi, kPi, 1}}};
-  const std::shared_ptr<OmplJointSpace> space_ = std::make_shared<OmplJointSpace>(joints_);
+  const std::shared_ptr<OmplJointSpace> space_ =
+      std::make_shared<OmplJointSpace>(joints_, Metric::kL2);
 };
 
 TEST_F(OmplJointSpaceTest, PassesTheSanityChecksOfOmpl) { EXPECT_NO_THROW(space_->sanityChecks()); }
@@ -64,6 +65,18 @@ TEST_F(OmplJointSpaceTest, DistancesAndMotionsAreThoseOfTheJointSpace) {
       }
     }
   }
+}
+
+TEST_F(OmplJointSpaceTest, TheSumOfDistancesIsTheOtherMetric) {
+  const auto sums = std::make_shared<OmplJointSpace>(joints_, Metric::kSum);
+  EXPECT_NO_THROW(sums->sanityChecks());
+  ob::ScopedState<> a(sums);
+  ob::ScopedState<> b(sums);
+  sums->SetPositions(a.get(), {3, 0, 0.1, 0});
+  sums->SetPositions(b.get(), {-3, 1, 0.3, 1});
+  EXPECT_NEAR(sums->distance(a.get(), b.get()), 2 * kPi - 6 + 1 + 0.2 + 1, 1e-12);
+  EXPECT_NEAR(sums->getMaximumExtent(), 2 * kPi + 3 + 0.4 + 2 * kPi, 1e-12);
+  EXPECT_NEAR(space_->getMaximumExtent(), std::hypot(kPi, 3, std::hypot(0.4, kPi)), 1e-12);
 }
 
 TEST_F(OmplJointSpaceTest, InterpolatesTheShortWay) {

@@ -75,7 +75,12 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: RRT\nompl: {goal_bias: often}",
                  {"rrtc.yaml", "ompl.goal_bias", "often"});
   expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
-  expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml", "ompl", "RRT-Connect"});
+  expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
+  expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
+  expect_refused("range: default", {"rrtc.yaml:1", "range", "default"});
+  expect_refused("algorithm: RRT\nmetric: max", {"rrtc.yaml:2", "metric", "max", "sum"});
+  expect_refused("algorithm: RRT\nlongest_valid_segment_fraction: 2",
+                 {"rrtc.yaml:2", "longest_valid_segment_fraction", "2"});
 }
 
 TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
@@ -85,7 +90,9 @@ TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
   const YamlNode study = YamlNode::LoadFile((fetch.folder / "rrtc_study.yaml").string());
   const PlannerDescription description = MakeRrtcPlanner(fetch, study)->Describe();
   EXPECT_EQ(description.algorithm, "RRTConnect (OMPL)");
-  EXPECT_EQ(description.settings.at("range"), "2");
+  EXPECT_EQ(description.settings.at("range"), "default");
+  EXPECT_EQ(description.settings.at("metric"), "sum");
+  EXPECT_EQ(description.settings.at("longest_valid_segment_fraction"), "0.005");
 }
 
 TEST_F(RrtcPlannerTest, Describes) {
@@ -140,6 +147,19 @@ TEST_F(RrtcPlannerTest, EverySettingTakesEffect) {
                                  "algorithm: RRTConnect", "algorithm: RRT"}) {
     EXPECT_NE(Solve(text).path, path) << text;
   }
+}
+
+TEST_F(RrtcPlannerTest, TheLongestValidSegmentDecidesHowEdgesAreSampled) {
+  const auto samples_an_edge = [&](const std::string& settings) {
+    const PlanResult result = Solve("{algorithm: RRTConnect, range: 1, " + settings + "}");
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    return result.counters.at("configurations_checked") / result.counters.at("edges_checked");
+  };
+  const double few = samples_an_edge("longest_valid_segment_fraction: 1");
+  EXPECT_GE(few, 1);
+  EXPECT_LE(few, 4) << "the end of each, and start and goal by themselves";
+  EXPECT_GT(samples_an_edge("longest_valid_segment_fraction: 0.01"), 2 * few);
+  EXPECT_GT(samples_an_edge("metric: sum, longest_valid_segment_fraction: 0.005"), 2 * few);
 }
 
 TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {

@@ -5,8 +5,8 @@
 #include <set>
 #include <vector>
 
-#include "planner_rrtc/goal_sampler.h"
 #include "planner_rrtc/joint_sampler.h"
+#include "planning/goal_sampler.h"
 
 namespace planbench {
 namespace {

@@ -70,8 +70,9 @@ TEST(LoadRobot, FetchHasTheStudysGrid) {
   const Robot fetch = LoadRobot(FetchFolder());
   ASSERT_TRUE(fetch.voxels.has_value());
   EXPECT_EQ(NumVoxels(*fetch.voxels), (std::array<int, 3>{100, 100, 100}));
-  EXPECT_EQ(fetch.voxels->lower, Eigen::Vector3d(-1, -1, 0));
+  EXPECT_EQ(fetch.voxels->lower, Eigen::Vector3d(-1.01, -1.01, -0.01));
   EXPECT_TRUE(fetch.voxels->walls);
+  EXPECT_TRUE(fetch.voxels->hollow);
 }
 
 TEST(NumVoxels, CoversTheBox) {

@@ -223,6 +223,41 @@ TEST(VoxelGrid, OpenMeshesAreSurfaces) {
   }
 }
 
+TEST(VoxelGrid, HollowObjectsAreTheCellsThatTheirSurfaceMeets) {
+  const Shape shapes[] = {Box{{0.9, 0.7, 1.1}}, Sphere{0.6}, Cylinder{0.5, 0.9}, Cone{0.6, 1.2},
+                          Capsule{0.4, 0.6}};
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  X_WS.rotate(Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized()));
+  VoxelSettings settings = ShapeGrid();
+  settings.hollow = true;
+  for (const Shape& shape : shapes) {
+    VoxelGrid solid(ShapeGrid());
+    VoxelGrid hollow(settings);
+    solid.Mark(shape, X_WS);
+    hollow.Mark(shape, X_WS);
+    int num_inside = 0;
+    for (std::size_t i = 0; i < solid.cells().size(); ++i) {
+      ASSERT_LE(hollow.cells()[i], solid.cells()[i]);
+      num_inside += solid.cells()[i] - hollow.cells()[i];
+    }
+    EXPECT_GT(num_inside, 10) << "shape " << shape.index();
+    // What is left out has no way out but through the shell: all its neighbours are of the solid.
+    for (int k = 1; k + 1 < kCells; ++k) {
+      for (int j = 1; j + 1 < kCells; ++j) {
+        for (int i = 1; i + 1 < kCells; ++i) {
+          const std::size_t at = solid.Index(i, j, k);
+          if (solid.cells()[at] == hollow.cells()[at]) continue;
+          for (const int step : {-1, 1}) {
+            EXPECT_EQ(solid.cells()[solid.Index(i + step, j, k)], 1);
+            EXPECT_EQ(solid.cells()[solid.Index(i, j + step, k)], 1);
+            EXPECT_EQ(solid.cells()[solid.Index(i, j, k + step)], 1);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(VoxelGrid, TouchingIsMeetingWhateverTheRounding) {
   VoxelSettings settings;
   settings.resolution_m = 0.02;

@@ -1,4 +1,4 @@
-#include "planner_rrtc/goal_sampler.h"
+#include "planning/goal_sampler.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,0 +1,101 @@
+#include "planning/free_goal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "planning/goal_sampler.h"
+
+namespace planbench {
+namespace {
+
+/// Checked at once, between two looks at the clock.
+constexpr int kBatch = 16;
+constexpr std::uint64_t kSeed = 1;
+
+/// A joint whose side of the box is all outside its limits; -1 if there is none.
+int FindJointOutOfReach(const JointSpace& space, const GoalBox& goal) {
+  for (int j = 0; j < space.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const JointSpace::Joint& joint = space.joint(j);
+    if (joint.continuous) continue;
+    if (goal.lower[k] > joint.upper + JointSpace::kLimitTolerance) return j;
+    if (goal.upper[k] < joint.lower - JointSpace::kLimitTolerance) return j;
+  }
+  return -1;
+}
+
+/// The part of the box within joint limits and within half a turn of the nominal point, from which
+/// it is one way round to every point.
+GoalBox ReachablePart(const JointSpace& space, GoalBox goal) {
+  constexpr double kHalfTurn = std::numbers::pi - 1e-9;
+  for (int j = 0; j < space.size(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const JointSpace::Joint& joint = space.joint(j);
+    const double low = joint.continuous ? goal.nominal[k] - kHalfTurn : joint.lower;
+    const double high = joint.continuous ? goal.nominal[k] + kHalfTurn : joint.upper;
+    goal.lower[k] = std::min(std::max(goal.lower[k], low), high);
+    goal.upper[k] = std::max(std::min(goal.upper[k], high), low);
+    goal.nominal[k] = std::clamp(goal.nominal[k], goal.lower[k], goal.upper[k]);
+  }
+  return goal;
+}
+
+}  // namespace
+
+std::string FindFault(EdgeChecker* edges, const Configuration& q, const std::string& what) {
+  if (edges->IsValidState(q)) return "";
+  const JointSpace& space = edges->space();
+  const int j = space.FirstOutsideLimits(q);
+  if (j >= 0) {
+    const JointSpace::Joint& joint = space.joint(j);
+    return fmt::format("{}: joint '{}' at {} is outside its limits [{}, {}]", what, joint.name,
+                       q[static_cast<std::size_t>(j)], joint.lower, joint.upper);
+  }
+  const std::optional<Contact> contact = edges->checker().FindContact(q);
+  if (!contact) return fmt::format("{} is in collision", what);
+  return fmt::format("{} is in collision: {}", what, Describe(*contact));
+}
+
+std::string FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
+                         const std::function<bool()>& should_stop) {
+  const std::string fault = FindFault(edges, goal->nominal, "goal");
+  if (fault.empty() || goal->lower == goal->upper) return fault;
+  const JointSpace& space = edges->space();
+  if (FindJointOutOfReach(space, *goal) >= 0) return fault;
+
+  GoalBox part = ReachablePart(space, *goal);
+  GoalSampler sampler(space, part, kSeed);
+  const std::size_t n = part.nominal.size();
+  int num_tried = 0;
+  std::vector<double> batch(kBatch * n);
+  std::vector<unsigned char> valid(kBatch);
+  while (num_tried < kGoalTries && !should_stop()) {
+    const int num = std::min(kBatch, kGoalTries - num_tried);
+    for (int i = 0; i < num; ++i) {
+      const Configuration q = sampler.Sample();
+      std::copy(q.begin(), q.end(), batch.begin() + static_cast<std::ptrdiff_t>(i * n));
+    }
+    const std::span<unsigned char> verdicts(valid.data(), static_cast<std::size_t>(num));
+    edges->CheckStates({batch.data(), static_cast<std::size_t>(num) * n}, num, verdicts);
+    num_tried += num;
+    const auto found = std::find(verdicts.begin(), verdicts.end(), 1);
+    if (found == verdicts.end()) continue;
+    const double* q = batch.data() + static_cast<std::size_t>(found - verdicts.begin()) * n;
+    for (std::size_t k = 0; k < n; ++k) {
+      // Samples are wrapped, boxes are not.
+      const double offset = space.Difference(static_cast<int>(k), part.nominal[k], q[k]);
+      part.nominal[k] = std::clamp(part.nominal[k] + offset, part.lower[k], part.upper[k]);
+    }
+    *goal = std::move(part);
+    return "";
+  }
+  return fmt::format("no valid point among {} tried of the goal's region; its nominal point: {}",
+                     num_tried, fault);
+}
+
+}  // namespace planbench
