@@ -43,10 +43,10 @@ struct Flags {
   std::string config;
   std::vector<std::string> overrides;
   std::string directions = "forward";
-  std::string model = "spheres";
+  CollisionModel model = CollisionModel::kSpheres;
   double time_limit_s = 10;
   std::optional<double> edge_resolution_m;
-  std::string edge_check;
+  std::optional<EdgeCheck> edge_check;
   std::uint64_t seed = 1;
   int first = 1;
   int last = std::numeric_limits<int>::max();
@@ -65,6 +65,14 @@ struct Run {
   bool referee_valid = false;
   bool simplified_valid = false;
 };
+
+/// The names of an enum, for flags that take one.
+template <typename Enum>
+std::map<std::string, Enum> ByName() {
+  std::map<std::string, Enum> values;
+  for (const Enum value : EnumValues<Enum>()) values.emplace(EnumName(value), value);
+  return values;
+}
 
 double Quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::nan("");
@@ -86,8 +94,7 @@ std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
   const YamlNode settings =
       LoadPlannerSettings(robot, flags.planner, flags.config, flags.overrides);
   if (flags.planner == "ara") return MakeAraPlanner(robot, settings);
-  if (flags.planner == "rrtc") return MakeRrtcPlanner(robot, settings);
-  throw InputError("--planner: expected ara or rrtc, found '" + flags.planner + "'");
+  return MakeRrtcPlanner(robot, settings);
 }
 
 bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene& scene,
@@ -101,7 +108,7 @@ bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene&
 }
 
 std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet& set,
-                        Direction direction, CollisionModel model, Planner* planner) {
+                        Direction direction, Planner* planner) {
   std::vector<Run> runs;
   for (const ProblemFiles& files : set.problems) {
     if (files.index < flags.first || files.index > flags.last) continue;
@@ -115,9 +122,9 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     request.direction = direction;
     request.time_limit_s = flags.time_limit_s;
     request.seed = flags.seed;
-    request.collision_model = model;
+    request.collision_model = flags.model;
     request.edge_resolution_m = flags.edge_resolution_m;
-    request.edge_check = ParseEnum<EdgeCheck>(flags.edge_check);
+    request.edge_check = flags.edge_check;
     request.anytime = flags.anytime;
     request.simplify = flags.simplify;
     Run run{files.index, planner->Plan(request, problem.scene, nullptr), false, false};
@@ -239,16 +246,22 @@ int Main(int argc, char** argv) {
   CLI::App app("One planner over problem sets, without the bus");
   app.add_option("--problems", flags.problems, "Folders of problem sets")->required();
   app.add_option("--robot", flags.robot, "Robot folder")->capture_default_str();
-  app.add_option("--planner", flags.planner, "ara or rrtc")->capture_default_str();
+  app.add_option("--planner", flags.planner, "Which to run")
+      ->check(CLI::IsMember({"ara", "rrtc"}))
+      ->capture_default_str();
   app.add_option("--config", flags.config, "Settings file; default: the robot folder's");
   app.add_option("--set", flags.overrides, "KEY=VALUE: overrides a setting; repeatable")
       ->allow_extra_args(false);
   app.add_option("--directions", flags.directions, "Which to run")
       ->check(CLI::IsMember({"forward", "backward", "both"}))
       ->capture_default_str();
-  app.add_option("--model", flags.model, "Collision model")->capture_default_str();
-  app.add_option("--time", flags.time_limit_s, "Limit of a request, s")->capture_default_str();
-  app.add_option("--edge-check", flags.edge_check, "fixed or certified; default: the robot's");
+  app.add_option("--model", flags.model, "Collision model; default: spheres")
+      ->transform(CLI::CheckedTransformer(ByName<CollisionModel>()));
+  app.add_option("--time", flags.time_limit_s, "Limit of a request, s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--edge-check", flags.edge_check, "Method; default: the robot's")
+      ->transform(CLI::CheckedTransformer(ByName<EdgeCheck>()));
   app.add_option("--edge-resolution", flags.edge_resolution_m, "m; default: the robot's");
   app.add_option("--seed", flags.seed, "Seed of every request")->capture_default_str();
   app.add_option("--first", flags.first, "First problem's number")->capture_default_str();
@@ -266,8 +279,6 @@ int Main(int argc, char** argv) {
   app.add_option("--csv", flags.csv, "File for a line a run");
   CLI11_PARSE(app, argc, argv);
 
-  const std::optional<CollisionModel> model = ParseEnum<CollisionModel>(flags.model);
-  if (!model) throw InputError("--model: unknown collision model '" + flags.model + "'");
   const Robot robot = LoadRobot(flags.robot);
   const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
   std::ofstream csv;
@@ -279,13 +290,13 @@ int Main(int argc, char** argv) {
   }
   PrintHeader();
   const JointSpace& space = robot.groups.front().space;
-  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
-    const std::string name = direction == Direction::kForward ? "forward" : "backward";
+  for (const Direction direction : EnumValues<Direction>()) {
+    const std::string name(EnumName(direction));
     if (flags.directions != "both" && flags.directions != name) continue;
     std::vector<Run> all;
     for (const std::string& folder : flags.problems) {
       const ProblemSet set = ListProblemSet(folder);
-      std::vector<Run> runs = RunSet(flags, robot, set, direction, *model, planner.get());
+      std::vector<Run> runs = RunSet(flags, robot, set, direction, planner.get());
       if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
       PrintRow(set.name, name, runs, space, flags.counters);
       if (flags.simplify) PrintSimplification(runs, space);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <map>
@@ -89,9 +90,9 @@ class Printer {
   }
   template <typename Values>
   static std::string TextOfAll(const Values& values) {
-    std::string text;
-    for (const auto& value : values) text += (text.empty() ? "" : ", ") + TextOf(value);
-    return "[" + text + "]";
+    std::vector<std::string> texts;
+    for (const auto& value : values) texts.push_back(TextOf(value));
+    return fmt::format("[{}]", fmt::join(texts, ", "));
   }
 
   void Line(std::string_view name, const std::string& text) {

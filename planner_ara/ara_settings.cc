@@ -40,11 +40,9 @@ double AtLeastOne(const YamlNode& node, const std::string& key, double fallback)
 }
 
 std::string ByJointAsText(const std::map<std::string, double>& values) {
-  std::string text;
-  for (const auto& [joint, value] : values) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", joint, value);
-  }
-  return "{" + text + "}";
+  std::vector<std::string> texts;
+  for (const auto& [joint, value] : values) texts.push_back(fmt::format("{}: {}", joint, value));
+  return fmt::format("{{{}}}", fmt::join(texts, ", "));
 }
 
 }  // namespace
@@ -91,16 +89,7 @@ void AraSettings::Apply(const YamlNode& node) {
     crowding_joints = joints->Strings();
   }
   tip_guide = NonNegative(node, "tip_guide", tip_guide);
-  if (const std::optional<YamlNode> value = node.Find("cost")) {
-    const std::string name = value->String();
-    if (name == "distance") {
-      cost = MoveCost::kDistance;
-    } else if (name == "uniform") {
-      cost = MoveCost::kUniform;
-    } else {
-      value->Fail("expected distance or uniform, found '" + name + "'");
-    }
-  }
+  if (const std::optional<YamlNode> value = node.Find("cost")) cost = value->Enum<MoveCost>();
   epsilon.initial = AtLeastOne(node, "epsilon_initial", epsilon.initial);
   epsilon.decrement = Positive(node, "epsilon_decrement", epsilon.decrement);
   epsilon.final = AtLeastOne(node, "epsilon_final", epsilon.final);
@@ -133,7 +122,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
-      {"cost", cost == MoveCost::kDistance ? "distance" : "uniform"},
+      {"cost", std::string(EnumName(cost))},
       {"evaluation", std::string(EnumName(evaluation))},
       {"wrap_heuristic", fmt::format("{}", wrap_heuristic)},
       {"fit_cells", fmt::format("{}", fit_cells)},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -18,6 +19,10 @@ namespace planbench {
 enum class MoveCost {
   kDistance,  ///< The weighted length of its motion.
   kUniform,   ///< 1, whatever its length; the motion to the goal its weighted length, at least 1.
+};
+template <>
+struct EnumNames<MoveCost> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"distance", "uniform"});
 };
 
 enum class Evaluation { kLazy, kEager };

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <string>
+#include <vector>
 
 #include "common/error.h"
 #include "common/yaml.h"
@@ -69,22 +71,21 @@ PartSpec ReadPart(const YamlNode& node) {
   node.AllowOnly({"name", "box", "cylinder", "sphere", "position", "rpy"});
   PartSpec part;
   part.name = node.StringOr("name", "");
-  const auto box = node.Find("box");
-  const auto cylinder = node.Find("cylinder");
-  const auto sphere = node.Find("sphere");
-  if (box.has_value() + cylinder.has_value() + sphere.has_value() != 1) {
-    node.Fail("needs one of the keys box, cylinder, sphere");
-  }
-  const YamlNode& size = box ? *box : cylinder ? *cylinder : *sphere;
-  if (box) {
-    part.kind = PartKind::kBox;
-    part.size = ReadRanges(size, 3, "the lengths along x, y, z");
-  } else if (cylinder) {
-    part.kind = PartKind::kCylinder;
-    part.size = ReadRanges(size, 2, "height, radius");
-  } else {
-    part.kind = PartKind::kSphere;
-    part.size = {ReadRange(size)};
+  std::vector<PartKind> kinds = EnumValues<PartKind>();
+  std::erase_if(kinds, [&](PartKind kind) { return !node.Find(std::string(EnumName(kind))); });
+  if (kinds.size() != 1) node.Fail("needs one of the keys " + EnumChoices<PartKind>());
+  part.kind = kinds.front();
+  const YamlNode size = node.At(std::string(EnumName(part.kind)));
+  switch (part.kind) {
+    case PartKind::kBox:
+      part.size = ReadRanges(size, 3, "the lengths along x, y, z");
+      break;
+    case PartKind::kCylinder:
+      part.size = ReadRanges(size, 2, "height, radius");
+      break;
+    case PartKind::kSphere:
+      part.size = {ReadRange(size)};
+      break;
   }
   for (const Range& range : part.size) {
     if (range.low <= 0) size.Fail("sizes must be greater than zero");

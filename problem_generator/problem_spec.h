@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "robot_model/robot_folder.h"
 #include "scene/problem.h"
 
@@ -23,6 +25,10 @@ struct Range {
 using Range3 = std::array<Range, 3>;
 
 enum class PartKind { kBox, kCylinder, kSphere };
+template <>
+struct EnumNames<PartKind> {
+  static constexpr auto kNames = std::to_array<std::string_view>({"box", "cylinder", "sphere"});
+};
 
 /// A primitive of an object.
 struct PartSpec {

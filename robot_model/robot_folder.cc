@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "common/content_hash.h"
 #include "common/error.h"
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 // The file a field of robot.yaml names, relative to the folder.
 fs::path NamedFile(const fs::path& folder, const YamlNode& field) {
-  const fs::path path = folder / field.String();
+  fs::path path = folder / field.String();
   std::error_code error;
   if (!fs::is_regular_file(path, error)) field.Fail("no file " + path.string());
   return path;
@@ -213,13 +214,13 @@ void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
 
 const PlanningGroup& Robot::Group(const std::string& group_name) const {
   if (group_name.empty() && !groups.empty()) return groups.front();
-  std::string known;
+  std::vector<std::string_view> known;
   for (const PlanningGroup& group : groups) {
     if (group.name == group_name) return group;
-    known += (known.empty() ? "" : ", ") + group.name;
+    known.push_back(group.name);
   }
-  throw InputError(
-      fmt::format("robot '{}' has no group '{}'; known are: {}", name, group_name, known));
+  throw InputError(fmt::format("robot '{}' has no group '{}'; known are: {}", name, group_name,
+                               fmt::join(known, ", ")));
 }
 
 Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& packages) {

@@ -1,5 +1,8 @@
 #include "scene/moveit_messages.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -240,11 +243,7 @@ std::string Complaint(const std::string& key, std::string_view type, std::string
   }
   constexpr std::size_t kMost = 8;  // What a message of two lines has room for.
   if (names.size() > kMost) return unknown;
-  std::string known;
-  for (const std::string_view name : names) {
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  return unknown + "; known are: " + known;
+  return fmt::format("{}; known are: {}", unknown, fmt::join(names, ", "));
 }
 
 void Check(const YamlNode& node, std::string_view type, std::string_view root, bool is_root) {

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "collision/fcl/fcl_checker.h"
 #include "collision/simd/simd_checker.h"
 #include "tests/contract/collision_checker_contract.h"

@@ -1,5 +1,6 @@
 #include "planner_rrtc/node_tree.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -14,8 +15,7 @@ constexpr double kPi = std::numbers::pi;
 JointSpace MakeSpace(const std::vector<bool>& continuous) {
   std::vector<JointSpace::Joint> joints;
   for (const bool c : continuous) {
-    joints.push_back(
-        {"j" + std::to_string(joints.size()), c, false, c ? -kPi : -2, c ? kPi : 2, 1});
+    joints.push_back({fmt::format("j{}", joints.size()), c, false, c ? -kPi : -2, c ? kPi : 2, 1});
   }
   return JointSpace(std::move(joints));
 }

@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSpec{"NoPrimitive",
                 "cylinder: [0.12, 0.03]",
                 "name: a",
-                {"spec.yaml:15: objects[1].parts[0]", "box, cylinder, sphere"}},
+                {"spec.yaml:15: objects[1].parts[0]", "box, cylinder or sphere"}},
         BadSpec{"TwoPrimitives",
                 "cylinder: [0.12, 0.03]",
                 "sphere: 1, cylinder: [0.12, 0.03]",

@@ -1,0 +1,119 @@
+// Which bodies are checked against each other.
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/contract/collision_checker_contract.h"
+#include "tests/contract/collision_test_worlds.h"
+
+namespace planbench {
+
+TEST_P(CollisionCheckerContract, AdjacencyAndAllowedPairsOfTheRobot) {
+  Robot arm = MakeTestArm();
+  const auto base = ArmBase(arm);
+  const std::vector<double> q = {0, 0, 0, 0};
+  {
+    const auto checker = Make(arm);
+    checker->SetScene({}, base);
+    EXPECT_TRUE(checker->IsFree(q)) << "adjacent links may overlap";
+  }
+  // Two links that are welded together over a third, made to overlap: always in collision ...
+  const int camera = arm.model.FindLink("camera");
+  const int torso = arm.model.FindLink("torso");
+  for (LinkSphere& sphere : arm.spheres) {
+    if (sphere.link == camera) sphere.radius = 0.8;
+  }
+  {
+    const auto checker = Make(arm);
+    Scene scene;
+    for (const Link& link : arm.model.links()) {
+      if (link.name != "torso" && link.name != "camera") {
+        scene.allowed_collisions.SetEntry("camera", link.name, true);
+      }
+    }
+    checker->SetScene(scene, base);
+    EXPECT_FALSE(checker->IsFree(q));
+    const auto contact = checker->FindContact(q);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(std::set<std::string>({contact->body_a, contact->body_b}),
+              std::set<std::string>({"torso", "camera"}));
+    EXPECT_LT(checker->FindClosest(q).distance_m, 0);
+    scene.allowed_collisions.SetEntry("camera", "torso", true);
+    checker->SetScene(scene, base);
+    EXPECT_TRUE(checker->IsFree(q));
+  }
+  // ... unless the robot's description allows it.
+  for (int link = 0; link < arm.model.num_links(); ++link) {
+    if (link != camera && link != torso) arm.allowed_pairs.emplace_back(link, camera);
+  }
+  EXPECT_FALSE([&] {
+    const auto checker = Make(arm);
+    checker->SetScene({}, base);
+    return checker->IsFree(q);
+  }());
+  arm.allowed_pairs.emplace_back(camera, torso);
+  const auto checker = Make(arm);
+  checker->SetScene({}, base);
+  EXPECT_TRUE(checker->IsFree(q));
+}
+
+TEST_P(CollisionCheckerContract, AttachedObjectsMoveWithTheirLink) {
+  const Robot robot = MakeRailRobot();
+  const auto checker = Make(robot);
+  Scene scene = SceneWith("shelf", Box{Eigen::Vector3d(1, 1, 1)}, Shifted(5, 0, 0));
+  scene.attached = {
+      {"tool", {"pole", Shifted(3.25, 0, 0), {{Cylinder{0.5, 1}, Shifted(1, 0, 0)}}}, {}}};
+  checker->SetScene(scene, Slide(0));
+  EXPECT_FALSE(checker->IsFree(Slide(0.5)));
+  EXPECT_TRUE(checker->IsFree(Slide(1.5)));
+  const auto contact = checker->FindContact(Slide(0.5));
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->body_a, "pole");
+  EXPECT_EQ(contact->body_b, "shelf");
+  scene.allowed_collisions.SetEntry("pole", "shelf", true);
+  checker->SetScene(scene, Slide(0));
+  EXPECT_TRUE(checker->IsFree(Slide(0.5)));
+}
+
+TEST_P(CollisionCheckerContract, AttachedObjectsTouchTheirLinkAndTouchLinks) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const auto base = ArmBase(arm);
+  const std::vector<double> q = {0, 0, 0, 0};
+  const auto free_with = [&](std::vector<std::string> touch_links) {
+    Scene scene;
+    scene.attached = {{"hand",
+                       {"ball", Shifted(0.1, 0, 0), {{Sphere{0.2}, Eigen::Isometry3d::Identity()}}},
+                       std::move(touch_links)}};
+    checker->SetScene(scene, base);
+    return checker->IsFree(q);
+  };
+  EXPECT_FALSE(free_with({}));
+  EXPECT_FALSE(free_with({"fore", "finger"}));
+  EXPECT_TRUE(free_with({"fore", "finger", "pad"}));
+}
+
+TEST_P(CollisionCheckerContract, AttachedObjectsMeetEachOther) {
+  const Robot robot = MakeTestArm();
+  const auto checker = Make(robot);
+  const auto base = ArmBase(robot);
+  Scene scene;
+  scene.attached = {
+      {"head",
+       {"hat", Shifted(0, 0, 3), {{Box{Eigen::Vector3d(9, 9, 0.1)}, Shifted(0, 0, 0)}}},
+       {}},
+      {"hand", {"mast", Shifted(0, 0, 3), {{Cylinder{0.01, 2}, Shifted(0, 0, 0)}}}, {}}};
+  const std::vector<double> q = {0, 0, 0, 0};
+  checker->SetScene(scene, base);
+  const auto contact = checker->FindContact(q);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(std::set<std::string>({contact->body_a, contact->body_b}),
+            std::set<std::string>({"hat", "mast"}));
+  scene.attached[1].link = "head";  // welded to the same link they may stand as they like
+  checker->SetScene(scene, base);
+  EXPECT_TRUE(checker->IsFree(q));
+}
+
+}  // namespace planbench
