@@ -58,11 +58,13 @@ std::string SuccessTable(const SessionResults& results) {
       {"contestant", "runs", "claimed", "confirmed", "% [95 %]", "fwd", "bwd", "failed", "blocked"},
       1);
   bool published = false;
+  bool one_trial = false, more_trials = false;
   ForEachRow(
       results, [&](const SetResults& set) { table.AddHeading(set.name); },
       [&](const SetResults& set, const ContestantResults& one) {
         using Kind = Outcome::Kind;
         SuccessSummary s = SummarizeSuccess(one.outcomes);
+        if (!one.is_reference) (s.num_runs > s.num_problems ? more_trials : one_trial) = true;
         table.Add({one.contestant->name, Count(s.num_runs), Count(s.claimed),
                    one.is_reference ? "-" : Count(s.confirmed), Percent(s.share, s.interval),
                    Count(s.kinds[Kind::kForward]), Count(s.kinds[Kind::kBackward]),
@@ -84,6 +86,9 @@ std::string SuccessTable(const SessionResults& results) {
       "from start to goal, or else from goal to start. failed: out of time, memory or search "
       "space. blocked: start or goal invalid. Other runs were rejected by the referee or got no "
       "answer.\n";
+  if (one_trial && more_trials) {
+    notes += "Contestants whose answer does not depend on the seed make one trial.\n";
+  }
   if (published) notes += kPublishedNote;
   return table.Format(notes) + "\n";
 }

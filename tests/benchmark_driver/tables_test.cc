@@ -201,6 +201,10 @@ TEST(TablesTest, TrialsAreRunsOfOneProblem) {
     records.back().trial = trial;
   }
   EXPECT_THAT(Row(Brief(records), kSuccess, "ARA*"), StartsWith("3 2 2 66.7 ["));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("make one trial")));
+  auto with_other = records;
+  with_other.push_back(OfRrtConnect(AttemptOf(PlanStatus::kSolved, 1)));
+  EXPECT_THAT(Brief(with_other), HasSubstr("make one trial"));
   EXPECT_EQ(Row(Brief(records), kTimes, "ARA*"), "1 1500 1500 1500 201000");
 }
 
