@@ -59,7 +59,8 @@ SessionResults::SessionResults(const SessionConditions& conditions,
   };
   std::sort(ordered.begin(), ordered.end(),
             [&](const auto* a, const auto* b) { return key(a) < key(b); });
-  for (auto& [set, by_contestant] : GroupOutcomes(attempts)) {
+  for (auto& [name, by_contestant] : GroupOutcomes(attempts)) {
+    const std::string& set = name;  // clang 14 captures no bindings
     SetResults& results = sets_.emplace_back();
     results.name = set;
     for (const Contestant& contestant : contestants_) {
