@@ -312,6 +312,46 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   ExpectNotDiscovered(Options(), {"'arm'", "robot-2", kFakeRobotId});
 }
 
+TEST_F(DriverTest, BadProblemsEndTheSessionBeforeItsFirstRun) {
+  FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  server.RefuseProblem(1, "scene0001.yaml:7: world: is odd");
+  server.RefuseProblem(3, "request0003.yaml:2: group_name: is even");
+  DriverOptions options = Options();
+  options.problem_indices = {};
+  testing::internal::CaptureStdout();  // Where messages go.
+  ExpectNotDiscovered(options, {"2 of 3 problems are bad", "--skip-bad-problems"});
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              testing::AllOf(testing::HasSubstr("cans 1: scene0001.yaml:7: world: is odd"),
+                             testing::HasSubstr("cans 3: request0003.yaml:2: group_name: is even"),
+                             testing::Not(testing::HasSubstr("cans 2"))));
+  EXPECT_TRUE(planner.requests().messages().empty());
+}
+
+TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  server.RefuseProblem(2, "scene0002.yaml:7: world: is odd");
+  DriverOptions options = Options();
+  options.problem_indices = {};
+  options.directions = Directions::kForward;
+  options.skip_bad_problems = true;
+  testing::internal::CaptureStdout();  // Where messages go.
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              testing::HasSubstr("cans 2: scene0002.yaml:7: world: is odd"));
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(Ids(logger.records()),
+            (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/3/arm/forward/1"}));
+  EXPECT_EQ(logger.sessions().messages().back().num_runs, 2);
+
+  for (const int index : {1, 3}) server.RefuseProblem(index, "is odd");
+  options.conditions.request.run_id = "another";  // What was asked before is answered as before.
+  ExpectNotDiscovered(options, {"all 3 problems are bad"});
+}
+
 TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {
   const std::string id = NewRunId();
   EXPECT_TRUE(std::regex_match(id, std::regex("[0-9]{8}T[0-9]{6}Z-[0-9a-f]{4}"))) << id;

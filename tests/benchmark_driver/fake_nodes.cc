@@ -71,8 +71,11 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
       problem_requests_(bus, channel::kProblemRequest),
       path_checks_(bus, channel::kPathCheckRequest),
       problems_(bus, channel::kProblemRequest, channel::kProblem,
-                [](const ProblemRequestMessage& request) {
+                [this](const ProblemRequestMessage& request) {
                   if (request.problem_index > 3) throw InputError("no such problem");
+                  const std::scoped_lock lock(mutex_);
+                  const auto refused = refused_.find(request.problem_index);
+                  if (refused != refused_.end()) throw InputError(refused->second);
                   ProblemMessage problem;
                   problem.problem_set = request.problem_set;
                   problem.problem_index = request.problem_index;
@@ -99,6 +102,11 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
             sets.sets = {{"cans", {1, 2, 3}, "cans-1"}};
             bus->Publish(channel::kProblemSets, sets);
           }) {}
+
+void FakeSceneServer::RefuseProblem(int index, const std::string& reason) {
+  const std::scoped_lock lock(mutex_);
+  refused_[index] = reason;
+}
 
 void FakeSceneServer::OnPathCheck(
     std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -60,6 +61,8 @@ class FakeSceneServer {
  public:
   explicit FakeSceneServer(Bus* bus);
 
+  /// Refuses a problem from now on.
+  void RefuseProblem(int index, const std::string& reason);
   /// What the referee says instead.
   void OnPathCheck(std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler);
   static PathCheckReplyMessage Verdict(bool valid, const std::string& reason = "");
@@ -69,6 +72,7 @@ class FakeSceneServer {
 
  private:
   std::mutex mutex_;
+  std::map<int, std::string> refused_;
   std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> judge_;
   MessageCollector<ProblemRequestMessage> problem_requests_;
   MessageCollector<PathCheckRequestMessage> path_checks_;
