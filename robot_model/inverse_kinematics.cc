@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/random.h"
@@ -17,6 +18,14 @@ constexpr double kLongestStep = 1.0;
 // A descent has stalled when this many steps together do not reduce the error by this factor.
 constexpr int kPatience = 8;
 constexpr double kExpectedReduction = 0.7;
+
+// 1 for the parts of a pose error that count, 0 for those that are left free.
+Eigen::Vector<double, 6> Wanted(const IkOptions& options) {
+  Eigen::Vector<double, 6> wanted = Eigen::Vector<double, 6>::Ones();
+  if (std::isinf(options.position_tolerance_m)) wanted.head<3>().setZero();
+  if (std::isinf(options.orientation_tolerance_rad)) wanted.tail<3>().setZero();
+  return wanted;
+}
 
 Eigen::Vector<double, 6> Difference(const Eigen::Isometry3d& wanted,
                                     const Eigen::Isometry3d& actual) {
@@ -34,7 +43,8 @@ bool Reached(const Eigen::Vector<double, 6>& error, const IkOptions& options) {
 }  // namespace
 
 InverseKinematics::InverseKinematics(const RobotModel& model, const PlanningGroup& group,
-                                     std::span<const double> base_positions)
+                                     std::span<const double> base_positions,
+                                     const Eigen::Isometry3d& X_LT)
     : space_(group.space) {
   std::vector<int> path;  // Joints from the tip to the root.
   for (int link = group.tip_link;
@@ -68,7 +78,7 @@ InverseKinematics::InverseKinematics(const RobotModel& model, const PlanningGrou
     if (column == columns_.end()) columns_.push_back(group_index);
     X_LJ = Eigen::Isometry3d::Identity();
   }
-  X_LT_ = X_LJ;
+  X_LT_ = X_LJ * X_LT;
 }
 
 Eigen::Isometry3d InverseKinematics::TipPose(std::span<const double> q) {
@@ -96,8 +106,8 @@ std::vector<double> InverseKinematics::RandomConfiguration(std::mt19937_64* rand
   return q;
 }
 
-void InverseKinematics::Step(const PoseError& error, const Eigen::Vector3d& p_BT,
-                             std::span<double> q) const {
+void InverseKinematics::Step(const PoseError& error, const PoseError& wanted,
+                             const Eigen::Vector3d& p_BT, std::span<double> q) const {
   const auto n = static_cast<Eigen::Index>(columns_.size());
   if (n == 0) return;
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -109,7 +119,7 @@ void InverseKinematics::Step(const PoseError& error, const Eigen::Vector3d& p_BT
     } else {
       velocity << joint.axis_B.cross(p_BT - joint.p_BJ), joint.axis_B;
     }
-    jacobian.col(joint.column) += joint.multiplier * velocity;
+    jacobian.col(joint.column) += joint.multiplier * wanted.cwiseProduct(velocity);
   }
   const double damping = 0.5 * error.squaredNorm() + kLeastDamping;
   Eigen::VectorXd motion;
@@ -143,13 +153,14 @@ InverseKinematics::PoseError InverseKinematics::Descend(const Eigen::Isometry3d&
                                                         const IkOptions& options,
                                                         std::vector<double>* q, int* steps) {
   Eigen::Isometry3d X_BL = TipPose(*q);
-  PoseError error = Difference(X_BT, X_BL);
+  const PoseError wanted = Wanted(options);
+  PoseError error = wanted.cwiseProduct(Difference(X_BT, X_BL));
   double reference = error.norm();
   for (int step = 1; step <= options.max_steps && !Reached(error, options); ++step) {
-    Step(error, X_BL.translation(), *q);
+    Step(error, wanted, X_BL.translation(), *q);
     ++*steps;
     X_BL = TipPose(*q);
-    error = Difference(X_BT, X_BL);
+    error = wanted.cwiseProduct(Difference(X_BT, X_BL));
     if (step % kPatience != 0) continue;
     if (error.norm() > kExpectedReduction * reference) break;
     reference = error.norm();

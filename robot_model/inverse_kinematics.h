@@ -11,6 +11,7 @@
 namespace planbench {
 
 /// When a pose counts as reached, and how much is tried before it counts as out of reach.
+/// An infinite tolerance leaves position or orientation free: it is not tried for at all.
 struct IkOptions {
   double position_tolerance_m = 1e-6;
   double orientation_tolerance_rad = 1e-6;  ///< Of the rotation between the two orientations.
@@ -22,13 +23,13 @@ struct IkResult {
   bool solved = false;
   /// Within the limits, continuous joints in [-pi, pi); the nearest found if not solved.
   std::vector<double> q;
-  double position_error_m = 0;       ///< At q.
-  double orientation_error_rad = 0;  ///< At q.
+  double position_error_m = 0;       ///< At q; 0 if it is free.
+  double orientation_error_rad = 0;  ///< Likewise.
   int starts = 0;                    ///< Configurations that were started from.
   int steps = 0;                     ///< Over all starts.
 };
 
-/// Configurations of a planning group that bring its tip link to a pose, with every other joint
+/// Configurations of a planning group that bring its tip to a pose, with every other joint
 /// held (those that follow a joint of the group move with it). Numerical, for any chain of
 /// revolute, continuous and prismatic joints: from random configurations, damped least-squares
 /// steps on position and orientation whose damping follows the remaining error (Sugihara,
@@ -40,17 +41,19 @@ struct IkResult {
 /// Not thread-safe: one instance a thread. Keeps no reference to the model.
 class InverseKinematics {
  public:
-  /// `base_positions`: full positions, at which joints outside the group are held.
+  /// `base_positions`: full positions, at which joints outside the group are held. `X_LT`: pose, in
+  /// the group's tip link, of the tip T that poses are of.
   InverseKinematics(const RobotModel& model, const PlanningGroup& group,
-                    std::span<const double> base_positions);
+                    std::span<const double> base_positions,
+                    const Eigen::Isometry3d& X_LT = Eigen::Isometry3d::Identity());
 
-  /// A configuration with the tip link at X_BT (base frame). Its result depends on the pose, the
+  /// A configuration with the tip at X_BT (base frame). Its result depends on the pose, the
   /// state of `random` and the options only. Ends after options.max_starts starts of
   /// options.max_steps steps each.
   IkResult Solve(const Eigen::Isometry3d& X_BT, std::mt19937_64* random,
                  const IkOptions& options = {});
 
-  /// Pose X_BT of the tip link at q.
+  /// Pose X_BT of the tip at q.
   Eigen::Isometry3d TipPose(std::span<const double> q);
 
  private:
@@ -72,13 +75,15 @@ class InverseKinematics {
   // Steps from *q until the pose is reached or nothing improves any more; returns the error left.
   PoseError Descend(const Eigen::Isometry3d& X_BT, const IkOptions& options, std::vector<double>* q,
                     int* steps);
-  // Moves q, whose tip is at p_BT and was computed last, to reduce `error`.
-  void Step(const PoseError& error, const Eigen::Vector3d& p_BT, std::span<double> q) const;
+  // Moves q, whose tip is at p_BT and was computed last, to reduce `error`, of which those parts
+  // count where `wanted` is 1 and not 0.
+  void Step(const PoseError& error, const PoseError& wanted, const Eigen::Vector3d& p_BT,
+            std::span<double> q) const;
 
   JointSpace space_;
   std::vector<ChainJoint> chain_;  // From the base outwards.
   std::vector<int> columns_;       // Group indices that move the tip.
-  Eigen::Isometry3d X_LT_;         // Tip in the child frame of the last chain joint.
+  Eigen::Isometry3d X_LT_;         // The tip in the child frame of the last chain joint.
 };
 
 }  // namespace planbench

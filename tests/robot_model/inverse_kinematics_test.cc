@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -129,6 +130,43 @@ TEST(InverseKinematics, ToleranceDecidesWhenAPoseIsReached) {
     ASSERT_TRUE(result.solved);
     EXPECT_LE(result.position_error_m, tolerance);
     EXPECT_LE(result.orientation_error_rad, 10 * tolerance);
+  }
+}
+
+TEST(InverseKinematics, InfiniteToleranceLeavesAPartFree) {
+  // An arm of three joints in a plane reaches no more than two coordinates and one angle, exactly.
+  const Robot planar =
+      LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "tests/data/planar3");
+  const PlanningGroup& group = planar.groups.front();
+  Eigen::Isometry3d X_LT = Eigen::Isometry3d::Identity();
+  X_LT.translation() = Eigen::Vector3d(0.1, 0.05, 0.02);
+  X_LT.linear() = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const std::vector<double> held = planar.model.DefaultPositions();
+  InverseKinematics kinematics(planar.model, group, held, X_LT);
+  std::mt19937 poses(6);
+  std::mt19937_64 random(6);
+  const Eigen::Matrix3d other = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Isometry3d X_BT =
+        TipPose(planar, group, held, RandomConfiguration(group.space, &poses)) * X_LT;
+    Eigen::Isometry3d turned = X_BT;
+    turned.linear() = turned.linear() * other;
+    EXPECT_FALSE(kinematics.Solve(turned, &random, {.max_starts = 5}).solved);
+    const IkResult position =
+        kinematics.Solve(turned, &random, {.orientation_tolerance_rad = kFree});
+    ASSERT_TRUE(position.solved);
+    EXPECT_EQ(position.orientation_error_rad, 0);
+    EXPECT_LE(((TipPose(planar, group, held, position.q) * X_LT).translation() - X_BT.translation())
+                  .norm(),
+              2e-6);
+    Eigen::Isometry3d raised = X_BT;
+    raised.translation().z() += 1;
+    EXPECT_FALSE(kinematics.Solve(raised, &random, {.max_starts = 5}).solved);
+    const IkResult orientation = kinematics.Solve(raised, &random, {.position_tolerance_m = kFree});
+    ASSERT_TRUE(orientation.solved);
+    ExpectNear(Eigen::Isometry3d((TipPose(planar, group, held, orientation.q) * X_LT).linear()),
+               Eigen::Isometry3d(X_BT.linear()), 2e-6);
   }
 }
 
