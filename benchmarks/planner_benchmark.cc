@@ -104,7 +104,7 @@ bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene&
   const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
   checker->SetScene(scene, query.base_positions);
   const double resolution_m = request.edge_resolution_m.value_or(robot.edge_resolution_m);
-  return JudgePath(checker.get(), path, query.start, query.goal, resolution_m / 2, false).valid;
+  return JudgePath(checker.get(), path, query.start, query.goals, resolution_m / 2, false).valid;
 }
 
 std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet& set,

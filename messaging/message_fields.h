@@ -48,8 +48,6 @@ struct Fields<JointState> : On<lcmt_joint_state> {
 
 template <>
 struct Fields<JointGoal> : On<lcmt_joint_goal> {
-  static constexpr const char* kKey = "joint_name";
-  static const std::string& Key(const JointGoal& goal) { return goal.joint; }
   static void List(auto& io, auto& goal, auto& w) {
     io.Field("joint_name", goal.joint, w.joint_name, kNotEmpty);
     io.Field("position", goal.position, w.position);

@@ -86,8 +86,8 @@ struct ProblemMessage {
   int problem_index = 0;
   std::string scene_id;
   std::string group;
-  JointState start;  ///< Every joint the problem names.
-  std::vector<JointGoal> goal;
+  JointState start;             ///< Every joint the problem names.
+  std::vector<JointGoal> goal;  ///< Of the group's n joints, in m alternatives: m * n.
   double time_limit_s = 0;
   bool operator==(const ProblemMessage&) const = default;
 };
@@ -198,7 +198,7 @@ struct PathCheckRequestMessage {
   std::string scene_id;
   std::string group;
   JointState start;
-  std::vector<JointGoal> goal;
+  std::vector<JointGoal> goal;           ///< Alternatives; the path may end in any.
   std::vector<std::string> joint_names;  ///< Of the waypoints.
   Path path;
   CollisionModel collision_model = CollisionModel::kSpheres;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -61,9 +62,15 @@ bool JudgeWaypoints(const JointSpace& space, const Path& path, PathVerdict* verd
   return true;
 }
 
-/// False, with the reason, if the path does not run from the start to the goal.
+bool IsIn(const JointSpace& space, GoalBox goal, const Configuration& q) {
+  for (double& lower : goal.lower) lower -= kEndTolerance;
+  for (double& upper : goal.upper) upper += kEndTolerance;
+  return goal.Contains(space, q);
+}
+
+/// False, with the reason, if the path does not run from the start to one of the goals.
 bool JudgeEnds(const JointSpace& space, const Path& path, std::span<const double> start,
-               GoalBox goal, PathVerdict* verdict) {
+               const std::vector<GoalBox>& goals, PathVerdict* verdict) {
   for (int j = 0; j < space.size(); ++j) {
     const auto k = static_cast<std::size_t>(j);
     const double off = space.Difference(j, start[k], path.front()[k]);
@@ -74,10 +81,9 @@ bool JudgeEnds(const JointSpace& space, const Path& path, std::span<const double
                      0);
       return false;
     }
-    goal.lower[k] -= kEndTolerance;
-    goal.upper[k] += kEndTolerance;
   }
-  if (!goal.Contains(space, path.back())) {
+  if (std::none_of(goals.begin(), goals.end(),
+                   [&](const GoalBox& goal) { return IsIn(space, goal, path.back()); })) {
     RejectWaypoint(verdict, "the path does not end in the goal", path.size() - 1);
     return false;
   }
@@ -103,15 +109,17 @@ bool JudgeCollisions(const EdgeChecker& edges, const Path& path, PathVerdict* ve
 }  // namespace
 
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
-                      const GoalBox& goal, double step_m, bool with_clearance,
+                      const std::vector<GoalBox>& goals, double step_m, bool with_clearance,
                       std::span<const double> base_positions) {
   if (!(step_m > 0) || !std::isfinite(step_m)) {
     throw InputError(fmt::format("path check: step_m is {}, must be greater than zero", step_m));
   }
   const JointSpace& space = checker->space();
   const auto n = static_cast<std::size_t>(space.size());
-  if (start.size() != n || goal.nominal.size() != n || goal.lower.size() != n ||
-      goal.upper.size() != n) {
+  const auto fits = [n](const GoalBox& goal) {
+    return goal.nominal.size() == n && goal.lower.size() == n && goal.upper.size() == n;
+  };
+  if (start.size() != n || !std::all_of(goals.begin(), goals.end(), fits)) {
     throw InputError(
         fmt::format("path check: start and goal must have {} positions each", space.size()));
   }
@@ -119,7 +127,7 @@ PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<con
   PathVerdict verdict;
   if (!JudgeWaypoints(space, path, &verdict)) return verdict;
   verdict.valid =
-      JudgeEnds(space, path, start, goal, &verdict) && JudgeCollisions(edges, path, &verdict);
+      JudgeEnds(space, path, start, goals, &verdict) && JudgeCollisions(edges, path, &verdict);
   const std::vector<double> default_positions = checker->robot().model.DefaultPositions();
   PathSurvey survey(edges, path, base_positions.empty() ? default_positions : base_positions);
   verdict.measures = TakeMeasures(&survey, with_clearance && verdict.valid);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "collision/collision_checker.h"
 #include "planning/goal_box.h"
@@ -24,14 +25,14 @@ struct PathVerdict {
 };
 
 /// Judges a path by an engine of the caller's choice, independently of the planner: waypoints
-/// finite, of the right size, within limits; the first at `start`, the last inside `goal` (both to
-/// 1e-6); every edge sampled so that no point of the geometry moves more than `step_m` between
-/// samples, all samples free. An empty path is invalid. `base_positions` (full positions, those the
-/// checker's scene was set with) only serve the tip's travel; empty: the model's default positions,
-/// which is as good unless a held joint lies between the group's joints. Throws InputError for a
-/// step that is not positive and for a start or goal of the wrong size.
+/// finite, of the right size, within limits; the first at `start`, the last inside one of `goals`
+/// (both to 1e-6); every edge sampled so that no point of the geometry moves more than `step_m`
+/// between samples, all samples free. An empty path is invalid. `base_positions` (full positions,
+/// those the checker's scene was set with) only serve the tip's travel; empty: the model's default
+/// positions, which is as good unless a held joint lies between the group's joints. Throws
+/// InputError for a step that is not positive and for a start or goal of the wrong size.
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
-                      const GoalBox& goal, double step_m, bool with_clearance,
+                      const std::vector<GoalBox>& goals, double step_m, bool with_clearance,
                       std::span<const double> base_positions = {});
 
 }  // namespace planbench

@@ -21,7 +21,7 @@ struct PlanRequest {
   std::string robot_id;         ///< Content id of the robot meant; empty: any.
   std::string group;            ///< Empty: the robot's first group.
   JointState start;             ///< All joints it names; those outside the group are held there.
-  std::vector<JointGoal> goal;  ///< One for each joint of the group, any order.
+  std::vector<JointGoal> goal;  ///< Alternatives, as Problem::goal.
   Direction direction = Direction::kForward;
   double time_limit_s = 60;
   std::uint64_t seed = 1;

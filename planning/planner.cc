@@ -87,6 +87,32 @@ void RequireSearchStatus(const std::string& algorithm, PlanStatus status) {
   }
 }
 
+/// Leaves, of several goals, those that have a valid point (see FindFreeGoal), nearest to the start
+/// first. Returns why there is none, in one line; empty if there is.
+std::string KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
+                          std::vector<GoalBox>* goals, const std::function<bool()>& should_stop) {
+  std::vector<GoalBox> free;
+  std::string first_fault;
+  for (GoalBox& goal : *goals) {
+    std::string fault = FindFreeGoal(edges, &goal, should_stop);
+    if (fault.empty()) {
+      free.push_back(std::move(goal));
+    } else if (first_fault.empty()) {
+      first_fault = std::move(fault);
+    }
+  }
+  if (free.empty() && goals->size() > 1) {
+    return fmt::format("none of {} goals is valid; the first: {}", goals->size(), first_fault);
+  }
+  if (free.empty()) return first_fault;
+  const JointSpace& space = edges->space();
+  std::stable_sort(free.begin(), free.end(), [&](const GoalBox& a, const GoalBox& b) {
+    return space.Distance(start, a.nominal) < space.Distance(start, b.nominal);
+  });
+  *goals = std::move(free);
+  return "";
+}
+
 /// The parts of a total that do not overlap, as shares of it. What is left is the search's.
 void SetPhases(std::uint64_t total, std::uint64_t setup, std::uint64_t collision,
                std::uint64_t guidance, PlanResult* result) {
@@ -168,6 +194,47 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
   return result;
 }
 
+SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Configuration& start,
+                                   bool backward, SearchQuery* query) {
+  const std::string algorithm = Describe().algorithm;
+  EdgeChecker& edges = query->edges();
+  SearchResult found;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const std::size_t num_left = goals.size() - i;
+    query->start_ = backward ? goals[i].nominal : start;
+    query->goal_ = backward ? PointGoal(start) : goals[i];
+    if (num_left > 1) {
+      query->turn_ends_s_ = query->time_limit_s_ - query->RemainingSeconds() *
+                                                       static_cast<double>(num_left - 1) /
+                                                       static_cast<double>(num_left);
+    }
+    edges.StopWhen([query] { return query->ShouldStop(); });
+    SearchResult next = Search(*query);
+    query->turn_ends_s_.reset();
+    RequireSearchStatus(algorithm, next.status);
+    const bool cut_short = edges.Stopped() || (num_left > 1 && query->ShouldStop());
+    if (cut_short && next.status == PlanStatus::kExhausted) {
+      // Of a space that lacks the edge given up, or of some of the goals.
+      next.status = query->Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
+    }
+    for (const auto& [name, count] : found.counters) next.counters[name] += count;
+    next.guidance_ticks += found.guidance_ticks;
+    if (i > 0 && found.status == PlanStatus::kTimedOut && next.status == PlanStatus::kExhausted) {
+      next.status = found.status;
+      next.message = std::move(found.message);
+    }
+    found = std::move(next);
+    if (found.status == PlanStatus::kSolved) {
+      AcceptPath(*query, algorithm, &found.path);
+      if (backward) std::reverse(found.path.begin(), found.path.end());
+    }
+    const bool may_go_on =
+        found.status == PlanStatus::kExhausted || found.status == PlanStatus::kTimedOut;
+    if (!may_go_on || query->ShouldStop()) break;
+  }
+  return found;
+}
+
 void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resolved,
                           const Scene& scene, PlanControl* control, const Stopwatch& clock,
                           PlanResult* result) {
@@ -197,31 +264,22 @@ void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resol
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
-  GoalBox goal = resolved.goal;
+  std::vector<GoalBox> goals = resolved.goals;
   if (std::string fault = FindFault(&edges, resolved.start, "start"); !fault.empty()) {
     found.status = PlanStatus::kStartInvalid;
     found.message = std::move(fault);
-  } else if (goal.Contains(group.space, resolved.start)) {
+  } else if (std::any_of(goals.begin(), goals.end(), [&](const GoalBox& goal) {
+               return goal.Contains(group.space, resolved.start);
+             })) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
-  } else if (fault = FindFreeGoal(&edges, &goal, [&query] { return query.ShouldStop(); });
+  } else if (fault = KeepFreeGoals(&edges, resolved.start, &goals,
+                                   [&query] { return query.ShouldStop(); });
              !fault.empty()) {
     found.status = PlanStatus::kGoalInvalid;
     found.message = std::move(fault);
   } else {
-    query.start_ = backward ? goal.nominal : resolved.start;
-    query.goal_ = backward ? PointGoal(resolved.start) : std::move(goal);
-    edges.StopWhen([&query] { return query.ShouldStop(); });
-    found = Search(query);
-    RequireSearchStatus(description.algorithm, found.status);
-    if (edges.Stopped() && found.status == PlanStatus::kExhausted) {
-      // Of a space that lacks the edge given up.
-      found.status = query.Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
-    }
-    if (found.status == PlanStatus::kSolved) {
-      AcceptPath(query, description.algorithm, &found.path);
-      if (backward) std::reverse(found.path.begin(), found.path.end());
-    }
+    found = SearchInTurn(goals, resolved.start, backward, &query);
   }
 
   result->total_time_s = clock.seconds();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "common/error.h"
 #include "robot_model/full_positions.h"
@@ -35,7 +36,7 @@ std::vector<double> ResolveStart(const Robot& robot, const PlanningGroup& group,
   return positions;
 }
 
-void ResolveGoal(const JointSpace& space, const JointGoal& goal, std::size_t k, GoalBox* box) {
+void PutGoal(const JointSpace& space, const JointGoal& goal, std::size_t k, GoalBox* box) {
   box->nominal[k] = goal.position;
   box->lower[k] = goal.position - goal.tolerance_below;
   box->upper[k] = goal.position + goal.tolerance_above;
@@ -47,13 +48,47 @@ void ResolveGoal(const JointSpace& space, const JointGoal& goal, std::size_t k, 
   box->upper[k] = std::max(box->nominal[k], std::min(box->upper[k], joint.upper));
 }
 
+GoalBox ResolveAlternative(const PlanningGroup& group, std::span<const JointGoal> goals,
+                           const std::string& origin) {
+  const JointSpace& space = group.space;
+  const auto n = static_cast<std::size_t>(space.size());
+  GoalBox box = {Configuration(n), Configuration(n), Configuration(n)};
+  std::vector<bool> given(n, false);
+  for (const JointGoal& goal : goals) {
+    const int j = space.Find(goal.joint);
+    if (j < 0) {
+      throw InputError(fmt::format("{}: goal for joint '{}', which is not in group '{}'", origin,
+                                   goal.joint, group.name));
+    }
+    const auto k = static_cast<std::size_t>(j);
+    if (given[k]) {
+      throw InputError(fmt::format("{}: two goals for joint '{}'", origin, goal.joint));
+    }
+    given[k] = true;
+    RequireFinite(goal.position, origin, "goal position", goal.joint);
+    for (const double tolerance : {goal.tolerance_above, goal.tolerance_below}) {
+      RequireFinite(tolerance, origin, "goal tolerance", goal.joint);
+      if (tolerance < 0) {
+        throw InputError(fmt::format("{}: goal tolerance of joint '{}' is {}, must not be negative",
+                                     origin, goal.joint, tolerance));
+      }
+    }
+    PutGoal(space, goal, k, &box);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!given[k]) {
+      throw InputError(fmt::format("{}: no goal for joint '{}' of group '{}'", origin,
+                                   space.joint(static_cast<int>(k)).name, group.name));
+    }
+  }
+  return box;
+}
+
 }  // namespace
 
 ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
                            const std::vector<JointGoal>& goal, const std::string& origin) {
-  const JointSpace& space = group.space;
-  const auto n = static_cast<std::size_t>(space.size());
-
+  const auto n = static_cast<std::size_t>(group.space.size());
   ResolvedQuery query;
   query.base_positions = ResolveStart(robot, group, start, origin);
   query.start.resize(n);
@@ -62,34 +97,13 @@ ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const
     query.start[k] = query.base_positions[static_cast<std::size_t>(joint.position_index)];
   }
 
-  query.goal = {Configuration(n), Configuration(n), Configuration(n)};
-  std::vector<bool> given(n, false);
-  for (const JointGoal& joint_goal : goal) {
-    const int j = space.Find(joint_goal.joint);
-    if (j < 0) {
-      throw InputError(fmt::format("{}: goal for joint '{}', which is not in group '{}'", origin,
-                                   joint_goal.joint, group.name));
-    }
-    const auto k = static_cast<std::size_t>(j);
-    if (given[k]) {
-      throw InputError(fmt::format("{}: two goals for joint '{}'", origin, joint_goal.joint));
-    }
-    given[k] = true;
-    RequireFinite(joint_goal.position, origin, "goal position", joint_goal.joint);
-    for (const double tolerance : {joint_goal.tolerance_above, joint_goal.tolerance_below}) {
-      RequireFinite(tolerance, origin, "goal tolerance", joint_goal.joint);
-      if (tolerance < 0) {
-        throw InputError(fmt::format("{}: goal tolerance of joint '{}' is {}, must not be negative",
-                                     origin, joint_goal.joint, tolerance));
-      }
-    }
-    ResolveGoal(space, joint_goal, k, &query.goal);
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!given[k]) {
-      throw InputError(fmt::format("{}: no goal for joint '{}' of group '{}'", origin,
-                                   space.joint(static_cast<int>(k)).name, group.name));
-    }
+  const std::size_t num_alternatives = std::max<std::size_t>(1, (goal.size() + n - 1) / n);
+  for (std::size_t i = 0; i < num_alternatives; ++i) {
+    const std::size_t first = i * n;
+    query.goals.push_back(ResolveAlternative(
+        group, std::span(goal).subspan(first, std::min(n, goal.size() - first)),
+        num_alternatives == 1 ? origin
+                              : fmt::format("{}: alternative {} of the goal", origin, i + 1)));
   }
   return query;
 }

@@ -14,13 +14,13 @@ namespace planbench {
 struct ResolvedQuery {
   std::vector<double> base_positions;  ///< Full positions at the start.
   Configuration start;                 ///< n joints, group order.
-  GoalBox goal;
+  std::vector<GoalBox> goals;          ///< Alternatives, one at least.
 };
 
 /// Resolves named start and goal. Throws InputError (prefixed by `origin`) for unknown joints,
-/// sizes that differ, non-finite values, negative tolerances, a start that misses and a goal that
-/// misses or repeats a joint of the group. The goal box is cut at the joint limits; a nominal goal
-/// outside them stays as it is.
+/// sizes that differ, non-finite values, negative tolerances, a start that misses and an
+/// alternative of the goal that misses or repeats a joint of the group. Goal boxes are cut at the
+/// joint limits; a nominal goal outside them stays as it is.
 ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
                            const std::vector<JointGoal>& goal, const std::string& origin);
 

@@ -6,7 +6,10 @@ namespace planbench {
 
 bool SearchQuery::Cancelled() const { return control_->cancelled.load(std::memory_order_relaxed); }
 
-double SearchQuery::RemainingSeconds() const { return time_limit_s_ - clock_.seconds(); }
+double SearchQuery::RemainingSeconds() const {
+  const double end_s = path_held_s_ ? time_limit_s_ : turn_ends_s_.value_or(time_limit_s_);
+  return end_s - clock_.seconds();
+}
 
 bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() <= 0; }
 

@@ -58,6 +58,8 @@ class SearchQuery {
   PlanControl* control_ = nullptr;
   Stopwatch clock_;
   double time_limit_s_ = 0;
+  /// Of several goals, when it is the next one's turn, unless there is a path by then.
+  std::optional<double> turn_ends_s_;
   std::vector<PlanProgress> progress_;
   std::optional<double> path_held_s_;  ///< When there was a path first, if it was said.
 };

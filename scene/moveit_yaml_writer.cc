@@ -244,8 +244,12 @@ std::string RequestToYaml(const Problem& problem) {
     yaml += "  max_corner: " + Vector(problem.workspace->max_corner) + "\n";
   }
   yaml += "start_state:\n" + JointStateYaml(problem.start, problem.scene.world_frame, "  ");
-  yaml += "goal_constraints:\n  - joint_constraints:\n";
+  yaml += "goal_constraints:\n";
+  std::set<std::string> seen;  // Of the alternative; none names a joint twice.
   for (const JointGoal& goal : problem.goal) {
+    if (seen.contains(goal.joint)) seen.clear();
+    if (seen.empty()) yaml += "  - joint_constraints:\n";
+    seen.insert(goal.joint);
     yaml += fmt::format("      - joint_name: {}\n        position: {}\n", Text(goal.joint),
                         Number(goal.position));
     if (goal.tolerance_above != 0 || goal.tolerance_below != 0) {

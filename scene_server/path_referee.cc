@@ -129,7 +129,7 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
   }
   const Path path = InGroupOrder(request.path, request.joint_names, group.space);
   RequireFewSamples(&checker, path, request.step_m);
-  reply.verdict = JudgePath(&checker, path, query.start, query.goal, request.step_m,
+  reply.verdict = JudgePath(&checker, path, query.start, query.goals, request.step_m,
                             request.with_clearance, query.base_positions);
   if (mesh_robot_ != nullptr) {
     // Joints that only the planning robot has do not move anything of the mesh robot.
@@ -139,7 +139,7 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
         mesh_robot_->Group(group.name), CollisionModel::kMeshes, request.scene_id,
         InMeshRobotsFrame(request.scene_id, scene, query.base_positions, positions), positions);
     RequireFewSamples(&meshes, path, request.step_m);
-    reply.mesh_verdict = JudgePath(&meshes, path, query.start, query.goal, request.step_m,
+    reply.mesh_verdict = JudgePath(&meshes, path, query.start, query.goals, request.step_m,
                                    /*with_clearance=*/false, positions);
   }
   return reply;

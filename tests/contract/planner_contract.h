@@ -78,8 +78,8 @@ class PlannerContract : public testing::TestWithParam<PlannerFactory> {
     const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, what);
     const auto checker = MakeReferenceChecker(robot, group, request.collision_model);
     checker->SetScene(scene, query.base_positions);
-    const PathVerdict verdict =
-        JudgePath(checker.get(), path, query.start, query.goal, robot.edge_resolution_m / 8, false);
+    const PathVerdict verdict = JudgePath(checker.get(), path, query.start, query.goals,
+                                          robot.edge_resolution_m / 8, false);
     EXPECT_TRUE(verdict.valid) << what << ": " << verdict.reason;
     EXPECT_EQ(path.front(), query.start) << what;
   }
@@ -152,6 +152,21 @@ TEST_P(PlannerContract, TheSameRequestGivesTheSamePathWhateverRanBefore) {
   EXPECT_EQ(first.path, fresh.path);
   EXPECT_EQ(first.simplified_path, fresh.simplified_path);
   EXPECT_EQ(first.counters, fresh.counters);
+}
+
+TEST_P(PlannerContract, OfSeveralGoalsReachesOneThatIsFree) {
+  const Scene scene = PostsScene();
+  PlanRequest request = MakeRequest(planar_, left_, {0, 0, 0});  // In a post.
+  for (const Configuration& goal : {Configuration{0.02, 0, 0}, right_}) {
+    const PlanRequest other = MakeRequest(planar_, left_, goal);
+    request.goal.insert(request.goal.end(), other.goal.begin(), other.goal.end());
+  }
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    request.direction = direction;
+    const PlanResult result = Make(planar_)->Plan(request, scene, nullptr);
+    ExpectSolved(planar_, request, scene, result);
+    EXPECT_EQ(result.path.back(), right_);
+  }
 }
 
 TEST_P(PlannerContract, EndsAnywhereInTheGoalBox) {

@@ -39,8 +39,6 @@ TEST_F(CodecValues, MessagesOfErrors) {
   ExpectAllRefused<PlanRequest, lcmt_plan_request>({
       {"request_id: is empty", [](auto& m) { m.request_id.clear(); }},
       {"start.joint_name[0]: is empty", [](auto& m) { m.start.joint_name[0] = ""; }},
-      {"goal[1].joint_name: 'a' occurs twice",
-       [](auto& m) { m.goal[0].joint_name = m.goal[1].joint_name = "a"; }},
       {"goal[0].tolerance_above: -1 is negative", [](auto& m) { m.goal[0].tolerance_above = -1; }},
       {"direction: no such value: 2", [](auto& m) { m.direction = 2; }},
       {"time_limit_s: nan is not a finite number", [](auto& m) { m.time_limit_s = NAN; }},

@@ -20,14 +20,14 @@ class PathJudgeTest : public testing::Test {
   PathVerdict Judge(const Path& path, const Scene& scene, bool with_clearance = false,
                     double step_m = 0.01) {
     checker_->SetScene(scene, robot_.model.DefaultPositions());
-    return JudgePath(checker_.get(), path, start_, goal_, step_m, with_clearance);
+    return JudgePath(checker_.get(), path, start_, goals_, step_m, with_clearance);
   }
 
   const Robot robot_ = LoadPlanarRobot();
   const std::unique_ptr<CollisionChecker> checker_ =
       MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
   const Configuration start_ = {0.6, 0, 0};
-  const GoalBox goal_ = {{-0.6, 0, 0}, {-0.6, 0, -0.1}, {-0.6, 0, 0.1}};
+  std::vector<GoalBox> goals_ = {{{-0.6, 0, 0}, {-0.6, 0, -0.1}, {-0.6, 0, 0.1}}};
   const Path straight_ = {{0.6, 0, 0}, {-0.6, 0, 0}};
 };
 
@@ -98,6 +98,15 @@ TEST_F(PathJudgeTest, RefusesWhatIsNoPathFromStartToGoal) {
   }
 }
 
+TEST_F(PathJudgeTest, PathsMayEndInAnyOfTheGoals) {
+  const Path elsewhere = {{0.6, 0, 0}, {1, 0, 0}};
+  EXPECT_THAT(Judge(elsewhere, EmptyPlanarScene()).reason, HasSubstr("goal"));
+  goals_.insert(goals_.begin(), GoalBox{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}});
+  EXPECT_TRUE(Judge(elsewhere, EmptyPlanarScene()).valid);
+  EXPECT_TRUE(Judge(straight_, EmptyPlanarScene()).valid);
+  EXPECT_FALSE(Judge({{0.6, 0, 0}, {0.8, 0, 0}}, EmptyPlanarScene()).valid);
+}
+
 TEST_F(PathJudgeTest, EndsMayBeOffByRounding) {
   EXPECT_TRUE(Judge({{0.6 + 5e-7, 0, 0}, {-0.6, 5e-7, 0.1}}, EmptyPlanarScene()).valid);
   EXPECT_TRUE(Judge({{0.6 + 2 * M_PI, 0, 0}, {-0.6, 0, 0}}, EmptyPlanarScene()).valid);
@@ -117,7 +126,7 @@ TEST_F(PathJudgeTest, MeasuresInvalidPathsButNotTheirClearance) {
 TEST_F(PathJudgeTest, APathOfOneWaypointServesAStartInTheGoal) {
   checker_->SetScene(EmptyPlanarScene(), robot_.model.DefaultPositions());
   const PathVerdict verdict =
-      JudgePath(checker_.get(), {start_}, start_, {start_, start_, start_}, 0.01, false);
+      JudgePath(checker_.get(), {start_}, start_, {{start_, start_, start_}}, 0.01, false);
   EXPECT_TRUE(verdict.valid) << verdict.reason;
   EXPECT_EQ(verdict.num_samples, 1);
   EXPECT_EQ(verdict.measures.at("tip_travel"), 0);
@@ -130,7 +139,8 @@ TEST_F(PathJudgeTest, HeldJointsCount) {
   raised[static_cast<std::size_t>(
       robot_.model.joints()[static_cast<std::size_t>(lift)].position_index)] = 0.5;
   checker_->SetScene(PostsScene(), raised);
-  const PathVerdict over = JudgePath(checker_.get(), straight_, start_, goal_, 0.01, false, raised);
+  const PathVerdict over =
+      JudgePath(checker_.get(), straight_, start_, goals_, 0.01, false, raised);
   EXPECT_TRUE(over.valid) << over.reason;
   EXPECT_FALSE(Judge(straight_, PostsScene()).valid);
 }

@@ -27,14 +27,15 @@ class ResolveTest : public testing::Test {
 TEST_F(ResolveTest, PutsNamesIntoGroupOrder) {
   const ResolvedQuery query = Resolve(start_, goal_);
   EXPECT_EQ(query.start, (Configuration{0.1, 0.2, 0.3}));
-  EXPECT_EQ(query.goal.nominal, (Configuration{3.1, 1.2, 2.5}));
+  ASSERT_EQ(query.goals.size(), 1u);
+  EXPECT_EQ(query.goals[0].nominal, (Configuration{3.1, 1.2, 2.5}));
   const int lift = robot_.model.FindJoint("lift");
   const int index = robot_.model.joints()[static_cast<std::size_t>(lift)].position_index;
   EXPECT_EQ(query.base_positions[static_cast<std::size_t>(index)], 0.5);
 }
 
 TEST_F(ResolveTest, CutsTheBoxAtTheLimits) {
-  const GoalBox box = Resolve(start_, goal_).goal;
+  const GoalBox box = Resolve(start_, goal_).goals.at(0);
   EXPECT_NEAR(box.lower[0], 3.0, 1e-12);
   EXPECT_NEAR(box.upper[0], 3.3, 1e-12) << "continuous: no limits";
   EXPECT_NEAR(box.lower[1], 0.95, 1e-12);
@@ -45,10 +46,26 @@ TEST_F(ResolveTest, CutsTheBoxAtTheLimits) {
 TEST_F(ResolveTest, KeepsANominalGoalOutsideTheLimits) {
   std::vector<JointGoal> goal = goal_;
   goal[0] = {"elbow", 3.0, 0.1, 0.1};
-  const GoalBox box = Resolve(start_, goal).goal;
+  const GoalBox box = Resolve(start_, goal).goals.at(0);
   EXPECT_EQ(box.nominal[1], 3.0);
   EXPECT_LE(box.lower[1], 3.0);
   EXPECT_GE(box.upper[1], 3.0);
+}
+
+TEST_F(ResolveTest, AlternativesFollowOneAnother) {
+  std::vector<JointGoal> goal = goal_;
+  goal.insert(goal.end(), {{"shoulder", 1, 0, 0}, {"wrist", 2, 0, 0}, {"elbow", 0.5, 0, 0}});
+  const std::vector<GoalBox> goals = Resolve(start_, goal).goals;
+  ASSERT_EQ(goals.size(), 2u);
+  EXPECT_EQ(goals[0].nominal, (Configuration{3.1, 1.2, 2.5}));
+  EXPECT_EQ(goals[1].nominal, (Configuration{1, 0.5, 2}));
+  goal[4] = goal[3];
+  ExpectInputError([&] { Resolve(start_, goal); },
+                   {"test: alternative 2 of the goal: two goals for joint 'shoulder'"});
+  goal.pop_back();
+  goal.pop_back();
+  ExpectInputError([&] { Resolve(start_, goal); },
+                   {"test: alternative 2 of the goal: no goal for joint 'elbow' of group 'arm'"});
 }
 
 TEST_F(ResolveTest, RefusesBadInput) {
@@ -76,7 +93,7 @@ TEST_F(ResolveTest, RefusesBadInput) {
       {"empty start", [](auto* s, auto*) { *s = {}; }, {"shoulder"}},
       {"no goal", [](auto*, auto* g) { g->clear(); }, {"shoulder"}},
       {"goal lacks a joint", [](auto*, auto* g) { g->pop_back(); }, {"wrist"}},
-      {"goal repeats a joint", [](auto*, auto* g) { g->push_back(g->front()); }, {"elbow"}},
+      {"goal repeats a joint", [](auto*, auto* g) { (*g)[1] = g->front(); }, {"elbow"}},
       {"goal outside the group", [](auto*, auto* g) { (*g)[0].joint = "lift"; }, {"lift", "arm"}},
       {"goal NaN", [](auto*, auto* g) { (*g)[0].position = kNan; }, {"elbow", "nan"}},
       {"goal infinite", [](auto*, auto* g) { (*g)[1].position = -kInfinity; }, {"shoulder"}},

@@ -25,7 +25,7 @@ class ShortcutTest : public testing::Test {
     checker_->SetScene(scene, robot_.model.DefaultPositions());
     const Configuration& goal = path.back();
     const PathVerdict verdict =
-        JudgePath(checker_.get(), path, path.front(), {goal, goal, goal}, kResolution, false);
+        JudgePath(checker_.get(), path, path.front(), {{goal, goal, goal}}, kResolution, false);
     EXPECT_TRUE(verdict.valid) << verdict.reason;
   }
 
@@ -62,8 +62,8 @@ TEST_F(ShortcutTest, EdgesAreProvenWhereTheyAreCertified) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const Path path = Shortcut(around_post_, PostsScene(), seed, 200, Never, EdgeCheck::kCertified);
     const Configuration& goal = path.back();
-    const PathVerdict verdict =
-        JudgePath(checker_.get(), path, path.front(), {goal, goal, goal}, kResolution / 64, false);
+    const PathVerdict verdict = JudgePath(checker_.get(), path, path.front(), {{goal, goal, goal}},
+                                          kResolution / 64, false);
     EXPECT_TRUE(verdict.valid) << "seed " << seed << ": " << verdict.reason;
     EXPECT_LT(PathLength(space_, path), 0.9 * PathLength(space_, around_post_));
   }

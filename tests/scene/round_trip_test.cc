@@ -76,6 +76,15 @@ class RoundTrip : public testing::Test {
 
 TEST_F(RoundTrip, EveryField) { Check(ParseProblem(kFullScene)); }
 
+TEST_F(RoundTrip, AlternativesOfTheGoal) {
+  Problem problem = ParseProblem(kFullScene);
+  problem.goal.insert(problem.goal.end(), {{"b_joint", 1, 0.5, 0},
+                                           {"a_joint", 1.0 / 3, 0, 0},
+                                           {"a_joint", -2, 0, 0},
+                                           {"b_joint", 0, 0, 0}});
+  Check(problem);
+}
+
 TEST_F(RoundTrip, NearlyNothing) {
   Problem problem;
   problem.scene.world_frame = "base_link";

@@ -77,6 +77,16 @@ TEST_F(PathCheck, AcceptsAValidPath) {
   EXPECT_FALSE(reply.mesh_verdict);
 }
 
+TEST_F(PathCheck, APathMayEndInAnyAlternativeOfTheGoal) {
+  PathCheckRequestMessage request = Request();
+  request.path.pop_back();
+  EXPECT_THAT(Judge(request).reason, HasSubstr("goal"));
+  request.goal.insert(request.goal.end(), {{"swing", kGoalSwing, 0, 0}, {"lift", 0.4, 0, 0}});
+  EXPECT_TRUE(Judge(request).valid);
+  request.goal.pop_back();
+  EXPECT_THAT(Refusal(request), AllOf(HasSubstr("alternative 2"), HasSubstr("'lift'")));
+}
+
 TEST_F(PathCheck, GivesClearanceWhenAsked) {
   PathCheckRequestMessage request = Request();
   request.with_clearance = true;
