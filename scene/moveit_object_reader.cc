@@ -36,21 +36,6 @@ std::string ReadPrimitiveType(const YamlNode& node) {
             "'; known are: box (1), sphere (2), cylinder (3), cone (4)");
 }
 
-Shape ReadPrimitive(const YamlNode& node) {
-  const std::string type = ReadPrimitiveType(node.At("type"));
-  const YamlNode dimensions = node.At("dimensions");
-  const int count = type == "box" ? 3 : type == "sphere" ? 1 : 2;
-  dimensions.Doubles(count);
-  std::vector<double> values;
-  for (const YamlNode& dimension : dimensions.Elements()) {
-    values.push_back(dimension.PositiveDouble());
-  }
-  if (type == "box") return Box{{values[0], values[1], values[2]}};
-  if (type == "sphere") return Sphere{values[0]};
-  if (type == "cylinder") return Cylinder{.radius = values[1], .length = values[0]};
-  return Cone{.radius = values[1], .length = values[0]};
-}
-
 Mesh LoadMeshResource(const YamlNode& uri, const Eigen::Vector3d& scale,
                       const ResourceResolver& resources) {
   Mesh mesh;
@@ -233,6 +218,21 @@ bool SameContent(const AttachedObject& a, const AttachedObject& b) {
 }
 
 }  // namespace
+
+Shape ReadPrimitive(const YamlNode& node) {
+  const std::string type = ReadPrimitiveType(node.At("type"));
+  const YamlNode dimensions = node.At("dimensions");
+  const int count = type == "box" ? 3 : type == "sphere" ? 1 : 2;
+  dimensions.Doubles(count);
+  std::vector<double> values;
+  for (const YamlNode& dimension : dimensions.Elements()) {
+    values.push_back(dimension.PositiveDouble());
+  }
+  if (type == "box") return Box{{values[0], values[1], values[2]}};
+  if (type == "sphere") return Sphere{values[0]};
+  if (type == "cylinder") return Cylinder{.radius = values[1], .length = values[0]};
+  return Cone{.radius = values[1], .length = values[0]};
+}
 
 SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& resources) {
   SceneObject object;

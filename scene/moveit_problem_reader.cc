@@ -182,7 +182,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
     RequireNamesOfOne(*matrix, robot, scene);
   }
 
-  problem.goal = ReadGoal(request, robot.model, group, start);
+  problem.goal = ReadGoal(request, robot.model, group, start, frames);
   problem.workspace = ReadWorkspace(request);
   problem.time_limit_s = ReadTimeLimit(request);
   problem.warnings = scene_file.warnings();

@@ -1,19 +1,18 @@
 #include "scene/moveit_request_reader.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "common/error.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_messages.h"
+#include "scene/moveit_pose_goal.h"
 
 namespace planbench {
 namespace {
-
-constexpr const char* kOtherConstraints[] = {"position_constraints", "orientation_constraints",
-                                             "visibility_constraints"};
 
 double ReadTolerance(const YamlNode& constraint, const std::string& key) {
   const std::optional<YamlNode> node = constraint.Find(key);
@@ -26,8 +25,10 @@ double ReadTolerance(const YamlNode& constraint, const std::string& key) {
 void RefusePathConstraints(const YamlNode& request) {
   constexpr const char* kWhy = "constraints on the path are not supported";
   if (const std::optional<YamlNode> path = request.Find("path_constraints")) {
-    RefuseElements(*path, "joint_constraints", kWhy);
-    for (const char* other : kOtherConstraints) RefuseElements(*path, other, kWhy);
+    for (const char* kind : {"joint_constraints", "position_constraints", "orientation_constraints",
+                             "visibility_constraints"}) {
+      RefuseElements(*path, kind, kWhy);
+    }
   }
   if (const std::optional<YamlNode> trajectory = request.Find("trajectory_constraints")) {
     RefuseElements(*trajectory, "constraints", kWhy);
@@ -74,6 +75,80 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
             std::to_string(position));
 }
 
+// What is left of a group's joint limits by the goals, which are those of a set at `node`.
+JointSpace Narrowed(const JointSpace& space, const std::vector<JointGoal>& goals,
+                    const YamlNode& node) {
+  std::vector<JointSpace::Joint> joints = space.joints();
+  for (JointSpace::Joint& joint : joints) {
+    const JointGoal* goal = FindGoal(goals, joint.name);
+    if (goal == nullptr) continue;
+    const double lower = goal->position - goal->tolerance_below;
+    const double upper = goal->position + goal->tolerance_above;
+    if (joint.continuous) {
+      if (upper - lower >= 2 * std::numbers::pi) continue;
+      joint.continuous = false;
+      joint.lower = lower;
+      joint.upper = upper;
+      continue;
+    }
+    joint.lower = std::max(joint.lower, lower);
+    joint.upper = std::min(joint.upper, upper);
+    if (joint.lower <= joint.upper) continue;
+    node.Fail("the goal of joint '" + joint.name + "' is outside its limits");
+  }
+  return JointSpace(std::move(joints));
+}
+
+std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const RobotModel& model,
+                                        const PlanningGroup& group,
+                                        const std::vector<double>& start, const FrameTree& frames) {
+  RefuseElements(constraints, "visibility_constraints",
+                 "constraints on what is visible are not supported");
+  const bool of_pose = HasPoseConstraints(constraints);
+  if (!of_pose && constraints.At("joint_constraints").Size() == 0) {
+    constraints.At("joint_constraints").Fail("holds no goal");
+  }
+  std::vector<JointGoal> goals;
+  std::vector<std::pair<JointGoal, YamlNode>> others;  // With where their names stand.
+  std::set<std::string> seen;
+  for (const YamlNode& node : OptionalElements(constraints, "joint_constraints")) {
+    JointGoal goal;
+    const YamlNode name = node.At("joint_name");
+    goal.joint = name.String();
+    if (!seen.insert(goal.joint).second) {
+      name.Fail("the joint '" + goal.joint + "' is named twice");
+    }
+    goal.position = node.At("position").Double();
+    goal.tolerance_above = ReadTolerance(node, "tolerance_above");
+    goal.tolerance_below = ReadTolerance(node, "tolerance_below");
+    if (group.space.Find(goal.joint) >= 0) {
+      goals.push_back(goal);
+    } else {
+      others.emplace_back(goal, name);
+    }
+  }
+  for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, start);
+  if (of_pose) {
+    const JointSpace limits =
+        Narrowed(group.space, goals, constraints.Find("joint_constraints").value_or(constraints));
+    std::vector<JointGoal> alternatives;
+    for (const std::vector<double>& q :
+         FindPoseGoals(constraints, model, group, limits, start, frames)) {
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        alternatives.push_back({.joint = limits.joints()[k].name, .position = q[k]});
+      }
+    }
+    return alternatives;
+  }
+  for (const JointSpace::Joint& joint : group.space.joints()) {
+    if (FindGoal(goals, joint.name) == nullptr) {
+      constraints.At("joint_constraints")
+          .Fail("there is no goal for joint '" + joint.name + "' of group '" + group.name + "'");
+    }
+  }
+  return goals;
+}
+
 }  // namespace
 
 void RequireRequest(const YamlNode& motion_plan_request) {
@@ -95,43 +170,16 @@ const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot&
 }
 
 std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
-                                const PlanningGroup& group, const std::vector<double>& start) {
+                                const PlanningGroup& group, const std::vector<double>& start,
+                                const FrameTree& frames) {
   const YamlNode sets = motion_plan_request.At("goal_constraints");
   if (sets.Size() == 0) sets.Fail("holds no goal");
-  if (sets.Size() > 1) sets.At(1).Fail("only one set of goal constraints is supported");
-  const YamlNode constraints = sets.At(0);
-  for (const char* other : kOtherConstraints) {
-    RefuseElements(constraints, other, "only joint constraints are supported as a goal");
+  std::vector<JointGoal> goal;
+  for (const YamlNode& set : sets.Elements()) {
+    const std::vector<JointGoal> alternatives = ReadAlternatives(set, model, group, start, frames);
+    goal.insert(goal.end(), alternatives.begin(), alternatives.end());
   }
-  const YamlNode joint_constraints = constraints.At("joint_constraints");
-  if (joint_constraints.Size() == 0) joint_constraints.Fail("holds no goal");
-  std::vector<JointGoal> goals;
-  std::vector<std::pair<JointGoal, YamlNode>> others;  // With where their names stand.
-  std::set<std::string> seen;
-  for (const YamlNode& node : joint_constraints.Elements()) {
-    JointGoal goal;
-    const YamlNode name = node.At("joint_name");
-    goal.joint = name.String();
-    if (!seen.insert(goal.joint).second) {
-      name.Fail("the joint '" + goal.joint + "' is named twice");
-    }
-    goal.position = node.At("position").Double();
-    goal.tolerance_above = ReadTolerance(node, "tolerance_above");
-    goal.tolerance_below = ReadTolerance(node, "tolerance_below");
-    if (group.space.Find(goal.joint) >= 0) {
-      goals.push_back(goal);
-    } else {
-      others.emplace_back(goal, name);
-    }
-  }
-  for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, start);
-  for (const JointSpace::Joint& joint : group.space.joints()) {
-    if (FindGoal(goals, joint.name) == nullptr) {
-      joint_constraints.Fail("there is no goal for joint '" + joint.name + "' of group '" +
-                             group.name + "'");
-    }
-  }
-  return goals;
+  return goal;
 }
 
 std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request) {

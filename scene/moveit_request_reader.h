@@ -5,6 +5,7 @@
 
 #include "common/yaml.h"
 #include "robot_model/robot_folder.h"
+#include "scene/frame_tree.h"
 #include "scene/problem.h"
 
 namespace planbench {
@@ -17,11 +18,15 @@ void RequireRequest(const YamlNode& motion_plan_request);
 /// The planning group that group_name names.
 const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
 
-/// goal_constraints: one set of joint constraints, with one for each joint of the group. Others are
-/// taken if they say nothing: of fixed joints at 0, of joints outside the group where they are at
-/// `start` (full positions), of joints that follow one of the group where that puts them.
+/// goal_constraints, as Problem::goal: each set is an alternative, of joint constraints with one
+/// for each joint of the group; or of constraints on the pose of the tip (see FindPoseGoals), which
+/// are as many alternatives as configurations are found, without tolerance, within what joint
+/// constraints beside them allow. Constraints of other joints are taken if they say nothing: of
+/// fixed joints at 0, of joints outside the group where they are at `start` (full positions), of
+/// joints that follow one of the group where that puts them.
 std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
-                                const PlanningGroup& group, const std::vector<double>& start);
+                                const PlanningGroup& group, const std::vector<double>& start,
+                                const FrameTree& frames);
 
 std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request);
 

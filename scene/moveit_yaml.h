@@ -25,10 +25,10 @@ namespace planbench {
 /// written is in Problem::warnings.
 ///
 /// Throws InputError naming file, line and field, for malformed input, fields that the messages do
-/// not have, what does not fit the robot (its name, joints, links, group, a start and one goal for
-/// each joint of the group), and what planbench would have to ignore although it bears on planning:
-/// link padding and scale, object operations other than ADD, goals other than one set of joint
-/// constraints, path constraints.
+/// not have, what does not fit the robot (its name, joints, links, group, a start and, in every
+/// set of goal constraints, a goal for each joint of the group or a pose that the tip reaches), and
+/// what planbench would have to ignore although it bears on planning: link padding and scale,
+/// object operations other than ADD, path constraints.
 Problem ReadProblem(const std::filesystem::path& scene_file,
                     const std::filesystem::path& request_file, const Robot& robot);
 /// The same for parsed files.

@@ -1,0 +1,295 @@
+#include "scene/moveit_pose_goal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "common/random.h"
+#include "robot_model/inverse_kinematics.h"
+#include "scene/moveit_fields.h"
+#include "scene/moveit_object_reader.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::size_t kMostConfigurations = 16;
+constexpr double kLeastDistance = 0.1;  // Between two of them, rad and m.
+constexpr double kMet = 1e-6;           // m or rad
+// Poses tried, and random configurations that each is tried from.
+constexpr int kPoses = 64;
+constexpr int kStartsOfPose = 8;
+// The same for all problems: two files that say the same in other frames get the same goals.
+constexpr std::uint64_t kSeed = 1;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// P is the frame that is constrained: fixed to the tip link T, with its origin at the constrained
+// point and the axes of the link whose orientation is constrained. B is the base frame.
+
+struct Orientation {
+  Eigen::Matrix3d R_BD;       // D is the wanted orientation of P.
+  Eigen::Vector3d tolerance;  // rad
+  bool rotation_vector = false;
+
+  // The angles by which R_BP deviates.
+  Eigen::Vector3d Deviation(const Eigen::Matrix3d& R_BP) const {
+    const Eigen::Matrix3d R_DP = R_BD.transpose() * R_BP;
+    if (rotation_vector) {
+      const Eigen::AngleAxisd turn(R_DP);
+      return turn.angle() * turn.axis();
+    }
+    return {std::atan2(-R_DP(1, 2), R_DP(2, 2)), std::asin(std::clamp(R_DP(0, 2), -1.0, 1.0)),
+            std::atan2(-R_DP(0, 1), R_DP(0, 0))};
+  }
+
+  Eigen::Matrix3d Deviated(const Eigen::Vector3d& angles) const {
+    using Eigen::AngleAxisd;
+    using Eigen::Vector3d;
+    if (rotation_vector) {
+      const double angle = angles.norm();
+      return angle > 0 ? Eigen::Matrix3d(R_BD * AngleAxisd(angle, angles / angle)) : R_BD;
+    }
+    return R_BD *
+           (AngleAxisd(angles.x(), Vector3d::UnitX()) * AngleAxisd(angles.y(), Vector3d::UnitY()) *
+            AngleAxisd(angles.z(), Vector3d::UnitZ()))
+               .toRotationMatrix();
+  }
+
+  // A rotation that deviates by no more than the tolerances.
+  Eigen::Matrix3d Sample(std::mt19937_64* random) const {
+    // Beyond these angles rotations are those of smaller ones.
+    const Eigen::Vector3d most(kPi, rotation_vector ? kPi : kPi / 2, kPi);
+    Eigen::Vector3d angles;
+    do {
+      for (int i = 0; i < 3; ++i) {
+        angles[i] = (2 * UniformFraction(random) - 1) * std::min(tolerance[i], most[i]);
+      }
+    } while (rotation_vector && angles.norm() > kPi);
+    return Deviated(angles);
+  }
+};
+
+struct Region {
+  Eigen::Isometry3d X_BR;
+  Eigen::Vector3d half_size;  // Of a box; of a sphere, its radius thrice.
+  bool ball = false;
+
+  double Distance(const Eigen::Vector3d& p_B) const {  // 0 inside, m
+    const Eigen::Vector3d p_R = X_BR.inverse(Eigen::Isometry) * p_B;
+    if (ball) return std::max(0.0, p_R.norm() - half_size.x());
+    return (p_R.cwiseAbs() - half_size).cwiseMax(0).norm();
+  }
+
+  Eigen::Vector3d Sample(std::mt19937_64* random) const {
+    Eigen::Vector3d fraction;
+    do {
+      for (double& f : fraction) f = 2 * UniformFraction(random) - 1;
+    } while (ball && fraction.norm() > 1);
+    return X_BR * half_size.cwiseProduct(fraction);
+  }
+};
+
+// The poses X_BP that are wanted. Without regions, or orientation, that is free.
+struct PoseSet {
+  std::vector<Region> regions;
+  std::optional<Orientation> orientation;
+  Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
+
+  // In turn the middle of each region with the wanted orientation, and one from all that is
+  // allowed.
+  Eigen::Isometry3d Try(int number, std::mt19937_64* random) const {
+    const bool middle = number % 2 == 0;
+    Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
+    if (!regions.empty()) {
+      const Region& region = regions[static_cast<std::size_t>(number / 2) % regions.size()];
+      X_BP.translation() = middle ? region.X_BR.translation() : region.Sample(random);
+    }
+    if (orientation) X_BP.linear() = middle ? orientation->R_BD : orientation->Sample(random);
+    return X_BP;
+  }
+
+  // What is left of free parts is not tried for.
+  IkOptions Options() const {
+    IkOptions options{.max_starts = kStartsOfPose};
+    // Far below kMet, which what is found is judged by.
+    options.position_tolerance_m = regions.empty() ? kInfinity : kMet / 10;
+    options.orientation_tolerance_rad = orientation ? kMet / 10 : kInfinity;
+    return options;
+  }
+
+  double PositionExcess(const Eigen::Isometry3d& X_BP) const {  // m
+    if (regions.empty()) return 0;
+    double nearest = kInfinity;
+    for (const Region& region : regions) {
+      nearest = std::min(nearest, region.Distance(X_BP.translation()));
+    }
+    return nearest;
+  }
+
+  double OrientationExcess(const Eigen::Isometry3d& X_BP) const {  // rad
+    if (!orientation) return 0;
+    return (orientation->Deviation(X_BP.linear()).cwiseAbs() - orientation->tolerance)
+        .cwiseMax(0)
+        .norm();
+  }
+};
+
+// The only constraint of that kind, if there is one.
+std::optional<YamlNode> OneOf(const YamlNode& constraints, const std::string& kind) {
+  const std::vector<YamlNode> elements = OptionalElements(constraints, kind);
+  if (elements.size() > 1) elements[1].Fail("one constraint of this kind is supported in a goal");
+  return elements.empty() ? std::nullopt : std::optional(elements.front());
+}
+
+// Pose X_TL of the constraint's link in the tip link.
+Eigen::Isometry3d ReadLink(const YamlNode& constraint, const RobotModel& model,
+                           const PlanningGroup& group, const std::vector<double>& start) {
+  const YamlNode node = constraint.At("link_name");
+  const std::string name = WithoutSlash(node.String());
+  const int link = model.FindLink(name);
+  if (link < 0) node.Fail("the robot has no link '" + name + "'");
+  const auto moves = [&](int joint) {
+    return std::find(group.joints.begin(), group.joints.end(), joint) != group.joints.end() ||
+           std::any_of(group.followers.begin(), group.followers.end(),
+                       [&](const PlanningGroup::Follower& f) { return f.joint == joint; });
+  };
+  // The link's nearest joint, towards the root, that moves with the group; -1: none.
+  const auto carrier = [&](int l) {
+    while (true) {
+      const int joint = model.links()[static_cast<std::size_t>(l)].parent_joint;
+      if (joint < 0 || moves(joint)) return joint;
+      l = model.joints()[static_cast<std::size_t>(joint)].parent_link;
+    }
+  };
+  if (carrier(link) != carrier(group.tip_link)) {
+    node.Fail("the link '" + name + "' does not move as one with '" +
+              model.links()[static_cast<std::size_t>(group.tip_link)].name +
+              "', the tip of group '" + group.name + "'");
+  }
+  const std::vector<Eigen::Isometry3d> X_BL = ComputeLinkPoses(model, start);
+  return X_BL[static_cast<std::size_t>(group.tip_link)].inverse(Eigen::Isometry) *
+         X_BL[static_cast<std::size_t>(link)];
+}
+
+std::vector<Region> ReadRegions(const YamlNode& constraint, const FrameTree& frames) {
+  const Eigen::Isometry3d& X_BF = frames.At(ReadFrame(constraint), FrameNode(constraint));
+  const YamlNode volume = constraint.At("constraint_region");
+  RefuseElements(volume, "meshes", "regions are boxes and spheres; meshes are not supported");
+  const std::vector<YamlNode> primitives = OptionalElements(volume, "primitives");
+  const std::vector<YamlNode> poses = OptionalElements(volume, "primitive_poses");
+  if (primitives.empty()) volume.Fail("has no primitives");
+  if (primitives.size() != poses.size()) {
+    volume.Fail("has " + std::to_string(primitives.size()) + " primitives but " +
+                std::to_string(poses.size()) + " primitive_poses");
+  }
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    Region region{X_BF * ReadPose(poses[i]), Eigen::Vector3d::Zero()};
+    const Shape shape = ReadPrimitive(primitives[i]);
+    if (const auto* box = std::get_if<Box>(&shape)) {
+      region.half_size = box->size / 2;
+    } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+      region.ball = true;
+      region.half_size.setConstant(sphere->radius);
+    } else {
+      primitives[i].At("type").Fail("regions are boxes and spheres; others are not supported");
+    }
+    regions.push_back(region);
+  }
+  return regions;
+}
+
+Orientation ReadOrientation(const YamlNode& constraint, const FrameTree& frames) {
+  const Eigen::Isometry3d& X_BF = frames.At(ReadFrame(constraint), FrameNode(constraint));
+  Orientation orientation;
+  orientation.R_BD =
+      X_BF.linear() * ReadQuaternion(constraint.At("orientation")).toRotationMatrix();
+  for (int i = 0; i < 3; ++i) {
+    const std::string key = std::string("absolute_") + "xyz"[i] + "_axis_tolerance";
+    orientation.tolerance[i] = constraint.DoubleOr(key, 0);
+    if (orientation.tolerance[i] < 0) constraint.At(key).Fail("must not be negative");
+  }
+  if (const auto node = constraint.Find("parameterization")) {
+    const long long number = node->Int();
+    if (number != 0 && number != 1) {
+      node->Fail("expected 0 (XYZ_EULER_ANGLES) or 1 (ROTATION_VECTOR), found " +
+                 std::to_string(number));
+    }
+    orientation.rotation_vector = number == 1;
+  }
+  return orientation;
+}
+
+PoseSet ReadPoseSet(const std::optional<YamlNode>& position,
+                    const std::optional<YamlNode>& orientation, const RobotModel& model,
+                    const PlanningGroup& group, const std::vector<double>& start,
+                    const FrameTree& frames) {
+  PoseSet poses;
+  if (position) {
+    const auto offset = position->Find("target_point_offset");
+    poses.X_TP.translation() =
+        ReadLink(*position, model, group, start) *
+        (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    poses.regions = ReadRegions(*position, frames);
+  }
+  if (orientation) {
+    poses.X_TP.linear() = ReadLink(*orientation, model, group, start).linear();
+    poses.orientation = ReadOrientation(*orientation, frames);
+  }
+  return poses;
+}
+
+}  // namespace
+
+bool HasPoseConstraints(const YamlNode& constraints) {
+  return !OptionalElements(constraints, "position_constraints").empty() ||
+         !OptionalElements(constraints, "orientation_constraints").empty();
+}
+
+std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, const RobotModel& model,
+                                               const PlanningGroup& group, const JointSpace& limits,
+                                               const std::vector<double>& start,
+                                               const FrameTree& frames) {
+  const std::optional<YamlNode> position = OneOf(constraints, "position_constraints");
+  const std::optional<YamlNode> orientation = OneOf(constraints, "orientation_constraints");
+  const PoseSet poses = ReadPoseSet(position, orientation, model, group, start, frames);
+  PlanningGroup limited = group;
+  limited.space = limits;
+  InverseKinematics kinematics(model, limited, start, poses.X_TP);
+  std::mt19937_64 random(kSeed);
+  std::vector<std::vector<double>> found;
+  double best_m = kInfinity;
+  double best_rad = kInfinity;
+  for (int number = 0; number < kPoses && found.size() < kMostConfigurations; ++number) {
+    const IkResult result = kinematics.Solve(poses.Try(number, &random), &random, poses.Options());
+    const Eigen::Isometry3d X_BP = kinematics.TipPose(result.q);
+    const double off_m = poses.PositionExcess(X_BP);
+    const double off_rad = poses.OrientationExcess(X_BP);
+    if (off_m + off_rad < best_m + best_rad) {
+      best_m = off_m;
+      best_rad = off_rad;
+    }
+    if (off_m > kMet || off_rad > kMet) continue;
+    const bool is_new = std::all_of(found.begin(), found.end(), [&](const auto& other) {
+      return group.space.Distance(result.q, other) >= kLeastDistance;
+    });
+    if (is_new) found.push_back(result.q);
+  }
+  if (found.empty()) {
+    (position ? *position : *orientation)
+        .Fail(
+            fmt::format("no configuration of group '{}' reaches the pose (best: {:.1f} mm, {:.3f} "
+                        "rad)",
+                        group.name, best_m * 1e3, best_rad));
+  }
+  return found;
+}
+
+}  // namespace planbench

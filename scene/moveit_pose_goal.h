@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "common/yaml.h"
+#include "robot_model/robot_model.h"
+#include "scene/frame_tree.h"
+
+namespace planbench {
+
+/// True if a moveit_msgs/Constraints constrains the position or orientation of a link.
+bool HasPoseConstraints(const YamlNode& constraints);
+
+/// Configurations of the group, group order, that meet the position constraint, the orientation
+/// constraint, or both, of a moveit_msgs/Constraints. They are found by inverse kinematics, within
+/// `limits` (group order): for the middle of the constraint and for poses drawn from all that it
+/// allows, from random configurations. One to 16, which differ by 0.1 (rad, m; L2) or more. They
+/// depend on the constraint, the robot and the full positions `start` alone, at which other joints
+/// are held: the same for every planner and in every run.
+///
+/// Position: the point `target_point_offset` of the link is in one of the constraint_region's
+/// primitives, boxes and spheres. Orientation: that of the link, R_L = R_D * d for the wanted R_D,
+/// has a deviation d whose angles are within absolute_{x,y,z}_axis_tolerance: with parameterization
+/// 0 those of rotations about x, the new y and the new z, with 1 the components of the rotation
+/// vector. Frames are resolved with the robot at the start. Either is met to 1e-6 (m, rad); what is
+/// not constrained is free.
+///
+/// Throws InputError naming file, line and field for what cannot be read, more than one constraint
+/// of a kind, links that do not move as one with the group's tip, and constraints that no
+/// configuration was found for.
+std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, const RobotModel& model,
+                                               const PlanningGroup& group, const JointSpace& limits,
+                                               const std::vector<double>& start,
+                                               const FrameTree& frames);
+
+}  // namespace planbench
