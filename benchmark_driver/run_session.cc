@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
+#include <set>
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
@@ -52,14 +53,16 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   const auto packages = ParsePackagePaths(options.package_paths);
   const Robot robot = LoadRobot(options.robot, packages);
   for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
+  std::set<CollisionModel> checked;
   for (const LineUpEntry& entry : line_up) {
     const CollisionModel model =
         entry.contestant.collision_model.value_or(options.conditions.request.collision_model);
+    if (!checked.insert(model).second) continue;
     try {
       MakeCollisionChecker(robot, robot.Group(""), model);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: collision model {}: {}", entry.contestant.name,
-                                   EnumName(model), error.what()));
+      throw InputError(fmt::format("--collision-model {} (of '{}'): {}", EnumName(model),
+                                   entry.contestant.planner, error.what()));
     }
   }
   if (!options.referee_robot) return;

@@ -31,6 +31,8 @@ TEST_F(BadUse, MissingProblemFolder) {
 
 TEST_F(BadUse, MeshesModelWithoutTheMeshFiles) {
   ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--collision-model", "meshes"}),
+                 "--collision-model meshes (of 'ara'): ");
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--collision-model", "meshes"}),
                  "--package-path fetch_description=DIR");
   EXPECT_TRUE(LeftRunning().empty());
 }
