@@ -104,7 +104,7 @@ class EdgeChecker {
  private:
   void RequireSize(std::span<const double> q) const;
   double NumIntervals(double motion) const;
-  /// Sets motion_ to the edge's and returns its size, in the unit of the resolution.
+  /// Sets `motion` to the edge's and returns its size, in the unit of the resolution.
   double Move(std::span<const double> from, std::span<const double> to,
               std::vector<double>* motion) const;
   /// Throws InputError for more than can be counted.

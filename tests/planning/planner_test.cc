@@ -12,35 +12,12 @@
 #include "common/error.h"
 #include "planning/path_measures.h"
 #include "support/planning_problems.h"
+#include "support/scripted_planner.h"
 
 namespace planbench {
 namespace {
 
 using testing::HasSubstr;
-
-/// A planner whose search is a function of the test.
-class ScriptedPlanner final : public Planner {
- public:
-  using Script = std::function<SearchResult(SearchQuery&)>;
-  ScriptedPlanner(const Robot& robot, Script script) : Planner(robot), script_(std::move(script)) {}
-
-  PlannerDescription Describe() const override { return description; }
-
-  PlannerDescription description = {.algorithm = "scripted",
-                                    .anytime = true,
-                                    .collision_models = {CollisionModel::kSpheres},
-                                    .settings = {}};
-  int num_searches = 0;
-
- protected:
-  SearchResult Search(SearchQuery& query) override {
-    ++num_searches;
-    return script_(query);
-  }
-
- private:
-  Script script_;
-};
 
 SearchResult Solved(Path path) {
   SearchResult result;
@@ -49,18 +26,9 @@ SearchResult Solved(Path path) {
   return result;
 }
 
-SearchResult Straight(SearchQuery& query) { return Solved({query.start(), query.goal().nominal}); }
-
 /// Through a point that both ends are free of.
 SearchResult ByWayOf(SearchQuery& query) {
   return Solved({query.start(), {0.5, 2.0, 1.0}, query.goal().nominal});
-}
-
-SearchResult Ended(PlanStatus status) {
-  SearchResult result;
-  result.status = status;
-  result.message = "because";
-  return result;
 }
 
 class PlannerTest : public testing::Test {
@@ -144,7 +112,7 @@ TEST_F(PlannerTest, SimplificationIsTimedApartAndOnlyWhenAskedFor) {
 TEST_F(PlannerTest, PhasesAddUpToTheTotalTime) {
   const PlanResult result = Plan(
       [](SearchQuery& query) {
-        SearchResult found = Straight(query);
+        SearchResult found = StraightLine(query);
         EXPECT_TRUE(query.edges().IsValidEdge(query.start(), query.goal().nominal));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         const std::uint64_t begin = Ticks::Now();
@@ -178,7 +146,7 @@ TEST_F(PlannerTest, ThePeakIsTheRequestsOwn) {
       std::vector<char> block(mib << 20, 1);
       // Keeps the optimiser from leaving the block out.
       asm volatile("" : : "g"(block.data()) : "memory");
-      return Straight(query);
+      return StraightLine(query);
     };
   };
   const double small = Plan(with_memory(1), Request()).peak_memory_mb;
@@ -201,7 +169,7 @@ TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
         query.ReportSolution(10, 500, 7);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         query.ReportSolution(1, 400, 70);
-        return Straight(query);
+        return StraightLine(query);
       },
       request, EmptyPlanarScene(), &control);
   ASSERT_EQ(result.progress.size(), 2u);
@@ -216,7 +184,7 @@ TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
 TEST_F(PlannerTest, AnytimeIsForPlannersThatAre) {
   ScriptedPlanner planner(robot_, [](SearchQuery& query) {
     EXPECT_FALSE(query.anytime());
-    return Straight(query);
+    return StraightLine(query);
   });
   planner.description.anytime = false;
   PlanRequest request = Request();
@@ -247,7 +215,7 @@ TEST_F(PlannerTest, DeadlineAndCancellation) {
         EXPECT_LE(query.RemainingSeconds(), 1000);
         EXPECT_GT(query.RemainingSeconds(), 900);
         EXPECT_FALSE(query.ShouldStop());
-        return Straight(query);
+        return StraightLine(query);
       },
       request);
   EXPECT_EQ(remaining.status, PlanStatus::kSolved);
@@ -259,7 +227,7 @@ TEST_F(PlannerTest, ASolutionAfterTheLimitIsNone) {
   const PlanResult result = Plan(
       [](SearchQuery& query) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        return Straight(query);
+        return StraightLine(query);
       },
       request);
   EXPECT_EQ(result.status, PlanStatus::kTimedOut);
@@ -274,7 +242,7 @@ TEST_F(PlannerTest, APathHeldWhenTheLimitComesIsASolution) {
       [](SearchQuery& query) {
         query.HoldPath();
         while (!query.ShouldStop()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return Straight(query);
+        return StraightLine(query);
       },
       request);
   EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
@@ -284,7 +252,7 @@ TEST_F(PlannerTest, APathHeldWhenTheLimitComesIsASolution) {
 
 TEST_F(PlannerTest, NothingIsCompiledInARequestThatWasBefore) {
   const std::vector<CollisionModel> models = {CollisionModel::kSpheres, CollisionModel::kVoxels};
-  ScriptedPlanner planner(robot_, Straight);
+  ScriptedPlanner planner(robot_, StraightLine);
   planner.description.collision_models = models;
   for (int i = 0; i < 2; ++i) {
     EXPECT_TRUE(planner.WarmUp().empty());
@@ -311,7 +279,7 @@ TEST_F(PlannerTest, NothingIsCompiledInARequestThatWasBefore) {
 TEST_F(PlannerTest, ModelsThatCannotBeUsedAreNamedWithTheReason) {
   Robot bare = LoadPlanarRobot();
   bare.spheres.clear();
-  ScriptedPlanner planner(bare, Straight);
+  ScriptedPlanner planner(bare, StraightLine);
   const std::map<CollisionModel, std::string> unusable = planner.WarmUp();
   ASSERT_TRUE(unusable.contains(CollisionModel::kSpheres));
   EXPECT_THAT(unusable.at(CollisionModel::kSpheres), HasSubstr("spheres"));
@@ -323,23 +291,23 @@ TEST_F(PlannerTest, AGoalRegionIsSearchedWhereItsMiddleIsBlocked) {
   for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
     PlanRequest request = Request();
     request.direction = direction;
-    const PlanResult point = Plan(Straight, request, scene);
+    const PlanResult point = Plan(StraightLine, request, scene);
     EXPECT_EQ(point.status, PlanStatus::kGoalInvalid);
     EXPECT_THAT(point.message, HasSubstr("goal is in collision: "));
 
     request = Request(0.3);
     request.direction = direction;
-    const PlanResult region = Plan(Straight, request, scene);
+    const PlanResult region = Plan(StraightLine, request, scene);
     EXPECT_EQ(region.status, PlanStatus::kSolved) << region.message;
     const Configuration& end = region.path.back();
     EXPECT_EQ(region.path.front(), start_);
     EXPECT_NE(end, goal_);
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(end[j], goal_[j], 0.3);
-    EXPECT_EQ(Plan(Straight, request, scene).path, region.path);
+    EXPECT_EQ(Plan(StraightLine, request, scene).path, region.path);
 
     request = Request(0.001);
     request.direction = direction;
-    const PlanResult small = Plan(Straight, request, scene);
+    const PlanResult small = Plan(StraightLine, request, scene);
     EXPECT_EQ(small.status, PlanStatus::kGoalInvalid);
     EXPECT_THAT(small.message, HasSubstr("no valid point among 1000 tried"));
     EXPECT_THAT(small.message, HasSubstr("post"));
@@ -348,7 +316,7 @@ TEST_F(PlannerTest, AGoalRegionIsSearchedWhereItsMiddleIsBlocked) {
 
 TEST_F(PlannerTest, OfAGoalRegionThePartWithinTheLimitsCounts) {
   PlanRequest request = MakeRequest(robot_, start_, {-0.6, 2.7, 0}, 0.2);  // elbow: at most 2.6
-  const PlanResult result = Plan(Straight, request);
+  const PlanResult result = Plan(StraightLine, request);
   EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
   EXPECT_LE(result.path.back()[1], 2.6);
   EXPECT_GE(result.path.back()[1], 2.5);
@@ -369,7 +337,7 @@ TEST_F(PlannerTest, AStartInTheGoalNeedsNoSearch) {
   for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
     PlanRequest request = MakeRequest(robot_, start_, {0.65 - 2 * M_PI, 0, 0.05}, 0.1);
     request.direction = direction;
-    const PlanResult result = Plan(Straight, request);
+    const PlanResult result = Plan(StraightLine, request);
     EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
     EXPECT_EQ(result.path, Path{start_});
     EXPECT_EQ(num_searches_, 0);
@@ -380,7 +348,7 @@ TEST_F(PlannerTest, StartsAndGoalsOutsideTheLimitsAreNamed) {
   for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
     PlanRequest request = MakeRequest(robot_, {0.6, 2.7, 0}, goal_);
     request.direction = direction;
-    const PlanResult start = Plan(Straight, request);
+    const PlanResult start = Plan(StraightLine, request);
     EXPECT_EQ(start.status, PlanStatus::kStartInvalid);
     EXPECT_THAT(start.message, HasSubstr("elbow"));
     EXPECT_THAT(start.message, HasSubstr("2.7"));
@@ -388,7 +356,7 @@ TEST_F(PlannerTest, StartsAndGoalsOutsideTheLimitsAreNamed) {
 
     request = MakeRequest(robot_, start_, {0, 0, -3}, 0.1);
     request.direction = direction;
-    const PlanResult goal = Plan(Straight, request);
+    const PlanResult goal = Plan(StraightLine, request);
     EXPECT_EQ(goal.status, PlanStatus::kGoalInvalid);
     EXPECT_THAT(goal.message, HasSubstr("wrist"));
     EXPECT_THAT(goal.message, HasSubstr("-3"));
@@ -397,10 +365,11 @@ TEST_F(PlannerTest, StartsAndGoalsOutsideTheLimitsAreNamed) {
 }
 
 TEST_F(PlannerTest, StartsAndGoalsInCollisionAreNamed) {
-  const PlanResult start = Plan(Straight, MakeRequest(robot_, {0, 0, 0}, goal_), PostsScene());
+  const PlanResult start = Plan(StraightLine, MakeRequest(robot_, {0, 0, 0}, goal_), PostsScene());
   EXPECT_EQ(start.status, PlanStatus::kStartInvalid);
   EXPECT_THAT(start.message, HasSubstr("post_ahead"));
-  const PlanResult goal = Plan(Straight, MakeRequest(robot_, start_, {M_PI, 0, 0}), PostsScene());
+  const PlanResult goal =
+      Plan(StraightLine, MakeRequest(robot_, start_, {M_PI, 0, 0}), PostsScene());
   EXPECT_EQ(goal.status, PlanStatus::kGoalInvalid);
   EXPECT_THAT(goal.message, HasSubstr("post_behind"));
   EXPECT_EQ(num_searches_, 0);
@@ -408,7 +377,7 @@ TEST_F(PlannerTest, StartsAndGoalsInCollisionAreNamed) {
 
 TEST_F(PlannerTest, BothEndsInvalidIsAnInvalidStart) {
   const PlanResult result =
-      Plan(Straight, MakeRequest(robot_, {0, 0, 0}, {M_PI, 0, 0}), PostsScene());
+      Plan(StraightLine, MakeRequest(robot_, {0, 0, 0}, {M_PI, 0, 0}), PostsScene());
   EXPECT_EQ(result.status, PlanStatus::kStartInvalid);
 }
 
@@ -416,13 +385,13 @@ TEST_F(PlannerTest, HeldJointsAreTakenFromTheStart) {
   PlanRequest request = MakeRequest(robot_, {0, 0, 0}, goal_);
   request.start.names.push_back("lift");
   request.start.positions.push_back(0.5);  // Over the post.
-  EXPECT_EQ(Plan(Straight, request, PostsScene()).status, PlanStatus::kSolved);
+  EXPECT_EQ(Plan(StraightLine, request, PostsScene()).status, PlanStatus::kSolved);
   request.start.positions.back() = 0;
-  EXPECT_EQ(Plan(Straight, request, PostsScene()).status, PlanStatus::kStartInvalid);
+  EXPECT_EQ(Plan(StraightLine, request, PostsScene()).status, PlanStatus::kStartInvalid);
 }
 
 TEST_F(PlannerTest, ASceneDoesNotOutliveItsRequest) {
-  ScriptedPlanner planner(robot_, Straight);
+  ScriptedPlanner planner(robot_, StraightLine);
   const PlanRequest request = MakeRequest(robot_, {0, 0, 0}, goal_);
   EXPECT_EQ(planner.Plan(request, PostsScene(), nullptr).status, PlanStatus::kStartInvalid);
   EXPECT_EQ(planner.Plan(request, EmptyPlanarScene(), nullptr).status, PlanStatus::kSolved);
@@ -436,7 +405,7 @@ TEST_F(PlannerTest, TheEdgeResolutionIsTheRequestsOrTheRobots) {
     Plan(
         [&](SearchQuery& query) {
           EXPECT_EQ(query.edges().edge_resolution(), asked.value_or(0.02));
-          return Straight(query);
+          return StraightLine(query);
         },
         request);
     EXPECT_EQ(num_searches_, 1);
@@ -471,7 +440,7 @@ TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
     SCOPED_TRACE(bad.what);
     PlanRequest request = Request();
     bad.spoil(&request);
-    const PlanResult result = Plan(Straight, request);
+    const PlanResult result = Plan(StraightLine, request);
     EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
     EXPECT_THAT(result.message, HasSubstr(bad.part));
     EXPECT_EQ(result.message.find('\n'), std::string::npos);
@@ -480,7 +449,7 @@ TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
 }
 
 TEST_F(PlannerTest, BackwardIsForPlannersThatCan) {
-  ScriptedPlanner planner(robot_, Straight);
+  ScriptedPlanner planner(robot_, StraightLine);
   planner.description.backward = false;
   PlanRequest request = Request();
   request.direction = Direction::kBackward;

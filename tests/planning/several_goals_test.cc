@@ -12,23 +12,14 @@ namespace {
 
 using testing::HasSubstr;
 
-SearchResult Ended(PlanStatus status) {
-  SearchResult result;
-  result.status = status;
-  result.message = "because";
-  return result;
-}
-
 class SeveralGoals : public testing::Test {
  protected:
   PlanResult Plan(const ScriptedPlanner::Script& script, const PlanRequest& request,
                   const Scene& scene = EmptyPlanarScene()) {
-    num_searches_ = 0;
-    ScriptedPlanner planner(robot_, [&](SearchQuery& query) {
-      ++num_searches_;
-      return script(query);
-    });
-    return planner.Plan(request, scene, nullptr);
+    ScriptedPlanner planner(robot_, script);
+    PlanResult result = planner.Plan(request, scene, nullptr);
+    num_searches_ = planner.num_searches;
+    return result;
   }
 
   PlanRequest RequestFor(const std::vector<Configuration>& goals) const {

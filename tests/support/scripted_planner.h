@@ -12,7 +12,7 @@ class ScriptedPlanner final : public Planner {
  public:
   using Script = std::function<SearchResult(SearchQuery&)>;
   ScriptedPlanner(const Robot& robot, Script script, PlannerDescription description = Able())
-      : Planner(robot), script_(std::move(script)), description_(std::move(description)) {}
+      : Planner(robot), description(std::move(description)), script_(std::move(script)) {}
 
   /// Everything but meshes.
   static PlannerDescription Able() {
@@ -27,15 +27,28 @@ class ScriptedPlanner final : public Planner {
     return description;
   }
 
-  PlannerDescription Describe() const override { return description_; }
+  PlannerDescription Describe() const override { return description; }
+
+  PlannerDescription description;
+  int num_searches = 0;
 
  protected:
-  SearchResult Search(SearchQuery& query) override { return script_(query); }
+  SearchResult Search(SearchQuery& query) override {
+    ++num_searches;
+    return script_(query);
+  }
 
  private:
   Script script_;
-  PlannerDescription description_;
 };
+
+/// A search that found nothing.
+inline SearchResult Ended(PlanStatus status) {
+  SearchResult result;
+  result.status = status;
+  result.message = "because";
+  return result;
+}
 
 /// The straight line, whatever is in its way.
 inline SearchResult StraightLine(const SearchQuery& query) {
