@@ -4,6 +4,8 @@
 # planbench_planner(NAME SOURCES ... [LINK ...] [PRIVATE_LINK ...]): a planner: the library planbench_planner_NAME, and
 #   of it and main.cc the program planner_NAME, which `benchmark_driver --launch` finds by that name.
 # planbench_test(NAME SOURCES ... [LINK ...]): a GoogleTest program in tests/, its cases discovered by CTest.
+# planbench_embed(OUTPUT FUNCTION HEADER FILES...): the source OUTPUT that defines FUNCTION of HEADER, which returns the
+#   files as EmbeddedFile (common/embedded_file.h).
 # planbench_benchmark(NAME [LINK ...]): a program in benchmarks/, made of NAME.cc.
 
 add_library(planbench_options INTERFACE)
@@ -62,6 +64,16 @@ function(planbench_library name)
   target_link_libraries(planbench_${name} PUBLIC planbench_options ${ARG_LINK}
                                           PRIVATE ${ARG_PRIVATE_LINK})
   planbench_reuse(planbench_${name} planbench_headers)
+endfunction()
+
+function(planbench_embed output function header)
+  list(JOIN ARGN "|" files)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DFUNCTION=${function} "-DFILES=${files}"
+            -P ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake
+    DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake
+    VERBATIM)
 endfunction()
 
 function(planbench_program name)

@@ -79,7 +79,7 @@ void SessionFolder::WriteLcmTypes() const {
   const fs::path folder = path_ / "lcmtypes";
   std::error_code error;
   fs::create_directories(folder, error);
-  for (const LcmTypeFile& type : LcmTypeFiles()) {
+  for (const EmbeddedFile& type : LcmTypeFiles()) {
     std::ofstream stream(folder / type.name, std::ios::trunc);
     stream << type.text;
     stream.close();

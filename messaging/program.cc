@@ -5,11 +5,8 @@
 
 #include <atomic>
 #include <csignal>
-#include <iostream>
 
-#include "common/error.h"
-#include "common/text.h"
-#include "common/version.h"
+#include "common/command_line.h"
 #include "geometry/mesh_loader.h"
 #include "messaging/lcm_url.h"
 
@@ -37,7 +34,7 @@ bool StopRequested() { return stop_requested; }
 
 Program::Program(const std::string& name, const std::string& description)
     : name_(name), app_(description, name) {
-  app_.set_version_flag("--version", name + " " + Version() + " (" + Commit() + ")");
+  AddVersionFlag(&app_);
   app_.add_option("--lcm-url", lcm_url_flag_,
                   "LCM bus; default $LCM_DEFAULT_URL, else " + LcmUrl());
   app_.get_formatter()->column_width(40);
@@ -49,25 +46,10 @@ int Program::Run(int argc, char** argv, const std::function<int()>& work) {
   const auto log = spdlog::stderr_color_mt(name_);
   log->set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
   spdlog::set_default_logger(log);
-  try {
-    // What is given goes into messages, databases and JSON.
-    for (int i = 1; i < argc; ++i) {
-      if (FindInvalidUtf8(argv[i])) throw InputError(std::string(argv[i]) + ": is no UTF-8 text");
-    }
-    app_.parse(argc, argv);
+  return RunCommand(&app_, argc, argv, [&] {
     InstallSignalHandlers();
     return work();
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
-    std::cerr << name_ << ": " << error.what() << " (see " << name_ << " --help)\n";
-    return kExitBadInput;
-  } catch (const InputError& error) {
-    std::cerr << name_ << ": " << error.what() << "\n";
-    return kExitBadInput;
-  } catch (const std::exception& error) {
-    std::cerr << name_ << ": failed: " << error.what() << "\n";
-    return kExitFailed;
-  }
+  });
 }
 
 void AddPackagePathFlag(CLI::App* app, std::vector<std::string>* arguments) {

@@ -24,9 +24,7 @@ class Program {
   /// True if --lcm-url was given on the command line.
   bool lcm_url_given() const { return !lcm_url_flag_.empty(); }
 
-  /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses and
-  /// InputError end with 2, any other exception with 1, each after one line on stderr that begins
-  /// with the program's name.
+  /// RunCommand (common/command_line.h) with log and signals set up.
   int Run(int argc, char** argv, const std::function<int()>& work);
 
  private:

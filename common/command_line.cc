@@ -1,0 +1,38 @@
+#include "common/command_line.h"
+
+#include <iostream>
+
+#include "common/error.h"
+#include "common/exit_codes.h"
+#include "common/text.h"
+#include "common/version.h"
+
+namespace planbench {
+
+void AddVersionFlag(CLI::App* app) {
+  app->set_version_flag("--version", app->get_name() + " " + Version() + " (" + Commit() + ")");
+}
+
+int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
+  const std::string& name = app->get_name();
+  try {
+    // What is given goes into messages, databases and JSON.
+    for (int i = 1; i < argc; ++i) {
+      if (FindInvalidUtf8(argv[i])) throw InputError(std::string(argv[i]) + ": is no UTF-8 text");
+    }
+    app->parse(argc, argv);
+    return work();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app->exit(error);  // --help, --version
+    std::cerr << name << ": " << error.what() << " (see " << name << " --help)\n";
+    return kExitBadInput;
+  } catch (const InputError& error) {
+    std::cerr << name << ": " << error.what() << "\n";
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": failed: " << error.what() << "\n";
+    return kExitFailed;
+  }
+}
+
+}  // namespace planbench

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace planbench {
+
+/// --version: name, version and commit.
+void AddVersionFlag(CLI::App* app);
+
+/// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
+/// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on
+/// stderr that begins with the app's name.
+int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work);
+
+}  // namespace planbench
