@@ -12,6 +12,7 @@
 #include "logger/run_columns.h"
 #include "logger/session_json.h"
 #include "logger/utc_time.h"
+#include "results/database_version.h"
 
 namespace planbench {
 namespace {

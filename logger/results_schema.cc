@@ -4,6 +4,7 @@
 
 #include "logger/run_columns.h"
 #include "planning/plan_status.h"
+#include "results/database_version.h"
 
 namespace planbench {
 namespace {

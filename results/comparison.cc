@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace planbench {
 namespace {
@@ -26,15 +27,15 @@ std::vector<double> SolvedTimes(const Outcomes& outcomes, double Outcome::*time)
   return times;
 }
 
-/// Median over the trials of a problem, positive: a clock may have read the same twice.
-double ProblemTime(const std::vector<Outcome>& trials) {
-  return std::max(Quantile(SortedTimes(trials, &Outcome::time_s, false), 0.5), 1e-9);
-}
-
 /// log(a / b) for positive a and b, either or both infinite.
 double LogRatio(double a, double b) { return a == b ? 0 : std::log(a) - std::log(b); }
 
 }  // namespace
+
+double ProblemTime(const std::vector<Outcome>& trials) {
+  // A clock may have read the same twice.
+  return std::max(Quantile(SortedTimes(trials, &Outcome::time_s, false), 0.5), 1e-9);
+}
 
 SuccessSummary SummarizeSuccess(const Outcomes& outcomes) {
   SuccessSummary summary;
@@ -70,6 +71,17 @@ TimeSummary SummarizeTimes(const Outcomes& outcomes) {
   const int num_failed = outcomes.num_runs() - static_cast<int>(runs.size());
   summary.penalised_mean_s = PenalisedMean(runs, num_failed, outcomes.time_limit_s);
   return summary;
+}
+
+std::optional<double> TrialSpread(const Outcomes& outcomes) {
+  std::vector<double> spreads;
+  for (const auto& [problem, trials] : outcomes.by_problem) {
+    const std::vector<double> times = SortedTimes(trials, &Outcome::time_s, true);
+    if (trials.size() < 2 || times.size() < trials.size() || times.front() <= 0) continue;
+    spreads.push_back(times.back() / times.front());
+  }
+  if (spreads.empty()) return std::nullopt;
+  return Summarize(std::move(spreads)).median;
 }
 
 PairedComparison Compare(const Outcomes& first, const Outcomes& second, std::uint64_t seed) {

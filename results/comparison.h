@@ -33,8 +33,15 @@ struct TimeSummary {
 };
 TimeSummary SummarizeTimes(const Outcomes& outcomes);
 
-/// Two contestants on the problems of a set that both tried. A problem's time is the median over
-/// its trials, those without a confirmed path being longer than any.
+/// How far the trials of one problem lie apart: the longest time over the shortest, its median over
+/// the problems whose trials, two at least, are all confirmed. Nothing if there is no such problem.
+std::optional<double> TrialSpread(const Outcomes& outcomes);
+
+/// A problem's time: the median over its trials, those without a confirmed path being longer than
+/// any; positive, or infinite.
+double ProblemTime(const std::vector<Outcome>& trials);
+
+/// Two contestants on the problems of a set that both tried.
 struct PairedComparison {
   int num_problems = 0;
   Wins wins;                           ///< Of the first.

@@ -75,4 +75,24 @@ OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts) {
   return sets;
 }
 
+std::map<std::string, Outcomes> PoolSets(const OutcomesBySet& sets) {
+  std::map<std::string, Outcomes> pooled;
+  int next = 0;
+  for (const auto& [set, contestants] : sets) {
+    std::map<int, int> numbers;  // by index
+    for (const auto& [contestant, outcomes] : contestants) {
+      for (const auto& [index, trials] : outcomes.by_problem) numbers[index] = 0;
+    }
+    for (auto& [index, number] : numbers) number = next++;
+    for (const auto& [contestant, outcomes] : contestants) {
+      Outcomes& all = pooled[contestant];
+      all.time_limit_s = std::max(all.time_limit_s, outcomes.time_limit_s);
+      for (const auto& [index, trials] : outcomes.by_problem) {
+        all.by_problem[numbers.at(index)] = trials;
+      }
+    }
+  }
+  return pooled;
+}
+
 }  // namespace planbench

@@ -56,4 +56,8 @@ using OutcomesBySet = std::map<std::string, std::map<std::string, Outcomes>>;
 /// The attempts may come in any order.
 OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts);
 
+/// All sets as one, by contestant. Its problems are numbered from 0, by set and index; the time
+/// limit is the longest.
+std::map<std::string, Outcomes> PoolSets(const OutcomesBySet& sets);
+
 }  // namespace planbench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <stdexcept>
 
 namespace planbench {
@@ -63,6 +64,26 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
     test.p_value = std::erfc(distance / std::sqrt(2 * variance));
   }
   return test;
+}
+
+double SignedRankTest::RankBiserial() const {
+  const double sum = positive + negative;
+  return sum == 0 ? 0 : (positive - negative) / sum;
+}
+
+std::vector<double> AdjustPValues(const std::vector<double>& p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> adjusted(p_values.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double scaled = static_cast<double>(order.size() - i) * p_values[order[i]];
+    largest = std::max(largest, std::min(scaled, 1.0));
+    adjusted[order[i]] = largest;
+  }
+  return adjusted;
 }
 
 }  // namespace planbench

@@ -11,6 +11,10 @@ struct SignedRankTest {
   double positive = 0;      ///< Sum of the ranks of positive differences.
   double negative = 0;
   double p_value = 1;  ///< Two-sided.
+
+  /// Effect size: matched-pairs rank-biserial correlation (Kerby 2014), from -1 (every difference
+  /// is negative) to 1; 0 if there are none.
+  double RankBiserial() const;
 };
 
 /// Ties share the mean of their ranks. Differences may be infinite: these rank above all others.
@@ -18,5 +22,9 @@ struct SignedRankTest {
 /// variance corrected for ties and the continuity correction. Throws std::invalid_argument for NaN.
 inline constexpr int kExactDifferences = 50;
 SignedRankTest TestSignedRanks(const std::vector<double>& differences);
+
+/// The p-values of several tests, in their order, adjusted so that any false rejection among them
+/// has the level of one (Holm 1979).
+std::vector<double> AdjustPValues(const std::vector<double>& p_values);
 
 }  // namespace planbench

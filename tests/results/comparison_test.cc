@@ -101,5 +101,16 @@ TEST(CompareTest, TimesThatAClockReadAsNothingArePositive) {
   EXPECT_NO_THROW(Compare(Of({{Solved(0)}}), Of({{Solved(0)}}), 1));
 }
 
+TEST(TrialSpreadTest, IsTheMedianOfWhatLiesBetweenTrialsThatAllSucceeded) {
+  // 3; 2; one failed; one trial.
+  EXPECT_EQ(TrialSpread(Of({{Solved(2), Solved(6), Solved(3)},
+                            {Solved(4), Solved(2)},
+                            {Solved(1), Failed()},
+                            {Solved(5)}})),
+            2.5);
+  EXPECT_FALSE(TrialSpread(Of({{Solved(1)}})));
+  EXPECT_FALSE(TrialSpread({}));
+}
+
 }  // namespace
 }  // namespace planbench

@@ -139,5 +139,21 @@ TEST(SignedRankTestTest, NothingToTellApart) {
   EXPECT_THROW(TestSignedRanks({1, std::nan("")}), std::invalid_argument);
 }
 
+TEST(SignedRankTestTest, RankBiserialIsTheDifferenceOfTheShares) {
+  EXPECT_EQ(TestSignedRanks({1, 2, 3}).RankBiserial(), 1);
+  EXPECT_EQ(TestSignedRanks({-1, -2}).RankBiserial(), -1);
+  EXPECT_NEAR(TestSignedRanks({1, -2, 3, 4}).RankBiserial(), (8 - 2) / 10.0, 1e-12);
+  EXPECT_EQ(TestSignedRanks({0}).RankBiserial(), 0);
+}
+
+TEST(AdjustPValuesTest, IsHolmsStepDown) {
+  // 4 x 0.005; 3 x 0.01 = 0.03; 2 x 0.03 = 0.06; 0.04, which may not be below the one before.
+  const std::vector<double> adjusted = AdjustPValues({0.01, 0.04, 0.03, 0.005});
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(adjusted[i], expected[i], 1e-12);
+  EXPECT_EQ(AdjustPValues({0.7, 0.9}), (std::vector<double>{1, 1}));
+  EXPECT_TRUE(AdjustPValues({}).empty());
+}
+
 }  // namespace
 }  // namespace planbench

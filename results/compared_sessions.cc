@@ -1,0 +1,116 @@
+#include "results/compared_sessions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "results/comparison.h"
+
+namespace planbench {
+namespace {
+
+/// The names that stand for several.
+std::set<std::string> Repeated(const std::vector<std::string>& names) {
+  std::map<std::string, int> counts;
+  for (const std::string& name : names) ++counts[name];
+  std::set<std::string> repeated;
+  for (const auto& [name, count] : counts) {
+    if (count > 1) repeated.insert(name);
+  }
+  return repeated;
+}
+
+/// Calls `extend` with those that are not unique.
+void ExtendRepeated(std::vector<std::string>* names,
+                    const std::function<std::string(std::size_t)>& extend) {
+  const std::set<std::string> repeated = Repeated(*names);
+  for (std::size_t i = 0; i < names->size(); ++i) {
+    if (repeated.contains((*names)[i])) (*names)[i] += extend(i);
+  }
+}
+
+std::string Numbered(std::size_t i) { return fmt::format(" #{}", i + 1); }
+
+std::vector<std::string> NameSessions(const std::vector<StoredSession>& sessions) {
+  std::vector<std::string> names;
+  for (const StoredSession& session : sessions) {
+    const std::filesystem::path file = std::filesystem::absolute(session.file);
+    names.push_back(file.filename() == "results.sqlite" ? file.parent_path().filename().string()
+                                                        : file.filename().string());
+  }
+  ExtendRepeated(&names, [&](std::size_t i) { return " " + sessions[i].run_id; });
+  ExtendRepeated(&names, Numbered);
+  return names;
+}
+
+Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
+  Attempt attempt;
+  attempt.problem_set = run.problem_set;
+  attempt.problem_index = run.problem_index;
+  attempt.contestant = contestant;
+  attempt.trial = run.trial;
+  attempt.direction = run.direction;
+  attempt.status = run.status;
+  attempt.claimed = run.claimed;
+  attempt.time_s = run.time_s.value_or(run.roundtrip_time_s);
+  attempt.time_limit_s = run.time_limit_s;
+  return attempt;
+}
+
+}  // namespace
+
+ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
+    : sessions_(std::move(sessions)), session_names_(NameSessions(sessions_)) {
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < sessions_.size(); ++s) {
+    const std::size_t first = contestants_.size();
+    for (const StoredContestant& one : sessions_[s].contestants) {
+      names.push_back(one.name);
+      contestants_.push_back({"", one.settings, s, {}});
+    }
+    for (const StoredRun& run : sessions_[s].runs) {
+      contestants_[first + run.contestant].runs.push_back(&run);
+    }
+  }
+  if (sessions_.size() > 1) {
+    ExtendRepeated(&names,
+                   [&](std::size_t i) { return ", " + session_names_[contestants_[i].session]; });
+  }
+  ExtendRepeated(&names, Numbered);
+  std::vector<Attempt> attempts;
+  for (std::size_t i = 0; i < contestants_.size(); ++i) {
+    contestants_[i].name = names[i];
+    for (const StoredRun* run : contestants_[i].runs) attempts.push_back(AttemptOf(*run, names[i]));
+  }
+  outcomes_ = GroupOutcomes(attempts);
+  pooled_ = PoolSets(outcomes_);
+  std::map<std::string, double> penalised_means;
+  for (const auto& [name, outcomes] : pooled_) {
+    penalised_means[name] = SummarizeTimes(outcomes).penalised_mean_s;
+  }
+  std::stable_sort(contestants_.begin(), contestants_.end(), [&](const auto& a, const auto& b) {
+    return penalised_means.at(a.name) < penalised_means.at(b.name);
+  });
+}
+
+std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,
+                                        const std::string& problem_set) {
+  std::map<std::pair<PlanStatus, std::string>, FailureGroup> groups;
+  for (const StoredRun* run : contestant.runs) {
+    if (run->confirmed() || run->problem_set != problem_set) continue;
+    FailureGroup& group = groups[{run->status, run->message}];
+    group.status = run->status;
+    group.reason = run->message;
+    ++group.num_runs;
+    ++group.problems[run->problem_index];
+  }
+  std::vector<FailureGroup> sorted;
+  for (auto& [key, group] : groups) sorted.push_back(std::move(group));
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.num_runs > b.num_runs; });
+  return sorted;
+}
+
+}  // namespace planbench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/outcomes.h"
+#include "results/stored_session.h"
+
+namespace planbench {
+
+/// A contestant of one session among those of all.
+struct ComparedContestant {
+  std::string name;  ///< Unique: with that of the session, or a number, where it must be.
+  std::string settings;
+  std::size_t session = 0;
+  std::vector<const StoredRun*> runs;  ///< In the order of the database.
+};
+
+/// Sessions side by side.
+class ComparedSessions {
+ public:
+  explicit ComparedSessions(std::vector<StoredSession> sessions);
+  ComparedSessions(const ComparedSessions&) = delete;
+  ComparedSessions& operator=(const ComparedSessions&) = delete;
+
+  const std::vector<StoredSession>& sessions() const { return sessions_; }
+  /// Unique names: of their folders, or run ids where folders do not tell them apart.
+  const std::vector<std::string>& session_names() const { return session_names_; }
+  /// By penalised mean time over all runs, the best first.
+  const std::vector<ComparedContestant>& contestants() const { return contestants_; }
+  /// By set and the contestants' names.
+  const OutcomesBySet& outcomes() const { return outcomes_; }
+  /// Over all sets.
+  const std::map<std::string, Outcomes>& pooled() const { return pooled_; }
+
+ private:
+  std::vector<StoredSession> sessions_;
+  std::vector<std::string> session_names_;
+  std::vector<ComparedContestant> contestants_;
+  OutcomesBySet outcomes_;
+  std::map<std::string, Outcomes> pooled_;
+};
+
+/// Runs without a confirmed path that ended alike.
+struct FailureGroup {
+  PlanStatus status = PlanStatus::kNoAnswer;
+  std::string reason;
+  int num_runs = 0;
+  std::map<int, int> problems;  ///< Number of runs by problem index.
+};
+/// Of one contestant on one set: the largest group first.
+std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,
+                                        const std::string& problem_set);
+
+}  // namespace planbench

@@ -1,0 +1,65 @@
+#include "results/quality.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace planbench {
+namespace {
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return Quantile(values, 0.5);
+}
+
+}  // namespace
+
+Summary SummarizeByProblem(const ValuesByProblem& values) {
+  std::vector<double> medians;
+  for (const auto& [problem, of_runs] : values) medians.push_back(Median(of_runs));
+  return Summarize(std::move(medians));
+}
+
+std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
+                                              const ValuesByProblem& second, std::uint64_t seed) {
+  std::vector<double> of_first, of_second;
+  for (const auto& [problem, values] : first) {
+    const auto other = second.find(problem);
+    if (other == second.end()) continue;
+    of_first.push_back(Median(values));
+    of_second.push_back(Median(other->second));
+    if (!(of_first.back() > 0 && of_second.back() > 0)) return std::nullopt;
+  }
+  return EstimateRatio(of_first, of_second, seed);
+}
+
+std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,
+                                            const std::string& problem_set) {
+  std::vector<const StoredRun*> runs;
+  for (const StoredRun* run : contestant.runs) {
+    if (run->confirmed() && run->problem_set == problem_set) runs.push_back(run);
+  }
+  return runs;
+}
+
+ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
+                                  const std::string& problem_set, const std::string& measure,
+                                  bool raw) {
+  ValuesByProblem values;
+  for (const StoredRun* run : ConfirmedRuns(contestant, problem_set)) {
+    const auto value = FindMeasure(raw ? run->measures : run->measures_simple, measure);
+    if (value) values[run->problem_index].push_back(*value);
+  }
+  return values;
+}
+
+PhaseTimes MeanPhases(const std::vector<const StoredRun*>& runs) {
+  PhaseTimes mean;
+  for (const auto phase : {&PhaseTimes::setup_s, &PhaseTimes::collision_s, &PhaseTimes::guidance_s,
+                           &PhaseTimes::search_s, &PhaseTimes::simplification_s}) {
+    for (const StoredRun* run : runs) mean.*phase += run->phases.*phase;
+    if (!runs.empty()) mean.*phase /= static_cast<double>(runs.size());
+  }
+  return mean;
+}
+
+}  // namespace planbench

@@ -1,0 +1,228 @@
+#include "results/stored_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "common/error.h"
+#include "common/sqlite.h"
+#include "results/database_version.h"
+
+namespace planbench {
+namespace {
+
+std::optional<double> Real(const SqliteValue& value) {
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Int(const SqliteValue& value) {
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  return integer == nullptr ? std::nullopt : std::optional(*integer);
+}
+
+std::string Text(const SqliteValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text == nullptr ? "" : *text;
+}
+
+/// A column of `runs`, and what becomes of its value.
+struct Field {
+  std::string column;
+  std::function<void(StoredRun*, const SqliteValue&)> set;
+};
+
+Field Time(const char* column, double PhaseTimes::*phase) {
+  return {column, [phase](StoredRun* run, const SqliteValue& value) {
+            run->phases.*phase = Real(value).value_or(0);
+          }};
+}
+
+Field Seconds(const char* column, double StoredRun::*time) {
+  return {column, [time](StoredRun* run, const SqliteValue& value) {
+            run->*time = Real(value).value_or(0);
+          }};
+}
+
+Field Measure(std::string column, std::string name, MeasuredValues StoredRun::*measures) {
+  return {std::move(column),
+          [name = std::move(name), measures](StoredRun* run, const SqliteValue& value) {
+            if (const auto real = Real(value)) (run->*measures)[name] = *real;
+          }};
+}
+
+std::vector<Field> Fields() {
+  std::vector<Field> fields = {
+      {"id", [](StoredRun* run, const SqliteValue& v) { run->id = Int(v).value_or(0); }},
+      {"problem_set", [](StoredRun* run, const SqliteValue& v) { run->problem_set = Text(v); }},
+      {"problem_index",
+       [](StoredRun* run, const SqliteValue& v) {
+         run->problem_index = static_cast<int>(Int(v).value_or(0));
+       }},
+      {"trial", [](StoredRun* run,
+                   const SqliteValue& v) { run->trial = static_cast<int>(Int(v).value_or(1)); }},
+      {"direction",
+       [](StoredRun* run, const SqliteValue& v) {
+         run->direction = ParseEnum<Direction>(Text(v)).value_or(Direction::kForward);
+       }},
+      {"status",
+       [](StoredRun* run, const SqliteValue& v) {
+         const std::int64_t status = Int(v).value_or(-1);
+         if (status < 0 || status >= kNumEnumValues<PlanStatus>) {
+           throw InputError(fmt::format("run {}: {} is no status", run->id, status));
+         }
+         run->status = static_cast<PlanStatus>(status);
+       }},
+      // Databases from before this column tell by the status alone. It stands above.
+      {"claimed",
+       [](StoredRun* run, const SqliteValue& v) {
+         const bool found = run->confirmed() || run->status == PlanStatus::kInvalidPath;
+         run->claimed = Int(v).value_or(found ? 1 : 0) != 0;
+       }},
+      {"message", [](StoredRun* run, const SqliteValue& v) { run->message = Text(v); }},
+      {"time", [](StoredRun* run, const SqliteValue& v) { run->time_s = Real(v); }},
+      Seconds("roundtrip_time", &StoredRun::roundtrip_time_s),
+      Seconds("time_limit", &StoredRun::time_limit_s),
+      Time("setup_time", &PhaseTimes::setup_s),
+      Time("collision_time", &PhaseTimes::collision_s),
+      Time("guidance_time", &PhaseTimes::guidance_s),
+      Time("search_time", &PhaseTimes::search_s),
+      Time("simplification_time", &PhaseTimes::simplification_s),
+      {"mesh_valid",
+       [](StoredRun* run, const SqliteValue& v) {
+         if (const auto valid = Int(v)) run->mesh_valid = *valid != 0;
+       }},
+  };
+  for (const PathMeasure& measure : PathMeasures()) {
+    const std::string name = measure.name;
+    fields.push_back(Measure(name, name, &StoredRun::measures));
+    fields.push_back(Measure(name + "_simplified", name, &StoredRun::measures_simple));
+  }
+  return fields;
+}
+
+/// A database of which it is known that it is one of ours.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file)
+      : file_(file), connection_(file, SqliteConnection::Mode::kReadOnly) {
+    const auto count_tables = [&](const char* names) {
+      return Int(connection_.QueryValue(
+                     fmt::format("SELECT count(*) FROM sqlite_master WHERE name IN ({})", names)))
+          .value_or(0);
+    };
+    const std::int64_t version = Int(connection_.QueryValue("PRAGMA user_version")).value_or(0);
+    if (version < 1 || count_tables("'runs', 'plannerConfigs', 'sessions'") < 3) {
+      throw InputError(count_tables("'runs', 'plannerConfigs'") == 2
+                           ? "was written by another program than planbench"
+                           : "is no results database of planbench");
+    }
+    if (version > kResultsSchemaVersion) {
+      throw InputError(
+          fmt::format("was written by a later version of planbench (user_version {})", version));
+    }
+  }
+
+  StoredSessions Read() {
+    ReadDescriptions();
+    ReadRuns();
+    StoredSessions stored;
+    for (auto& [run_id, session] : sessions_) stored.sessions.push_back(std::move(session));
+    std::stable_sort(stored.sessions.begin(), stored.sessions.end(),
+                     [](const auto& a, const auto& b) { return a.date < b.date; });
+    stored.num_foreign_runs = static_cast<int>(
+        Int(connection_.QueryValue("SELECT count(*) FROM runs WHERE run_id IS NULL")).value_or(0));
+    return stored;
+  }
+
+ private:
+  StoredSession& Session(const std::string& run_id) {
+    StoredSession& session = sessions_[run_id];
+    session.run_id = run_id;
+    session.file = file_;
+    return session;
+  }
+
+  void ReadDescriptions() {
+    SqliteStatement select = connection_.Prepare(
+        "SELECT run_id, finished, total_time, num_runs, version, hostname, cpuinfo, date, seed, "
+        "details FROM sessions");
+    while (select.Step()) {
+      StoredSession& session = Session(select.Text(0));
+      session.described = true;
+      session.finished = Int(select.Value(1)).value_or(0) != 0;
+      session.total_time_s = Real(select.Value(2)).value_or(0);
+      session.num_runs = static_cast<int>(Int(select.Value(3)).value_or(0));
+      session.version = Text(select.Value(4));
+      session.host = Text(select.Value(5));
+      session.cpu = Text(select.Value(6));
+      session.date = Text(select.Value(7));
+      session.seed = Text(select.Value(8));
+      const auto details = nlohmann::json::parse(Text(select.Value(9)), nullptr, false);
+      if (!details.is_object()) continue;
+      session.commit = details.value("commit", "");
+      if (const auto robot = details.find("robot"); robot != details.end()) {
+        session.robot = fmt::format("{} ({})", robot->value("name", ""), robot->value("id", ""));
+      }
+      session.flags = details.value("flags", session.flags);
+    }
+  }
+
+  void ReadRuns() {
+    const std::vector<Field> fields = Fields();
+    std::vector<std::string> present;
+    SqliteStatement columns = connection_.Prepare("PRAGMA table_info(runs)");
+    while (columns.Step()) present.push_back(columns.Text(1));
+    std::string sql = "SELECT run_id, plannerid, p.name, p.settings";
+    for (const Field& field : fields) {
+      const bool is_present =
+          std::find(present.begin(), present.end(), field.column) != present.end();
+      sql += is_present ? ", runs." + field.column : ", NULL";
+    }
+    SqliteStatement select = connection_.Prepare(
+        sql +
+        " FROM runs JOIN plannerConfigs p ON p.id = plannerid WHERE run_id IS NOT NULL "
+        "ORDER BY runs.id");
+    while (select.Step()) {
+      StoredSession& session = Session(select.Text(0));
+      StoredRun run;
+      for (std::size_t i = 0; i < fields.size(); ++i) {
+        fields[i].set(&run, select.Value(static_cast<int>(i) + 4));
+      }
+      const auto [known, is_new] =
+          contestants_.try_emplace({session.run_id, select.Int(1)}, session.contestants.size());
+      if (is_new) session.contestants.push_back({select.Text(2), Text(select.Value(3))});
+      run.contestant = known->second;
+      session.runs.push_back(std::move(run));
+    }
+  }
+
+  std::filesystem::path file_;
+  SqliteConnection connection_;
+  std::map<std::string, StoredSession> sessions_;
+  /// By session and `plannerConfigs.id`.
+  std::map<std::pair<std::string, std::int64_t>, std::size_t> contestants_;
+};
+
+}  // namespace
+
+StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
+  std::filesystem::path file = folder_or_file;
+  if (std::filesystem::is_directory(file)) file /= "results.sqlite";
+  if (!std::filesystem::exists(file)) throw InputError(file.string() + " does not exist");
+  try {
+    return Reader(file).Read();
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  } catch (const SqliteError& error) {
+    throw InputError(error.what());
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string() + ": sessions.details: " + error.what());
+  }
+}
+
+}  // namespace planbench

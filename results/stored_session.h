@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planning/path_measures.h"
+#include "planning/plan_result.h"
+#include "planning/plan_status.h"
+
+namespace planbench {
+
+/// A run as a results database holds it (docs/database.md).
+struct StoredRun {
+  std::int64_t id = 0;         ///< `runs.id`
+  std::size_t contestant = 0;  ///< Index into those of its session.
+  std::string problem_set;
+  int problem_index = 0;
+  int trial = 1;
+  Direction direction = Direction::kForward;
+  PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
+  bool claimed = false;
+  std::string message;             ///< Why it is not solved.
+  std::optional<double> time_s;    ///< Planning time; nothing if no answer came.
+  double roundtrip_time_s = 0;     ///< By the driver's clock.
+  double time_limit_s = 0;         ///< Of the request.
+  PhaseTimes phases;               ///< Zero if no answer came.
+  MeasuredValues measures;         ///< Of the raw path, finite ones.
+  MeasuredValues measures_simple;  ///< Of the simplified path.
+  std::optional<bool> mesh_valid;  ///< The raw path, judged with the robot's meshes.
+
+  bool confirmed() const { return status == PlanStatus::kSolved; }
+};
+
+/// A planner under one name with one set of settings.
+struct StoredContestant {
+  std::string name;
+  std::string settings;  ///< "key = value", one a line.
+};
+
+/// A session, complete or not.
+struct StoredSession {
+  std::filesystem::path file;
+  std::string run_id;
+  bool described = false;  ///< The session's own message was stored: what follows is known.
+  bool finished = false;
+  double total_time_s = 0;
+  int num_runs = 0;  ///< As planned.
+  std::string version, commit, host, cpu, date, seed, robot;
+  std::map<std::string, std::string> flags;  ///< Of the driver.
+
+  std::vector<StoredContestant> contestants;
+  std::vector<StoredRun> runs;
+};
+
+struct StoredSessions {
+  std::vector<StoredSession> sessions;  ///< By their beginning.
+  int num_foreign_runs = 0;  ///< Appended to the database by other programs; they are left out.
+};
+
+/// All that a session folder's results.sqlite, or such a file itself, holds; also while a logger
+/// writes it, and of earlier versions, whose columns are read as far as there are any. Throws
+/// InputError with one line that names the file if it is missing, damaged, empty, or no results
+/// database.
+StoredSessions ReadSessions(const std::filesystem::path& folder_or_file);
+
+}  // namespace planbench

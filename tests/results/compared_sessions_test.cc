@@ -1,0 +1,158 @@
+#include "results/compared_sessions.h"
+
+#include <gtest/gtest.h>
+
+#include "results/quality.h"
+
+namespace planbench {
+namespace {
+
+StoredRun MakeRun(std::size_t contestant, int problem, double time_s,
+                  PlanStatus status = PlanStatus::kSolved) {
+  StoredRun run;
+  run.contestant = contestant;
+  run.problem_set = "shelf";
+  run.problem_index = problem;
+  run.time_s = time_s;
+  run.time_limit_s = 10;
+  run.status = status;
+  run.claimed = run.confirmed();
+  return run;
+}
+
+StoredSession Session(const std::string& folder, std::vector<StoredContestant> contestants,
+                      std::vector<StoredRun> runs) {
+  StoredSession session;
+  session.file = "/sessions/" + folder + "/results.sqlite";
+  session.run_id = "run of " + folder;
+  session.contestants = std::move(contestants);
+  session.runs = std::move(runs);
+  return session;
+}
+
+std::vector<std::string> Names(const ComparedSessions& compared) {
+  std::vector<std::string> names;
+  for (const ComparedContestant& one : compared.contestants()) names.push_back(one.name);
+  return names;
+}
+
+TEST(ComparedSessionsTest, ContestantsRankByPenalisedMeanTime) {
+  // Slow but always: 5. Fast, but one of two fails: (0.1 + 10 * 10) / 2. Fastest: 1.
+  const ComparedSessions compared(
+      {Session("one", {{"slow", ""}, {"gambler", ""}, {"fastest", ""}},
+               {MakeRun(0, 1, 5), MakeRun(0, 2, 5), MakeRun(1, 1, 0.1),
+                MakeRun(1, 2, 10, PlanStatus::kTimedOut), MakeRun(2, 1, 1), MakeRun(2, 2, 1)})});
+  EXPECT_EQ(Names(compared), (std::vector<std::string>{"fastest", "slow", "gambler"}));
+  EXPECT_EQ(compared.contestants()[0].runs.size(), 2u);
+  EXPECT_EQ(compared.outcomes().at("shelf").at("gambler").by_problem.size(), 2u);
+  EXPECT_EQ(compared.session_names(), std::vector<std::string>{"one"});
+}
+
+TEST(ComparedSessionsTest, EqualNamesAreToldApartByTheirSessions) {
+  const ComparedSessions compared(
+      {Session("one", {{"A", ""}, {"B", ""}}, {MakeRun(0, 1, 1), MakeRun(1, 1, 2)}),
+       Session("two", {{"A", ""}}, {MakeRun(0, 1, 3)})});
+  EXPECT_EQ(Names(compared), (std::vector<std::string>{"A, one", "B", "A, two"}));
+  EXPECT_EQ(compared.contestants()[2].session, 1u);
+}
+
+TEST(ComparedSessionsTest, EqualNamesWithOtherSettingsAreNumbered) {
+  const ComparedSessions compared({Session("one", {{"A", "range = 1"}, {"A", "range = 2"}},
+                                           {MakeRun(0, 1, 1), MakeRun(1, 1, 2)})});
+  EXPECT_EQ(Names(compared), (std::vector<std::string>{"A #1", "A #2"}));
+  EXPECT_EQ(compared.contestants()[1].settings, "range = 2");
+}
+
+TEST(ComparedSessionsTest, SessionsOfOneFolderAreToldApart) {
+  StoredSession first = Session("one", {}, {});
+  StoredSession second = first;
+  second.run_id = "other";
+  const ComparedSessions compared({first, second, first});
+  EXPECT_EQ(compared.session_names(),
+            (std::vector<std::string>{"one run of one #1", "one other", "one run of one #3"}));
+}
+
+TEST(ComparedSessionsTest, NothingIsCompared) {
+  const ComparedSessions compared({});
+  EXPECT_TRUE(compared.contestants().empty());
+  EXPECT_TRUE(compared.pooled().empty());
+}
+
+TEST(GroupFailuresTest, RunsThatEndedAlikeStandTogetherTheMostFirst) {
+  StoredRun hit = MakeRun(0, 3, 1, PlanStatus::kInvalidPath);
+  hit.message = "hits board";
+  const ComparedSessions compared({Session(
+      "one", {{"A", ""}},
+      {MakeRun(0, 1, 10, PlanStatus::kTimedOut), hit, MakeRun(0, 2, 1),
+       MakeRun(0, 4, 10, PlanStatus::kTimedOut), MakeRun(0, 4, 10, PlanStatus::kTimedOut)})});
+  const std::vector<FailureGroup> groups = GroupFailures(compared.contestants()[0], "shelf");
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(groups[0].num_runs, 3);
+  EXPECT_EQ(groups[0].problems, (std::map<int, int>{{1, 1}, {4, 2}}));
+  EXPECT_EQ(groups[1].reason, "hits board");
+  EXPECT_TRUE(GroupFailures(compared.contestants()[0], "other").empty());
+}
+
+TEST(PoolSetsTest, ProblemsOfEverySetStayApartAndPaired) {
+  const auto attempt = [](const char* set, int problem, const char* contestant, double time_s) {
+    return Attempt{set,
+                   problem,
+                   contestant,
+                   1,
+                   Direction::kForward,
+                   PlanStatus::kSolved,
+                   true,
+                   time_s,
+                   set[0] == 'a' ? 10.0 : 20.0};
+  };
+  const auto pooled = PoolSets(GroupOutcomes({attempt("a", 5, "A", 1), attempt("b", 5, "A", 2),
+                                              attempt("a", 6, "B", 3), attempt("b", 5, "B", 4)}));
+  EXPECT_EQ(pooled.at("A").time_limit_s, 20);
+  ASSERT_EQ(pooled.at("A").by_problem.size(), 2u);
+  ASSERT_EQ(pooled.at("B").by_problem.size(), 2u);
+  EXPECT_EQ(pooled.at("A").by_problem.at(0)[0].time_s, 1);
+  EXPECT_EQ(pooled.at("B").by_problem.at(1)[0].time_s, 3);
+  EXPECT_EQ(pooled.at("A").by_problem.at(2)[0].time_s, 2);
+  EXPECT_EQ(pooled.at("B").by_problem.at(2)[0].time_s, 4);
+}
+
+TEST(QualityTest, EveryProblemCountsOnceByItsMedian) {
+  const Summary s = SummarizeByProblem({{1, {1, 2, 30}}, {2, {4, 6}}, {3, {8}}});
+  EXPECT_EQ(s.count, 3);
+  EXPECT_EQ(s.median, 5);  // of 2, 5, 8
+  EXPECT_EQ(s.mean, 5);
+}
+
+TEST(QualityTest, RatiosAreOfCommonProblems) {
+  const ValuesByProblem first = {{1, {2}}, {2, {8}}, {3, {100}}};
+  const ValuesByProblem second = {{1, {1}}, {2, {1}}, {4, {1}}};
+  EXPECT_NEAR(CompareByProblem(first, second, 1)->mean, 4, 1e-12);  // sqrt(2 * 8)
+  EXPECT_FALSE(CompareByProblem(first, {{9, {1}}}, 1));
+  EXPECT_FALSE(CompareByProblem(first, {{1, {0}}}, 1));
+}
+
+TEST(QualityTest, MeasuresAreOfConfirmedRuns) {
+  StoredRun solved = MakeRun(0, 1, 1);
+  solved.measures["path_length"] = 3;
+  solved.measures_simple["path_length"] = 2;
+  StoredRun rejected = MakeRun(0, 1, 1, PlanStatus::kInvalidPath);
+  rejected.measures["path_length"] = 100;
+  const ComparedSessions compared({Session("one", {{"A", ""}}, {solved, rejected})});
+  const ComparedContestant& one = compared.contestants()[0];
+  EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", true), (ValuesByProblem{{1, {3}}}));
+  EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", false), (ValuesByProblem{{1, {2}}}));
+  EXPECT_TRUE(MeasuredByProblem(one, "shelf", "clearance", true).empty());
+  EXPECT_EQ(ConfirmedRuns(one, "shelf").size(), 1u);
+}
+
+TEST(QualityTest, PhasesAreMeans) {
+  StoredRun a, b;
+  a.phases = {1, 2, 3, 4, 5};
+  b.phases = {3, 2, 1, 0, 1};
+  EXPECT_EQ(MeanPhases({&a, &b}), (PhaseTimes{2, 2, 2, 2, 3}));
+  EXPECT_EQ(MeanPhases({}), PhaseTimes());
+}
+
+}  // namespace
+}  // namespace planbench
