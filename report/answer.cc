@@ -1,0 +1,189 @@
+#include "report/answer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace planbench {
+namespace {
+
+constexpr double kLevel = 0.05;
+
+std::string Count(int count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// "97.5 % of the problems (95 % interval 92.3 to 99.2)"
+std::string SolvedShare(const Outcomes& outcomes) {
+  const SuccessSummary s = SummarizeSuccess(outcomes);
+  return fmt::format("{:.1f} % of the problems (95 % interval {:.1f} to {:.1f})", 100 * s.share,
+                     100 * s.interval.lower, 100 * s.interval.upper);
+}
+
+std::string MedianTime(const Outcomes& outcomes) {
+  const TimeSummary s = SummarizeTimes(outcomes);
+  if (s.solved_s.count == 0) return "";
+  std::string text = fmt::format(", in a median of {} ms", FormatNumber(1e3 * s.solved_s.median));
+  if (s.median_interval_s) {
+    text += fmt::format(" ({} to {})", FormatNumber(1e3 * s.median_interval_s->lower),
+                        FormatNumber(1e3 * s.median_interval_s->upper));
+  }
+  return text;
+}
+
+/// The pairs of the leader over all sets.
+std::vector<const ComparedPair*> LeadersPairs(const ComparedSessions& compared,
+                                              const std::vector<ComparedPair>& pairs) {
+  const bool several = compared.outcomes().size() > 1;
+  std::vector<const ComparedPair*> of_leader;
+  for (const ComparedPair& pair : pairs) {
+    if (several && pair.set != kAllSets) continue;
+    if (pair.first == compared.contestants().front().name) of_leader.push_back(&pair);
+  }
+  return of_leader;
+}
+
+std::string WhoIsBest(const ComparedSessions& compared) {
+  const std::string& leader = compared.contestants().front().name;
+  const Outcomes& outcomes = compared.pooled().at(leader);
+  const int num_sets = static_cast<int>(compared.outcomes().size());
+  const std::string begin =
+      compared.contestants().size() == 1
+          ? leader
+          : fmt::format("Of {} contestants {} ranks first by penalised mean time: it",
+                        compared.contestants().size(), leader);
+  return fmt::format(
+      "{} solved {}{}, over {} of {}.", begin, SolvedShare(outcomes), MedianTime(outcomes),
+      Count(static_cast<int>(outcomes.by_problem.size()), "problem"), Count(num_sets, "set"));
+}
+
+std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next) {
+  std::string text = fmt::format("The next, {}, solved {}", next.second,
+                                 SolvedShare(compared.pooled().at(next.second)));
+  if (const auto& ratio = next.result.ratio) {
+    // Told the other way round: how many times as long the second takes.
+    text += fmt::format(
+        " and took {} times as long on those that both solved (geometric mean, 95 % interval {} to "
+        "{})",
+        FormatNumber(1 / ratio->mean), FormatNumber(1 / ratio->interval.upper),
+        FormatNumber(1 / ratio->interval.lower));
+    if (ratio->interval.lower <= 1 && ratio->interval.upper >= 1) {
+      text += ", which leaves open which of the two is faster";
+    }
+  }
+  return text + ".";
+}
+
+std::string HowSure(const ComparedSessions& compared,
+                    const std::vector<const ComparedPair*>& of_leader) {
+  std::vector<std::string> open;
+  for (const ComparedPair* pair : of_leader) {
+    if (pair->adjusted_p > kLevel || pair->result.test.RankBiserial() >= 0) {
+      open.push_back(pair->second);
+    }
+  }
+  const std::string& leader = of_leader.front()->first;
+  std::string text;
+  if (of_leader.size() == 1) {
+    text = fmt::format("Problem by problem {} {} {} beyond chance (signed-rank test, 5 % level)",
+                       leader, open.empty() ? "is faster than" : "is not shown to be faster than",
+                       of_leader.front()->second);
+  } else {
+    text = fmt::format(
+        "Problem by problem {} is faster than {} others beyond chance (signed-rank tests, 5 % "
+        "level "
+        "after Holm's correction)",
+        leader,
+        open.empty()
+            ? fmt::format("each of the {}", of_leader.size())
+            : fmt::format("{} of the {}", of_leader.size() - open.size(), of_leader.size()));
+    constexpr std::size_t kMostNamed = 4;
+    const std::size_t num_named = std::min(open.size(), kMostNamed);
+    if (!open.empty()) {
+      text += fmt::format(
+          "; not than {}{}",
+          fmt::join(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(num_named), ", "),
+          open.size() > num_named ? fmt::format(" and {} more", open.size() - num_named) : "");
+    }
+  }
+  if (compared.outcomes().size() > 1) {
+    const auto leads = [&](const auto& set) {
+      const auto& [name, by_contestant] = set;
+      const auto own = by_contestant.find(leader);
+      return own != by_contestant.end() &&
+             std::none_of(by_contestant.begin(), by_contestant.end(), [&](const auto& other) {
+               return SummarizeTimes(other.second).penalised_mean_s <
+                      SummarizeTimes(own->second).penalised_mean_s;
+             });
+    };
+    const auto& sets = compared.outcomes();
+    text += fmt::format("; it ranks first in {} of the {} sets",
+                        std::count_if(sets.begin(), sets.end(), leads), sets.size());
+  }
+  return text;
+}
+
+/// How far the planners' own word can be trusted.
+std::string Rejections(const ComparedSessions& compared) {
+  int claimed = 0, rejected = 0;
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    for (const StoredRun* run : contestant.runs) {
+      claimed += run->claimed;
+      rejected += run->status == PlanStatus::kInvalidPath;
+    }
+  }
+  if (claimed == 0) return "no path was claimed";
+  return rejected == 0 ? fmt::format("the referee confirmed every one of {} paths", claimed)
+                       : fmt::format("the referee rejected {} of {} paths", rejected, claimed);
+}
+
+}  // namespace
+
+std::vector<std::string> Answer(const ComparedSessions& compared,
+                                const std::vector<ComparedPair>& pairs) {
+  if (compared.contestants().empty()) return {"No runs are recorded."};
+  std::vector<std::string> sentences;
+  sentences.push_back(WhoIsBest(compared));
+  const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
+  if (of_leader.empty()) {
+    sentences.push_back("There is nothing to compare it with; " + Rejections(compared) + ".");
+  } else {
+    sentences.push_back(ByHowMuch(compared, *of_leader.front()));
+    sentences.push_back(HowSure(compared, of_leader) + "; " + Rejections(compared) + ".");
+  }
+  return sentences;
+}
+
+std::vector<std::string> Cautions(const ComparedSessions& compared) {
+  std::vector<std::string> cautions;
+  for (std::size_t i = 0; i < compared.sessions().size(); ++i) {
+    const StoredSession& session = compared.sessions()[i];
+    const std::string& name = compared.session_names()[i];
+    const int num_runs = static_cast<int>(session.runs.size());
+    if (!session.described) {
+      cautions.push_back(fmt::format(
+          "{}: the session's own message is missing; its conditions are not known.", name));
+    } else if (!session.finished) {
+      cautions.push_back(fmt::format("{}: did not finish: {} of {} runs are recorded.", name,
+                                     num_runs, session.num_runs));
+    } else if (num_runs < session.num_runs) {
+      cautions.push_back(fmt::format("{}: {} of {} runs are not recorded.", name,
+                                     session.num_runs - num_runs, session.num_runs));
+    } else {
+      cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
+                                     FormatNumber(session.total_time_s)));
+    }
+    const auto parallel = session.flags.find("parallel");
+    if (parallel != session.flags.end() && parallel->second == "true") {
+      cautions.push_back(fmt::format(
+          "{}: the planners worked at once (--parallel): all times were measured under load.",
+          name));
+    }
+  }
+  return cautions;
+}
+
+}  // namespace planbench

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/tables.h"
+
+namespace planbench {
+
+/// What the sessions say, in at most three sentences: who comes out best, by how much, and how sure
+/// that is. `pairs` as ComparePairs gives them.
+std::vector<std::string> Answer(const ComparedSessions& compared,
+                                const std::vector<ComparedPair>& pairs);
+
+/// What a reader has to know of how the sessions were measured: runs that are missing, planners
+/// that worked at once.
+std::vector<std::string> Cautions(const ComparedSessions& compared);
+
+}  // namespace planbench

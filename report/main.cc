@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "common/command_line.h"
+#include "common/error.h"
+#include "common/exit_codes.h"
+#include "report/figures.h"
+#include "report/page.h"
+
+namespace planbench {
+namespace {
+
+struct Flags {
+  std::vector<std::string> sessions;
+  std::string out = "report.html";
+  std::string csv;
+  std::string latex;
+};
+
+void Write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) throw InputError("cannot write " + file.string());
+}
+
+void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
+                 std::string (*format)(const Table&)) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
+  for (const Table& table : tables) {
+    Write(std::filesystem::path(folder) / (table.name + extension), format(table));
+  }
+}
+
+int Run(const Flags& flags) {
+  std::vector<StoredSession> sessions;
+  for (const std::string& name : flags.sessions) {
+    StoredSessions stored = ReadSessions(name);
+    if (stored.num_foreign_runs > 0) {
+      std::cerr << fmt::format("report: {}: {} runs of other programs are left out\n", name,
+                               stored.num_foreign_runs);
+    }
+    std::move(stored.sessions.begin(), stored.sessions.end(), std::back_inserter(sessions));
+  }
+  const ComparedSessions compared(std::move(sessions));
+  const std::uint64_t seed = BootstrapSeed(compared);
+  const std::vector<ComparedPair> pairs = ComparePairs(compared, seed);
+  const std::vector<Table> tables = AllTables(compared, pairs, seed);
+  WriteTables(flags.csv, ".csv", tables, TableCsv);
+  WriteTables(flags.latex, ".tex", tables, TableLatex);
+  Write(flags.out, ReportPage(FigureData(compared, pairs, tables)));
+  std::cout << "report: " << flags.out << "\n";
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace planbench
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes a page of what sessions measured: one HTML file that opens anywhere.",
+               "report");
+  planbench::AddVersionFlag(&app);
+  planbench::Flags flags;
+  app.add_option("session", flags.sessions,
+                 "session folders, or results databases; several are compared side by side")
+      ->required();
+  app.add_option("--out", flags.out, "the page")->capture_default_str();
+  app.add_option("--csv", flags.csv, "folder for the tables as CSV");
+  app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs)");
+  return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
+}

@@ -1,0 +1,392 @@
+#include "report/tables.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "planning/path_measures.h"
+#include "report/reproduce.h"
+#include "results/quality.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kMs = 1e3;
+
+Estimate Milliseconds(double value_s, const std::optional<Interval>& interval_s) {
+  Estimate estimate{kMs * value_s, interval_s};
+  if (estimate.interval) {
+    estimate.interval->lower *= kMs;
+    estimate.interval->upper *= kMs;
+  }
+  return estimate;
+}
+
+/// Calls `visit` with each set, contestant and its outcomes, in the contestants' order.
+template <typename Visit>
+void ForEach(const ComparedSessions& compared, Visit visit) {
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    for (const ComparedContestant& contestant : compared.contestants()) {
+      const auto found = by_contestant.find(contestant.name);
+      if (found != by_contestant.end()) visit(set, contestant, found->second);
+    }
+  }
+}
+
+void AdjustSet(std::vector<ComparedPair>::iterator first,
+               std::vector<ComparedPair>::iterator last) {
+  std::vector<double> p_values;
+  for (auto pair = first; pair != last; ++pair) p_values.push_back(pair->result.test.p_value);
+  const std::vector<double> adjusted = AdjustPValues(p_values);
+  for (std::size_t i = 0; i < adjusted.size(); ++i)
+    (first + static_cast<std::ptrdiff_t>(i))->adjusted_p = adjusted[i];
+}
+
+}  // namespace
+
+std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed) {
+  std::vector<ComparedPair> pairs;
+  const auto compare_all = [&](const std::string& set,
+                               const std::map<std::string, Outcomes>& by_contestant) {
+    const auto num_before = static_cast<std::ptrdiff_t>(pairs.size());
+    const auto& contestants = compared.contestants();
+    for (std::size_t a = 0; a < contestants.size(); ++a) {
+      for (std::size_t b = a + 1; b < contestants.size(); ++b) {
+        const auto first = by_contestant.find(contestants[a].name);
+        const auto second = by_contestant.find(contestants[b].name);
+        if (first == by_contestant.end() || second == by_contestant.end()) continue;
+        pairs.push_back(
+            {set, first->first, second->first, Compare(first->second, second->second, seed)});
+      }
+    }
+    AdjustSet(pairs.begin() + num_before, pairs.end());
+  };
+  for (const auto& [set, by_contestant] : compared.outcomes()) compare_all(set, by_contestant);
+  if (compared.outcomes().size() > 1) compare_all(kAllSets, compared.pooled());
+  return pairs;
+}
+
+std::uint64_t BootstrapSeed(const ComparedSessions& compared) {
+  std::uint64_t seed = 1;
+  if (compared.sessions().empty()) return seed;
+  const std::string& text = compared.sessions().front().seed;
+  std::from_chars(text.data(), text.data() + text.size(), seed);
+  return seed;
+}
+
+Table SuccessTable(const ComparedSessions& compared) {
+  Table table{
+      "success",
+      "Success",
+      "Runs are problems times trials; both directions of one count as one. Claimed: the planner "
+      "says that it found a path. Confirmed: the referee agrees. The share is the mean over the "
+      "problems of the share of their trials confirmed, with Wilson's 95 % interval for as many "
+      "cases as there are problems. Failed: out of time, memory or search space. Blocked: start or "
+      "goal invalid. Rejected: the referee refused the path.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"problems", "problems", Style::kCount},
+       {"runs", "runs", Style::kCount},
+       {"claimed", "claimed", Style::kCount},
+       {"confirmed", "confirmed", Style::kCount},
+       {"confirmed_percent", "% [95 %]", Style::kShare, true},
+       {"forward", "forward", Style::kCount},
+       {"backward", "backward", Style::kCount},
+       {"failed", "failed", Style::kCount},
+       {"blocked", "blocked", Style::kCount},
+       {"rejected", "rejected", Style::kCount},
+       {"no_answer", "no answer", Style::kCount}},
+      {}};
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes& outcomes) {
+    SuccessSummary s = SummarizeSuccess(outcomes);
+    using Kind = Outcome::Kind;
+    table.rows.push_back(
+        {set, contestant.name, s.num_problems, s.num_runs, s.claimed, s.confirmed,
+         Estimate{100 * s.share, Interval{100 * s.interval.lower, 100 * s.interval.upper}},
+         s.kinds[Kind::kForward], s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
+         s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected], s.kinds[Kind::kOther]});
+  });
+  return table;
+}
+
+Table TimeTable(const ComparedSessions& compared) {
+  Table table{
+      "times",
+      "Planning time, ms",
+      "From request and scene at hand to the first confirmed path, failed attempts before it "
+      "included. Every solved problem counts once, by the median of its trials; the median's 95 % "
+      "interval lies between order statistics. Penalised mean (PAR-10): over all runs, one without "
+      "a confirmed path as ten time limits.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"problems_solved", "problems solved", Style::kCount},
+       {"median_ms", "median [95 %]", Style::kNumber, true},
+       {"mean_ms", "mean", Style::kNumber},
+       {"lower_quartile_ms", "25 %", Style::kNumber},
+       {"upper_quartile_ms", "75 %", Style::kNumber},
+       {"percentile_95_ms", "95 %", Style::kNumber},
+       {"penalised_mean_ms", "penalised mean", Style::kNumber}},
+      {}};
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes& outcomes) {
+    const TimeSummary s = SummarizeTimes(outcomes);
+    table.rows.push_back({set, contestant.name, s.solved_s.count,
+                          Milliseconds(s.solved_s.median, s.median_interval_s),
+                          kMs * s.solved_s.mean, kMs * s.solved_s.lower_quartile,
+                          kMs * s.solved_s.upper_quartile, kMs * s.solved_s.percentile_95,
+                          kMs * s.penalised_mean_s});
+  });
+  return table;
+}
+
+Table PairTable(const std::vector<ComparedPair>& pairs) {
+  Table table{
+      "pairs",
+      "Problem by problem",
+      "A problem's time is the median of its trials, those that failed being longer than any. "
+      "Faster, slower: problems that the first solved faster, or alone, and the other way round. "
+      "Time ratio: geometric mean of first / second over the problems that both solved, with a "
+      "bootstrap 95 % interval (10,000 resamples of the problems). p: Wilcoxon's signed-rank test "
+      "of the logarithms, two-sided, problems that only one solved included; beside it adjusted "
+      "for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the first is "
+      "always faster, 1 if always slower.",
+      {{"set", "set"},
+       {"first", "first"},
+       {"second", "second"},
+       {"problems", "problems", Style::kCount},
+       {"faster", "faster", Style::kCount},
+       {"slower", "slower", Style::kCount},
+       {"tied", "tied", Style::kCount},
+       {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
+       {"p", "p", Style::kPValue},
+       {"p_holm", "p (Holm)", Style::kPValue},
+       {"effect", "effect", Style::kNumber}},
+      {}};
+  for (const ComparedPair& pair : pairs) {
+    const PairedComparison& r = pair.result;
+    table.rows.push_back({pair.set, pair.first, pair.second, r.num_problems, r.wins.won,
+                          r.wins.lost, r.wins.tied,
+                          r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
+                          r.test.p_value, pair.adjusted_p, r.test.RankBiserial()});
+  }
+  return table;
+}
+
+Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
+  Table table{"quality",
+              "Path quality",
+              "Measures are the referee's, of confirmed runs; a problem counts once, by the median "
+              "of its runs. Ratio: to the contestant that ranks first, geometric mean over the "
+              "problems that both solved, with a bootstrap 95 % interval; medians over different "
+              "problems do not compare.",
+              {{"set", "set"},
+               {"contestant", "contestant"},
+               {"measure", "measure"},
+               {"unit", "unit"},
+               {"path", "path"},
+               {"problems", "problems", Style::kCount},
+               {"lower_quartile", "25 %", Style::kNumber},
+               {"median", "median", Style::kNumber},
+               {"upper_quartile", "75 %", Style::kNumber},
+               {"ratio_to_first", "ratio to first [95 %]", Style::kNumber, true}},
+              {}};
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    for (const PathMeasure& measure : PathMeasures()) {
+      for (const bool raw : {true, false}) {
+        const ValuesByProblem* first = nullptr;
+        std::map<std::string, ValuesByProblem> all;
+        for (const ComparedContestant& contestant : compared.contestants()) {
+          if (!by_contestant.contains(contestant.name)) continue;
+          ValuesByProblem& values = all[contestant.name];
+          values = MeasuredByProblem(contestant, set, measure.name, raw);
+          const Summary s = SummarizeByProblem(values);
+          if (s.count == 0) continue;
+          Cell ratio;
+          if (first == nullptr) {
+            first = &values;
+          } else if (const auto estimate = CompareByProblem(values, *first, seed)) {
+            ratio = Estimate{estimate->mean, estimate->interval};
+          }
+          table.rows.push_back({set, contestant.name, std::string(measure.name),
+                                std::string(measure.unit), std::string(raw ? "raw" : "simplified"),
+                                s.count, s.lower_quartile, s.median, s.upper_quartile, ratio});
+        }
+      }
+    }
+  }
+  return table;
+}
+
+Table PhaseTable(const ComparedSessions& compared) {
+  Table table{
+      "phases",
+      "Where the time goes, ms",
+      "Means over confirmed attempts; the first four are a partition of the time to the end "
+      "of the search. Simplification comes after planning and is no part of any planning "
+      "time.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"attempts", "attempts", Style::kCount},
+       {"setup_ms", "set-up", Style::kNumber},
+       {"collision_ms", "collision checking", Style::kNumber},
+       {"guidance_ms", "guidance", Style::kNumber},
+       {"search_ms", "search", Style::kNumber},
+       {"simplification_ms", "simplification", Style::kNumber}},
+      {}};
+  ForEach(compared,
+          [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
+            const std::vector<const StoredRun*> runs = ConfirmedRuns(contestant, set);
+            if (runs.empty()) return;
+            const PhaseTimes mean = MeanPhases(runs);
+            table.rows.push_back({set, contestant.name, static_cast<int>(runs.size()),
+                                  kMs * mean.setup_s, kMs * mean.collision_s, kMs * mean.guidance_s,
+                                  kMs * mean.search_s, kMs * mean.simplification_s});
+          });
+  return table;
+}
+
+Table FailureTable(const ComparedSessions& compared) {
+  Table table{"failures",
+              "Attempts without a confirmed path",
+              "Attempts, each direction and trial for itself, that ended alike; in parentheses how "
+              "many of a problem if several.",
+              {{"set", "set"},
+               {"contestant", "contestant"},
+               {"status", "status"},
+               {"reason", "reason"},
+               {"attempts", "attempts", Style::kCount},
+               {"problems", "problems"}},
+              {}};
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes&) {
+    for (const FailureGroup& group : GroupFailures(contestant, set)) {
+      std::vector<std::string> problems;
+      for (const auto& [problem, count] : group.problems) {
+        problems.push_back(count == 1 ? fmt::format("{}", problem)
+                                      : fmt::format("{} ({})", problem, count));
+      }
+      table.rows.push_back({set, contestant.name, std::string(EnumName(group.status)), group.reason,
+                            group.num_runs, fmt::format("{}", fmt::join(problems, ", "))});
+    }
+  });
+  return table;
+}
+
+Table MeshTable(const ComparedSessions& compared) {
+  Table table{
+      "meshes",
+      "Confirmed paths judged with the robot's meshes",
+      "Raw paths that the referee confirmed with the planners' own collision model, by what "
+      "the exact geometry says of them. Wilson's interval over the attempts.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"judged", "judged", Style::kCount},
+       {"valid", "valid", Style::kCount},
+       {"valid_percent", "% [95 %]", Style::kShare, true}},
+      {}};
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes&) {
+    int judged = 0, valid = 0;
+    for (const StoredRun* run : ConfirmedRuns(contestant, set)) {
+      if (!run->mesh_valid) continue;
+      ++judged;
+      valid += *run->mesh_valid;
+    }
+    if (judged == 0) return;
+    const Interval interval = WilsonInterval(valid, judged);
+    table.rows.push_back(
+        {set, contestant.name, judged, valid,
+         Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}}});
+  });
+  return table;
+}
+
+Table SessionTable(const ComparedSessions& compared, bool only_different) {
+  Table table{"sessions", only_different ? "Where the sessions differ" : "Sessions", "", {}, {}};
+  table.columns.push_back({"field", ""});
+  // By field, in the order of the table; a session without it has "".
+  std::vector<std::pair<std::string, std::vector<std::string>>> fields;
+  const auto field = [&](const std::string& name, const auto& value_of) {
+    std::vector<std::string> values;
+    for (const StoredSession& session : compared.sessions()) values.push_back(value_of(session));
+    const bool different = std::any_of(values.begin(), values.end(),
+                                       [&](const auto& value) { return value != values.front(); });
+    if (different || !only_different) fields.emplace_back(name, std::move(values));
+  };
+  const auto member = [](std::string StoredSession::*text) {
+    return [text](const StoredSession& session) { return session.*text; };
+  };
+  field("session", member(&StoredSession::run_id));
+  field("begun", member(&StoredSession::date));
+  field("version", member(&StoredSession::version));
+  field("commit", member(&StoredSession::commit));
+  field("host", member(&StoredSession::host));
+  field("processor", member(&StoredSession::cpu));
+  field("robot", member(&StoredSession::robot));
+  field("seed", member(&StoredSession::seed));
+  std::set<std::string> flags;
+  for (const StoredSession& session : compared.sessions()) {
+    for (const auto& [flag, value] : session.flags) flags.insert(flag);
+  }
+  for (const std::string& flag : flags) {
+    if (!only_different && flag != "time" && flag != "trials") continue;
+    field("--" + flag, [&](const StoredSession& session) {
+      const auto found = session.flags.find(flag);
+      return found == session.flags.end() ? std::string() : found->second;
+    });
+  }
+  if (!only_different) field("command", ReproducingCommand);
+  for (std::size_t i = 0; i < compared.sessions().size(); ++i) {
+    table.columns.push_back({fmt::format("session_{}", i + 1), compared.session_names()[i]});
+  }
+  for (auto& [name, values] : fields) {
+    std::vector<Cell> row = {name};
+    row.insert(row.end(), values.begin(), values.end());
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table ConditionTable(const ComparedSessions& compared) {
+  Table table{"conditions",
+              "Conditions of the measurement",
+              "Spread: longest over shortest time among the trials of a problem, its median over "
+              "the problems whose trials were all confirmed. Of a contestant whose path does not "
+              "depend on the seed it is the noise of the machine; of the others the luck of the "
+              "draw is in it too.",
+              {{"session", "session"},
+               {"contestant", "contestant"},
+               {"attempts", "attempts", Style::kCount},
+               {"no_answer", "no answer", Style::kCount},
+               {"spread", "spread of trials", Style::kNumber}},
+              {}};
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    const auto silent =
+        std::count_if(contestant.runs.begin(), contestant.runs.end(),
+                      [](auto* run) { return run->status == PlanStatus::kNoAnswer; });
+    const auto spread = TrialSpread(compared.pooled().at(contestant.name));
+    table.rows.push_back({compared.session_names()[contestant.session], contestant.name,
+                          static_cast<int>(contestant.runs.size()), static_cast<int>(silent),
+                          spread ? Cell(*spread) : Cell()});
+  }
+  return table;
+}
+
+std::vector<Table> AllTables(const ComparedSessions& compared,
+                             const std::vector<ComparedPair>& pairs, std::uint64_t seed) {
+  std::vector<Table> tables = {SessionTable(compared, false), SuccessTable(compared),
+                               TimeTable(compared),           PairTable(pairs),
+                               QualityTable(compared, seed),  PhaseTable(compared),
+                               FailureTable(compared),        MeshTable(compared),
+                               ConditionTable(compared)};
+  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  return tables;
+}
+
+}  // namespace planbench

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "report/table.h"
+#include "results/compared_sessions.h"
+#include "results/comparison.h"
+
+namespace planbench {
+
+/// What stands for all sets together where there are several.
+inline constexpr char kAllSets[] = "all sets";
+
+/// One contestant against another on one set, or on all.
+struct ComparedPair {
+  std::string set;
+  std::string first;
+  std::string second;
+  PairedComparison result;
+  double adjusted_p = 1;  ///< Holm's, over the pairs of the set.
+};
+/// All pairs, those that rank higher first; `seed` is that of the bootstrap.
+std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed);
+
+/// Seed of the bootstrap: that of the first session, so that its printed tables have the same
+/// intervals.
+std::uint64_t BootstrapSeed(const ComparedSessions& compared);
+
+Table SuccessTable(const ComparedSessions& compared);
+Table TimeTable(const ComparedSessions& compared);
+Table PairTable(const std::vector<ComparedPair>& pairs);
+/// Medians of every path measure, raw and simplified.
+Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);
+Table PhaseTable(const ComparedSessions& compared);
+Table FailureTable(const ComparedSessions& compared);
+/// Verdicts of the mesh robot; no rows if there are none.
+Table MeshTable(const ComparedSessions& compared);
+/// What the sessions were, side by side; `only_different`: where they differ.
+Table SessionTable(const ComparedSessions& compared, bool only_different);
+/// What the conditions of the measurement leave uncertain.
+Table ConditionTable(const ComparedSessions& compared);
+
+/// All of them that have rows.
+std::vector<Table> AllTables(const ComparedSessions& compared,
+                             const std::vector<ComparedPair>& pairs, std::uint64_t seed);
+
+}  // namespace planbench

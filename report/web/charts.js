@@ -1,0 +1,342 @@
+"use strict";
+// Vega specifications of the figures. They place numbers of the data and compute none.
+const charts = (() => {
+  const vega = {
+    ...requireModule("vega-util"), View: requireModule("vega-view").View, parse: requireModule("vega-parser").parse,
+  };
+  Object.assign(requireModule("vega-dataflow").transforms, requireModule("vega-transforms"),
+                requireModule("vega-view-transforms"), requireModule("vega-encode"));
+
+  // ---- Views: made when they come into sight, made anew when colours or width change ----------
+  const all = [];
+  const tooltip = document.getElementById("tooltip");
+  const sight = new IntersectionObserver(entries => {
+    for (const entry of entries) if (entry.isIntersecting) render(entry.target.planbenchChart);
+  }, {rootMargin: "400px"});
+
+  function render(chart) {
+    sight.unobserve(chart.element);
+    if (chart.view) chart.view.finalize();
+    const width = chart.element.clientWidth;
+    if (width === 0) return;
+    chart.width = width;
+    const spec = chart.make();
+    const runtime = vega.parse({width, autosize: {type: "fit-x", contains: "padding"}, padding: 4, ...spec},
+                               theme.vegaConfig());
+    const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
+    chart.view = new vega.View(runtime, {
+      container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg", logLevel: 1,
+      tooltip: (handler, event, item, value) => showTooltip(event, value),
+    });
+    chart.view.addEventListener("click", (event, item) => {
+      if (item && item.datum && item.datum.open) item.datum.open();
+    });
+    chart.view.run();
+  }
+
+  function showTooltip(event, value) {
+    tooltip.hidden = value == null || value === "";
+    if (tooltip.hidden) return;
+    tooltip.textContent = value;
+    tooltip.style.left = Math.min(event.clientX + 14, innerWidth - tooltip.offsetWidth - 8) + "px";
+    tooltip.style.top = Math.min(event.clientY + 14, innerHeight - tooltip.offsetHeight - 8) + "px";
+  }
+
+  function add(element, label, make) {
+    element.classList.add("chart");
+    element.setAttribute("role", "img");
+    element.setAttribute("aria-label", label);
+    const chart = {element, make, view: null};
+    element.planbenchChart = chart;
+    all.push(chart);
+    sight.observe(element);
+    return chart;
+  }
+  const again = () => all.forEach(chart => { if (chart.view) render(chart); });
+  theme.onChange(again);
+  let resizing = 0;
+  addEventListener("resize", () => {
+    clearTimeout(resizing);
+    resizing = setTimeout(() => all.forEach(chart => {
+      if (chart.view && chart.element.clientWidth !== chart.width) render(chart);
+    }), 150);
+  });
+  addEventListener("beforeprint", () => all.forEach(chart => chart.view || render(chart)));
+
+  // ---- Parts ------------------------------------------------------------------------------------
+  const shortNumber = value => value == null ? "-" : Number(value.toPrecision(3)).toLocaleString("en");
+  const percent = share => (100 * share).toFixed(1) + " %";
+
+  // From a power of ten to a little above the largest of positive values, a decade at least.
+  function logDomain(values) {
+    let low = Infinity, high = 0;
+    for (const value of values) {
+      if (value > 0) { low = Math.min(low, value); high = Math.max(high, value); }
+    }
+    if (high === 0) return [1, 10];
+    const power = 10 ** Math.floor(Math.log10(low));
+    return [power, Math.max(1.15 * high, 10 * power)];
+  }
+  function powersOfTen([low, high]) {
+    const powers = [];
+    for (let p = Math.round(Math.log10(low)); 10 ** p <= high; ++p) powers.push(10 ** p);
+    const every = Math.ceil(powers.length / 7);
+    return powers.filter((power, i) => i % every === 0);
+  }
+  const logAxis = (scale, orient, domain, title) =>
+    ({scale, orient, title, values: powersOfTen(domain), grid: true, format: "~r", domain: false, zindex: 0,
+      encode: {labels: {update: {text: {signal: "format(datum.value, datum.value < 1 ? '~g' : ',')"}}}}});
+
+  // One row a contestant.
+  const rowHeight = count => (count > 12 ? 24 : 34);
+  const rows = names => ({
+    height: rowHeight(names.length) * names.length,
+    scale: {name: "y", type: "band", domain: names.map((name, i) => i), range: "height", padding: 0.2},
+    axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8,
+           encode: {labels: {update: {text: {signal: "names[datum.value]"}}}}},
+    signal: {name: "names", value: names},
+  });
+  const middle = {scale: "y", band: 0.5};
+
+  // ---- Figures ----------------------------------------------------------------------------------
+  // rows: [{share, lower, upper, claimed_share, tip, contestant}]
+  function success(names, places, values) {
+    const r = rows(names);
+    const data = values.map((value, i) => ({
+      ...value, y: i, colour: theme.colour(places[i]),
+      tip: `${names[i]}\nconfirmed ${percent(value.share)}, 95 % interval ${percent(value.lower)} to ` +
+           `${percent(value.upper)}\nclaimed ${value.claimed}, confirmed ${value.confirmed} of ${value.runs} runs`,
+    }));
+    return {
+      height: r.height, signals: [r.signal], data: [{name: "rows", values: data}],
+      scales: [r.scale, {name: "x", type: "linear", domain: [0, 1], range: "width"}],
+      axes: [r.axis, {scale: "x", orient: "bottom", format: "%", grid: true, domain: false, tickCount: 5,
+                      title: "problems with a confirmed path"}],
+      marks: [
+        {type: "rule", from: {data: "rows"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"},
+          stroke: {field: "colour"}, strokeWidth: {value: 3}, strokeCap: {value: "round"}, tooltip: {field: "tip"}}}},
+        {type: "symbol", name: "claimed", from: {data: "rows"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {scale: "x", field: "claimed_share"}, shape: {value: "diamond"}, size: {value: 130},
+          fill: {value: "transparent"}, stroke: {value: theme.property("--text")}, strokeWidth: {value: 1.5},
+          opacity: {signal: "datum.claimed > datum.confirmed ? 1 : 0"}, tooltip: {field: "tip"}}}},
+        {type: "symbol", name: "confirmed", from: {data: "rows"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {scale: "x", field: "share"}, size: {value: 90}, fill: {field: "colour"},
+          stroke: {value: theme.property("--background")}, tooltip: {field: "tip"}}}},
+      ],
+    };
+  }
+
+  // values: [{problem: [], trial: [], time: [], median, lower, upper, limit}]; open(problem) shows one.
+  function times(names, places, values, open) {
+    const r = rows(names);
+    const runs = [], medians = [], failed = [];
+    values.forEach((value, y) => {
+      let numFailed = 0;
+      value.time.forEach((time, i) => {
+        if (time == null) ++numFailed;
+        runs.push({
+          y, time, colour: theme.colour(places[y]), jitter: ((i * 0.6180339887) % 1) - 0.5,
+          sideways: ((i * 0.7548776662) % 1) - 0.5,
+          tip: `${names[y]}\nproblem ${value.problem[i]}, trial ${value.trial[i]}\n` +
+               (time == null ? "not solved" : shortNumber(time) + " ms"),
+          open: () => open(value.problem[i]),
+        });
+      });
+      if (numFailed > 0) failed.push({y, text: String(numFailed)});
+      if (value.median != null) {
+        medians.push({y, median: value.median, lower: value.lower, upper: value.upper,
+                      tip: `${names[y]}\nmedian of the solved problems ${shortNumber(value.median)} ms` +
+                           (value.lower == null ? "" : `, 95 % interval ${shortNumber(value.lower)} to ` +
+                                                       shortNumber(value.upper))});
+      }
+    });
+    const limit = Math.max(...values.map(value => value.limit));
+    const crowded = Math.max(...values.map(value => value.time.length)) > 150;
+    const domain = logDomain([...runs.map(run => run.time).filter(time => time != null), limit]);
+    const column = 86;
+    const jittered = {scale: "y", field: "y", band: 0.5,
+                      offset: {signal: "datum.jitter * bandwidth('y') * 0.8"}};
+    return {
+      height: r.height, signals: [r.signal],
+      data: [
+        {name: "solved", values: runs.filter(run => run.time != null)},
+        {name: "failed", values: runs.filter(run => run.time == null)},
+        {name: "medians", values: medians}, {name: "intervals", values: medians.filter(one => one.lower != null)},
+        {name: "counts", values: failed},
+      ],
+      scales: [r.scale, {name: "x", type: "log", domain, range: [0, {signal: `width - ${column}`}]}],
+      axes: [r.axis, logAxis("x", "bottom", domain, "planning time, ms")],
+      marks: [
+        {type: "rule", encode: {update: {
+          x: {scale: "x", value: limit}, y: {value: 0}, y2: {signal: "height"}, strokeDash: {value: [4, 3]}}}},
+        {type: "text", encode: {update: {
+          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "center"}, text: {value: "limit"}}}},
+        {type: "text", encode: {update: {
+          x: {signal: "width"}, y: {value: -4}, align: {value: "right"}, text: {value: "not solved"}}}},
+        {type: "symbol", name: "solved-runs", from: {data: "solved"}, encode: {update: {
+          y: jittered, x: {scale: "x", field: "time"}, size: {value: crowded ? 9 : 22}, fill: {field: "colour"}, fillOpacity: {value: 0.45},
+          cursor: {value: "pointer"}, tooltip: {field: "tip"}}}},
+        {type: "symbol", name: "failed-runs", from: {data: "failed"}, encode: {update: {
+          y: jittered, x: {signal: `width - ${column - 46} + datum.sideways * 40`}, shape: {value: "M-1,-1L1,1M-1,1L1,-1"},
+          size: {value: crowded ? 14 : 45}, stroke: {value: theme.property("--failure")}, strokeWidth: {value: 1.3},
+          strokeOpacity: {value: 0.7}, cursor: {value: "pointer"}, tooltip: {field: "tip"}}}},
+        {type: "text", from: {data: "counts"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
+          text: {field: "text"}}}},
+        {type: "rule", from: {data: "intervals"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"}, stroke: {value: theme.property("--text")},
+          strokeWidth: {value: 2}}}},
+        {type: "symbol", name: "median", from: {data: "medians"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {scale: "x", field: "median"}, shape: {value: "diamond"}, size: {value: 95},
+          fill: {value: theme.property("--background")}, stroke: {value: theme.property("--text")},
+          strokeWidth: {value: 2}, tooltip: {field: "tip"}}}},
+      ],
+    };
+  }
+
+  // Curves of shares: [{place, name, x: [], share: [], lower: [], upper: []}] on a log axis that ends at `last`.
+  function curves(list, {first, last, title, share}) {
+    const band = list.length > 6 ? 0 : list.length > 3 ? 0.08 : 0.14;
+    const values = [];
+    for (const curve of list) {
+      const point = (x, i) => ({
+        name: curve.name, place: curve.place, x, share: i < 0 ? 0 : curve.share[i],
+        lower: !curve.lower || i < 0 ? 0 : curve.lower[i], upper: !curve.upper || i < 0 ? 0 : curve.upper[i],
+        tip: curve.name,
+      });
+      if (curve.x.length === 0 || curve.x[0] > first) values.push(point(first, -1));
+      curve.x.forEach((x, i) => values.push(point(x, i)));
+      if (curve.x.length === 0 || curve.x[curve.x.length - 1] < last) values.push(point(last, curve.x.length - 1));
+    }
+    const places = list.map(curve => curve.place);
+    const domain = [first, last];
+    return {
+      height: 260,
+      signals: [{name: "focus", value: null}],
+      data: [{name: "steps", values}],
+      scales: [
+        {name: "x", type: "log", domain, range: "width"},
+        {name: "y", type: "linear", domain: [0, 1], range: "height"},
+        {name: "colour", type: "ordinal", domain: places, range: places.map(theme.colour)},
+        {name: "dash", type: "ordinal", domain: places, range: places.map(theme.dash)},
+      ],
+      axes: [logAxis("x", "bottom", domain, title),
+             {scale: "y", orient: "left", format: "%", grid: true, domain: false, tickCount: 5, title: share}],
+      marks: [{
+        type: "group", from: {facet: {name: "curve", data: "steps", groupby: "place"}},
+        marks: [
+          {type: "area", from: {data: "curve"}, interactive: false, encode: {update: {
+            x: {scale: "x", field: "x"}, y: {scale: "y", field: "lower"}, y2: {scale: "y", field: "upper"},
+            interpolate: {value: "step-after"}, fill: {scale: "colour", field: "place"},
+            fillOpacity: {signal: `focus === null ? ${band} : focus === datum.place ? 0.22 : 0`}}}},
+          {type: "line", from: {data: "curve"}, encode: {update: {
+            x: {scale: "x", field: "x"}, y: {scale: "y", field: "share"}, interpolate: {value: "step-after"},
+            stroke: {scale: "colour", field: "place"}, strokeDash: {scale: "dash", field: "place"},
+            strokeWidth: {signal: "focus === datum.place ? 3.5 : 2"}, tooltip: {field: "tip"},
+            strokeOpacity: {signal: "focus === null || focus === datum.place ? 1 : 0.2"}}}},
+        ],
+      }],
+    };
+  }
+
+  // points: [{x, y, label, open}], times in ms, null where not solved.
+  function scatter(points, first, second, limit) {
+    const solved = points.flatMap(point => [point.x, point.y]).filter(time => time != null);
+    const domain = logDomain([...solved, limit]);
+    const side = 380, column = 34;
+    const place = (field, range) => `datum.${field} === null ? ${range} : scale('${field}', datum.${field})`;
+    const values = points.map(point => ({
+      ...point, both: point.x != null && point.y != null,
+      tip: `${point.label}\n${first}: ${point.x == null ? "not solved" : shortNumber(point.x) + " ms"}\n` +
+           `${second}: ${point.y == null ? "not solved" : shortNumber(point.y) + " ms"}`,
+    }));
+    return {
+      width: side + 90, height: side, autosize: {type: "fit-x", contains: "padding"},
+      data: [{name: "points", values}, {name: "ends", values: domain.map(end => ({end}))}],
+      scales: [{name: "x", type: "log", domain, range: [0, {signal: `width - ${column}`}]},
+               {name: "y", type: "log", domain, range: [{signal: "height"}, column]}],
+      axes: [logAxis("x", "bottom", domain, first + ", ms"),
+             {...logAxis("y", "left", domain, second + ", ms"), titleLimit: side}],
+      marks: [
+        {type: "line", from: {data: "ends"}, encode: {update: {
+          x: {scale: "x", field: "end"}, y: {scale: "y", field: "end"}, stroke: {value: theme.property("--muted")}}}},
+        {type: "rule", encode: {update: {x: {signal: `width - ${column}`}, y: {value: 0}, y2: {signal: "height"},
+                                         strokeDash: {value: [4, 3]}}}},
+        {type: "rule", encode: {update: {y: {value: column}, x: {value: 0}, x2: {signal: "width"},
+                                         strokeDash: {value: [4, 3]}}}},
+        {type: "text", encode: {update: {x: {signal: "width - 2"}, y: {signal: "height - 6"}, angle: {value: -90},
+                                         text: {value: "not solved"}}}},
+        {type: "text", encode: {update: {x: {value: 4}, y: {value: 12}, text: {value: "not solved"}}}},
+        {type: "symbol", name: "problems", from: {data: "points"}, encode: {update: {
+          x: {signal: place("x", `width - ${column / 2}`)}, y: {signal: place("y", column / 2)}, size: {value: 34},
+          fill: {signal: `datum.both ? '${theme.property("--accent")}' : '${theme.property("--failure")}'`},
+          fillOpacity: {value: 0.75}, cursor: {value: "pointer"}, tooltip: {field: "tip"}}}},
+      ],
+    };
+  }
+
+  // Quartiles and median, raw above simplified: [{contestant, lower, median, upper}] each.
+  function quality(names, places, raw, simplified, title) {
+    const r = rows(names);
+    const values = [];
+    const collect = (list, kind, shift) => list.forEach(one => {
+      const y = places.indexOf(one.contestant);
+      values.push({...one, y, kind, shift, colour: theme.colour(one.contestant),
+                   tip: `${names[y]}, ${kind}\nmedian ${shortNumber(one.median)}, quartiles ` +
+                        `${shortNumber(one.lower)} to ${shortNumber(one.upper)}\n${one.problems} problems`});
+    });
+    collect(raw, "raw", -0.22);
+    collect(simplified, "simplified", 0.22);
+    const y = {...middle, field: "y", offset: {signal: "datum.shift * bandwidth('y')"}};
+    return {
+      height: r.height, signals: [r.signal], data: [{name: "values", values}],
+      scales: [r.scale, {name: "x", type: "linear", zero: true, nice: true, range: "width",
+                         domain: {data: "values", fields: ["lower", "upper"]}}],
+      axes: [r.axis, {scale: "x", orient: "bottom", grid: true, domain: false, tickCount: 6, title}],
+      marks: [
+        {type: "rule", from: {data: "values"}, encode: {update: {
+          y, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"}, stroke: {field: "colour"},
+          strokeWidth: {value: 3}, strokeCap: {value: "round"}, tooltip: {field: "tip"}}}},
+        {type: "symbol", name: "median", from: {data: "values"}, encode: {update: {
+          y, x: {scale: "x", field: "median"}, size: {value: 80}, strokeWidth: {value: 2}, stroke: {field: "colour"},
+          fill: {signal: `datum.kind === 'raw' ? datum.colour : '${theme.property("--background")}'`},
+          tooltip: {field: "tip"}}}},
+      ],
+    };
+  }
+
+  const PHASES = ["set-up", "collision checking", "guidance", "search"];
+  function phases(names, values) {
+    const r = rows(names);
+    const data = values.flatMap((value, y) => {
+      let sum = 0;
+      return value.shares.map((share, phase) => {
+        const begin = sum;
+        sum += share;
+        return {y, phase, begin, end: sum, tip: `${names[y]}\n${PHASES[phase]}: ${percent(share)} of ` +
+                                                 `${shortNumber(value.total)} ms`};
+      });
+    });
+    return {
+      height: r.height, signals: [r.signal],
+      data: [{name: "parts", values: data},
+             {name: "totals", values: values.map((value, y) => ({y, text: shortNumber(value.total) + " ms"}))}],
+      scales: [r.scale, {name: "x", type: "linear", domain: [0, 1], range: [0, {signal: "width - 74"}]},
+               {name: "colour", type: "ordinal", domain: [0, 1, 2, 3], range: [0, 1, 2, 3].map(theme.colour)}],
+      axes: [r.axis, {scale: "x", orient: "bottom", format: "%", tickCount: 5, domain: false,
+                      title: "share of the time to the end of the search"}],
+      marks: [
+        {type: "rect", from: {data: "parts"}, encode: {update: {
+          y: {scale: "y", field: "y"}, height: {scale: "y", band: 1}, x: {scale: "x", field: "begin"},
+          x2: {scale: "x", field: "end"}, fill: {scale: "colour", field: "phase"},
+          stroke: {value: theme.property("--background")}, tooltip: {field: "tip"}}}},
+        {type: "text", from: {data: "totals"}, encode: {update: {
+          y: {...middle, field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
+          text: {field: "text"}}}},
+      ],
+    };
+  }
+
+  return {add, all, render, logDomain, success, times, curves, scatter, quality, phases, PHASES};
+})();

@@ -1,0 +1,346 @@
+"use strict";
+// Lays the data out: sections in the order in which a reader asks, tables, figures, and what the reader picks.
+const report = (() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const main = document.getElementById("main");
+  const names = data.contestants.map(contestant => contestant.name);
+  const sets = data.sets.filter(set => !set.all);
+  const tables = Object.fromEntries(data.tables.map(table => [table.name, table]));
+
+  // ---- Elements ---------------------------------------------------------------------------------
+  function element(tag, attributes = {}, ...children) {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.append(...children);
+    return made;
+  }
+
+  function section(id, title, ...children) {
+    document.getElementById("contents").append(element("li", {}, element("a", {href: "#" + id}, title)));
+    const made = element("section", {id, "aria-labelledby": id + "-title"}, element("h2", {id: id + "-title"}, title),
+                         ...children);
+    main.append(made);
+    return made;
+  }
+
+  // Rows of one set stand together below its name.
+  function tableElement({title, columns, rows}) {
+    const grouped = columns[0].heading === "set" ? 1 : 0;
+    const shown = columns.slice(grouped);
+    const cell = (tag, text, column) => {
+      const kind = column.numeric ? "numeric" : text.length <= 40 ? "short" : "";
+      return element(tag, {class: kind, ...(tag === "th" ? {scope: "col"} : {})}, text);
+    };
+    const body = element("tbody");
+    let group = null;
+    for (const row of rows) {
+      if (grouped && row[0] !== group) {
+        group = row[0];
+        body.append(element("tr", {}, element("th", {colspan: String(shown.length), scope: "colgroup"}, group)));
+      }
+      body.append(element("tr", {}, ...row.slice(grouped).map((text, i) => cell("td", text, shown[i]))));
+    }
+    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": title},
+                   element("table", {}, element("thead", {}, element("tr", {}, ...shown.map(column =>
+                     cell("th", column.heading, column)))), body));
+  }
+
+  // A table with the note on how it was computed; `open`: seen at once.
+  function tableBlock(name, open) {
+    const table = tables[name];
+    if (!table) return element("p", {class: "note"}, "Nothing to show.");
+    const parts = [tableElement(table), element("p", {class: "note"}, table.note)];
+    if (open) return element("div", {}, ...parts);
+    return element("details", {}, element("summary", {}, `Table: ${table.title}`), ...parts);
+  }
+
+  function figure(title, make) {
+    const chart = element("div");
+    const made = element("figure", {}, element("h3", {}, title), chart);
+    charts.add(chart, title, make);
+    return made;
+  }
+
+  // A figure for each set of which `list(set)` has anything.
+  function figuresOfSets(list, make) {
+    const grid = element("div", {class: "grid"});
+    for (const set of data.sets) {
+      const values = list(set);
+      if (!values || values.length === 0) continue;
+      const places = values.map(value => value.contestant);
+      grid.append(figure(set.name, () => make(set, places.map(place => names[place]), places, values)));
+    }
+    return grid;
+  }
+
+  const note = text => element("p", {class: "note"}, text);
+
+  function select(label, options, chosen, onChange) {
+    const made = element("select");
+    options.forEach((option, i) => made.append(element("option", {value: String(i)}, option)));
+    made.value = String(chosen);
+    made.addEventListener("change", () => onChange(Number(made.value)));
+    return element("label", {}, label, made);
+  }
+
+  function swatch(place) {
+    const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    line.setAttribute("class", "swatch");
+    line.setAttribute("viewBox", "0 0 26 12");
+    line.setAttribute("aria-hidden", "true");
+    const stroke = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    stroke.setAttribute("d", "M0,6H26");
+    stroke.setAttribute("stroke-width", "4");
+    const paint = () => {
+      stroke.setAttribute("stroke", theme.colour(place));
+      stroke.setAttribute("stroke-dasharray", theme.dash(place).join(","));
+    };
+    paint();
+    theme.onChange(paint);
+    line.append(stroke);
+    return line;
+  }
+
+  // Buttons that bring one contestant's curves out in the charts of an element.
+  function legend(container) {
+    let pressed = null;
+    const list = element("ul", {class: "legend", "aria-label": "Contestants; choose one to bring it out"});
+    const show = place => {
+      for (const chart of charts.all) {
+        if (chart.view && container().contains(chart.element)) chart.view.signal("focus", place).run();
+      }
+    };
+    names.forEach((name, place) => {
+      const button = element("button", {type: "button", "aria-pressed": "false"}, swatch(place), name);
+      button.addEventListener("click", () => {
+        pressed = pressed === place ? null : place;
+        list.querySelectorAll("button").forEach((other, i) => other.setAttribute("aria-pressed", String(i === pressed)));
+        show(pressed);
+      });
+      button.addEventListener("mouseenter", () => show(place));
+      button.addEventListener("mouseleave", () => show(pressed));
+      list.append(element("li", {}, button));
+    });
+    return list;
+  }
+
+  // ---- Sections ---------------------------------------------------------------------------------
+  function answer() {
+    section("answer", "The answer", ...data.answer.map(sentence => element("p", {}, sentence)));
+  }
+
+  function compared() {
+    const made = section("compared", "What was compared");
+    if (tables.sessions) made.append(tableElement(tables.sessions));
+    if (data.differences) {
+      made.append(element("h3", {}, "Where the sessions differ"), tableElement(data.differences));
+    }
+    made.append(note("Contestants, in the order of their penalised mean time over all runs; each opens to its settings."));
+    data.contestants.forEach((contestant, place) => {
+      made.append(element("details", {}, element("summary", {}, swatch(place), " " + contestant.name),
+                          element("pre", {tabindex: "0"}, contestant.settings)));
+    });
+  }
+
+  function success() {
+    section("success", "Success",
+      note("Dot: share of the problems with a path that the referee confirmed; line: its 95 % interval. A hollow diamond is " +
+           "the share of runs in which the planner claimed a path, where that is more."),
+      figuresOfSets(set => set.success, (set, of, places, values) => charts.success(of, places, values)),
+      tableBlock("success", true));
+  }
+
+  function times() {
+    const made = section("times", "Planning time",
+      note("Every run is a point: the time to its first confirmed path, failed attempts before it included. A run without one is a " +
+           "cross in the column on the right, with their number, whenever it ended. Diamond: median over the solved " +
+           "problems, with its 95 % interval. A point opens its problem."),
+      figuresOfSets(set => set.times, (set, of, places, values) =>
+        charts.times(of, places, values, problem => showProblem(sets.indexOf(set), problem))),
+      tableBlock("times", true),
+      element("h3", {}, "Share solved by a time"),
+      note("Mean over the problems of the share of their trials that have a confirmed path by then; bands are Wilson's 95 % " +
+           "intervals of each time by itself, for as many cases as there are problems. With more than six contestants a band " +
+           "shows where its contestant is brought out. Curves end at the time limit, or where the last run succeeded."));
+    const grid = figuresOfSets(set => set.survival, (set, of, places, values) => {
+      const last = Math.max(...values.map(value => value.limit), ...values.flatMap(value => value.time.slice(-1)));
+      const first = charts.logDomain([last, ...values.flatMap(value => value.time.slice(0, 1))])[0];
+      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: of[i], x: value.time})),
+                           {first, last, title: "time, ms", share: "solved"});
+    });
+    made.append(legend(() => grid), grid);
+  }
+
+  // Times of the problems of a set that both tried, with what opens them.
+  function pairPoints(set, first, second) {
+    return (set.all ? sets : [set]).flatMap(one => {
+      const of = place => one.problem_times.find(times => times.contestant === place);
+      const a = of(first), b = of(second);
+      if (!a || !b) return [];
+      const other = new Map(b.problem.map((problem, i) => [problem, b.time[i]]));
+      return a.problem.flatMap((problem, i) => other.has(problem) ? [{
+        x: a.time[i], y: other.get(problem), label: `${one.name}, problem ${problem}`,
+        open: () => showProblem(sets.indexOf(one), problem),
+      }] : []);
+    });
+  }
+
+  function pairs() {
+    const made = section("pairs", "Problem by problem");
+    if (names.length < 2) {
+      made.append(note("There is one contestant: nothing to compare it with."));
+      return;
+    }
+    let set = data.sets.length - 1, first = 0, second = 1;
+    const chart = element("div");
+    const figure = element("div");
+    const shown = charts.add(chart, "Times of two contestants, problem by problem", () => charts.scatter(
+      pairPoints(data.sets[set], first, second), names[first], names[second],
+      Math.max(...data.sets[set].survival.map(value => value.limit))));
+    function update() {
+      // The table holds each pair once, the higher rank first.
+      if (first > second) [first, second] = [second, first];
+      const row = tables.pairs.rows.filter(row => row[0] === data.sets[set].name && row[1] === names[first] &&
+                                                  row[2] === names[second]);
+      figure.replaceChildren(
+        element("div", {class: "controls"},
+          select("set", data.sets.map(one => one.name), set, value => { set = value; update(); }),
+          select("first", names, first, value => { second = value === second ? first : second; first = value; update(); }),
+          select("second", names, second, value => { first = value === first ? second : first; second = value; update(); })),
+        row.length > 0 ? tableElement({...tables.pairs, rows: row}) : note("These two have no problem of this set in common."));
+      if (shown.view) charts.render(shown);
+    }
+    update();
+    made.append(figure, element("figure", {class: "beside"}, chart, element("figcaption", {},
+        "A point is a problem, at the medians of its trials; below the diagonal the second is faster. In the strips " +
+        "on the right and at the top one or both did not solve it. A point opens its problem.")));
+    made.append(tableBlock("pairs", false));
+    made.append(element("h3", {}, "Performance profiles"),
+      note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
+           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved."));
+    const grid = figuresOfSets(set => set.profile, (set, of, places, values) => {
+      const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
+      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: of[i], x: value.ratio})),
+                           {first: 1, last, title: "time over that of the fastest", share: "problems"});
+    });
+    made.append(legend(() => grid), grid);
+  }
+
+  function quality() {
+    const made = section("quality", "Path quality");
+    const kinds = data.measures.map((measure, i) => i).filter(i => sets.some(set => set.quality[i].raw.length > 0));
+    if (kinds.length === 0) {
+      made.append(note("No path was measured."));
+      return;
+    }
+    let kind = kinds[0];
+    const grid = element("div", {class: "grid"});
+    const meaning = note("");
+    const shown = [];
+    for (const set of sets) {
+      if (set.quality.every(one => one.raw.length + one.simplified.length === 0)) continue;
+      const chart = element("div");
+      grid.append(element("figure", {}, element("h3", {}, set.name), chart));
+      shown.push(charts.add(chart, "Path quality, " + set.name, () => {
+        const {raw, simplified} = set.quality[kind];
+        const places = names.map((name, place) => place).filter(place =>
+          raw.concat(simplified).some(one => one.contestant === place));
+        const {name, unit} = data.measures[kind];
+        return charts.quality(places.map(place => names[place]), places, raw, simplified,
+                              name.replace(/_/g, " ") + (unit ? ", " + unit : ""));
+      }));
+    }
+    function update() {
+      meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +
+        "as planned; hollow: after the simplification that all share. Median and quartiles over the problems that each " +
+        "solved, of medians over its runs: the problems are not the same for all; the table has ratios on common ones.";
+      shown.forEach(chart => { if (chart.view) charts.render(chart); });
+    }
+    made.append(element("div", {class: "controls"}, select("measure", kinds.map(i => data.measures[i].name.replace(/_/g, " ")), 0,
+                                                           value => { kind = kinds[value]; update(); })),
+                meaning, grid, tableBlock("quality", false));
+    update();
+  }
+
+  function phases() {
+    const key = element("ul", {class: "legend"});
+    charts.PHASES.forEach((phase, i) => key.append(element("li", {}, swatch(i), " " + phase)));
+    section("phases", "Where the time goes",
+      note("Means over confirmed attempts, as shares of the time to the end of the search, which stands on the right."), key,
+      figuresOfSets(set => set.phases, (set, of, places, values) => charts.phases(of, values)),
+      tableBlock("phases", false));
+  }
+
+  function rest() {
+    section("failures", "What failed, and why", tables.failures ? tableBlock("failures", true) :
+                                                                  note("Every attempt ended with a confirmed path."));
+    if (tables.meshes) section("meshes", "The robot's true geometry", tableBlock("meshes", true));
+    section("conditions", "Conditions of the measurement", ...data.cautions.map(caution => element("p", {}, caution)),
+            tableBlock("conditions", true));
+  }
+
+  // ---- Single problems --------------------------------------------------------------------------
+  const problem = {set: 0, index: 0, element: element("div")};
+
+  function problemsOf(set) {
+    const {attempts} = data;
+    return [...new Set(attempts.problem.filter((one, i) => attempts.set[i] === set))].sort((a, b) => a - b);
+  }
+
+  function problemTable() {
+    const {attempts} = data;
+    const rows = [];
+    const number = value => value == null ? "-" : Number(value.toPrecision(4)).toString();
+    attempts.run.forEach((run, i) => {
+      if (attempts.set[i] !== problem.set || attempts.problem[i] !== problem.index) return;
+      rows.push([names[attempts.contestant[i]], String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
+                 attempts.statuses[attempts.status[i]], number(attempts.time[i]), number(attempts.length[i]),
+                 number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run)]);
+    });
+    const columns = [["contestant"], ["trial", 1], ["direction"], ["status"], ["time, ms", 1], ["length", 1],
+                     ["simplified", 1], ["reason"], ["run", 1]];
+    return {title: "Attempts at this problem", rows, columns: columns.map(([heading, numeric]) => ({heading, numeric}))};
+  }
+
+  function showProblem(set, index) {
+    problem.set = set;
+    problem.index = index;
+    updateProblem();
+    document.getElementById("problem").scrollIntoView();
+    problem.element.querySelector("select").focus({preventScroll: true});
+  }
+
+  function updateProblem() {
+    const indices = problemsOf(problem.set);
+    const at = Math.max(indices.indexOf(problem.index), 0);
+    problem.index = indices[at];
+    const step = (label, by) => {
+      const button = element("button", {type: "button"}, label);
+      button.disabled = !(at + by in indices);
+      button.addEventListener("click", () => { problem.index = indices[at + by]; updateProblem(); });
+      return button;
+    };
+    problem.element.replaceChildren(
+      element("div", {class: "controls"},
+        select("set", sets.map(set => set.name), problem.set, value => { problem.set = value; updateProblem(); }),
+        select("problem", indices.map(String), at, value => { problem.index = indices[value]; updateProblem(); }),
+        step("Previous", -1), step("Next", 1)),
+      tableElement(problemTable()));
+  }
+
+  function problems() {
+    section("problem", "One problem", note("Every attempt, each direction and trial for itself; run is the id in the table " +
+                                           "runs of results.sqlite."), problem.element);
+    updateProblem();
+  }
+
+  document.title = "planbench: " + data.sessions.join(", ");
+  document.getElementById("subtitle").textContent = data.sessions.join(", ");
+  document.getElementById("footer").textContent = `Made by ${data.made_by}. Charts: Vega.`;
+  answer();
+  compared();
+  if (names.length > 0) {
+    for (const part of [success, times, pairs, quality, phases, rest, problems]) part();
+  }
+  return {data};
+})();

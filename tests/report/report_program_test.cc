@@ -1,0 +1,65 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/exit_codes.h"
+#include "common/read_text.h"
+#include "tests/report/example_session.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+
+class ReportProgramTest : public testing::Test {
+ protected:
+  int Run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), std::string(PLANBENCH_BIN_DIR) + "/report");
+    ChildProcess report(arguments, folder_ / "report");
+    const int code = report.Wait().value_or(-1);
+    errors_ = report.Errors();
+    return code;
+  }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+
+  TemporaryFolder folder_;
+  std::string errors_;
+};
+
+TEST_F(ReportProgramTest, WritesThePageAndTheTables) {
+  WriteSession(folder_ / "example", ExampleRuns(), ExampleSession());
+  ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--csv", Path("csv"), "--latex",
+                 Path("latex")}),
+            kExitOk)
+      << errors_;
+  const std::string page = ReadText(folder_ / "page.html");
+  EXPECT_THAT(page, HasSubstr("\"made_by\":\"planbench "));
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(page.find(kTagName), std::string::npos);
+  for (const char* table :
+       {"sessions", "success", "times", "pairs", "quality", "phases", "failures", "conditions"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "csv" / (std::string(table) + ".csv"))) << table;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "latex" / (std::string(table) + ".tex")))
+        << table;
+  }
+  EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr(",12,24,24,24,100,"));
+}
+
+TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
+  folder_.Write("empty/results.sqlite", "");
+  WriteSession(folder_ / "example", {{.contestant = "A"}});
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, const char* reason) {
+    EXPECT_EQ(Run(arguments), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+  };
+  expect_refused({}, "session is required");
+  expect_refused({Path("nowhere")}, "does not exist");
+  expect_refused({Path("empty")}, "is no results database");
+  expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")}, "cannot write");
+  expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
+}
+
+}  // namespace
+}  // namespace planbench

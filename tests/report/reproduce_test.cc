@@ -1,0 +1,40 @@
+#include "report/reproduce.h"
+
+#include <gtest/gtest.h>
+
+namespace planbench {
+namespace {
+
+std::string Command(const std::map<std::string, std::string>& flags) {
+  StoredSession session;
+  session.flags = flags;
+  return ReproducingCommand(session);
+}
+
+TEST(ReproducingCommandTest, RepeatsWhatWasGiven) {
+  EXPECT_EQ(Command({{"launch", "true"},
+                     {"parallel", "false"},
+                     {"sets", ""},
+                     {"planners", "ara,rrtc"},
+                     {"time", "10"}}),
+            "benchmark_driver --launch --planners ara,rrtc --time 10");
+  EXPECT_EQ(Command({}), "");
+}
+
+TEST(ReproducingCommandTest, LeavesOutTheSessionsOwnFolderAndBus) {
+  EXPECT_EQ(Command({{"out", "x"}, {"resume", "y"}, {"lcm-url", "udpm://z"}, {"seed", "1"}}),
+            "benchmark_driver --seed 1");
+}
+
+TEST(ReproducingCommandTest, RepeatsFlagsThatWereGivenSeveralTimes) {
+  EXPECT_EQ(Command({{"problems", "/a,/b c"}}), "benchmark_driver --problems /a --problems '/b c'");
+  EXPECT_EQ(Command({{"set", "ara.k=[1,2],rrtc.range=1"}}),
+            "benchmark_driver --set 'ara.k=[1,2]' --set rrtc.range=1");
+}
+
+TEST(ReproducingCommandTest, QuotesForTheShell) {
+  EXPECT_EQ(Command({{"robot", "it's $HOME"}}), "benchmark_driver --robot 'it'\\''s $HOME'");
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,176 @@
+#include "report/tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "report/answer.h"
+#include "report/figures.h"
+#include "tests/report/example_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+/// The example's session, read back from what the logger wrote.
+class ReportTest : public testing::Test {
+ protected:
+  static ComparedSessions Read(const std::vector<MadeRun>& runs) {
+    const TemporaryFolder folder;
+    WriteSession(folder / "example", runs, ExampleSession());
+    return ComparedSessions(ReadSessions(folder / "example").sessions);
+  }
+
+  const ComparedSessions compared_ = Read(ExampleRuns());
+  const std::vector<ComparedPair> pairs_ = ComparePairs(compared_, BootstrapSeed(compared_));
+
+  static std::vector<std::string> Texts(const Table& table, std::size_t row) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      texts.push_back(FormatCell(table.rows.at(row)[i], table.columns[i].style));
+    }
+    return texts;
+  }
+  using Row = std::vector<std::string>;
+};
+
+// Sets come by name: "a<i>set</i>" before "shelf". kTagName ranks first.
+TEST_F(ReportTest, Success) {
+  const Table table = SuccessTable(compared_);
+  ASSERT_EQ(table.rows.size(), 4u);
+  // Wilson's interval of 5 of 6 and 10 of 12 by its closed form.
+  const auto wilson = [](double p, double n) {
+    const double z = 1.959963984540054, center = p + z * z / (2 * n);
+    const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+    return fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * p, 100 * (center - half) / (1 + z * z / n),
+                       100 * (center + half) / (1 + z * z / n));
+  };
+  EXPECT_EQ(Texts(table, 1), (Row{"a<i>set</i>", kScriptName, "6", "6", "6", "5",
+                                  wilson(5 / 6.0, 6), "5", "0", "0", "0", "1", "0"}));
+  EXPECT_EQ(Texts(table, 2)[3], "24");
+  EXPECT_EQ(Texts(table, 3), (Row{"shelf", kScriptName, "12", "12", "10", "10",
+                                  wilson(10 / 12.0, 12), "10", "0", "2", "0", "0", "0"}));
+}
+
+TEST_F(ReportTest, Times) {
+  const Table table = TimeTable(compared_);
+  const Row first = Texts(table, 2);
+  EXPECT_EQ(first[2], "12");
+  // 1.1 to 2.2 s; the 3rd and 10th of twelve enclose the median: P(Bin(12, 1/2) < 3) = 1.9 %.
+  EXPECT_EQ(first[3], "1650 [1300, 2000]");
+  EXPECT_EQ(first[8], "1650");
+  // 2.2 to 4.0 s and twice ten limits.
+  EXPECT_EQ(Texts(table, 3)[8], FormatNumber(1000 * (31 + 2 * 100) / 12.0));
+}
+
+TEST_F(ReportTest, Pairs) {
+  ASSERT_EQ(pairs_.size(), 3u);  // two sets, and both together
+  EXPECT_EQ(pairs_[2].set, kAllSets);
+  const Row shelf = Texts(PairTable(pairs_), 1);
+  EXPECT_EQ(shelf[3], "12");
+  EXPECT_EQ(shelf[4], "12");
+  EXPECT_EQ(shelf[5], "0");
+  EXPECT_EQ(shelf[7], "0.500 [0.500, 0.500]");  // always half
+  EXPECT_EQ(shelf[8], "0.0005");                // 2 / 2^12
+  EXPECT_EQ(shelf[10], "-1.00");
+  // Both sets: ten ratios of a half, and of 1.1 to 1.5 s to 4 s.
+  const double log_sum =
+      10 * std::log(0.5) + std::log(1.1 * 1.2 * 1.3 * 1.4 * 1.5 / std::pow(4, 5));
+  EXPECT_NEAR(pairs_[2].result.ratio->mean, std::exp(log_sum / 15), 1e-12);
+  EXPECT_EQ(pairs_[2].result.num_problems, 18);
+}
+
+TEST_F(ReportTest, Quality) {
+  const Table table = QualityTable(compared_, 1);
+  ASSERT_EQ(table.rows.size(), 8u);  // two sets, raw and simplified, two contestants
+  const Row raw = Texts(table, 5);
+  EXPECT_EQ(raw, (Row{"shelf", kScriptName, "path_length", "rad, m", "raw", "10", "4.00", "4.00",
+                      "4.00", "2.00 [2.00, 2.00]"}));
+}
+
+TEST_F(ReportTest, Phases) {
+  const Table table = PhaseTable(compared_);
+  EXPECT_EQ(Texts(table, 2)[2], "24");
+  // An eighth, a half, a quarter, an eighth of a mean of 1.65 s, and what every run took after it.
+  const std::vector<double> expected_ms = {1650.0 / 8, 1650.0 / 2, 1650.0 / 4, 1650.0 / 8, 250};
+  for (std::size_t i = 0; i < expected_ms.size(); ++i) {
+    EXPECT_NEAR(std::get<double>(table.rows[2][3 + i]), expected_ms[i], 1e-9);
+  }
+}
+
+TEST_F(ReportTest, Failures) {
+  const Table table = FailureTable(compared_);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(Texts(table, 0),
+            (Row{"a<i>set</i>", kScriptName, "INVALID_PATH", "hits <board>", "1", "6"}));
+  EXPECT_EQ(Texts(table, 1),
+            (Row{"shelf", kScriptName, "TIMED_OUT", "the time limit came", "2", "11, 12"}));
+}
+
+TEST_F(ReportTest, Conditions) {
+  const Table table = ConditionTable(compared_);
+  EXPECT_EQ(Texts(table, 0), (Row{"example", kTagName, "30", "0", "1.00"}));
+  EXPECT_EQ(Texts(table, 1), (Row{"example", kScriptName, "18", "0", "-"}));
+  EXPECT_EQ(Cautions(compared_),
+            std::vector<std::string>{"example: all 48 runs are recorded; it took 0 s."});
+}
+
+TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
+  const std::vector<std::string> answer = Answer(compared_, pairs_);
+  ASSERT_EQ(answer.size(), 3u);
+  EXPECT_EQ(answer[0],
+            fmt::format("Of 2 contestants {} ranks first by penalised mean time: it solved "
+                        "100.0 % of the problems (95 % interval 82.4 to 100.0), in a median "
+                        "of 1500 ms (1300 to 1800), over 18 problems of 2 sets.",
+                        kTagName));
+  EXPECT_TRUE(
+      answer[1].starts_with(fmt::format("The next, {}, solved 83.3 % of the", kScriptName)));
+  EXPECT_NE(answer[2].find("ranks first in 2 of the 2 sets; the referee rejected 1 of 46 paths"),
+            std::string::npos)
+      << answer[2];
+}
+
+TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
+  EXPECT_EQ(Answer(ComparedSessions({}), {}), std::vector<std::string>{"No runs are recorded."});
+  const ComparedSessions alone = Read({{.contestant = "A"}});
+  EXPECT_EQ(Answer(alone, {}).at(1),
+            "There is nothing to compare it with; the referee confirmed every one of 1 paths.");
+  // One problem tells nothing.
+  const ComparedSessions both = Read({{.contestant = "A"}, {.contestant = "B", .time_s = 1.1}});
+  EXPECT_NE(Answer(both, ComparePairs(both, 1)).at(2).find("A is not shown to be faster than B"),
+            std::string::npos);
+}
+
+TEST_F(ReportTest, FiguresHaveEveryRunAndEveryProblem) {
+  const Json json = FigureData(compared_, pairs_, AllTables(compared_, pairs_, 7));
+  EXPECT_EQ(json["attempts"]["run"].size(), 48u);
+  ASSERT_EQ(json["sets"].size(), 3u);
+  EXPECT_EQ(json["sets"][1]["times"][0]["time"].size(), 24u);
+  EXPECT_EQ(json["sets"][1]["times"][0]["time"][0], 1100);
+  EXPECT_EQ(json["sets"][1]["times"][1]["time"][11], nullptr);  // failed
+  EXPECT_EQ(json["sets"][1]["problem_times"][1]["problem"].size(), 12u);
+  EXPECT_EQ(json["sets"][1]["survival"][1]["share"].back(), 0.833333);
+  EXPECT_EQ(json["sets"][1]["profile"][0]["share"], Json::array({1.0}));
+  EXPECT_EQ(json["sets"][1]["phases"][0]["shares"], Json::array({0.125, 0.5, 0.25, 0.125}));
+  EXPECT_TRUE(json["sets"][2]["all"]);
+}
+
+TEST_F(ReportTest, SeveralSessionsAreListedWhereTheyDiffer) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "one", {{.contestant = "A"}}, ExampleSession());
+  SessionMessage other = ExampleSession();
+  other.commit = "def456";
+  other.settings["time"] = "20";
+  WriteSession(folder / "two", {{.contestant = "A", .time_s = 2}}, other);
+  std::vector<StoredSession> sessions = ReadSessions(folder / "one").sessions;
+  sessions.push_back(ReadSessions(folder / "two").sessions.front());
+  const ComparedSessions compared(std::move(sessions));
+  const Table table = SessionTable(compared, true);
+  std::vector<std::string> fields;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) fields.push_back(Texts(table, i)[0]);
+  EXPECT_EQ(fields, (Row{"session", "version", "commit", "--time"}));
+  EXPECT_EQ(Texts(table, 3), (Row{"--time", "10", "20"}));
+}
+
+}  // namespace
+}  // namespace planbench
