@@ -111,8 +111,8 @@ class YamlNode {
   };
   using Entry = std::pair<YAML::Node, YAML::Node>;
 
-  YamlNode(YAML::Node node, std::shared_ptr<Document> document, std::string path)
-      : node_(std::move(node)), document_(std::move(document)), path_(std::move(path)) {}
+  YamlNode(const YAML::Node& node, std::shared_ptr<Document> document, std::string path)
+      : node_(node), document_(std::move(document)), path_(std::move(path)) {}
 
   YamlNode Child(const YAML::Node& node, const std::string& path) const {
     return YamlNode(node, document_, path);
