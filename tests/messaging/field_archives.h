@@ -242,7 +242,11 @@ class Stretcher {
     if (chosen_ == &count) List(name, values, wires, count);
   }
   template <typename Values, typename Wires>
-  void Rows(const char* name, Values& rows, Wires& wires, std::int32_t& count, std::int32_t&) {
+  void Rows(const char* name, Values& rows, Wires& wires, std::int32_t& count,
+            std::int32_t& width) {
+    if (chosen_ == &width) {
+      for (auto& row : wires) row.emplace_back();  // the encoder reads as many
+    }
     List(name, rows, wires, count);
   }
   template <typename Value, typename Wire>

@@ -17,6 +17,7 @@
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/trials.h"
 
 namespace planbench {
 namespace {
@@ -108,7 +109,7 @@ TEST(SimdTruthTest, RandomConfigurationsInShelvesBoxesAndTables) {
   for (const World& world : FetchWorlds()) {
     SCOPED_TRACE(world.what);
     Comparison comparison(world.robot, world.scene, world.base_positions);
-    constexpr int kNum = 100'000;
+    constexpr int kNum = Trials(100'000);
     comparison.JudgeRandom(kNum, 1);
     EXPECT_GT(comparison.num_free(), kNum / 10);
     EXPECT_LT(comparison.num_free(), kNum);
@@ -122,8 +123,9 @@ TEST(SimdTruthTest, RandomConfigurationsAmongShapesOfAllKinds) {
   for (const NamedScene& world : MakeTestScenes()) {
     SCOPED_TRACE(world.what);
     Comparison comparison(arm, world.scene, base);
-    comparison.JudgeRandom(20'000, 2);
-    EXPECT_LT(comparison.num_disputed(), 400);
+    constexpr int kNum = Trials(20'000);
+    comparison.JudgeRandom(kNum, 2);
+    EXPECT_LT(comparison.num_disputed(), kNum / 50);
   }
 }
 
@@ -137,7 +139,7 @@ TEST(SimdTruthTest, EdgesAtFixedSamples) {
     std::mt19937_64 generator(3);
     int num_valid = 0;
     int num_disputed = 0;
-    constexpr int kNum = 12'500;
+    constexpr int kNum = Trials(12'500);
     for (int i = 0; i < kNum; ++i) {
       const auto from = RandomConfiguration(space, &generator);
       auto to = RandomConfiguration(space, &generator);
@@ -171,7 +173,8 @@ TEST(SimdTruthTest, CertifiedEdgesAreFreeAllAlong) {
     std::mt19937_64 generator(4);
     int num_valid = 0;
     int num_refused_without_need = 0;
-    for (int i = 0; i < 600; ++i) {
+    constexpr int kNum = Trials(600);
+    for (int i = 0; i < kNum; ++i) {
       const auto from = RandomConfiguration(space, &generator);
       auto to = RandomConfiguration(space, &generator);
       space.Interpolate(from, to, 0.2, to);
@@ -184,8 +187,8 @@ TEST(SimdTruthTest, CertifiedEdgesAreFreeAllAlong) {
         ++num_refused_without_need;
       }
     }
-    EXPECT_GT(num_valid, 100);
-    EXPECT_LT(num_refused_without_need, num_valid / 20);
+    EXPECT_GT(num_valid, kNum / 6);
+    EXPECT_LE(num_refused_without_need, num_valid / 20);
   }
 }
 
