@@ -112,7 +112,9 @@ TEST_F(OmplJointSpaceTest, FreedStatesAreUsedAgainAndStatesInUseAreNot) {
   EXPECT_NE(first, second);
   space_->freeState(first);
   EXPECT_EQ(space_->allocState(), first);
-  EXPECT_NE(space_->allocState(), first);
+  ob::State* third = space_->allocState();
+  EXPECT_NE(third, first);
+  for (ob::State* state : {first, second, third}) space_->freeState(state);
 }
 
 TEST_F(OmplJointSpaceTest, ProjectsOntoTheFirstJoints) {
