@@ -14,7 +14,8 @@ NodeStatusMessage Describe(const LoggerOptions& options) {
 }  // namespace
 
 LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
-    : status_(Describe(options)),
+    : bus_(bus),
+      status_(Describe(options)),
       queue_(options.queue_bytes),
       recorder_(options.out, options.resume, options.name,
                 [bus](const std::string& channel, const AckMessage& ack) {
@@ -23,11 +24,8 @@ LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
   writer_ = std::thread([this] { Write(); });
   constexpr int kUnbounded = 0;
   try {
-    everything_ = bus->SubscribeBytes(
-        ".*",
-        [this](const std::string& channel, std::span<const std::uint8_t> bytes,
-               std::int64_t utime) { OnMessage(channel, bytes, utime); },
-        kUnbounded);
+    everything_ = bus->SubscribeToAll(
+        [this](const ReceivedMessage& message) { OnMessage(message); }, kUnbounded);
     announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return status_; });
   } catch (...) {
     Stop();
@@ -49,6 +47,9 @@ bool LoggerNode::Run(const std::function<bool()>& stop) {
   const RecorderTally& tally = recorder_.tally();
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally.events, tally.runs,
                tally.repetitions);
+  if (const std::int64_t lost = bus_->counters().lost; lost > 0) {
+    spdlog::warn("{} messages that others sent did not come: the event log is incomplete", lost);
+  }
   if (num_dropped() > 0) {
     spdlog::error("{} messages were dropped: the event log is incomplete", num_dropped());
   }
@@ -58,9 +59,8 @@ bool LoggerNode::Run(const std::function<bool()>& stop) {
   return num_dropped() == 0 && tally.failures == 0;
 }
 
-void LoggerNode::OnMessage(const std::string& channel, std::span<const std::uint8_t> bytes,
-                           std::int64_t utime) {
-  if (queue_.Push(channel, bytes, utime)) return;
+void LoggerNode::OnMessage(const ReceivedMessage& message) {
+  if (queue_.Push(message)) return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_complaint_ < std::chrono::seconds(1)) return;
   last_complaint_ = now;

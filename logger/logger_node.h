@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <thread>
 
@@ -46,11 +45,11 @@ class LoggerNode {
   std::int64_t num_dropped() const { return queue_.num_dropped(); }
 
  private:
-  void OnMessage(const std::string& channel, std::span<const std::uint8_t> bytes,
-                 std::int64_t utime);
+  void OnMessage(const ReceivedMessage& message);
   void Write();
   void Stop();
 
+  Bus* bus_;
   const NodeStatusMessage status_;
   MessageQueue queue_;
   SessionRecorder recorder_;

@@ -6,23 +6,21 @@ namespace planbench {
 namespace {
 
 /// What a message takes up, bookkeeping included, so that many small ones are bounded too.
-std::size_t Footprint(const std::string& channel, std::size_t num_bytes) {
-  return sizeof(ReceivedMessage) + channel.size() + num_bytes;
+std::size_t Footprint(const ReceivedMessage& message) {
+  return sizeof(ReceivedMessage) + message.channel.size() + message.bytes.size();
 }
 
 }  // namespace
 
-bool MessageQueue::Push(const std::string& channel, std::span<const std::uint8_t> bytes,
-                        std::int64_t utime) {
-  ReceivedMessage message{channel, {bytes.begin(), bytes.end()}, utime};
-  const std::size_t footprint = Footprint(channel, bytes.size());
+bool MessageQueue::Push(const ReceivedMessage& message) {
+  const std::size_t footprint = Footprint(message);
   const std::scoped_lock lock(mutex_);
   if (closed_ || bytes_ + footprint > capacity_bytes_) {
     ++num_dropped_;
     return false;
   }
   bytes_ += footprint;
-  messages_.push_back(std::move(message));
+  messages_.push_back(message);
   changed_.notify_one();
   return true;
 }
@@ -33,7 +31,7 @@ std::optional<ReceivedMessage> MessageQueue::Pop(std::chrono::milliseconds timeo
   if (messages_.empty()) return std::nullopt;
   ReceivedMessage message = std::move(messages_.front());
   messages_.pop_front();
-  bytes_ -= Footprint(message.channel, message.bytes.size());
+  bytes_ -= Footprint(message);
   return message;
 }
 

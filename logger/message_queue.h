@@ -7,18 +7,10 @@
 #include <deque>
 #include <mutex>
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
+
+#include "messaging/packet_reader.h"
 
 namespace planbench {
-
-/// A message as it came off the bus.
-struct ReceivedMessage {
-  std::string channel;
-  std::vector<std::uint8_t> bytes;
-  std::int64_t utime = 0;  ///< Time of receipt, us since the Unix epoch.
-};
 
 /// From the bus thread to the writer: holds at most so many bytes, and counts what it has to drop.
 /// Thread-safe.
@@ -26,8 +18,8 @@ class MessageQueue {
  public:
   explicit MessageQueue(std::size_t capacity_bytes) : capacity_bytes_(capacity_bytes) {}
 
-  /// Copies a message in; false if there is no room for it or the queue is closed.
-  bool Push(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utime);
+  /// False if there is no room for the message or the queue is closed.
+  bool Push(const ReceivedMessage& message);
   /// The oldest message; nothing if none comes within `timeout`, or the queue is closed and empty.
   std::optional<ReceivedMessage> Pop(std::chrono::milliseconds timeout);
   /// Takes no more messages; those inside can still be popped.

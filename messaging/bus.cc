@@ -6,16 +6,17 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <mutex>
-#include <regex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "common/error.h"
+#include "common/utime.h"
+#include "messaging/multicast_receiver.h"
+#include "messaging/packet_reader.h"
 
 namespace planbench {
 namespace {
@@ -76,7 +77,7 @@ std::string FirstLine(const std::string& text) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-lcm_t* Connect(const std::string& url) {
+lcm_t* ConnectSender(const std::string& url) {
   StderrCapture capture;
   lcm_t* lcm = lcm_create(url.c_str());
   const std::string said = capture.Restore();
@@ -88,125 +89,93 @@ lcm_t* Connect(const std::string& url) {
   throw InputError("cannot connect to LCM at '" + url + "': " + FirstLine(said));
 }
 
-void WarnIfReceiveBufferIsCapped(const std::string& url) {
-  std::smatch match;
-  if (!std::regex_search(url, match, std::regex("recv_buf_size=([0-9]{1,12})"))) return;
-  const long long wanted = std::stoll(match[1]);
-  long long cap = 0;
-  if (!(std::ifstream("/proc/sys/net/core/rmem_max") >> cap) || cap >= wanted) return;
-  spdlog::warn(
-      "the kernel caps receive buffers at {} bytes where {} are wanted: large messages may be lost "
-      "and sent again; as root: sysctl -w net.core.rmem_max={}",
-      cap, wanted, wanted);
-}
-
 }  // namespace
 
-struct Subscription::State {
-  lcm_subscription_t* subscription = nullptr;
-  Retired* retired = nullptr;
-  Bus::BytesHandler handler;
-  // Held while the handler runs, so that the subscription cannot go away under it.
-  std::mutex running;
-  bool live = true;
-
-  static void Dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
-    auto* state = static_cast<State*>(user);
-    const std::scoped_lock lock(state->running);
-    if (!state->live) return;
-    // What a handler throws must not pass through LCM: it would be unusable afterwards.
-    try {
-      state->handler(channel, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size},
-                     buffer->recv_utime);
-    } catch (const std::exception& error) {
-      spdlog::error("message on {} dropped: {}", channel, error.what());
-    } catch (...) {
-      spdlog::error("message on {} dropped: its handler threw something", channel);
-    }
-  }
-};
-
-/// Subscriptions that have ended but that LCM still knows. LCM goes through its list of handlers
-/// without holding its lock, so that taking one off the list from another thread, be it of the same
-/// channel or not yet called, makes it skip others or read past the end. The bus thread takes them
-/// off, between messages.
-struct Subscription::Retired {
-  std::mutex mutex;
-  std::vector<std::unique_ptr<State>> states;
-
-  void Add(std::unique_ptr<State> state) {
-    const std::scoped_lock lock(mutex);
-    states.push_back(std::move(state));
-  }
-  void Unsubscribe(lcm_t* lcm) {
-    std::vector<std::unique_ptr<State>> ended;
-    {
-      const std::scoped_lock lock(mutex);
-      ended.swap(states);
-    }
-    for (const std::unique_ptr<State>& state : ended) lcm_unsubscribe(lcm, state->subscription);
-  }
-};
-
 Subscription::Subscription() = default;
-Subscription::Subscription(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Subscription::Subscription(Inbox* inbox, std::shared_ptr<Subscriber> subscriber)
+    : inbox_(inbox), subscriber_(std::move(subscriber)) {}
 Subscription::Subscription(Subscription&&) noexcept = default;
 Subscription& Subscription::operator=(Subscription&& other) noexcept {
   if (this != &other) {
     Release();
-    state_ = std::move(other.state_);
+    inbox_ = other.inbox_;
+    subscriber_ = std::move(other.subscriber_);
   }
   return *this;
 }
 Subscription::~Subscription() { Release(); }
 
 void Subscription::Release() {
-  if (!state_) return;
-  {
-    const std::scoped_lock lock(state_->running);
-    state_->live = false;
-    state_->handler = nullptr;  // with all it captured
-  }
-  Retired* retired = state_->retired;
-  retired->Add(std::move(state_));
+  if (subscriber_) inbox_->Remove(subscriber_);
+  subscriber_.reset();
 }
 
 struct Bus::Impl {
-  lcm_t* lcm = nullptr;
-  Subscription::Retired retired;
-  std::atomic<bool> stopping = false;
-  std::thread thread;
-
-  void Receive() {
-    while (!stopping) {
-      retired.Unsubscribe(lcm);
-      errno = 0;
-      if (lcm_handle_timeout(lcm, 50) < 0 && errno != EINTR) {
-        spdlog::critical("LCM cannot receive any more; this process is deaf");
-        return;
-      }
+  ~Impl() {
+    stopping = true;
+    if (thread.joinable()) thread.join();
+    receiver.reset();
+    if (sender != nullptr) lcm_destroy(sender);
+    if (packets.counters().malformed > 0) {
+      spdlog::warn("{} packets on the bus were none of LCM's and were left out",
+                   packets.counters().malformed);
     }
   }
+
+  void Connect(const std::string& url) {
+    const MulticastAddress address = MulticastAddress::Parse(url);
+    // LCM looks for a multicast route. It receives nothing, since nothing subscribes with it.
+    sender = ConnectSender(url);
+    const SignalsBlocked blocked;
+    receiver.emplace(address,
+                     [this](const PacketSender& from, std::span<const std::uint8_t> packet) {
+                       OnPacket(from, packet);
+                     });
+  }
+
+  void OnPacket(const PacketSender& from, std::span<const std::uint8_t> packet) {
+    std::optional<ReceivedMessage> message;
+    {
+      const std::scoped_lock lock(packets_mutex);
+      const std::int64_t malformed = packets.counters().malformed;
+      message = packets.Read(from, packet, NowUtime());
+      if (malformed == 0 && packets.counters().malformed > 0) {
+        spdlog::warn("{} sent a packet of {} bytes that is none of LCM's: left out, as others are",
+                     from.Text(), packet.size());
+      }
+    }
+    if (message) inbox.Push(*std::move(message));
+  }
+
+  lcm_t* sender = nullptr;  ///< Null: what is published goes into the inbox.
+  Inbox inbox;
+  mutable std::mutex packets_mutex;
+  PacketReader packets;
+  std::optional<MulticastReceiver> receiver;
+  std::atomic<bool> stopping = false;
+  std::thread thread;
 };
 
 Bus::Bus(const std::string& url) : url_(url), impl_(std::make_unique<Impl>()) {
-  impl_->lcm = Connect(url);
-  WarnIfReceiveBufferIsCapped(url);
+  if (url != "memq://") impl_->Connect(url);
 }
 
-Bus::~Bus() {
-  impl_->stopping = true;
-  if (impl_->thread.joinable()) impl_->thread.join();
-  lcm_destroy(impl_->lcm);
-}
+Bus::~Bus() = default;
 
 void Bus::Start() {
   const SignalsBlocked blocked;
-  if (!impl_->thread.joinable()) impl_->thread = std::thread([this] { impl_->Receive(); });
+  if (impl_->thread.joinable()) return;
+  impl_->thread = std::thread([this] {
+    while (!impl_->stopping) impl_->inbox.HandleOne(std::chrono::milliseconds(50));
+  });
 }
 
 void Bus::PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  if (lcm_publish(impl_->lcm, channel.c_str(), bytes.data(),
+  if (impl_->sender == nullptr) {
+    impl_->inbox.Push({channel, {bytes.begin(), bytes.end()}, NowUtime()});
+    return;
+  }
+  if (lcm_publish(impl_->sender, channel.c_str(), bytes.data(),
                   static_cast<unsigned int>(bytes.size())) != 0) {
     spdlog::warn("a message of {} bytes on {} could not be sent", bytes.size(), channel);
   }
@@ -214,19 +183,23 @@ void Bus::PublishBytes(const std::string& channel, std::span<const std::uint8_t>
 
 Subscription Bus::SubscribeBytes(const std::string& channel, BytesHandler handler,
                                  int queue_capacity) {
-  auto state = std::make_unique<Subscription::State>();
-  state->retired = &impl_->retired;
-  state->handler = std::move(handler);
-  {
-    const SignalsBlocked blocked;  // the first subscription starts a thread of LCM's
-    state->subscription =
-        lcm_subscribe(impl_->lcm, channel.c_str(), &Subscription::State::Dispatch, state.get());
-  }
-  if (state->subscription == nullptr) {
-    throw InputError("cannot subscribe to '" + channel + "' at " + url_);
-  }
-  lcm_subscription_set_queue_capacity(state->subscription, queue_capacity);
-  return Subscription(std::move(state));
+  auto subscriber = std::make_shared<Subscriber>();
+  subscriber->channel = channel;
+  subscriber->capacity = queue_capacity;
+  subscriber->handler = std::move(handler);
+  impl_->inbox.Add(subscriber);
+  return Subscription(&impl_->inbox, std::move(subscriber));
+}
+
+Subscription Bus::SubscribeToAll(BytesHandler handler, int queue_capacity) {
+  return SubscribeBytes("", std::move(handler), queue_capacity);
+}
+
+Bus::Counters Bus::counters() const {
+  const std::int64_t dropped = impl_->inbox.num_dropped();
+  const std::scoped_lock lock(impl_->packets_mutex);
+  const PacketReader::Counters& packets = impl_->packets.counters();
+  return {packets.malformed, packets.lost, dropped};
 }
 
 }  // namespace planbench

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "messaging/codec.h"
+#include "messaging/inbox.h"
 
 namespace planbench {
 
@@ -24,23 +25,23 @@ class Subscription {
 
  private:
   friend class Bus;
-  struct State;
-  struct Retired;
-  explicit Subscription(std::unique_ptr<State> state);
+  Subscription(Inbox* inbox, std::shared_ptr<Subscriber> subscriber);
   void Release();
-  std::unique_ptr<State> state_;
+  Inbox* inbox_ = nullptr;
+  std::shared_ptr<Subscriber> subscriber_;
 };
 
-/// The only owner of an LCM connection. Handlers run on the bus thread, one at a time, from Start()
-/// on; what they throw is logged with the channel's name and goes no further. Publishing is
-/// thread-safe.
+/// The only owner of an LCM connection. Messages are sent by LCM, but received by this project's
+/// own reader of its protocol, which no packet harms. Handlers run on the bus thread, one at a
+/// time, from Start() on; what they throw is logged with the channel's name and goes no further.
+/// Publishing is thread-safe.
 class Bus {
  public:
   /// Messages a subscription can hold while its handler is busy.
   static constexpr int kDefaultQueueCapacity = 1024;
 
   /// Connects; throws InputError in one line if the URL is bad or there is no multicast route.
-  /// Warns if the kernel caps the receive buffer that the URL asks for.
+  /// "memq://" is a bus within this object.
   explicit Bus(const std::string& url);
   /// Stops the bus thread.
   ~Bus();
@@ -70,7 +71,6 @@ class Bus {
         std::move(on_bad_message), queue_capacity);
   }
   /// The same for a handler that is also told when the message arrived, before it was decoded.
-  /// (LCM's own time of receipt is of the system clock, which may jump.)
   template <typename Message>
   [[nodiscard]] Subscription SubscribeTimed(
       const std::string& channel,
@@ -79,12 +79,11 @@ class Bus {
       int queue_capacity = kDefaultQueueCapacity) {
     return SubscribeBytes(
         channel,
-        [handler = std::move(handler), on_bad_message = std::move(on_bad_message)](
-            const std::string& received_on, std::span<const std::uint8_t> bytes,
-            std::int64_t /*utime*/) {
+        [handler = std::move(handler),
+         on_bad_message = std::move(on_bad_message)](const ReceivedMessage& received) {
           const auto arrival = std::chrono::steady_clock::now();
           try {
-            handler(Decode<Message>(bytes, received_on), arrival);
+            handler(Decode<Message>(received.bytes, received.channel), arrival);
           } catch (const MessageError& error) {
             if (!on_bad_message) throw;
             on_bad_message(error);
@@ -94,13 +93,19 @@ class Bus {
   }
 
   void PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes);
-  /// `channel` may be a regular expression, e.g. ".*". The handler gets the channel, the bytes
-  /// (valid during the call) and the time of receipt (us since the Unix epoch). queue_capacity 0 is
-  /// unbounded.
-  using BytesHandler = std::function<void(const std::string& channel,
-                                          std::span<const std::uint8_t> bytes, std::int64_t utime)>;
+  /// queue_capacity 0 is unbounded.
+  using BytesHandler = Subscriber::Handler;
   [[nodiscard]] Subscription SubscribeBytes(const std::string& channel, BytesHandler handler,
                                             int queue_capacity = kDefaultQueueCapacity);
+  /// To all channels.
+  [[nodiscard]] Subscription SubscribeToAll(BytesHandler handler, int queue_capacity);
+
+  struct Counters {
+    std::int64_t malformed = 0;  ///< Packets that were none of LCM's.
+    std::int64_t lost = 0;       ///< Messages sent that did not come whole, as far as can be known.
+    std::int64_t dropped = 0;    ///< Messages that came faster than they were handled.
+  };
+  Counters counters() const;
 
  private:
   struct Impl;

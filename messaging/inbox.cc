@@ -1,0 +1,82 @@
+#include "messaging/inbox.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace planbench {
+namespace {
+
+void Handle(Subscriber* subscriber, const ReceivedMessage& message) {
+  const std::scoped_lock lock(subscriber->running);
+  if (!subscriber->handler) return;
+  try {
+    subscriber->handler(message);
+  } catch (const std::exception& error) {
+    spdlog::error("message on {} dropped: {}", message.channel, error.what());
+  } catch (...) {
+    spdlog::error("message on {} dropped: its handler threw something", message.channel);
+  }
+}
+
+}  // namespace
+
+void Inbox::Add(std::shared_ptr<Subscriber> subscriber) {
+  const std::scoped_lock lock(mutex_);
+  subscribers_.push_back(std::move(subscriber));
+}
+
+void Inbox::Remove(const std::shared_ptr<Subscriber>& subscriber) {
+  {
+    const std::scoped_lock lock(mutex_);
+    std::erase(subscribers_, subscriber);
+  }
+  const std::scoped_lock lock(subscriber->running);
+  subscriber->handler = nullptr;  // with all it captured
+}
+
+void Inbox::Push(ReceivedMessage message) {
+  const std::scoped_lock lock(mutex_);
+  const bool full = bytes_ + message.bytes.size() > kMaxBytes;
+  Entry entry;
+  for (const std::shared_ptr<Subscriber>& subscriber : subscribers_) {
+    if (!subscriber->channel.empty() && subscriber->channel != message.channel) continue;
+    if (full || (subscriber->capacity > 0 && subscriber->num_waiting >= subscriber->capacity)) {
+      ++num_dropped_;
+      continue;
+    }
+    ++subscriber->num_waiting;
+    entry.subscribers.push_back(subscriber);
+  }
+  if (entry.subscribers.empty()) return;
+  bytes_ += message.bytes.size();
+  entry.message = std::move(message);
+  entries_.push_back(std::move(entry));
+  changed_.notify_one();
+}
+
+void Inbox::HandleOne(std::chrono::milliseconds timeout) {
+  Entry entry;
+  {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, timeout, [this] { return !entries_.empty(); })) return;
+    entry = std::move(entries_.front());
+    entries_.pop_front();
+    bytes_ -= entry.message.bytes.size();
+    for (const std::shared_ptr<Subscriber>& subscriber : entry.subscribers) {
+      --subscriber->num_waiting;
+    }
+  }
+  for (const std::shared_ptr<Subscriber>& subscriber : entry.subscribers) {
+    Handle(subscriber.get(), entry.message);
+  }
+}
+
+std::int64_t Inbox::num_dropped() const {
+  const std::scoped_lock lock(mutex_);
+  return num_dropped_;
+}
+
+}  // namespace planbench

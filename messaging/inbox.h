@@ -1,0 +1,64 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "messaging/packet_reader.h"
+
+namespace planbench {
+
+/// A handler of messages and what waits for it.
+struct Subscriber {
+  using Handler = std::function<void(const ReceivedMessage& message)>;
+
+  std::string channel;  ///< Empty: all.
+  int capacity = 0;     ///< Messages that may wait; 0: any number.
+  int num_waiting = 0;  ///< Guarded by the inbox's mutex.
+  std::mutex running;   ///< Held while the handler runs, so that it cannot go away under it.
+  Handler handler;      ///< Empty once the subscription has ended.
+};
+
+/// Messages on their way from those who receive them to those who handle them. Thread-safe.
+class Inbox {
+ public:
+  /// Bytes of messages that may wait in all.
+  static constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+
+  void Add(std::shared_ptr<Subscriber> subscriber);
+  /// Waits for a running call of its handler; there is none afterwards.
+  void Remove(const std::shared_ptr<Subscriber>& subscriber);
+
+  /// Queues a message for the subscribers of its channel; one whose messages are too many gets
+  /// none.
+  void Push(ReceivedMessage message);
+  /// Hands the oldest message to its handlers, waiting for one up to `timeout`. What a handler
+  /// throws is logged.
+  void HandleOne(std::chrono::milliseconds timeout);
+
+  /// Messages that a subscriber did not get, times subscribers.
+  std::int64_t num_dropped() const;
+
+ private:
+  struct Entry {
+    ReceivedMessage message;
+    std::vector<std::shared_ptr<Subscriber>> subscribers;
+  };
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::shared_ptr<Subscriber>> subscribers_;
+  std::deque<Entry> entries_;
+  std::size_t bytes_ = 0;
+  std::int64_t num_dropped_ = 0;
+};
+
+}  // namespace planbench

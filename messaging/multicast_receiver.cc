@@ -1,0 +1,147 @@
+#include "messaging/multicast_receiver.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <regex>
+#include <utility>
+#include <vector>
+
+#include "common/error.h"
+
+namespace planbench {
+namespace {
+
+/// Packets taken from the kernel at once, and the most bytes that one can have.
+constexpr std::size_t kBatch = 16;
+constexpr std::size_t kMaxPacketBytes = 65536;
+
+void Set(int socket_fd, int level, int option, const void* value, std::size_t size,
+         const char* what) {
+  if (setsockopt(socket_fd, level, option, value, static_cast<socklen_t>(size)) != 0) {
+    throw InputError(fmt::format("{}: {}", what, std::strerror(errno)));
+  }
+}
+
+void SetReceiveBuffer(int socket_fd, int bytes) {
+  if (bytes <= 0) return;
+  Set(socket_fd, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof(bytes), "receive buffer");
+  int granted = 0;  // twice what is for data
+  socklen_t size = sizeof(granted);
+  getsockopt(socket_fd, SOL_SOCKET, SO_RCVBUF, &granted, &size);
+  if (granted / 2 >= bytes) return;
+  spdlog::warn(
+      "the kernel caps receive buffers at {} bytes where {} are wanted: large messages may be lost "
+      "and sent again; as root: sysctl -w net.core.rmem_max={}",
+      granted / 2, bytes, bytes);
+}
+
+void Join(int socket_fd, const MulticastAddress& address) {
+  const int yes = 1;
+  Set(socket_fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes), "address in use");
+  ip_mreq membership = {};
+  sockaddr_in bound = {};
+  bound.sin_family = AF_INET;
+  bound.sin_port = htons(address.port);
+  inet_pton(AF_INET, address.group.c_str(), &bound.sin_addr);
+  if (bind(socket_fd, reinterpret_cast<const sockaddr*>(&bound), sizeof(bound)) != 0) {
+    throw InputError(fmt::format("cannot receive from {}:{}: {}", address.group, address.port,
+                                 std::strerror(errno)));
+  }
+  membership.imr_multiaddr = bound.sin_addr;
+  membership.imr_interface.s_addr = htonl(INADDR_ANY);
+  Set(socket_fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof(membership),
+      ("cannot join " + address.group).c_str());
+}
+
+}  // namespace
+
+MulticastAddress MulticastAddress::Parse(const std::string& url) {
+  static const std::regex kUrl(R"(udpm://([0-9.]*)(?::([0-9]{1,5}))?(?:\?(.*))?)");
+  static const std::regex kBuffer(R"((?:^|[&?])recv_buf_size=([0-9]{1,9})(?:&|$))");
+  const auto fail = [&] {
+    throw InputError("cannot connect to LCM at '" + url +
+                     "': the bus is udpm://GROUP:PORT, GROUP being a multicast address");
+  };
+  MulticastAddress address;
+  std::smatch match;
+  if (!std::regex_match(url, match, kUrl)) fail();
+  if (match[1].length() > 0) address.group = match[1];
+  if (match[2].matched) {
+    const int port = std::stoi(match[2]);
+    if (port < 1 || port > 65535) fail();
+    address.port = static_cast<std::uint16_t>(port);
+  }
+  in_addr group = {};
+  if (inet_pton(AF_INET, address.group.c_str(), &group) != 1 ||
+      !IN_MULTICAST(ntohl(group.s_addr))) {
+    fail();
+  }
+  const std::string options = match[3];
+  if (std::regex_search(options, match, kBuffer)) {
+    address.receive_buffer_bytes = std::stoi(match[1]);
+  }
+  return address;
+}
+
+MulticastReceiver::MulticastReceiver(const MulticastAddress& address, Handler handler)
+    : handler_(std::move(handler)) {
+  socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  stop_ = eventfd(0, EFD_CLOEXEC);
+  try {
+    if (socket_ < 0 || stop_ < 0) throw InputError(std::strerror(errno));
+    SetReceiveBuffer(socket_, address.receive_buffer_bytes);
+    Join(socket_, address);
+    thread_ = std::thread([this] { Receive(); });
+  } catch (...) {
+    close(socket_);
+    close(stop_);
+    throw;
+  }
+}
+
+MulticastReceiver::~MulticastReceiver() {
+  eventfd_write(stop_, 1);
+  thread_.join();
+  close(socket_);
+  close(stop_);
+}
+
+void MulticastReceiver::Receive() {
+  std::vector<std::uint8_t> memory(kBatch * kMaxPacketBytes);
+  std::array<sockaddr_in, kBatch> senders = {};
+  std::array<iovec, kBatch> buffers = {};
+  std::array<mmsghdr, kBatch> packets = {};
+  std::array<pollfd, 2> awaited = {pollfd{socket_, POLLIN, 0}, pollfd{stop_, POLLIN, 0}};
+  while (true) {
+    if (poll(awaited.data(), awaited.size(), -1) < 0 && errno != EINTR) {
+      spdlog::critical("the bus cannot be heard any more: {}", std::strerror(errno));
+      return;
+    }
+    if (awaited[1].revents != 0) return;
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      buffers[i] = {memory.data() + i * kMaxPacketBytes, kMaxPacketBytes};
+      packets[i].msg_hdr = {};
+      packets[i].msg_hdr.msg_name = &senders[i];
+      packets[i].msg_hdr.msg_namelen = sizeof(senders[i]);
+      packets[i].msg_hdr.msg_iov = &buffers[i];
+      packets[i].msg_hdr.msg_iovlen = 1;
+    }
+    const int num = recvmmsg(socket_, packets.data(), kBatch, 0, nullptr);
+    for (std::size_t i = 0; num > 0 && i < static_cast<std::size_t>(num); ++i) {
+      handler_({ntohl(senders[i].sin_addr.s_addr), ntohs(senders[i].sin_port)},
+               {memory.data() + i * kMaxPacketBytes, packets[i].msg_len});
+    }
+  }
+}
+
+}  // namespace planbench

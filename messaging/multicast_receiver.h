@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <thread>
+
+#include "messaging/packet_reader.h"
+
+namespace planbench {
+
+/// Where an LCM bus is: the parts of an udpm:// URL that a receiver needs.
+struct MulticastAddress {
+  std::string group = "239.255.76.67";
+  std::uint16_t port = 7667;
+  int receive_buffer_bytes = 0;  ///< Of the socket; 0: the system's default.
+
+  /// Throws InputError for anything but udpm://[GROUP[:PORT]][?OPTION=VALUE[&...]].
+  static MulticastAddress Parse(const std::string& url);
+};
+
+/// Receives the packets of a multicast group on a thread of its own, from construction on. Packets
+/// for other groups or for this host alone, which a socket bound to the port would get too, are
+/// not seen.
+class MulticastReceiver {
+ public:
+  using Handler =
+      std::function<void(const PacketSender& sender, std::span<const std::uint8_t> packet)>;
+
+  /// Throws InputError in one line if the group cannot be joined. Warns if the kernel grants less
+  /// than the receive buffer asked for.
+  MulticastReceiver(const MulticastAddress& address, Handler handler);
+  ~MulticastReceiver();
+  MulticastReceiver(const MulticastReceiver&) = delete;
+  MulticastReceiver& operator=(const MulticastReceiver&) = delete;
+
+ private:
+  void Receive();
+
+  Handler handler_;
+  int socket_ = -1;
+  int stop_ = -1;  ///< An eventfd.
+  std::thread thread_;
+};
+
+}  // namespace planbench
