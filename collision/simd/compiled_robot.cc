@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "collision/at.h"
-#include "collision/simd/ball_tree.h"
 #include "common/random.h"
 #include "robot_model/motion_bound.h"
 
@@ -48,24 +47,6 @@ void SetVector(const Eigen::Vector3d& v, float* values) {
   for (int i = 0; i < 3; ++i) values[i] = static_cast<float>(v[i]);
 }
 
-void SetBall(const Ball& ball, const Eigen::Matrix3d& R_CG, double padding, Node* node) {
-  const Eigen::Vector3d p_C = R_CG * ball.center;
-  SetVector(p_C, node->center);
-  node->radius = static_cast<float>(ball.radius + padding);
-}
-
-/// Writes a tree whose root has its place already.
-void Emit(const BallTree& tree, const Eigen::Matrix3d& R_CG, int index, std::vector<Node>* nodes) {
-  const int first = static_cast<int>(nodes->size());
-  const int num = static_cast<int>(tree.children().size());
-  // Balls of balls enclose the enlarged ones, and what rounding does to both.
-  SetBall(tree.ball(), R_CG, num == 0 ? kRadiusPadding : 2 * kRadiusPadding, &At(*nodes, index));
-  At(*nodes, index).first_child = first;
-  At(*nodes, index).num_children = num;
-  nodes->resize(nodes->size() + static_cast<std::size_t>(num));
-  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), R_CG, first + i, nodes);
-}
-
 }  // namespace
 
 CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
@@ -101,44 +82,40 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
   for (int i = 0; i < rigid_bodies_.size(); ++i) {
     std::vector<BallTree> trees;
     std::vector<CompiledTree> parts;
-    std::vector<LinkSphere> body_spheres;
     for (int link = 0; link < robot.model.num_links(); ++link) {
       if (rigid_bodies_.BodyOf(link) != i) continue;
       std::vector<Ball> balls;
-      std::vector<LinkSphere> spheres;
       for (const LinkSphere& sphere : robot.spheres) {
         if (sphere.link != link) continue;
         balls.push_back({rigid_bodies_.X_GL(link) * sphere.p_LS, sphere.radius});
-        spheres.push_back(sphere);
       }
       if (balls.empty()) continue;
       CompiledTree part;
       part.link = link;
       part.body = i;
-      part.reach = AddReach(spheres);
       trees.emplace_back(std::move(balls));
       part.reach_W = rigid_bodies_.Reach(0, i, trees.back().ball());
       parts.push_back(part);
-      body_spheres.insert(body_spheres.end(), spheres.begin(), spheres.end());
     }
     if (parts.empty()) continue;
     // The trees of a body's links are the children of the body's.
     CompiledTree whole = parts.front();
-    whole.link = -1;
     whole.root = static_cast<int>(kernel.nodes.size());
     kernel.nodes.emplace_back();
     if (parts.size() == 1) {
       parts.front().root = whole.root;
-      Emit(trees.front(), At(R_CG_, i), whole.root, &kernel.nodes);
+      Emit(trees.front(), whole.link, whole.root);
     } else {
       const BallTree tree(std::move(trees));
       for (std::size_t k = 0; k < parts.size(); ++k) {
         parts[k].root = static_cast<int>(kernel.nodes.size() + k);
       }
-      Emit(tree, At(R_CG_, i), whole.root, &kernel.nodes);
+      Emit(tree, whole.link, whole.root);
       whole.reach_W = rigid_bodies_.Reach(0, i, tree.ball());
-      whole.reach = AddReach(body_spheres);
     }
+    for (CompiledTree& part : parts) part.reach = AddReachOfTree(part.root);
+    whole.link = -1;
+    whole.reach = AddReachOfTree(whole.root);
     bodies.push_back(whole);
     links.insert(links.end(), parts.begin(), parts.end());
   }
@@ -148,11 +125,43 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
   num_reaches_ = kernel.reaches.size();
 }
 
-int CompiledRobot::AddReach(std::span<const LinkSphere> spheres) {
-  const MotionBound bound(*model_, *group_, base_positions_, spheres);
+void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
+  const int first = static_cast<int>(kernel.nodes.size());
+  const int num = static_cast<int>(tree.children().size());
+  // Balls of balls enclose the enlarged ones, and what rounding does to both.
+  SetBall(tree.ball(), num == 0 ? kRadiusPadding : 2 * kRadiusPadding, link, index);
+  At(kernel.nodes, index).first_child = first;
+  At(kernel.nodes, index).num_children = num;
+  if (num == 0) At(kernel.nodes, index).reach = AddReach(tree.ball(), link);
+  kernel.nodes.resize(kernel.nodes.size() + static_cast<std::size_t>(num));
+  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i);
+}
+
+void CompiledRobot::SetBall(const Ball& ball_G, double padding, int link, int index) {
+  Node& node = At(kernel.nodes, index);
+  SetVector(At(R_CG_, rigid_bodies_.BodyOf(link)) * ball_G.center, node.center);
+  node.radius = static_cast<float>(ball_G.radius + padding);
+}
+
+int CompiledRobot::AddReach(const Ball& ball_G, int link) {
+  const LinkSphere center{link, rigid_bodies_.X_GL(link).InverseTimes(ball_G.center), 0};
+  const MotionBound bound(*model_, *group_, base_positions_, {&center, 1});
   const int offset = static_cast<int>(kernel.reaches.size());
   for (double reach : bound.reach()) {
     kernel.reaches.push_back(static_cast<float>(reach * kBoundFactor));
+  }
+  return offset;
+}
+
+int CompiledRobot::AddReachOfTree(int root) {
+  const int offset = static_cast<int>(kernel.reaches.size());
+  kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
+  for (const int leaf : LeavesBelow(root)) {
+    const int own = At(kernel.nodes, leaf).reach;
+    for (int j = 0; j < kernel.num_joints; ++j) {
+      float& reach = At(kernel.reaches, offset + j);
+      reach = std::max(reach, At(kernel.reaches, own + j));
+    }
   }
   return offset;
 }
@@ -162,12 +171,11 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   tree.link = link;
   tree.body = rigid_bodies_.BodyOf(link);
   tree.root = static_cast<int>(kernel.nodes.size());
-  const LinkSphere sphere{link, ball_L.center, ball_L.radius};
-  tree.reach = AddReach({&sphere, 1});
   const Ball ball_G{rigid_bodies_.X_GL(link) * ball_L.center, ball_L.radius};
+  tree.reach = AddReach(ball_G, link);
   tree.reach_W = rigid_bodies_.Reach(0, tree.body, ball_G);
-  kernel.nodes.emplace_back();
-  SetBall(ball_G, At(R_CG_, tree.body), kRadiusPadding, &kernel.nodes.back());
+  kernel.nodes.emplace_back().reach = tree.reach;
+  SetBall(ball_G, kRadiusPadding, link, tree.root);
   return tree;
 }
 
@@ -182,15 +190,23 @@ Ball CompiledRobot::BallOf(const Node& node, int body) const {
   return {At(R_CG_, body).transpose() * p_C, node.radius};
 }
 
+std::vector<int> CompiledRobot::LeavesBelow(int root) const {
+  std::vector<int> leaves;
+  std::vector<int> open = {root};
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    const Node& node = At(kernel.nodes, index);
+    for (int i = 0; i < node.num_children; ++i) open.push_back(node.first_child + i);
+    if (node.num_children == 0) leaves.push_back(index);
+  }
+  return leaves;
+}
+
 std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
   std::vector<Ball> leaves;
-  std::vector<int> open = {tree.root};
-  while (!open.empty()) {
-    const Node& node = At(kernel.nodes, open.back());
-    open.pop_back();
-    for (int i = 0; i < node.num_children; ++i) open.push_back(node.first_child + i);
-    if (node.num_children > 0) continue;
-    leaves.push_back(BallOf(node, tree.body));
+  for (const int leaf : LeavesBelow(tree.root)) {
+    leaves.push_back(BallOf(At(kernel.nodes, leaf), tree.body));
   }
   return leaves;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision/rigid_bodies.h"
+#include "collision/simd/ball_tree.h"
 #include "collision/simd/kernels/sphere_kernel.h"
 #include "robot_model/robot_folder.h"
 
@@ -49,9 +50,15 @@ struct CompiledRobot {
   std::vector<CompiledTree> bodies;  ///< Of every body that has spheres, in body order.
 
  private:
-  int AddReach(std::span<const LinkSphere> spheres);
+  /// Writes a tree whose root has its place already; `link`: one of the body's.
+  void Emit(const BallTree& tree, int link, int index);
+  void SetBall(const Ball& ball_G, double padding, int link, int index);
+  /// Both return the offset into SphereRobot::reaches.
+  int AddReach(const Ball& ball_G, int link);
+  int AddReachOfTree(int root);
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
+  std::vector<int> LeavesBelow(int root) const;  ///< Node indices.
   std::vector<Ball> LeavesOf(const CompiledTree& tree) const;
   /// False if `moving` never comes near `carrier` whatever the joints between them do.
   bool WithinReach(const CompiledTree& carrier, const CompiledTree& moving) const;

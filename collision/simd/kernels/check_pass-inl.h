@@ -58,16 +58,31 @@ class CheckPass {
   LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
 
  private:
+  HWY_INLINE V HalfWidth(int joint) const {
+    return hn::LoadU(Lanes(), query_.half_widths + joint * kBlock + lane_);
+  }
+
   /// Upper bound of the motion of a tree relative to what it is tested against, over the box.
   HWY_INLINE V Motion(int reach) const {
     V sum = Zero();
     if constexpr (kAround) {
       const float* weights = robot_.reaches.data() + reach;
       for (int j = 0; j < robot_.num_joints; ++j) {
-        if (weights[j] == 0) continue;
-        const V half_width = hn::LoadU(Lanes(), query_.half_widths + j * kBlock + lane_);
-        sum = hn::MulAdd(Fill(weights[j]), half_width, sum);
+        if (weights[j] != 0) sum = hn::MulAdd(Fill(weights[j]), HalfWidth(j), sum);
       }
+    }
+    return sum;
+  }
+
+  /// The same of two balls relative to each other, by the joints that move their trees so: less, as
+  /// a tree's bound is that of its furthest balls.
+  HWY_INLINE V MotionBetween(const Node& a, const Node& b, int tree_reach) const {
+    V sum = Zero();
+    const float* moves = robot_.reaches.data() + tree_reach;
+    const float* weights_a = robot_.reaches.data() + a.reach;
+    const float* weights_b = robot_.reaches.data() + b.reach;
+    for (int j = 0; j < robot_.num_joints; ++j) {
+      if (moves[j] != 0) sum = hn::MulAdd(Fill(weights_a[j] + weights_b[j]), HalfWidth(j), sum);
     }
     return sum;
   }
@@ -147,7 +162,7 @@ class CheckPass {
 
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
                            int num) {
-    const V reach = Squared(Grown(node.radius, motion));
+    V reach = Squared(Grown(node.radius, motion));
     V least = Fill(std::numeric_limits<float>::max());
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
@@ -157,6 +172,10 @@ class CheckPass {
       } else {
         least = hn::Min(least, squared);
       }
+    }
+    if constexpr (kAround) {
+      if (None(hn::And(alive_, hn::Le(least, reach)))) return false;
+      reach = Squared(Grown(node.radius, Motion(node.reach)));
     }
     return Note(least, node.radius, hn::Le(least, reach), doubtful_);
   }
@@ -169,7 +188,7 @@ class CheckPass {
       if constexpr (kAround) {
         const M open = hn::AndNot(hits_, alive_);
         if (!None(open)) {
-          hits_ = hn::Or(hits_, MeetsGridAround(grid, p, motion, node.radius, open));
+          hits_ = hn::Or(hits_, MeetsGridAround(grid, p, Motion(node.reach), node.radius, open));
         }
       }
       // Note compares squares; what is certain is compared here.
@@ -190,6 +209,7 @@ class CheckPass {
     placement_.PlaceRoot(pair.root_a, pair.body_a);
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     doubtful_ = pair.doubtful;
+    pair_reach_ = pair.reach;
     const V motion = Motion(pair.reach);
     const M before = certain_;
     const Node& node_a = placement_.node(pair.root_a);
@@ -200,7 +220,7 @@ class CheckPass {
     const M touching = Within(squared, Grown(radius, motion));
     if (None(touching)) return false;
     if (node_a.num_children == 0 && node_b.num_children == 0) {
-      Note(squared, radius, touching, doubtful_);
+      NotePair(node_a, node_b, squared, radius, touching);
     } else {
       VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion);
     }
@@ -209,6 +229,14 @@ class CheckPass {
 
   HWY_INLINE M Within(V squared, V grown) const {
     return hn::And(alive_, hn::Le(squared, Squared(grown)));
+  }
+
+  /// Two leaves that touch by the bound of their trees.
+  HWY_INLINE bool NotePair(const Node& a, const Node& b, V squared, float radius, M touching) {
+    if constexpr (kAround) {
+      touching = Within(squared, Grown(radius, MotionBetween(a, b, pair_reach_)));
+    }
+    return Note(squared, radius, touching, doubtful_);
   }
 
   /// Two balls that touch, not both of them leaves. Returns true to stop.
@@ -234,7 +262,7 @@ class CheckPass {
       const M touching = Within(squared, Grown(radius, motion));
       if (None(touching)) continue;
       if (node.num_children == 0 && small.num_children == 0) {
-        if (Note(squared, radius, touching, doubtful_)) return true;
+        if (NotePair(node, small, squared, radius, touching)) return true;
       } else if (VisitPair(child, body_a, b, body_b, motion)) {
         return true;
       }
@@ -252,7 +280,9 @@ class CheckPass {
   M hits_;   ///< See BlockVerdict.
   M certain_;
   M doubts_;
-  bool doubtful_ = false;  ///< Of the test at hand.
+  // Of the test at hand.
+  bool doubtful_ = false;
+  int pair_reach_ = 0;
 };
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

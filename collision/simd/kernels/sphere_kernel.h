@@ -36,6 +36,7 @@ struct Node {
   float radius;
   std::int32_t first_child;
   std::int32_t num_children;
+  int reach;  ///< Of one without children: its own, as in WorldTree.
 };
 
 /// Two trees to test against each other.
@@ -54,7 +55,9 @@ struct SphereRobot {
   std::vector<Body> bodies;  ///< Parents first; [0] is the base.
   std::vector<Node> nodes;
   std::vector<TreePair> pairs;
-  std::vector<float> reaches;  ///< m/rad, see TreePair and WorldTree.
+  /// m/rad: how far the centres of balls move. A ball that turns about its centre stays where it
+  /// is.
+  std::vector<float> reaches;
 };
 
 enum class Kind : std::int32_t {
