@@ -17,18 +17,11 @@ namespace planbench {
 namespace {
 
 std::filesystem::path EventLogOf(const std::filesystem::path& session_folder) {
-  const auto fail = [&](const char* what) {
-    throw InputError(fmt::format("--resume: {} {}", session_folder.string(), what));
-  };
-  if (!std::filesystem::is_directory(session_folder)) fail("is no folder");
-  std::filesystem::path log;
-  for (const auto& entry : std::filesystem::directory_iterator(session_folder)) {
-    if (entry.path().extension() != ".lcmlog") continue;
-    if (!log.empty()) fail("holds several .lcmlog files");
-    log = entry.path();
+  try {
+    return FindEventLog(session_folder);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--resume: ") + error.what());
   }
-  if (log.empty()) fail("holds no .lcmlog file");
-  return log;
 }
 
 /// `session` without what may differ from `other`.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "messaging/messages.h"
@@ -17,5 +19,11 @@ struct RecordedSession {
 /// that was killed) is no error. Throws InputError if the file cannot be read or its records are of
 /// another version.
 RecordedSession ReadRecords(const std::filesystem::path& event_log);
+
+/// The scenes that an LCM event log holds, by content id; errors as above.
+std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log);
+
+/// The event log of a session folder; throws InputError if there is none, or several.
+std::filesystem::path FindEventLog(const std::filesystem::path& session_folder);
 
 }  // namespace planbench

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iostream>
 
 #include "common/command_line.h"
@@ -8,9 +7,13 @@
 #include "common/exit_codes.h"
 #include "report/figures.h"
 #include "report/page.h"
+#include "report/write_file.h"
 
 namespace planbench {
 namespace {
+
+/// A page that is to be sent by mail.
+constexpr std::size_t kMostBytesOfViews = 30'000'000;
 
 struct Flags {
   std::vector<std::string> sessions;
@@ -19,13 +22,6 @@ struct Flags {
   std::string latex;
 };
 
-void Write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError("cannot write " + file.string());
-}
-
 void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
                  std::string (*format)(const Table&)) {
   if (folder.empty()) return;
@@ -33,7 +29,7 @@ void WriteTables(const std::string& folder, const char* extension, const std::ve
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
   for (const Table& table : tables) {
-    Write(std::filesystem::path(folder) / (table.name + extension), format(table));
+    WriteFile(std::filesystem::path(folder) / (table.name + extension), format(table));
   }
 }
 
@@ -53,7 +49,8 @@ int Run(const Flags& flags) {
   const std::vector<Table> tables = AllTables(compared, pairs, seed);
   WriteTables(flags.csv, ".csv", tables, TableCsv);
   WriteTables(flags.latex, ".tex", tables, TableLatex);
-  Write(flags.out, ReportPage(FigureData(compared, pairs, tables)));
+  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews);
+  WriteFile(flags.out, ReportPage(FigureData(compared, pairs, tables), views));
   std::cout << "report: " << flags.out << "\n";
   return kExitOk;
 }

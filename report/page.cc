@@ -46,24 +46,48 @@ std::string VegaModules() {
 
 /// JSON in a script element: the one character that HTML could take for markup is escaped, which
 /// JSON allows in strings, and it stands nowhere else.
-std::string DataElement(const Json& data) {
+std::string DataElement(const char* id, const Json& data) {
   const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return "<script type=\"application/json\" id=\"data\">" + ReplaceAll(text, "<", "\\u003c") +
-         "</script>\n";
+  return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id,
+                     ReplaceAll(text, "<", "\\u003c"));
+}
+
+/// three.js, as the global THREE.
+std::string ThreeScripts() {
+  std::string text = "<!-- three.js: copyright three.js authors, MIT license -->\n";
+  for (const EmbeddedFile& file : ThreeFiles()) text += ScriptElement(file.text);
+  return text;
+}
+
+std::string Page(std::string_view html, const std::string& scripts) {
+  const std::string page = ReplaceAll(html, "/* page.css */", WebFile("page.css"));
+  return ReplaceAll(page, "<!-- scripts -->", scripts);
 }
 
 }  // namespace
 
-std::string ReportPage(const Json& data) {
-  std::string scripts = DataElement(data);
+std::string ReportPage(const Json& data, const EmbeddedViews& views) {
+  Json embedded = {{"notes", views.notes}, {"by_attempt", Json::object()}};
+  for (const auto& [attempt, view] : views.by_attempt) {
+    embedded["by_attempt"][fmt::format("{}", attempt)] = view;
+  }
+  std::string scripts = DataElement("data", data) + DataElement("views", embedded);
+  if (!views.by_attempt.empty()) scripts += ThreeScripts();
   scripts +=
       "<!-- Vega: copyright University of Washington Interactive Data Lab, BSD-3-Clause -->\n";
   scripts += ScriptElement(std::string(WebFile("modules.js")) + VegaModules());
-  for (const char* name : {"theme.js", "charts.js", "page.js"}) {
+  for (const char* name : {"theme.js", "charts.js", "viewer.js", "page.js"}) {
     scripts += ScriptElement(WebFile(name));
   }
-  const std::string page = ReplaceAll(WebFile("page.html"), "/* page.css */", WebFile("page.css"));
-  return ReplaceAll(page, "<!-- scripts -->", scripts);
+  return Page(WebFile("page.html"), scripts);
+}
+
+std::string ViewPage(const Json& view) {
+  std::string scripts = DataElement("data", view) + ThreeScripts();
+  for (const char* name : {"theme.js", "viewer.js", "view.js"}) {
+    scripts += ScriptElement(WebFile(name));
+  }
+  return Page(WebFile("view.html"), scripts);
 }
 
 }  // namespace planbench

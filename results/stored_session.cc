@@ -58,6 +58,7 @@ Field Measure(std::string column, std::string name, MeasuredValues StoredRun::*m
 std::vector<Field> Fields() {
   std::vector<Field> fields = {
       {"id", [](StoredRun* run, const SqliteValue& v) { run->id = Int(v).value_or(0); }},
+      {"request_id", [](StoredRun* run, const SqliteValue& v) { run->request_id = Text(v); }},
       {"problem_set", [](StoredRun* run, const SqliteValue& v) { run->problem_set = Text(v); }},
       {"problem_index",
        [](StoredRun* run, const SqliteValue& v) {

@@ -17,6 +17,7 @@ namespace planbench {
 struct StoredRun {
   std::int64_t id = 0;         ///< `runs.id`
   std::size_t contestant = 0;  ///< Index into those of its session.
+  std::string request_id;
   std::string problem_set;
   int problem_index = 0;
   int trial = 1;

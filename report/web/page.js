@@ -28,7 +28,7 @@ const report = (() => {
     const grouped = columns[0].heading === "set" ? 1 : 0;
     const shown = columns.slice(grouped);
     const cell = (tag, text, column) => {
-      const kind = column.numeric ? "numeric" : text.length <= 40 ? "short" : "";
+      const kind = column.numeric ? "numeric" : text.length > 40 ? "" : "short";
       return element(tag, {class: kind, ...(tag === "th" ? {scope: "col"} : {})}, text);
     };
     const body = element("tbody");
@@ -281,6 +281,23 @@ const report = (() => {
 
   // ---- Single problems --------------------------------------------------------------------------
   const problem = {set: 0, index: 0, element: element("div")};
+  const views = JSON.parse(document.getElementById("views").textContent);
+  const shown = {element: element("div"), viewer: null};
+
+  function showView(attempt) {
+    if (shown.viewer) shown.viewer.dispose();
+    const view = views.by_attempt[attempt];
+    const at = element("div");
+    shown.element.replaceChildren(element("h3", {}, view.title), element("p", {}, view.facts.join(" ")), at);
+    shown.viewer = makeViewer(at, view);
+  }
+
+  function viewButton(attempt) {
+    if (!(attempt in views.by_attempt)) return "";
+    const button = element("button", {type: "button"}, "Show in 3D");
+    button.addEventListener("click", () => showView(attempt));
+    return button;
+  }
 
   function problemsOf(set) {
     const {attempts} = data;
@@ -295,10 +312,10 @@ const report = (() => {
       if (attempts.set[i] !== problem.set || attempts.problem[i] !== problem.index) return;
       rows.push([names[attempts.contestant[i]], String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
                  attempts.statuses[attempts.status[i]], number(attempts.time[i]), number(attempts.length[i]),
-                 number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run)]);
+                 number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run), viewButton(i)]);
     });
     const columns = [["contestant"], ["trial", 1], ["direction"], ["status"], ["time, ms", 1], ["length", 1],
-                     ["simplified", 1], ["reason"], ["run", 1]];
+                     ["simplified", 1], ["reason"], ["run", 1], [""]];
     return {title: "Attempts at this problem", rows, columns: columns.map(([heading, numeric]) => ({heading, numeric}))};
   }
 
@@ -330,13 +347,13 @@ const report = (() => {
 
   function problems() {
     section("problem", "One problem", note("Every attempt, each direction and trial for itself; run is the id in the table " +
-                                           "runs of results.sqlite."), problem.element);
+                                           "runs of results.sqlite."), problem.element, shown.element, ...views.notes.map(note));
     updateProblem();
   }
 
   document.title = "planbench: " + data.sessions.join(", ");
   document.getElementById("subtitle").textContent = data.sessions.join(", ");
-  document.getElementById("footer").textContent = `Made by ${data.made_by}. Charts: Vega.`;
+  document.getElementById("footer").textContent = `Made by ${data.made_by}. Charts: Vega; 3D: three.js.`;
   answer();
   compared();
   if (names.length > 0) {

@@ -24,7 +24,11 @@ const theme = (() => {
   const series = () => property("--series").split(",").map(colour => colour.trim());
   return {
     property,
-    onChange: listener => listeners.push(listener),
+    // Returns what ends it.
+    onChange: listener => {
+      listeners.push(listener);
+      return () => listeners.splice(listeners.indexOf(listener), 1);
+    },
     // Of the contestant at a place: colours repeat with another dash.
     colour: index => { const all = series(); return all[index % all.length]; },
     dash: index => DASHES[Math.floor(index / series().length) % DASHES.length],

@@ -102,6 +102,33 @@ TEST_F(RecordLogTest, RecordOfAnotherVersionNamesFileAndChannel) {
   ExpectInputError([&] { Read(); }, {file_.string(), channel::kRunRecord});
 }
 
+TEST_F(RecordLogTest, ReadsScenesByTheirContent) {
+  SceneMessage message;
+  message.request_id = "a";
+  message.scene.world_frame = "base";
+  message.scene.objects.push_back({"ball", Eigen::Isometry3d::Identity(), {{Sphere{0.5}}}});
+  message.scene_id = SceneId(message.scene);
+  Add(channel::kScene, Encode(message));
+  Add(channel::kScene, Encode(message));
+  SceneMessage refused;
+  refused.request_id = "b";
+  refused.ok = false;
+  refused.scene_id = "unknown";
+  refused.message = "no such scene";
+  Add(channel::kScene, Encode(refused));
+  log_.reset();
+  const std::map<std::string, Scene> scenes = ReadScenes(file_);
+  ASSERT_EQ(scenes.size(), 1u);
+  EXPECT_EQ(scenes.at(message.scene_id).objects.at(0).id, "ball");
+}
+
+TEST_F(RecordLogTest, ASessionFolderHasOneLog) {
+  log_.reset();
+  EXPECT_EQ(FindEventLog(folder_.path()), file_);
+  folder_.Write("other.lcmlog", "");
+  ExpectInputError([&] { FindEventLog(folder_.path()); }, {"several .lcmlog files"});
+}
+
 TEST_F(RecordLogTest, MissingFileIsNamed) {
   const std::string missing = (folder_.path() / "missing.lcmlog").string();
   ExpectInputError([&] { ReadRecords(missing); }, {missing});

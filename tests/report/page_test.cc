@@ -1,28 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
+#include "tests/report/browser.h"
 #include "tests/report/example_session.h"
-#include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
 
-std::optional<std::string> FindBrowser() {
-  for (const char* name :
-       {"/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"}) {
-    if (std::filesystem::exists(name)) return name;
-  }
-  return std::nullopt;
-}
-
 /// Asks the page what a reader could see. Everything is drawn first, also what is out of sight.
-constexpr char kProbe[] = R"script(<script>
-addEventListener("load", () => {
-  const found = {};
+constexpr char kProbe[] = R"script(
   const count = () => {
     const marks = {};
     const visit = item => {
@@ -57,7 +45,6 @@ addEventListener("load", () => {
   document.getElementById("theme").click();
   found.contrast.push(contrasts());
   found.themes = document.documentElement.dataset.theme;
-  found.requests = performance.getEntriesByType("resource").length;
   found.evil = document.querySelectorAll(".evil, main i").length;
   found.unreachable = [...document.querySelectorAll("a, button:not(:disabled), select, summary, .scroll")]
     .filter(one => one.tabIndex < 0).length;
@@ -72,29 +59,7 @@ addEventListener("load", () => {
     [...problem.querySelectorAll("button")].pop().click();
     found.next = problem.querySelectorAll("select")[1].value;
   }
-  const probe = document.createElement("pre");
-  probe.textContent = "PROBE" + btoa(unescape(encodeURIComponent(JSON.stringify(found)))) + ".";
-  document.body.append(probe);
-});
-</script>)script";
-
-std::string FromBase64(const std::string& text) {
-  std::string decoded;
-  unsigned bits = 0;
-  int num_bits = 0;
-  for (const char c : text) {
-    const std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = kDigits.find(c);
-    if (digit == std::string_view::npos) break;
-    bits = bits << 6 | static_cast<unsigned>(digit);
-    num_bits += 6;
-    if (num_bits < 8) continue;
-    num_bits -= 8;
-    decoded += static_cast<char>(bits >> num_bits & 0xff);
-  }
-  return decoded;
-}
+)script";
 
 /// The report program's page in a real browser that has no network.
 class PageTest : public testing::Test {
@@ -110,23 +75,7 @@ class PageTest : public testing::Test {
                          (folder_ / "page.html").string()},
                         folder_ / "report");
     EXPECT_EQ(report.Wait(), 0) << report.Errors();
-    std::ofstream(folder_ / "page.html", std::ios::app) << kProbe;
-    ChildProcess browser(
-        {*FindBrowser(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-         "--enable-logging=stderr", "--host-resolver-rules=MAP * ~NOTFOUND",
-         "--user-data-dir=" + (folder_ / "profile").string(), "--window-size=1200,900",
-         "--virtual-time-budget=20000", "--dump-dom", "file://" + (folder_ / "page.html").string()},
-        folder_ / "browser");
-    EXPECT_EQ(browser.Wait(), 0);
-    EXPECT_EQ(browser.Errors().find("CONSOLE"), std::string::npos) << browser.Errors();
-    const std::string page = browser.Output();
-    const std::size_t begin = page.find("<pre>PROBE");
-    if (begin == std::string::npos) {
-      ADD_FAILURE() << "the page did not load: " << browser.Errors();
-      return {};
-    }
-    nlohmann::json found = nlohmann::json::parse(FromBase64(page.substr(begin + 10)));
-    EXPECT_EQ(found["requests"], 0);
+    nlohmann::json found = Browse(folder_ / "page.html", kProbe);
     EXPECT_EQ(found["evil"], 0) << "a name was taken for markup";
     EXPECT_EQ(found["unreachable"], 0) << "not reachable with the keyboard";
     EXPECT_EQ(found["empty"], 0);

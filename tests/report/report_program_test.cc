@@ -14,11 +14,11 @@ using testing::HasSubstr;
 
 class ReportProgramTest : public testing::Test {
  protected:
-  int Run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), std::string(PLANBENCH_BIN_DIR) + "/report");
-    ChildProcess report(arguments, folder_ / "report");
-    const int code = report.Wait().value_or(-1);
-    errors_ = report.Errors();
+  int Run(std::vector<std::string> arguments, const std::string& program = "report") {
+    arguments.insert(arguments.begin(), std::string(PLANBENCH_BIN_DIR) + "/" + program);
+    ChildProcess process(arguments, folder_ / program);
+    const int code = process.Wait().value_or(-1);
+    errors_ = process.Errors();
     return code;
   }
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
@@ -59,6 +59,34 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({Path("empty")}, "is no results database");
   expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")}, "cannot write");
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
+}
+
+TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {
+  const std::string source = PLANBENCH_SOURCE_DIR;
+  ASSERT_EQ(Run({"--problem", source + "/problems/shelf_demo/3", "--robot",
+                 source + "/robots/fetch", "--out", Path("view.html")},
+                "view"),
+            kExitOk)
+      << errors_;
+  const std::string page = ReadText(folder_ / "view.html");
+  EXPECT_THAT(page, HasSubstr("\"title\":\"shelf_demo 3\""));
+  EXPECT_THAT(page, HasSubstr("\"name\":\"torso_lift_link\""));
+}
+
+TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, const char* reason) {
+    EXPECT_EQ(Run(arguments, "view"), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+  };
+  const std::string set = std::string(PLANBENCH_SOURCE_DIR) + "/problems/shelf_demo";
+  const std::string robot = std::string(PLANBENCH_SOURCE_DIR) + "/robots/fetch";
+  WriteSession(folder_ / "example", {{.contestant = "A"}});
+  expect_refused({}, "--session");
+  expect_refused({"--problem", set + "/99", "--robot", robot}, "no problem 99");
+  expect_refused({"--problem", set, "--robot", robot}, "SET/3");
+  expect_refused({"--session", Path("example"), "--run", "7"}, "no run 7");
+  expect_refused({"--session", Path("example"), "--run", "1"}, "holds no .lcmlog");
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+#include "report/recorded_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "common/error.h"
+#include "messaging/record_log.h"
+
+namespace planbench {
+namespace {
+
+/// Of a path in a report, where many share the room.
+constexpr int kFramesEmbedded = 40;
+
+std::filesystem::path RobotFolder(const StoredSession& session,
+                                  const std::filesystem::path& given) {
+  if (!given.empty()) return given;
+  const auto flag = session.flags.find("robot");
+  if (flag == session.flags.end() || flag->second.empty()) {
+    throw InputError("the session does not name its robot folder");
+  }
+  return flag->second;
+}
+
+}  // namespace
+
+RecordedViews::RecordedViews(const StoredSession& session,
+                             const std::filesystem::path& robot_folder)
+    : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())),
+      robot_(LoadRobot(RobotFolder(session, robot_folder))),
+      scenes_(ReadScenes(log_)) {
+  RecordedSession recorded = ReadRecords(log_);
+  for (RunRecordMessage& record : recorded.runs) {
+    if (record.run_id == session.run_id) records_.emplace(record.request_id, std::move(record));
+  }
+}
+
+Json RecordedViews::View(const StoredRun& run, int num_frames) const {
+  const auto record = records_.find(run.request_id);
+  if (record == records_.end()) {
+    throw InputError(fmt::format("{}: run {} is not in it", log_.string(), run.id));
+  }
+  const auto scene = scenes_.find(record->second.request.scene_id);
+  if (scene == scenes_.end()) {
+    throw InputError(fmt::format("{}: the scene of run {} is not in it", log_.string(), run.id));
+  }
+  return RunView(robot_, scene->second, record->second, num_frames);
+}
+
+EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes) {
+  struct Candidate {
+    std::size_t attempt;
+    std::size_t session;
+    const StoredRun* run;
+  };
+  std::vector<Candidate> candidates;
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    for (const StoredRun* run : contestant.runs) {
+      candidates.push_back({candidates.size(), contestant.session, run});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.run->trial, a.run->problem_index) <
+           std::tie(b.run->trial, b.run->problem_index);
+  });
+
+  EmbeddedViews embedded;
+  std::vector<std::unique_ptr<RecordedViews>> sessions(compared.sessions().size());
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    try {
+      sessions[s] = std::make_unique<RecordedViews>(compared.sessions()[s], "");
+    } catch (const InputError& error) {
+      embedded.notes.push_back(
+          fmt::format("{}: no 3D views: {}.", compared.session_names()[s], error.what()));
+    }
+  }
+  std::size_t num_bytes = 0;
+  for (const Candidate& candidate : candidates) {
+    auto& session = sessions[candidate.session];
+    if (!session) continue;
+    try {
+      Json view = session->View(*candidate.run, kFramesEmbedded);
+      num_bytes += view.dump().size();
+      if (num_bytes > most_bytes) break;
+      embedded.by_attempt.emplace(candidate.attempt, std::move(view));
+    } catch (const InputError& error) {
+      embedded.notes.push_back(fmt::format(
+          "{}: no 3D views: {}.", compared.session_names()[candidate.session], error.what()));
+      session.reset();
+    }
+  }
+  if (embedded.by_attempt.size() < candidates.size()) {
+    embedded.notes.push_back(
+        fmt::format("The page holds the 3D views of {} of {} attempts; view --session FOLDER --run "
+                    "RUN shows any.",
+                    embedded.by_attempt.size(), candidates.size()));
+  }
+  return embedded;
+}
+
+}  // namespace planbench

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "report/view_data.h"
+#include "results/compared_sessions.h"
+
+namespace planbench {
+
+/// 3D views of a session's runs, made of its event log and its robot.
+class RecordedViews {
+ public:
+  /// `robot_folder`: empty: the one that the session's flags name. Throws InputError if the log or
+  /// the robot cannot be read.
+  RecordedViews(const StoredSession& session, const std::filesystem::path& robot_folder);
+
+  /// `num_frames` as of RunView. Throws InputError if the log lacks the run or its scene, or the
+  /// robot is another.
+  Json View(const StoredRun& run, int num_frames) const;
+
+ private:
+  std::filesystem::path log_;
+  Robot robot_;
+  std::map<std::string, RunRecordMessage> records_;  ///< By request.
+  std::map<std::string, Scene> scenes_;              ///< By content id.
+};
+
+/// Views of as many runs as fit into `most_bytes`, those of first trials first.
+struct EmbeddedViews {
+  /// By the run's place among those of all contestants, in their order.
+  std::map<std::size_t, Json> by_attempt;
+  /// Of what is missing why, and where it is to be had.
+  std::vector<std::string> notes;
+};
+EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes);
+
+}  // namespace planbench

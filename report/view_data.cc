@@ -1,0 +1,229 @@
+#include "report/view_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.h"
+#include "planning/resolve.h"
+#include "robot_model/group_kinematics.h"
+
+namespace planbench {
+namespace {
+
+/// To 0.01 mm, or 1e-5 of a quaternion.
+double Rounded(double value) { return std::round(1e5 * value) / 1e5; }
+
+void AppendPose(const Eigen::Isometry3d& X, Json* list) {
+  const Eigen::Quaterniond q(X.linear());
+  for (const double value : {X.translation().x(), X.translation().y(), X.translation().z(), q.x(),
+                             q.y(), q.z(), q.w()}) {
+    list->push_back(Rounded(value));
+  }
+}
+
+Json Pose(const Eigen::Isometry3d& X) {
+  Json pose = Json::array();
+  AppendPose(X, &pose);
+  return pose;
+}
+
+Json Point(const Eigen::Vector3d& p) { return {Rounded(p.x()), Rounded(p.y()), Rounded(p.z())}; }
+
+Json ShapeJson(const Shape& shape) {
+  Json json = {{"type", ShapeTypeName(shape)}};
+  if (const auto* box = std::get_if<Box>(&shape)) json["size"] = Point(box->size);
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) json["radius"] = sphere->radius;
+  const auto round = [&](const auto* solid) {
+    if (solid == nullptr) return;
+    json["radius"] = solid->radius;
+    json["length"] = solid->length;
+  };
+  round(std::get_if<Cylinder>(&shape));
+  round(std::get_if<Cone>(&shape));
+  round(std::get_if<Capsule>(&shape));
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    json["vertices"] = Json::array();
+    for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
+      for (const double value : vertex) json["vertices"].push_back(Rounded(value));
+    }
+    json["triangles"] = Json::array();
+    for (const auto& triangle : mesh->triangles.triangles) {
+      for (const std::uint32_t vertex : triangle) json["triangles"].push_back(vertex);
+    }
+  }
+  return json;
+}
+
+void AppendSolids(const SceneObject& object, const std::string& link, Json* solids) {
+  for (const PlacedShape& placed : object.shapes) {
+    Json solid = {{"name", object.id}};
+    if (!link.empty()) solid["link"] = link;
+    solid["shape"] = ShapeJson(placed.shape);
+    solid["pose"] = Pose(object.X_WO * placed.X_FS);
+    solids->push_back(std::move(solid));
+  }
+}
+
+/// A robot in a scene, moved by one group.
+class View {
+ public:
+  View(const Robot& robot, const Scene& scene, const std::string& group_name,
+       const JointState& start, const std::vector<JointGoal>& goal)
+      : robot_(robot),
+        group_(robot.Group(group_name)),
+        query_(ResolveQuery(robot, group_, start, goal, "the problem")),
+        kinematics_(robot.model, group_, query_.base_positions) {
+    json_["solids"] = Json::array();
+    for (const SceneObject& object : scene.objects) AppendSolids(object, "", &json_["solids"]);
+    for (const AttachedObject& attached : scene.attached) {
+      AppendSolids(attached.object, attached.link, &json_["solids"]);
+    }
+    json_["links"] = Json::array();
+    kinematics_.Update(query_.start);
+    for (int link = 0; link < robot.model.num_links(); ++link) {
+      if (!IsShown(link, scene)) continue;
+      Json one = {{"name", robot.model.links()[static_cast<std::size_t>(link)].name},
+                  {"pose", Pose(kinematics_.X_BL(link))},
+                  {"moves", kinematics_.Moves(link)},
+                  {"spheres", Json::array()}};
+      for (const LinkSphere& sphere : robot.spheres) {
+        if (sphere.link != link) continue;
+        Json values = Point(sphere.p_LS);
+        values.push_back(Rounded(sphere.radius));
+        one["spheres"].push_back(std::move(values));
+      }
+      json_["links"].push_back(std::move(one));
+      if (kinematics_.Moves(link)) moving_.push_back(link);
+    }
+    json_["goal"] = Poses(query_.goals.front().nominal);
+    json_["motions"] = Json::array();
+  }
+
+  /// `verdict` may be null; joints of the path by name.
+  void AddMotion(const std::string& name, const Path& path,
+                 const std::vector<std::string>& joint_names, const PathVerdict* verdict,
+                 int num_frames) {
+    if (path.empty()) return;
+    const Path waypoints = InGroupOrder(path, joint_names);
+    double length = 0;
+    for (std::size_t i = 1; i < waypoints.size(); ++i) {
+      length += group_.space.Distance(waypoints[i - 1], waypoints[i]);
+    }
+    Json motion = {{"name", name}, {"frames", Json::array()}, {"tip", Json::array()}};
+    const auto add_frame = [&](const Configuration& q) {
+      motion["frames"].push_back(Poses(q));
+      motion["tip"].push_back(Point(kinematics_.X_BL(group_.tip_link).translation()));
+    };
+    const bool hit = verdict != nullptr && !verdict->valid && verdict->segment >= 0;
+    add_frame(waypoints.front());
+    if (hit && waypoints.size() == 1) motion["collision"] = 0;
+    for (std::size_t i = 1; i < waypoints.size(); ++i) {
+      const Configuration& from = waypoints[i - 1];
+      const Configuration& to = waypoints[i];
+      const double share = length > 0 ? group_.space.Distance(from, to) / length : 0;
+      const int num_steps = std::max(1, static_cast<int>(std::ceil(num_frames * share)));
+      Configuration q(from.size());
+      for (int step = 1; step <= num_steps; ++step) {
+        const double fraction = static_cast<double>(step) / num_steps;
+        // The frame of a collision stands where the referee found it, not a step beside it.
+        if (hit && verdict->segment == static_cast<int>(i) - 1 && !motion.contains("collision") &&
+            verdict->fraction <= fraction) {
+          group_.space.Interpolate(from, to, verdict->fraction, q);
+          motion["collision"] = motion["frames"].size();
+          add_frame(q);
+        }
+        group_.space.Interpolate(from, to, fraction, q);
+        add_frame(q);
+      }
+    }
+    if (hit) {
+      motion["contact"] = verdict->contact ? Describe(*verdict->contact) : verdict->reason;
+    }
+    json_["motions"].push_back(std::move(motion));
+  }
+
+  Json Take(const std::string& title, const std::vector<std::string>& facts) {
+    json_["title"] = title;
+    json_["facts"] = facts;
+    return std::move(json_);
+  }
+
+ private:
+  bool IsShown(int link, const Scene& scene) const {
+    const auto of_link = [&](const LinkSphere& sphere) { return sphere.link == link; };
+    const auto at_link = [&](const AttachedObject& attached) {
+      return robot_.model.FindLink(attached.link) == link;
+    };
+    return std::any_of(robot_.spheres.begin(), robot_.spheres.end(), of_link) ||
+           std::any_of(scene.attached.begin(), scene.attached.end(), at_link);
+  }
+
+  /// Of the links that move, in one list.
+  Json Poses(const Configuration& q) {
+    kinematics_.Update(q);
+    Json poses = Json::array();
+    for (const int link : moving_) AppendPose(kinematics_.X_BL(link), &poses);
+    return poses;
+  }
+
+  Path InGroupOrder(const Path& path, const std::vector<std::string>& joint_names) const {
+    std::vector<std::size_t> places;
+    for (const JointSpace::Joint& joint : group_.space.joints()) {
+      const auto found = std::find(joint_names.begin(), joint_names.end(), joint.name);
+      if (found == joint_names.end()) {
+        throw InputError("the path has no joint '" + joint.name + "' of group " + group_.name);
+      }
+      places.push_back(static_cast<std::size_t>(found - joint_names.begin()));
+    }
+    Path ordered;
+    for (const Configuration& q : path) {
+      Configuration& waypoint = ordered.emplace_back();
+      for (const std::size_t place : places) waypoint.push_back(q.at(place));
+    }
+    return ordered;
+  }
+
+  const Robot& robot_;
+  const PlanningGroup& group_;
+  ResolvedQuery query_;
+  GroupKinematics kinematics_;
+  std::vector<int> moving_;
+  Json json_;
+};
+
+}  // namespace
+
+Json ProblemView(const Robot& robot, const Problem& problem) {
+  View view(robot, problem.scene, problem.group, problem.start, problem.goal);
+  return view.Take(
+      fmt::format("{} {}", problem.set, problem.index),
+      {fmt::format("Robot {}, group {}.", robot.name, robot.Group(problem.group).name)});
+}
+
+Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run, int num_frames) {
+  const PlanRequest& request = run.request;
+  if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
+    throw InputError(fmt::format("{} is not the robot of run {}, whose content is {}",
+                                 robot.folder.string(), run.request_id, request.robot_id));
+  }
+  View view(robot, scene, request.group, request.start, request.goal);
+  const PlanResult& result = run.result.result;
+  const auto verdict = [](const PathCheckReplyMessage& check) {
+    return check.verdict ? &*check.verdict : nullptr;
+  };
+  view.AddMotion("raw", result.path, run.result.joint_names, verdict(run.path_check), num_frames);
+  view.AddMotion("simplified", result.simplified_path, run.result.joint_names,
+                 verdict(run.simplified_check), num_frames);
+  std::vector<std::string> facts = {
+      fmt::format("{}, {}, trial {}: {}{}{}.", run.contestant, EnumName(request.direction),
+                  run.trial, EnumName(run.status), run.message.empty() ? "" : ": ", run.message)};
+  if (run.status != PlanStatus::kNoAnswer) {
+    facts.push_back(
+        fmt::format("Planning time {} ms.", FormatNumber(1e3 * result.planning_time_s)));
+  }
+  return view.Take(fmt::format("{} {}", run.problem_set, run.problem_index), facts);
+}
+
+}  // namespace planbench

@@ -1,0 +1,256 @@
+"use strict";
+// A problem in 3D: its solids, the robot as spheres at start and goal, and its paths side by side, played or scrubbed.
+// Poses are computed beforehand (report/view_data.h); the view interpolates between neighbouring frames alone.
+function makeViewer(container, data) {
+  const element = (tag, attributes, ...children) => {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.append(...children);
+    return made;
+  };
+  const colour = name => new THREE.Color(theme.property(name));
+  const series = place => new THREE.Color(theme.property("--series").split(",")[place].trim());
+
+  // ---- Bodies -----------------------------------------------------------------------------------
+  function geometry(shape) {
+    switch (shape.type) {
+      case "box": return new THREE.BoxBufferGeometry(...shape.size);
+      case "sphere": return new THREE.SphereBufferGeometry(shape.radius, 24, 16);
+      // Those of three.js stand along y, ours along z.
+      case "cylinder": return new THREE.CylinderBufferGeometry(shape.radius, shape.radius, shape.length, 32).rotateX(Math.PI / 2);
+      case "cone": return new THREE.ConeBufferGeometry(shape.radius, shape.length, 32).rotateX(Math.PI / 2);
+      case "half-space": return new THREE.BoxBufferGeometry(4, 4, 0.01).translate(0, 0, -0.005);
+      case "mesh": {
+        const mesh = new THREE.BufferGeometry();
+        mesh.setAttribute("position", new THREE.Float32BufferAttribute(shape.vertices, 3));
+        mesh.setIndex(shape.triangles);
+        const flat = mesh.toNonIndexed();
+        flat.computeVertexNormals();
+        return flat;
+      }
+    }
+    return null;
+  }
+
+  function solid(shape, material) {
+    if (shape.type !== "capsule") return new THREE.Mesh(geometry(shape), material);
+    const group = new THREE.Group();
+    group.add(new THREE.Mesh(geometry({...shape, type: "cylinder"}), material));
+    for (const side of [-1, 1]) {
+      const cap = new THREE.Mesh(geometry({type: "sphere", radius: shape.radius}), material);
+      cap.position.z = side * shape.length / 2;
+      group.add(cap);
+    }
+    return group;
+  }
+
+  function place(object, pose, offset = 0) {
+    object.position.set(pose[offset], pose[offset + 1], pose[offset + 2]);
+    object.quaternion.set(pose[offset + 3], pose[offset + 4], pose[offset + 5], pose[offset + 6]);
+  }
+
+  const moving = data.links.filter(link => link.moves);
+  // The robot with what is attached to it; `poses`: those of the links that move, null: at the start.
+  function robot(material, poses, movingAlone) {
+    const group = new THREE.Group();
+    const parts = [];
+    for (const link of movingAlone ? moving : data.links) {
+      const part = new THREE.Group();
+      place(part, link.pose);
+      for (const [x, y, z, radius] of link.spheres) {
+        const sphere = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 20, 14), material);
+        sphere.position.set(x, y, z);
+        part.add(sphere);
+      }
+      for (const one of data.solids.filter(one => one.link === link.name)) {
+        const attached = solid(one.shape, material);
+        place(attached, one.pose);
+        part.add(attached);
+      }
+      group.add(part);
+      if (link.moves) parts.push(part);
+    }
+    const set = list => parts.forEach((part, i) => place(part, list, 7 * i));
+    if (poses) set(poses);
+    return {group, parts, set};
+  }
+
+  // Between two frames: positions on the line, orientations on the great circle.
+  const before = new THREE.Object3D(), after = new THREE.Object3D();
+  function pose(one, motion, time) {
+    const at = time * (motion.frames.length - 1);
+    const frame = Math.min(Math.floor(at), motion.frames.length - 1);
+    const next = Math.min(frame + 1, motion.frames.length - 1);
+    one.parts.forEach((part, i) => {
+      place(before, motion.frames[frame], 7 * i);
+      place(after, motion.frames[next], 7 * i);
+      part.position.lerpVectors(before.position, after.position, at - frame);
+      THREE.Quaternion.slerp(before.quaternion, after.quaternion, part.quaternion, at - frame);
+    });
+  }
+
+  // ---- Scenes: one a path, or one alone -----------------------------------------------------------
+  const material = (shade, opacity = 1) => new THREE.MeshLambertMaterial({
+    color: shade, transparent: opacity < 1, opacity, depthWrite: opacity === 1,
+    polygonOffset: opacity < 1, polygonOffsetFactor: 1, polygonOffsetUnits: 1,  // behind a body at the same place
+  });
+  function makeScene(motion) {
+    const scene = new THREE.Scene();
+    scene.background = colour("--panel");
+    scene.add(new THREE.HemisphereLight(0xffffff, 0x999999, 1));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.5);
+    sun.position.set(2, -3, 5);
+    scene.add(sun);
+    const wood = material(colour("--muted"), 0.22);
+    for (const one of data.solids.filter(one => !one.link)) {
+      const body = solid(one.shape, wood);
+      place(body, one.pose);
+      scene.add(body);
+      if (one.shape.type === "box" || one.shape.type === "mesh") {
+        const edges = new THREE.LineSegments(new THREE.EdgesGeometry(geometry(one.shape), 30),
+                                             new THREE.LineBasicMaterial({color: colour("--text"), transparent: true, opacity: 0.6}));
+        place(edges, one.pose);
+        scene.add(edges);
+      }
+    }
+    const start = robot(material(series(2), 0.3), null, true), goal = robot(material(series(1), 0.3), data.goal, true);
+    scene.add(start.group, goal.group);
+    const body = robot(material(series(0)), null, false);
+    scene.add(body.group);
+    let hit = null;
+    if (motion) {
+      const trail = new THREE.BufferGeometry();
+      trail.setAttribute("position", new THREE.Float32BufferAttribute(motion.tip.flat(), 3));
+      scene.add(new THREE.Line(trail, new THREE.LineBasicMaterial({color: colour("--accent")})));
+      if (motion.collision !== undefined) {
+        hit = robot(material(colour("--failure"), 0.55), motion.frames[motion.collision], true);
+        scene.add(hit.group);
+      }
+    }
+    return {scene, motion, start, goal, body, hit};
+  }
+  let scenes = [];
+
+  // ---- Picture ----------------------------------------------------------------------------------
+  const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view: drag to turn, wheel to come nearer; arrow keys turn"});
+  const renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
+  renderer.setPixelRatio(devicePixelRatio);
+  renderer.setScissorTest(true);
+  const camera = new THREE.PerspectiveCamera(40, 1, 0.05, 50);
+  camera.up.set(0, 0, 1);
+  const controls = new THREE.OrbitControls(camera, canvas);
+  controls.enableKeys = false;
+
+  function look(direction) {
+    const box = new THREE.Box3().setFromObject(scenes[0].body.group).union(new THREE.Box3().setFromObject(scenes[0].goal.group));
+    const centre = box.getCenter(new THREE.Vector3());
+    const distance = 1.6 * box.getSize(new THREE.Vector3()).length();
+    controls.target.copy(centre);
+    camera.position.copy(centre).addScaledVector(new THREE.Vector3(...direction).normalize(), distance);
+    controls.update();
+  }
+
+  function draw() {
+    const width = canvas.clientWidth / scenes.length, height = canvas.clientHeight;
+    if (width === 0) return;
+    renderer.setSize(canvas.clientWidth, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    scenes.forEach((one, i) => {
+      renderer.setViewport(i * width, 0, width, height);
+      renderer.setScissor(i * width, 0, width, height);
+      renderer.render(one.scene, camera);
+    });
+  }
+
+  // ---- Controls ---------------------------------------------------------------------------------
+  const slider = element("input", {type: "range", min: "0", max: "1000", value: "0", "aria-label": "Place on the path"});
+  const play = element("button", {type: "button"}, "Play");
+  let time = 0, started = null;
+  function moveTo(fraction) {
+    time = Math.min(Math.max(fraction, 0), 1);
+    slider.value = String(Math.round(1000 * time));
+    for (const one of scenes) if (one.motion) pose(one.body, one.motion, time);
+    draw();
+  }
+  const SECONDS = 6;
+  function tick(now) {
+    if (started === null) return;
+    moveTo((now - started) / 1000 / SECONDS);
+    if (time >= 1) pause(); else requestAnimationFrame(tick);
+  }
+  function pause() {
+    started = null;
+    play.textContent = "Play";
+  }
+  play.addEventListener("click", () => {
+    if (started !== null) return pause();
+    started = performance.now() - (time >= 1 ? 0 : time) * 1000 * SECONDS;
+    play.textContent = "Pause";
+    requestAnimationFrame(tick);
+  });
+  slider.addEventListener("input", () => { pause(); moveTo(Number(slider.value) / 1000); });
+
+  const shown = (label, part, checked) => {
+    const box = element("input", {type: "checkbox"});
+    box.checked = checked;
+    const apply = () => { scenes.forEach(one => { if (one[part]) one[part].group.visible = box.checked; }); draw(); };
+    box.addEventListener("change", apply);
+    return {label: element("label", {}, box, label), apply};
+  };
+  const toggles = [shown("start (green)", "start", true), shown("goal (orange)", "goal", true)];
+  if (data.motions.some(motion => motion.collision !== undefined)) toggles.push(shown("collision (red)", "hit", true));
+  const views = {"from behind": [-1, -0.9, 0.8], "from ahead": [1, -0.6, 0.5], "from the side": [0, -1, 0.1],
+                 "from above": [-0.01, 0, 1]};
+  const buttons = Object.entries(views).map(([name, direction]) => {
+    const button = element("button", {type: "button"}, name);
+    button.addEventListener("click", () => { look(direction); draw(); });
+    return button;
+  });
+  canvas.addEventListener("keydown", event => {
+    const turn = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+    if (!turn) return;
+    event.preventDefault();
+    const offset = new THREE.Spherical().setFromVector3(
+      camera.position.clone().sub(controls.target).applyAxisAngle(new THREE.Vector3(1, 0, 0), -Math.PI / 2));
+    offset.theta += 0.1 * turn[0];
+    offset.phi += 0.1 * turn[1];
+    offset.makeSafe();
+    camera.position.setFromSpherical(offset).applyAxisAngle(new THREE.Vector3(1, 0, 0), Math.PI / 2).add(controls.target);
+    controls.update();
+    draw();
+  });
+
+  const moves = data.motions.length > 0;
+  container.append(
+    element("div", {class: "captions"}, ...data.motions.map(motion => element("p", {},
+      `${motion.name} path` + (motion.contact ? `; the referee: ${motion.contact}` : "")))),
+    canvas,
+    element("div", {class: "controls"}, ...(moves ? [play, slider] : [element("p", {class: "note"}, "There is no path.")]),
+            ...toggles.map(toggle => toggle.label), ...buttons));
+  canvas.classList.add("view");
+
+  function rebuild() {
+    scenes = (moves ? data.motions : [null]).map(makeScene);
+    toggles.forEach(toggle => toggle.apply());
+    moveTo(time);
+  }
+  rebuild();
+  look(views["from behind"]);
+  controls.addEventListener("change", draw);
+  const stopListening = theme.onChange(rebuild);
+  addEventListener("resize", draw);
+  draw();
+
+  // Browsers keep few WebGL contexts alive.
+  function dispose() {
+    pause();
+    stopListening();
+    removeEventListener("resize", draw);
+    controls.dispose();
+    renderer.dispose();
+    renderer.forceContextLoss();
+    container.replaceChildren();
+  }
+  return {moveTo, canvas, dispose};
+}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace planbench {
+
+/// Replaces a file; throws InputError if it cannot be written.
+void WriteFile(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace planbench

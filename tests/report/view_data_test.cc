@@ -1,0 +1,143 @@
+#include "report/view_data.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "report/page.h"
+#include "report/write_file.h"
+#include "tests/report/browser.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+/// The planar arm (links of 0.5, 0.4 and 0.3 m) in front of a box, and a run that folds it.
+class ViewDataTest : public testing::Test {
+ protected:
+  ViewDataTest() {
+    SceneObject box;
+    box.id = "box";
+    box.X_WO.translation() = Eigen::Vector3d(1, 2, 3);
+    box.shapes.push_back({Box{{0.2, 0.4, 0.6}}, Eigen::Isometry3d::Identity()});
+    scene_.objects.push_back(box);
+    AttachedObject tool;
+    tool.link = "hand";
+    tool.object.id = "tool";
+    tool.object.shapes.push_back({Cylinder{0.01, 0.1}, Eigen::Isometry3d::Identity()});
+    scene_.attached.push_back(tool);
+
+    run_.problem_set = "shelf";
+    run_.problem_index = 3;
+    run_.contestant = "A";
+    run_.status = PlanStatus::kInvalidPath;
+    run_.request_id = "request";
+    run_.request.start = {{"shoulder", "elbow", "wrist"}, {0, 0, 0}};
+    run_.request.goal = {{"shoulder", 0, 0, 0}, {"elbow", 1, 0, 0}, {"wrist", 0, 0, 0}};
+    // Joints in another order than the group's.
+    run_.result.joint_names = {"elbow", "shoulder", "wrist"};
+    run_.result.result.path = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
+    run_.path_check.verdict.emplace();
+    run_.path_check.verdict->segment = 1;
+    run_.path_check.verdict->fraction = 0.3;
+    run_.path_check.verdict->contact = Contact{"hand", "box", 0.01};
+  }
+
+  const Robot robot_ = LoadRobot(std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3");
+  Scene scene_;
+  RunRecordMessage run_;
+};
+
+TEST_F(ViewDataTest, FramesAreTheArmsPosesAlongThePath) {
+  const Json view = RunView(robot_, scene_, run_, 10);
+  ASSERT_EQ(view["motions"].size(), 1u);
+  const Json& motion = view["motions"][0];
+  ASSERT_EQ(motion["frames"].size(), 12u);  // the start, ten steps, the collision
+  ASSERT_EQ(motion["collision"], 7);        // after six, at 0.5 + 0.3 * 0.5
+  EXPECT_EQ(motion["contact"], Describe(Contact{"hand", "box", 0.01}));
+  const auto expect_tip = [&](std::size_t frame, double elbow) {
+    const Json& tip = motion["tip"][frame];
+    EXPECT_NEAR(tip[0], 0.5 + 0.7 * std::cos(elbow), 1e-5) << frame;
+    EXPECT_NEAR(tip[1], 0.7 * std::sin(elbow), 1e-5) << frame;
+  };
+  expect_tip(0, 0);
+  expect_tip(5, 0.5);
+  expect_tip(7, 0.65);
+  expect_tip(11, 1);
+  // The last frame is the goal: upper arm, forearm, hand.
+  EXPECT_EQ(motion["frames"][11], view["goal"]);
+  const Json& goal = view["goal"];
+  ASSERT_EQ(goal.size(), 3u * 7);
+  EXPECT_NEAR(goal[7], 0.5, 1e-5);                // the elbow's place
+  EXPECT_NEAR(goal[7 + 5], std::sin(0.5), 1e-5);  // turned by 1 rad about z
+  EXPECT_NEAR(goal[14], 0.5 + 0.4 * std::cos(1), 1e-5);
+}
+
+TEST_F(ViewDataTest, SolidsAndSpheresAreThoseOfSceneAndRobot) {
+  const Json view = RunView(robot_, scene_, run_, 10);
+  ASSERT_EQ(view["solids"].size(), 2u);
+  EXPECT_EQ(view["solids"][0]["pose"], Json({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(view["solids"][0]["shape"], Json({{"type", "box"}, {"size", {0.2, 0.4, 0.6}}}));
+  EXPECT_EQ(view["solids"][1]["link"], "hand");
+  ASSERT_EQ(view["links"].size(), 4u);  // those with spheres
+  EXPECT_EQ(view["links"][0]["name"], "column");
+  EXPECT_EQ(view["links"][0]["moves"], false);
+  EXPECT_EQ(view["links"][1]["spheres"].size(), 9u);
+  EXPECT_EQ(view["links"][1]["spheres"][0], Json({0.1, 0.0, 0.0, 0.04}));
+}
+
+TEST_F(ViewDataTest, ARunThatFoundNothingShowsItsProblem) {
+  run_.result.result.path.clear();
+  const Json view = RunView(robot_, scene_, run_, 10);
+  EXPECT_TRUE(view["motions"].empty());
+  EXPECT_FALSE(view["goal"].empty());
+}
+
+TEST_F(ViewDataTest, WhatDoesNotFitTheRobotIsRefused) {
+  run_.request.robot_id = "other";
+  ExpectInputError([&] { RunView(robot_, scene_, run_, 10); }, {"planar3", "is not the robot"});
+  run_.request.robot_id = "";
+  run_.result.joint_names = {"elbow", "shoulder", "thumb"};
+  ExpectInputError([&] { RunView(robot_, scene_, run_, 10); }, {"no joint 'wrist'"});
+}
+
+TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  const TemporaryFolder folder;
+  WriteFile(folder / "view.html", ViewPage(RunView(robot_, scene_, run_, 10)));
+  const nlohmann::json found = Browse(folder / "view.html", R"script(
+    const pixels = () => {
+      const copy = document.createElement("canvas");
+      copy.width = view.canvas.width;
+      copy.height = view.canvas.height;
+      const context = copy.getContext("2d");
+      context.drawImage(view.canvas, 0, 0);
+      return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    };
+    const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
+    view.moveTo(0);
+    const first = pixels();
+    found.colours = new Set(first).size;
+    view.moveTo(1);
+    const last = pixels();
+    found.moved = differing(first, last);
+    view.canvas.dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
+    found.turned = differing(last, pixels());
+    found.caption = document.querySelector(".captions").textContent;
+    document.getElementById("theme").click();
+    found.dark = differing(last, pixels());
+    view.dispose();
+    found.left = document.querySelectorAll("canvas").length;
+  )script");
+  EXPECT_GT(found["colours"], 10);
+  EXPECT_GT(found["moved"], 100);
+  EXPECT_GT(found["turned"], 100);
+  EXPECT_GT(found["dark"], 1000);
+  EXPECT_EQ(found["caption"], "raw path; the referee: " + Describe(Contact{"hand", "box", 0.01}));
+  EXPECT_EQ(found["left"], 0);
+}
+
+}  // namespace
+}  // namespace planbench
