@@ -44,19 +44,14 @@ bool LoggerNode::Run(const std::function<bool()>& stop) {
   }
   Stop();
   if (failure_) std::rethrow_exception(failure_);
-  const RecorderTally& tally = recorder_.tally();
-  spdlog::info("recorded {} messages, {} runs ({} repeated)", tally.events, tally.runs,
-               tally.repetitions);
+  const bool complete = recorder_.Report();
   if (const std::int64_t lost = bus_->counters().lost; lost > 0) {
     spdlog::warn("{} messages that others sent did not come: the event log is incomplete", lost);
   }
   if (num_dropped() > 0) {
     spdlog::error("{} messages were dropped: the event log is incomplete", num_dropped());
   }
-  if (tally.failures > 0) {
-    spdlog::error("{} run records or sessions could not be stored", tally.failures);
-  }
-  return num_dropped() == 0 && tally.failures == 0;
+  return complete && num_dropped() == 0;
 }
 
 void LoggerNode::OnMessage(const ReceivedMessage& message) {

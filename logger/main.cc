@@ -1,4 +1,5 @@
 #include "logger/logger_node.h"
+#include "logger/rebuild.h"
 #include "messaging/program.h"
 
 int main(int argc, char** argv) {
@@ -12,7 +13,11 @@ int main(int argc, char** argv) {
   program.app().add_option("--name", options.name, "Name on the bus")->capture_default_str();
   program.app().add_flag("--resume", options.resume,
                          "Add to a session folder that holds results already");
+  std::filesystem::path from;
+  program.app().add_option("--from", from,
+                           "LCM event log to record instead of a bus: builds the same database");
   return program.Run(argc, argv, [&] {
+    if (!from.empty()) return RebuildSession(from, options) ? kExitOk : kExitFailed;
     Bus bus(program.lcm_url());
     LoggerNode logger(&bus, options);
     bus.Start();

@@ -249,4 +249,15 @@ std::vector<std::string> ResultsDatabase::Sessions() {
   return sessions;
 }
 
+std::vector<IncompleteSession> ResultsDatabase::IncompleteSessions() {
+  std::vector<IncompleteSession> sessions;
+  SqliteStatement statement = connection_.Prepare(
+      "SELECT run_id, num_runs, (SELECT count(*) FROM runs WHERE runs.run_id = sessions.run_id) AS "
+      "recorded FROM sessions WHERE finished AND recorded < num_runs ORDER BY start_utime, run_id");
+  while (statement.Step()) {
+    sessions.push_back({statement.Text(0), statement.Int(1), statement.Int(2)});
+  }
+  return sessions;
+}
+
 }  // namespace planbench

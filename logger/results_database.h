@@ -10,6 +10,13 @@
 
 namespace planbench {
 
+/// A finished session of which not all runs have come.
+struct IncompleteSession {
+  std::string run_id;
+  std::int64_t num_runs = 0;
+  std::int64_t num_recorded = 0;
+};
+
 /// results.sqlite, built from messages alone: equal messages in equal order give equal contents,
 /// whether they come live or from a replay. docs/database.md describes the tables.
 ///
@@ -36,6 +43,7 @@ class ResultsDatabase {
 
   /// SessionJson of every session, oldest first.
   std::vector<std::string> Sessions();
+  std::vector<IncompleteSession> IncompleteSessions();
 
  private:
   std::int64_t ExperimentId(const RunRecordMessage& record);

@@ -38,6 +38,19 @@ void SessionRecorder::Record(const ReceivedMessage& message) {
   }
 }
 
+bool SessionRecorder::Report() {
+  spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
+               tally_.repetitions);
+  for (const IncompleteSession& session : database_.IncompleteSessions()) {
+    spdlog::warn("session {} finished with {} runs, of which {} are recorded here", session.run_id,
+                 session.num_runs, session.num_recorded);
+  }
+  if (tally_.failures > 0) {
+    spdlog::error("{} run records or sessions could not be stored", tally_.failures);
+  }
+  return tally_.failures == 0;
+}
+
 void SessionRecorder::StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
                                           const std::function<void(std::string* id)>& store) {
   std::string id;

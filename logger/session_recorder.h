@@ -38,6 +38,10 @@ class SessionRecorder {
   /// Hands what was written to the operating system. Throws like Record.
   void Flush() { event_log_.Flush(); }
 
+  /// Logs what was recorded, and which finished sessions have fewer runs here than they made. True
+  /// if every run record and session that came could be stored.
+  bool Report();
+
   const SessionFolder& folder() const { return folder_; }
   const RecorderTally& tally() const { return tally_; }
 

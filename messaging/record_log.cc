@@ -1,38 +1,27 @@
 #include "messaging/record_log.h"
 
-#include <lcm/eventlog.h>
-
-#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
+#include "messaging/event_log_reader.h"
 
 namespace planbench {
 namespace {
 
-/// Calls visit(channel, bytes) for every event.
+/// ReadEventLog, where a message that cannot be decoded is an error of the log.
 template <typename Visit>
-void ForEachEvent(const std::filesystem::path& event_log, Visit visit) {
-  const std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log(
-      lcm_eventlog_create(event_log.c_str(), "r"), [](lcm_eventlog_t* open) {
-        if (open != nullptr) lcm_eventlog_destroy(open);
-      });
-  if (!log) throw InputError(event_log.string() + ": cannot be opened as an LCM event log");
-  while (lcm_eventlog_event_t* raw = lcm_eventlog_read_next_event(log.get())) {
-    const std::unique_ptr<lcm_eventlog_event_t, void (*)(lcm_eventlog_event_t*)> event(
-        raw, lcm_eventlog_free_event);
-    const std::string channel(event->channel, static_cast<std::size_t>(event->channellen));
-    const std::span bytes(static_cast<const std::uint8_t*>(event->data),
-                          static_cast<std::size_t>(event->datalen));
+void ReadMessages(const std::filesystem::path& event_log, Visit visit) {
+  ReadEventLog(event_log, [&](const ReceivedMessage& message) {
     try {
-      visit(channel, bytes);
+      visit(message);
     } catch (const MessageError& error) {
       throw InputError(event_log.string() + ": " + error.what());
     }
-  }
+  });
 }
 
 }  // namespace
@@ -40,11 +29,11 @@ void ForEachEvent(const std::filesystem::path& event_log, Visit visit) {
 RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   RecordedSession recorded;
   std::set<std::string> seen;
-  ForEachEvent(event_log, [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
-    if (channel == channel::kSession) {
-      recorded.sessions.push_back(Decode<SessionMessage>(bytes, channel));
-    } else if (channel == channel::kRunRecord) {
-      auto run = Decode<RunRecordMessage>(bytes, channel);
+  ReadMessages(event_log, [&](const ReceivedMessage& message) {
+    if (message.channel == channel::kSession) {
+      recorded.sessions.push_back(Decode<SessionMessage>(message.bytes, message.channel));
+    } else if (message.channel == channel::kRunRecord) {
+      auto run = Decode<RunRecordMessage>(message.bytes, message.channel);
       if (seen.insert(run.request_id).second) recorded.runs.push_back(std::move(run));
     }
   });
@@ -53,10 +42,10 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log) {
 
 std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log) {
   std::map<std::string, Scene> scenes;
-  ForEachEvent(event_log, [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
-    if (channel != channel::kScene) return;
-    auto message = Decode<SceneMessage>(bytes, channel);
-    if (message.ok) scenes.emplace(message.scene_id, std::move(message.scene));
+  ReadMessages(event_log, [&](const ReceivedMessage& message) {
+    if (message.channel != channel::kScene) return;
+    auto answer = Decode<SceneMessage>(message.bytes, message.channel);
+    if (answer.ok) scenes.emplace(answer.scene_id, std::move(answer.scene));
   });
   return scenes;
 }

@@ -1,0 +1,19 @@
+#include "logger/rebuild.h"
+
+#include "logger/session_recorder.h"
+#include "messaging/event_log_reader.h"
+
+namespace planbench {
+
+bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions& options) {
+  if (!std::filesystem::is_regular_file(event_log)) {
+    throw InputError(event_log.string() + ": there is no such event log");
+  }
+  SessionRecorder recorder(options.out, options.resume, options.name,
+                           [](const std::string&, const AckMessage&) {});
+  ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
+  recorder.Flush();
+  return recorder.Report();
+}
+
+}  // namespace planbench

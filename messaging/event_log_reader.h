@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "messaging/packet_reader.h"
+
+namespace planbench {
+
+/// Reads the events of an LCM event log in order; `utime` of a message is its event's. A torn last
+/// event (of a logger that was killed) is no error. Throws InputError if the file cannot be read.
+void ReadEventLog(const std::filesystem::path& event_log,
+                  const std::function<void(const ReceivedMessage& message)>& visit);
+
+}  // namespace planbench

@@ -1,0 +1,71 @@
+#include "logger/rebuild.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "logger/session_recorder.h"
+#include "messaging/channels.h"
+#include "sample_messages.h"
+#include "session_files.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+class RebuildTest : public testing::Test {
+ protected:
+  /// Records messages as they come from a bus; returns the event log.
+  std::filesystem::path Live(const std::vector<ReceivedMessage>& messages) {
+    SessionRecorder recorder(temporary_ / "live", false, "logger",
+                             [](const std::string&, const AckMessage&) {});
+    for (const ReceivedMessage& message : messages) recorder.Record(message);
+    recorder.Flush();
+    return recorder.folder().event_log();
+  }
+  LoggerOptions Options() const {
+    LoggerOptions options;
+    options.out = temporary_ / "rebuilt";
+    return options;
+  }
+
+  TemporaryFolder temporary_;
+};
+
+TEST_F(RebuildTest, TheSameMessagesMakeTheSameDatabase) {
+  const auto log = Live({Received(channel::kSession, SampleSession()),
+                         {"SOMETHING_ELSE", {1, 2, 3}, 7},
+                         Received(channel::kRunRecord, SampleRecord()),
+                         Received(channel::kRunRecord, SampleRecord()),
+                         Received(channel::kRunRecord, UnansweredRecord()),
+                         Received(channel::kSession, FinishedSession())});
+  EXPECT_TRUE(RebuildSession(log, Options()));
+  EXPECT_EQ(DumpDatabase(temporary_ / "rebuilt" / "results.sqlite"),
+            DumpDatabase(temporary_ / "live" / "results.sqlite"));
+  EXPECT_EQ(TextOf(temporary_ / "rebuilt" / "run.json"), TextOf(temporary_ / "live" / "run.json"));
+  EXPECT_EQ(TextOf(temporary_ / "rebuilt" / "rebuilt.lcmlog"), TextOf(log));
+}
+
+TEST_F(RebuildTest, ATornLastEventIsLeftOut) {
+  const auto log = Live({Received(channel::kRunRecord, SampleRecord()),
+                         Received(channel::kRunRecord, UnansweredRecord())});
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) - 5);
+  EXPECT_TRUE(RebuildSession(log, Options()));
+  ResultsDatabase rebuilt(temporary_ / "rebuilt" / "results.sqlite");
+  EXPECT_EQ(rebuilt.Store(SampleRecord()), ResultsDatabase::Outcome::kAlreadyStored);
+  EXPECT_EQ(rebuilt.Store(UnansweredRecord()), ResultsDatabase::Outcome::kStored);
+}
+
+TEST_F(RebuildTest, WhatCannotBeStoredIsAFailure) {
+  EXPECT_FALSE(RebuildSession(Live({{channel::kRunRecord, {1, 2, 3}, 7}}), Options()));
+}
+
+TEST_F(RebuildTest, BadUseMakesNoFolder) {
+  ExpectInputError([&] { RebuildSession(temporary_ / "none.lcmlog", Options()); },
+                   {"none.lcmlog", "no such event log"});
+  EXPECT_FALSE(std::filesystem::exists(temporary_ / "rebuilt"));
+}
+
+}  // namespace
+}  // namespace planbench
