@@ -43,6 +43,16 @@ struct NonNegative {
   }
 };
 
+/// A duration: no run lasts 30 years.
+struct Seconds {
+  static constexpr double kMost = 1e9;
+  static bool Ok(double value) { return NonNegative::Ok(value) && value <= kMost; }
+  static std::string What(double value) {
+    return NonNegative::Ok(value) ? fmt::format("{} s is more than {}", value, kMost)
+                                  : NonNegative::What(value);
+  }
+};
+
 struct Positive {
   static bool Ok(double value) { return std::isfinite(value) && value > 0; }
   static std::string What(double value) {
@@ -156,6 +166,7 @@ using Default = std::conditional_t<std::is_floating_point_v<Value>, Finite, Anyt
 namespace planbench {
 
 inline constexpr rules::NonNegative kNonNegative;
+inline constexpr rules::Seconds kSeconds;
 inline constexpr rules::Positive kPositive;
 inline constexpr rules::Fraction kFraction;
 inline constexpr rules::Distance kDistance;

@@ -171,7 +171,7 @@ struct Fields<ProblemMessage> : On<lcmt_problem> {
     io.Field("group", v.group, w.group);
     io.Field("start", v.start, w.start);
     io.List("goal", v.goal, w.goal, w.num_goals);
-    io.Field("time_limit_s", v.time_limit_s, w.time_limit_s, kNonNegative);
+    io.Field("time_limit_s", v.time_limit_s, w.time_limit_s, kSeconds);
     // A refusal may leave these empty.
     io.Require(!v.ok || !v.problem_set.empty(), "problem_set", "is empty");
     io.Require(!v.ok || !v.scene_id.empty(), "scene_id", "is empty");
@@ -219,7 +219,7 @@ struct Fields<PlanRequest> : On<lcmt_plan_request> {
     io.Field("start", v.start, w.start);
     io.List("goal", v.goal, w.goal, w.num_goals);
     io.Field("direction", v.direction, w.direction);
-    io.Field("time_limit_s", v.time_limit_s, w.time_limit_s, kNonNegative);
+    io.Field("time_limit_s", v.time_limit_s, w.time_limit_s, kSeconds);
     io.Field("seed", v.seed, w.seed);
     io.Field("collision_model", v.collision_model, w.collision_model);
     io.Field("edge_resolution_m", v.edge_resolution_m, w.edge_resolution_m, kNonNegative);
@@ -244,7 +244,7 @@ struct Fields<PlanAckMessage> : On<lcmt_plan_ack> {
 template <>
 struct Fields<PlanProgress> : On<lcmt_plan_progress> {
   static void List(auto& io, auto& v, auto& w) {
-    io.Field("elapsed_s", v.elapsed_s, w.elapsed_s, kNonNegative);
+    io.Field("elapsed_s", v.elapsed_s, w.elapsed_s, kSeconds);
     io.Field("epsilon", v.epsilon, w.epsilon, kNonNegative);
     io.Field("cost", v.cost, w.cost);
     io.Field("expansions", v.expansions, w.expansions, kAtLeast<0>);
@@ -270,15 +270,19 @@ struct Fields<PlanResultMessage> : On<lcmt_plan_result> {
     io.Field("request_id", v.request_id, w.request_id, kId);
     auto& r = v.result;
     io.Field("status", r.status, w.status);
+    const bool is_drivers =
+        r.status == PlanStatus::kNoAnswer || r.status == PlanStatus::kInvalidPath;
+    io.Require(v.request_id.empty() || !is_drivers, "status", "{} is the driver's to say",
+               EnumName(r.status));
     io.Field("message", r.message, w.message);
-    io.Field("planning_time_s", r.planning_time_s, w.planning_time_s, kNonNegative);
-    io.Field("total_time_s", r.total_time_s, w.total_time_s, kNonNegative);
+    io.Field("planning_time_s", r.planning_time_s, w.planning_time_s, kSeconds);
+    io.Field("total_time_s", r.total_time_s, w.total_time_s, kSeconds);
     auto& phases = r.phases;
-    io.Field("setup_s", phases.setup_s, w.setup_s, kNonNegative);
-    io.Field("collision_s", phases.collision_s, w.collision_s, kNonNegative);
-    io.Field("guidance_s", phases.guidance_s, w.guidance_s, kNonNegative);
-    io.Field("search_s", phases.search_s, w.search_s, kNonNegative);
-    io.Field("simplification_s", phases.simplification_s, w.simplification_s, kNonNegative);
+    io.Field("setup_s", phases.setup_s, w.setup_s, kSeconds);
+    io.Field("collision_s", phases.collision_s, w.collision_s, kSeconds);
+    io.Field("guidance_s", phases.guidance_s, w.guidance_s, kSeconds);
+    io.Field("search_s", phases.search_s, w.search_s, kSeconds);
+    io.Field("simplification_s", phases.simplification_s, w.simplification_s, kSeconds);
     NamedPath path{v.joint_names, r.path};
     io.Field("path", path, w.path);
     NamedPath simplified{v.joint_names, r.simplified_path};
@@ -468,7 +472,7 @@ struct Fields<SessionMessage> : On<lcmt_session> {
     io.Field("run_id", v.run_id, w.run_id, kId);
     io.Field("start_utime", v.start_utime, w.start_utime);
     io.Field("finished", v.finished, w.finished);
-    io.Field("total_time_s", v.total_time_s, w.total_time_s, kNonNegative);
+    io.Field("total_time_s", v.total_time_s, w.total_time_s, kSeconds);
     io.Field("num_runs", v.num_runs, w.num_runs, kAtLeast<0>);
     io.Field("version", v.version, w.version);
     io.Field("commit", v.commit, w.commit);
@@ -498,7 +502,7 @@ struct Fields<RunRecordMessage> : On<lcmt_run_record> {
     io.Field("start_utime", v.start_utime, w.start_utime);
     io.Field("status", v.status, w.status);
     io.Field("message", v.message, w.message);
-    io.Field("roundtrip_time_s", v.roundtrip_time_s, w.roundtrip_time_s, kNonNegative);
+    io.Field("roundtrip_time_s", v.roundtrip_time_s, w.roundtrip_time_s, kSeconds);
     io.Field("request", v.request, w.request);
     io.Field("result", v.result, w.result);
     io.Field("path_check", v.path_check, w.path_check);

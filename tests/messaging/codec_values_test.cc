@@ -66,6 +66,12 @@ TEST_F(CodecValues, MessagesOfErrors) {
       {"result.path.position[1][0]: nan is not a finite number",
        [](auto& m) { m.result.path.position[1][0] = NAN; }},
   });
+  ExpectAllRefused<PlanResultMessage, lcmt_plan_result>({
+      {"status: NO_ANSWER is the driver's to say", [](auto& m) { m.status = 7; }},
+      {"status: INVALID_PATH is the driver's to say", [](auto& m) { m.status = 8; }},
+      {"planning_time_s: 1e+308 s is more than 1000000000",
+       [](auto& m) { m.planning_time_s = 1e308; }},
+  });
   EXPECT_EQ(DecodeError<PlanRequest>({}).request_id(), "");
 }
 

@@ -188,7 +188,7 @@ class Spoiler {
     } else if constexpr (std::is_enum_v<Value> && std::is_integral_v<Wire>) {
       for (const int bad : {-1, kNumEnumValues<Value>}) spoil(bad);
     } else if constexpr (std::is_floating_point_v<Wire>) {
-      for (const double bad : {std::nan(""), kInfinity, -kInfinity, -1.0, 0.0, 1.5}) {
+      for (const double bad : {std::nan(""), kInfinity, -kInfinity, -1.0, 0.0, 1.5, 1e300}) {
         if (!Rule::Ok(bad)) spoil(bad);
       }
     } else if constexpr (std::is_integral_v<Wire>) {
