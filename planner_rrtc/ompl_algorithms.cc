@@ -88,7 +88,7 @@ constexpr std::array kAlgorithms = {
     OmplAlgorithm{"BITstar", kSearchAndSample, true, false, Make<og::BITstar>},
     OmplAlgorithm{"BKPIECE1", kSamplingGuided, false, true, Make<og::BKPIECE1>},
     OmplAlgorithm{"BiEST", kSamplingGuided, false, true, Make<og::BiEST>},
-    OmplAlgorithm{"BiTRRT", kSamplingGuided, false, true, Make<og::BiTRRT>},
+    OmplAlgorithm{"BiTRRT", kSamplingGuided, false, true, MakeScanning<og::BiTRRT>},
     OmplAlgorithm{"EST", kSamplingGuided, false, false, Make<og::EST>},
     OmplAlgorithm{"InformedRRTstar", kSamplingGuided, true, false, Make<og::InformedRRTstar>},
     OmplAlgorithm{"KPIECE1", kSamplingGuided, false, false, Make<og::KPIECE1>},
