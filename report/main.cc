@@ -7,6 +7,7 @@
 #include "common/exit_codes.h"
 #include "report/figures.h"
 #include "report/page.h"
+#include "report/print_figures.h"
 #include "report/write_file.h"
 
 namespace planbench {
@@ -20,14 +21,19 @@ struct Flags {
   std::string out = "report.html";
   std::string csv;
   std::string latex;
+  std::string figures;
 };
+
+void MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
+}
 
 void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
                  std::string (*format)(const Table&)) {
   if (folder.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
+  MakeFolder(folder);
   for (const Table& table : tables) {
     WriteFile(std::filesystem::path(folder) / (table.name + extension), format(table));
   }
@@ -49,8 +55,12 @@ int Run(const Flags& flags) {
   const std::vector<Table> tables = AllTables(compared, pairs, seed);
   WriteTables(flags.csv, ".csv", tables, TableCsv);
   WriteTables(flags.latex, ".tex", tables, TableLatex);
-  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews);
-  WriteFile(flags.out, ReportPage(FigureData(compared, pairs, tables), views));
+  const Json data = FigureData(compared, pairs, tables);
+  if (!flags.figures.empty()) {
+    MakeFolder(flags.figures);
+    PrintFigures(data, flags.figures);
+  }
+  WriteFile(flags.out, ReportPage(data, EmbedViews(compared, kMostBytesOfViews)));
   std::cout << "report: " << flags.out << "\n";
   return kExitOk;
 }
@@ -69,5 +79,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", flags.out, "the page")->capture_default_str();
   app.add_option("--csv", flags.csv, "folder for the tables as CSV");
   app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs)");
+  app.add_option("--figures", flags.figures,
+                 "folder for the figures as SVG (needs node) and PDF (needs rsvg-convert)");
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
 }

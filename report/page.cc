@@ -2,21 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <stdexcept>
 #include <string_view>
 
 #include "report/web_files.h"
 
 namespace planbench {
 namespace {
-
-std::string_view WebFile(std::string_view name) {
-  for (const EmbeddedFile& file : WebFiles()) {
-    if (file.name == name) return file.text;
-  }
-  throw std::logic_error(fmt::format("no file {} in report/web", name));
-}
 
 std::string ReplaceAll(std::string_view text, std::string_view from, std::string_view to) {
   std::string replaced;
@@ -30,18 +21,6 @@ std::string ReplaceAll(std::string_view text, std::string_view from, std::string
 /// A script's text may not end the element that holds it.
 std::string ScriptElement(std::string_view text) {
   return "<script>\n" + ReplaceAll(text, "</script", "<\\/script") + "\n</script>\n";
-}
-
-/// Debian has Vega as CommonJS modules, which modules.js joins.
-std::string VegaModules() {
-  std::string text;
-  for (const EmbeddedFile& file : VegaFiles()) {
-    const std::string_view name = file.name.substr(0, file.name.find('.'));
-    text +=
-        fmt::format("planbenchModules[\"{}\"] = function (exports, require, module) {{\n{}\n}};\n",
-                    name, file.text);
-  }
-  return text;
 }
 
 /// JSON in a script element: the one character that HTML could take for markup is escaped, which
@@ -75,8 +54,9 @@ std::string ReportPage(const Json& data, const EmbeddedViews& views) {
   if (!views.by_attempt.empty()) scripts += ThreeScripts();
   scripts +=
       "<!-- Vega: copyright University of Washington Interactive Data Lab, BSD-3-Clause -->\n";
-  scripts += ScriptElement(std::string(WebFile("modules.js")) + VegaModules());
-  for (const char* name : {"theme.js", "charts.js", "viewer.js", "page.js"}) {
+  scripts += ScriptElement(VegaModules());
+  for (const char* name : {"vega.js", "palette.js", "theme.js", "charts.js", "figures.js",
+                           "pictures.js", "viewer.js", "page.js"}) {
     scripts += ScriptElement(WebFile(name));
   }
   return Page(WebFile("page.html"), scripts);
@@ -84,7 +64,7 @@ std::string ReportPage(const Json& data, const EmbeddedViews& views) {
 
 std::string ViewPage(const Json& view) {
   std::string scripts = DataElement("data", view) + ThreeScripts();
-  for (const char* name : {"theme.js", "viewer.js", "view.js"}) {
+  for (const char* name : {"palette.js", "theme.js", "viewer.js", "view.js"}) {
     scripts += ScriptElement(WebFile(name));
   }
   return Page(WebFile("view.html"), scripts);

@@ -6,17 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "report/shell_quoted.h"
+
 namespace planbench {
 namespace {
-
-std::string Quoted(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@%+=:,./_-";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 bool IsName(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
@@ -61,7 +54,7 @@ std::string ReproducingCommand(const StoredSession& session) {
     const bool are_named = is_one_of(kNamed, flag);
     const bool repeats = are_named || flag == "problems";
     for (const std::string& one : repeats ? Values(value, are_named) : std::vector{value}) {
-      command += " --" + flag + " " + Quoted(one);
+      command += " --" + flag + " " + ShellQuoted(one);
     }
   }
   return command;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/embedded_file.h"
@@ -12,5 +14,10 @@ const std::vector<EmbeddedFile>& WebFiles();
 const std::vector<EmbeddedFile>& VegaFiles();
 /// three.js and its orbit controls, of Debian's libjs-three.
 const std::vector<EmbeddedFile>& ThreeFiles();
+
+/// One of WebFiles.
+std::string_view WebFile(std::string_view name);
+/// Vega's modules as one script, which modules.js joins: Debian has them in CommonJS's form.
+std::string VegaModules();
 
 }  // namespace planbench

@@ -1,68 +1,6 @@
 "use strict";
 // Vega specifications of the figures. They place numbers of the data and compute none.
 const charts = (() => {
-  const vega = {
-    ...requireModule("vega-util"), View: requireModule("vega-view").View, parse: requireModule("vega-parser").parse,
-  };
-  Object.assign(requireModule("vega-dataflow").transforms, requireModule("vega-transforms"),
-                requireModule("vega-view-transforms"), requireModule("vega-encode"));
-
-  // ---- Views: made when they come into sight, made anew when colours or width change ----------
-  const all = [];
-  const tooltip = document.getElementById("tooltip");
-  const sight = new IntersectionObserver(entries => {
-    for (const entry of entries) if (entry.isIntersecting) render(entry.target.planbenchChart);
-  }, {rootMargin: "400px"});
-
-  function render(chart) {
-    sight.unobserve(chart.element);
-    if (chart.view) chart.view.finalize();
-    const width = chart.element.clientWidth;
-    if (width === 0) return;
-    chart.width = width;
-    const spec = chart.make();
-    const runtime = vega.parse({width, autosize: {type: "fit-x", contains: "padding"}, padding: 4, ...spec},
-                               theme.vegaConfig());
-    const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
-    chart.view = new vega.View(runtime, {
-      container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg", logLevel: 1,
-      tooltip: (handler, event, item, value) => showTooltip(event, value),
-    });
-    chart.view.addEventListener("click", (event, item) => {
-      if (item && item.datum && item.datum.open) item.datum.open();
-    });
-    chart.view.run();
-  }
-
-  function showTooltip(event, value) {
-    tooltip.hidden = value == null || value === "";
-    if (tooltip.hidden) return;
-    tooltip.textContent = value;
-    tooltip.style.left = Math.min(event.clientX + 14, innerWidth - tooltip.offsetWidth - 8) + "px";
-    tooltip.style.top = Math.min(event.clientY + 14, innerHeight - tooltip.offsetHeight - 8) + "px";
-  }
-
-  function add(element, label, make) {
-    element.classList.add("chart");
-    element.setAttribute("role", "img");
-    element.setAttribute("aria-label", label);
-    const chart = {element, make, view: null};
-    element.planbenchChart = chart;
-    all.push(chart);
-    sight.observe(element);
-    return chart;
-  }
-  const again = () => all.forEach(chart => { if (chart.view) render(chart); });
-  theme.onChange(again);
-  let resizing = 0;
-  addEventListener("resize", () => {
-    clearTimeout(resizing);
-    resizing = setTimeout(() => all.forEach(chart => {
-      if (chart.view && chart.element.clientWidth !== chart.width) render(chart);
-    }), 150);
-  });
-  addEventListener("beforeprint", () => all.forEach(chart => chart.view || render(chart)));
-
   // ---- Parts ------------------------------------------------------------------------------------
   const shortNumber = value => value == null ? "-" : Number(value.toPrecision(3)).toLocaleString("en");
   const percent = share => (100 * share).toFixed(1) + " %";
@@ -338,5 +276,5 @@ const charts = (() => {
     };
   }
 
-  return {add, all, render, logDomain, success, times, curves, scatter, quality, phases, PHASES};
+  return {logDomain, success, times, curves, scatter, quality, phases, PHASES};
 })();

@@ -57,18 +57,20 @@ const report = (() => {
   function figure(title, make) {
     const chart = element("div");
     const made = element("figure", {}, element("h3", {}, title), chart);
-    charts.add(chart, title, make);
+    pictures.add(chart, title, make);
     return made;
   }
 
-  // A figure for each set of which `list(set)` has anything.
-  function figuresOfSets(list, make) {
+  // A figure of a kind for each set of which there is anything.
+  function figuresOfSets(kind) {
+    const {list, make} = figureKinds[kind];
     const grid = element("div", {class: "grid"});
     for (const set of data.sets) {
       const values = list(set);
       if (!values || values.length === 0) continue;
       const places = values.map(value => value.contestant);
-      grid.append(figure(set.name, () => make(set, places.map(place => names[place]), places, values)));
+      grid.append(figure(set.name, () => make(set, places.map(place => names[place]), places, values,
+                                              problem => showProblem(sets.indexOf(set), problem))));
     }
     return grid;
   }
@@ -106,7 +108,7 @@ const report = (() => {
     let pressed = null;
     const list = element("ul", {class: "legend", "aria-label": "Contestants; choose one to bring it out"});
     const show = place => {
-      for (const chart of charts.all) {
+      for (const chart of pictures.all) {
         if (chart.view && container().contains(chart.element)) chart.view.signal("focus", place).run();
       }
     };
@@ -146,7 +148,7 @@ const report = (() => {
     section("success", "Success",
       note("Dot: share of the problems with a path that the referee confirmed; line: its 95 % interval. A hollow diamond is " +
            "the share of runs in which the planner claimed a path, where that is more."),
-      figuresOfSets(set => set.success, (set, of, places, values) => charts.success(of, places, values)),
+      figuresOfSets("success"),
       tableBlock("success", true));
   }
 
@@ -155,19 +157,13 @@ const report = (() => {
       note("Every run is a point: the time to its first confirmed path, failed attempts before it included. A run without one is a " +
            "cross in the column on the right, with their number, whenever it ended. Diamond: median over the solved " +
            "problems, with its 95 % interval. A point opens its problem."),
-      figuresOfSets(set => set.times, (set, of, places, values) =>
-        charts.times(of, places, values, problem => showProblem(sets.indexOf(set), problem))),
+      figuresOfSets("times"),
       tableBlock("times", true),
       element("h3", {}, "Share solved by a time"),
       note("Mean over the problems of the share of their trials that have a confirmed path by then; bands are Wilson's 95 % " +
            "intervals of each time by itself, for as many cases as there are problems. With more than six contestants a band " +
            "shows where its contestant is brought out. Curves end at the time limit, or where the last run succeeded."));
-    const grid = figuresOfSets(set => set.survival, (set, of, places, values) => {
-      const last = Math.max(...values.map(value => value.limit), ...values.flatMap(value => value.time.slice(-1)));
-      const first = charts.logDomain([last, ...values.flatMap(value => value.time.slice(0, 1))])[0];
-      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: of[i], x: value.time})),
-                           {first, last, title: "time, ms", share: "solved"});
-    });
+    const grid = figuresOfSets("survival");
     made.append(legend(() => grid), grid);
   }
 
@@ -194,7 +190,7 @@ const report = (() => {
     let set = data.sets.length - 1, first = 0, second = 1;
     const chart = element("div");
     const figure = element("div");
-    const shown = charts.add(chart, "Times of two contestants, problem by problem", () => charts.scatter(
+    const shown = pictures.add(chart, "Times of two contestants, problem by problem", () => charts.scatter(
       pairPoints(data.sets[set], first, second), names[first], names[second],
       Math.max(...data.sets[set].survival.map(value => value.limit))));
     function update() {
@@ -208,7 +204,7 @@ const report = (() => {
           select("first", names, first, value => { second = value === second ? first : second; first = value; update(); }),
           select("second", names, second, value => { first = value === first ? second : first; second = value; update(); })),
         row.length > 0 ? tableElement({...tables.pairs, rows: row}) : note("These two have no problem of this set in common."));
-      if (shown.view) charts.render(shown);
+      if (shown.view) pictures.render(shown);
     }
     update();
     made.append(figure, element("figure", {class: "beside"}, chart, element("figcaption", {},
@@ -218,11 +214,7 @@ const report = (() => {
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
            "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved."));
-    const grid = figuresOfSets(set => set.profile, (set, of, places, values) => {
-      const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
-      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: of[i], x: value.ratio})),
-                           {first: 1, last, title: "time over that of the fastest", share: "problems"});
-    });
+    const grid = figuresOfSets("profile");
     made.append(legend(() => grid), grid);
   }
 
@@ -241,20 +233,13 @@ const report = (() => {
       if (set.quality.every(one => one.raw.length + one.simplified.length === 0)) continue;
       const chart = element("div");
       grid.append(element("figure", {}, element("h3", {}, set.name), chart));
-      shown.push(charts.add(chart, "Path quality, " + set.name, () => {
-        const {raw, simplified} = set.quality[kind];
-        const places = names.map((name, place) => place).filter(place =>
-          raw.concat(simplified).some(one => one.contestant === place));
-        const {name, unit} = data.measures[kind];
-        return charts.quality(places.map(place => names[place]), places, raw, simplified,
-                              name.replace(/_/g, " ") + (unit ? ", " + unit : ""));
-      }));
+      shown.push(pictures.add(chart, "Path quality, " + set.name, () => qualityFigure(data, set, kind)));
     }
     function update() {
       meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +
         "as planned; hollow: after the simplification that all share. Median and quartiles over the problems that each " +
         "solved, of medians over its runs: the problems are not the same for all; the table has ratios on common ones.";
-      shown.forEach(chart => { if (chart.view) charts.render(chart); });
+      shown.forEach(chart => { if (chart.view) pictures.render(chart); });
     }
     made.append(element("div", {class: "controls"}, select("measure", kinds.map(i => data.measures[i].name.replace(/_/g, " ")), 0,
                                                            value => { kind = kinds[value]; update(); })),
@@ -267,7 +252,7 @@ const report = (() => {
     charts.PHASES.forEach((phase, i) => key.append(element("li", {}, swatch(i), " " + phase)));
     section("phases", "Where the time goes",
       note("Means over confirmed attempts, as shares of the time to the end of the search, which stands on the right."), key,
-      figuresOfSets(set => set.phases, (set, of, places, values) => charts.phases(of, values)),
+      figuresOfSets("phases"),
       tableBlock("phases", false));
   }
 

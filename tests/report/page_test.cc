@@ -17,7 +17,7 @@ constexpr char kProbe[] = R"script(
       if (item.name && item.marktype) marks[item.name] = (marks[item.name] || 0) + item.items.length;
       (item.items || []).forEach(visit);
     };
-    for (const chart of charts.all) visit(chart.view.scenegraph().root);
+    for (const chart of pictures.all) visit(chart.view.scenegraph().root);
     return marks;
   };
   const contrasts = () => {
@@ -37,9 +37,9 @@ constexpr char kProbe[] = R"script(
       series: Math.min(...theme.property("--series").split(",").map(c => contrast(c.trim(), background))),
     };
   };
-  charts.all.forEach(chart => charts.render(chart));
-  found.charts = charts.all.length;
-  found.empty = charts.all.filter(chart => !chart.element.querySelector("svg, canvas")).length;
+  pictures.all.forEach(chart => pictures.render(chart));
+  found.charts = pictures.all.length;
+  found.empty = pictures.all.filter(chart => !chart.element.querySelector("svg, canvas")).length;
   found.marks = count();
   found.contrast = [contrasts()];
   document.getElementById("theme").click();

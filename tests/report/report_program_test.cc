@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "common/exit_codes.h"
 #include "common/read_text.h"
 #include "tests/report/example_session.h"
@@ -59,6 +61,32 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({Path("empty")}, "is no results database");
   expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")}, "cannot write");
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
+}
+
+TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
+  if (std::system("command -v node >/dev/null") != 0) {
+    GTEST_SKIP() << "no node here: apt-get install nodejs";
+  }
+  WriteSession(folder_ / "example", ExampleRuns(), ExampleSession());
+  ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--figures", Path("figures")}),
+            kExitOk)
+      << errors_;
+  // Names of sets become names of files.
+  for (const char* figure : {"success-shelf", "times-a_i_set_i_", "survival-all_sets",
+                             "profile-all_sets", "phases-shelf", "path_length-shelf"}) {
+    const std::string svg = ReadText(folder_ / "figures" / (std::string(figure) + ".svg"));
+    EXPECT_TRUE(svg.starts_with("<svg")) << figure;
+    EXPECT_EQ(svg.find("<b "), std::string::npos) << figure;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "figures" / "figures.json"));
+  // A cross for each failed run on the set.
+  const std::string times = ReadText(folder_ / "figures" / "times-shelf.svg");
+  const std::size_t failed = times.find("failed-runs");
+  ASSERT_NE(failed, std::string::npos);
+  const std::string crosses = times.substr(failed, times.find("</g>", failed) - failed);
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = crosses.find("<path", at)) != std::string::npos; ++at) ++count;
+  EXPECT_EQ(count, 2u) << crosses;
 }
 
 TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {

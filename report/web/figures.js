@@ -1,0 +1,44 @@
+"use strict";
+// The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how. `names` and
+// `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
+const figureKinds = {
+  success: {
+    list: set => set.success,
+    make: (set, names, places, values) => charts.success(names, places, values),
+  },
+  times: {
+    list: set => set.times,
+    make: (set, names, places, values, open) => charts.times(names, places, values, open),
+  },
+  survival: {
+    list: set => set.survival,
+    make: (set, names, places, values) => {
+      const last = Math.max(...values.map(value => value.limit), ...values.flatMap(value => value.time.slice(-1)));
+      const first = charts.logDomain([last, ...values.flatMap(value => value.time.slice(0, 1))])[0];
+      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time})),
+                           {first, last, title: "time, ms", share: "solved"});
+    },
+  },
+  profile: {
+    list: set => set.profile,
+    make: (set, names, places, values) => {
+      const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
+      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.ratio})),
+                           {first: 1, last, title: "time over that of the fastest", share: "problems"});
+    },
+  },
+  phases: {
+    list: set => set.phases,
+    make: (set, names, places, values) => charts.phases(names, values),
+  },
+};
+
+// The figure of a measure on a set, by the measure's place in data.measures.
+function qualityFigure(data, set, kind) {
+  const {raw, simplified} = set.quality[kind];
+  const places = data.contestants.map((contestant, place) => place).filter(place =>
+    raw.concat(simplified).some(one => one.contestant === place));
+  const {name, unit} = data.measures[kind];
+  return charts.quality(places.map(place => data.contestants[place].name), places, raw, simplified,
+                        name.replace(/_/g, " ") + (unit ? ", " + unit : ""));
+}

@@ -1,0 +1,26 @@
+"use strict";
+// Colours of figures; property(name) gives a variable of page.css.
+function makePalette(property) {
+  const DASHES = [[], [7, 3], [2, 2], [9, 3, 2, 3]];
+  const series = () => property("--series").split(",").map(colour => colour.trim());
+  return {
+    property,
+    // Of the contestant at a place: colours repeat with another dash.
+    colour: index => { const all = series(); return all[index % all.length]; },
+    dash: index => DASHES[Math.floor(index / series().length) % DASHES.length],
+    vegaConfig: () => {
+      const text = property("--text"), muted = property("--muted"), line = property("--line");
+      return {
+        background: null,
+        axis: {
+          labelColor: text, titleColor: muted, domainColor: muted, tickColor: muted, gridColor: line,
+          gridOpacity: 0.6, labelFontSize: 12, titleFontSize: 12, titleFontWeight: "normal", labelLimit: 210,
+          labelFont: "system-ui, sans-serif", titleFont: "system-ui, sans-serif",
+        },
+        text: {fill: text, font: "system-ui, sans-serif", fontSize: 12},
+        rule: {stroke: muted},
+        style: {cell: {stroke: "transparent"}},
+      };
+    },
+  };
+}

@@ -1,0 +1,58 @@
+"use strict";
+// Figures in the page: made when they come into sight, made anew when colours or width change.
+const pictures = (() => {
+  const all = [];
+  const tooltip = document.getElementById("tooltip");
+  const sight = new IntersectionObserver(entries => {
+    for (const entry of entries) if (entry.isIntersecting) render(entry.target.planbenchChart);
+  }, {rootMargin: "400px"});
+
+  function render(chart) {
+    sight.unobserve(chart.element);
+    if (chart.view) chart.view.finalize();
+    const width = chart.element.clientWidth;
+    if (width === 0) return;
+    chart.width = width;
+    const spec = chart.make();
+    const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
+    chart.view = vega.view(spec, width, theme.vegaConfig(), {
+      container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg",
+      tooltip: (handler, event, item, value) => showTooltip(event, value),
+    });
+    chart.view.addEventListener("click", (event, item) => {
+      if (item && item.datum && item.datum.open) item.datum.open();
+    });
+    chart.view.run();
+  }
+
+  function showTooltip(event, value) {
+    tooltip.hidden = value == null || value === "";
+    if (tooltip.hidden) return;
+    tooltip.textContent = value;
+    tooltip.style.left = Math.min(event.clientX + 14, innerWidth - tooltip.offsetWidth - 8) + "px";
+    tooltip.style.top = Math.min(event.clientY + 14, innerHeight - tooltip.offsetHeight - 8) + "px";
+  }
+
+  function add(element, label, make) {
+    element.classList.add("chart");
+    element.setAttribute("role", "img");
+    element.setAttribute("aria-label", label);
+    const chart = {element, make, view: null};
+    element.planbenchChart = chart;
+    all.push(chart);
+    sight.observe(element);
+    return chart;
+  }
+  const again = () => all.forEach(chart => { if (chart.view) render(chart); });
+  theme.onChange(again);
+  let resizing = 0;
+  addEventListener("resize", () => {
+    clearTimeout(resizing);
+    resizing = setTimeout(() => all.forEach(chart => {
+      if (chart.view && chart.element.clientWidth !== chart.width) render(chart);
+    }), 150);
+  });
+  addEventListener("beforeprint", () => all.forEach(chart => chart.view || render(chart)));
+
+  return {add, all, render};
+})();

@@ -1,0 +1,62 @@
+"use strict";
+// Run by node: writes every figure of the data (figures.h) as SVG. Arguments: the data's file, a folder.
+const fs = require("fs");
+const [dataFile, folder] = process.argv.slice(2);
+const data = JSON.parse(fs.readFileSync(dataFile, "utf8"));
+const names = data.contestants.map(contestant => contestant.name);
+const WIDTH = 440;  // one of two columns
+const config = {...theme.vegaConfig(), background: "white"};
+config.axis.labelLimit = 0;
+config.legend = {labelColor: theme.property("--text"), labelFontSize: 12, labelFont: config.axis.labelFont, labelLimit: 0};
+// Without a canvas nothing measures text: what letters of a sans-serif are wide on average.
+requireModule("vega-scenegraph").textMetrics.width = (item, text) => 0.56 * (item.fontSize || 12) * String(text || "").length;
+
+function write(name, spec) {
+  return vega.view(spec, WIDTH, config, {renderer: "none"}).toSVG().then(svg =>
+    fs.writeFileSync(`${folder}/${name}.svg`, svg));
+}
+
+// The page has its legends beside the figures.
+function withLegend(kind, spec) {
+  const legend = {
+    survival: {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300},
+    profile: {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300},
+    phases: {fill: "colour", symbolType: "square"},
+  }[kind];
+  if (!legend) return spec;
+  const labels = kind === "phases" ? charts.PHASES : names;
+  return {
+    ...spec, signals: [...spec.signals, {name: "labels", value: labels}],
+    legends: [{...legend, orient: "bottom", columns: 2, encode: {labels: {update: {text: {signal: "labels[datum.value]"}}}}}],
+  };
+}
+
+const named = new Set();
+// A file's name of a set's: "shelf test/1" is shelf_test_1, and what came before is not written over.
+function fileName(text) {
+  const plain = text.replace(/[^A-Za-z0-9-]+/g, "_");
+  let name = plain;
+  for (let i = 2; named.has(name); ++i) name = `${plain}_${i}`;
+  named.add(name);
+  return name;
+}
+
+const written = [];
+for (const set of data.sets) {
+  const own = fileName(set.name);
+  for (const [kind, {list, make}] of Object.entries(figureKinds)) {
+    const values = list(set);
+    if (!values || values.length === 0) continue;
+    const places = values.map(value => value.contestant);
+    const spec = make(set, places.map(place => names[place]), places, values, () => {});
+    written.push(write(`${kind}-${own}`, withLegend(kind, spec)));
+  }
+  data.measures.forEach((measure, kind) => {
+    if (set.all || set.quality[kind].raw.length === 0) return;
+    written.push(write(`${measure.name}-${own}`, qualityFigure(data, set, kind)));
+  });
+}
+Promise.all(written).catch(error => {
+  console.error(error);
+  process.exitCode = 1;
+});
