@@ -21,7 +21,7 @@ namespace planbench {
 void GeneratorFlags::AddTo(CLI::App* app) {
   app->add_option("--spec", spec, "specification of the problem set, e.g. problems/box.yaml")
       ->required();
-  app->add_option("--robot", robot, "robot folder, e.g. robots/fetch")->required();
+  app->add_option("--robot", robot, "robot folder, or the name of a robot that ships")->required();
   app->add_option("--out", out, "folder to write sceneNNNN.yaml and requestNNNN.yaml to")
       ->required();
   app->add_option("--count", count, "number of problems")

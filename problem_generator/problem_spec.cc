@@ -231,7 +231,7 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   if (const auto joints = node.Find("rest")) ReadJoints(*joints, model, nullptr, &rest);
   spec->rest = {model.position_names(), rest};
 
-  Setup setup;
+  Setup setup{group->states};
   if (const auto configurations = node.Find("configurations")) {
     for (const std::string& key : configurations->Keys()) {
       const YamlNode joints = configurations->At(key);
@@ -307,7 +307,8 @@ EndSpec ReadEnd(const YamlNode& query, const std::string& key, const Setup& setu
     const auto found = setup.configurations.find(configuration->String());
     if (found == setup.configurations.end()) {
       configuration->Fail(
-          fmt::format("the robot's setup has no configuration '{}'", configuration->String()));
+          fmt::format("neither the setup nor the robot's group has a configuration '{}'",
+                      configuration->String()));
     }
     end.configuration = found->second;
   } else {

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "common/content_hash.h"
 #include "common/error.h"
 #include "common/read_text.h"
 #include "common/yaml.h"
+#include "robot_model/link_spheres.h"
+#include "robot_model/shipped_robots.h"
+#include "robot_model/srdf.h"
 
 namespace planbench {
 namespace {
@@ -36,12 +40,23 @@ auto AtField(const YamlNode& field, Parse parse) {
 }
 
 PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
-  node.AllowOnly({"name", "joints", "tip_link"});
+  node.AllowOnly({"name", "joints", "tip_link", "states"});
   const std::string name = node.At("name").String();
   if (name.empty()) node.At("name").Fail("must not be empty");
   const std::vector<std::string> joints = node.At("joints").Strings();
-  const std::string tip_link = node.At("tip_link").String();
-  return AtField(node, [&] { return model.MakeGroup(name, joints, tip_link); });
+  const YamlNode tip = node.At("tip_link");
+  const std::vector<std::string> tips =
+      tip.IsSequence() ? tip.Strings() : std::vector<std::string>{tip.String()};
+  if (tips.empty()) tip.Fail("at least one link is needed");
+  PlanningGroup group = AtField(node, [&] {
+    return model.MakeGroup(name, joints, tips.front(), {tips.begin() + 1, tips.end()});
+  });
+  if (const auto states = node.Find("states")) {
+    for (const std::string& state : states->Keys()) {
+      group.states[state] = states->At(state).Doubles(group.space.size());
+    }
+  }
+  return group;
 }
 
 std::vector<PlanningGroup> ReadGroups(const YamlNode& node, const RobotModel& model) {
@@ -63,53 +78,61 @@ int LinkAt(const YamlNode& node, const std::string& name, const RobotModel& mode
   return link;
 }
 
-std::vector<std::pair<int, int>> ReadAllowedPairs(const YamlNode& node, const RobotModel& model) {
-  std::vector<std::pair<int, int>> pairs;
+void ReadAllowedPairs(const YamlNode& node, const RobotModel& model,
+                      std::vector<std::pair<int, int>>* pairs) {
   for (const YamlNode& element : node.Elements()) {
     if (element.Size() != 2) element.Fail("expected a pair of links: [link_a, link_b]");
     const int a = LinkAt(element, element.At(0).String(), model);
     const int b = LinkAt(element, element.At(1).String(), model);
     if (a == b) element.Fail("the two links are the same");
-    pairs.emplace_back(a, b);
+    pairs->emplace_back(a, b);
   }
-  return pairs;
 }
 
-std::vector<LinkSphere> ReadSpheres(const YamlNode& root, const RobotModel& model) {
-  root.AllowOnly({"links"});
-  const YamlNode links = root.At("links");
-  std::vector<LinkSphere> spheres;
-  std::set<std::string> seen;
-  for (const std::string& name : links.Keys()) {
-    if (!seen.insert(name).second) links.Fail(fmt::format("the link '{}' occurs twice", name));
-    const YamlNode list = links.At(name);
-    const int link = LinkAt(list, name, model);
-    for (const YamlNode& sphere : list.Elements()) {
-      sphere.AllowOnly({"center", "radius"});
-      const std::vector<double> center = sphere.At("center").Doubles(3);
-      const double radius = sphere.At("radius").PositiveDouble();
-      spheres.push_back({link, Eigen::Vector3d(center[0], center[1], center[2]), radius});
+// Groups, pairs and spheres: those of the SRDF, if there is one, and what robot.yaml says itself.
+void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, ContentHash* hash) {
+  const auto groups = root.Find("groups");
+  if (const auto file = root.Find("srdf")) {
+    const fs::path path = NamedFile(folder, *file);
+    const std::string text = ReadText(path);
+    hash->Add(text);
+    Srdf srdf = ParseSrdf(text, path.string(), robot->model);
+    robot->allowed_pairs = std::move(srdf.disabled_pairs);
+    robot->spheres = std::move(srdf.spheres);
+    robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
+    if (!groups && srdf.groups.empty()) {
+      file->Fail(path.string() + " has no group with joints that can be planned with");
+    }
+    robot->groups = std::move(srdf.groups);
+  }
+  if (groups || robot->groups.empty()) robot->groups = ReadGroups(root.At("groups"), robot->model);
+  if (const auto pairs = root.Find("allowed_pairs")) {
+    ReadAllowedPairs(*pairs, robot->model, &robot->allowed_pairs);
+  }
+}
+
+// Links with a body in the URDF that have no spheres and are not meant to have none: nothing else
+// would tell that they go unchecked.
+void WarnOfUncheckedLinks(const YamlNode& root, Robot* robot) {
+  std::set<int> meant;
+  if (const auto names = root.Find("links_without_spheres")) {
+    for (const YamlNode& name : names->Elements()) {
+      meant.insert(LinkAt(name, name.String(), robot->model));
     }
   }
-  std::stable_sort(spheres.begin(), spheres.end(),
-                   [](const LinkSphere& a, const LinkSphere& b) { return a.link < b.link; });
-  return spheres;
-}
-
-// Links with a body in the URDF that have no spheres and are not named in `meant`: nothing would
-// tell that they go unchecked.
-std::vector<std::string> UncheckedLinks(const RobotModel& model,
-                                        const std::vector<LinkSphere>& spheres,
-                                        const std::set<int>& meant) {
+  for (const LinkSphere& sphere : robot->spheres) meant.insert(sphere.link);
   std::vector<std::string> unchecked;
-  for (int link = 0; link < model.num_links(); ++link) {
-    const Link& description = model.links()[static_cast<std::size_t>(link)];
-    const bool has_spheres = std::any_of(spheres.begin(), spheres.end(),
-                                         [&](const LinkSphere& s) { return s.link == link; });
-    if (description.collision.empty() || has_spheres || meant.contains(link)) continue;
+  for (int link = 0; link < robot->model.num_links(); ++link) {
+    const Link& description = robot->model.links()[static_cast<std::size_t>(link)];
+    if (description.collision.empty() || meant.contains(link)) continue;
     unchecked.push_back(description.name);
   }
-  return unchecked;
+  if (unchecked.empty()) return;
+  robot->warnings.push_back(fmt::format(
+      "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
+      "meant, name them in links_without_spheres",
+      root.Find("spheres") ? root.At("spheres").Where() : root.At("srdf").Where(),
+      fmt::join(unchecked, ", ")));
 }
 
 VoxelSettings ReadVoxels(const YamlNode& node) {
@@ -133,10 +156,13 @@ std::vector<std::string> JointNames(const PlanningGroup& group) {
 // The planning robot's group made of the referee's joints and links of the same names.
 PlanningGroup MatchGroup(const PlanningGroup& group, const Robot& planning_robot,
                          const RobotModel& model, const std::string& origin) {
-  const std::string& tip =
-      planning_robot.model.links()[static_cast<std::size_t>(group.tip_link)].name;
+  const auto link_name = [&](int link) {
+    return planning_robot.model.links()[static_cast<std::size_t>(link)].name;
+  };
+  std::vector<std::string> more_tips;
+  for (const int tip : group.more_tips) more_tips.push_back(link_name(tip));
   try {
-    return model.MakeGroup(group.name, JointNames(group), tip);
+    return model.MakeGroup(group.name, JointNames(group), link_name(group.tip_link), more_tips);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: does not fit the robot '{}': {}", origin, planning_robot.name,
                                  error.what()));
@@ -223,8 +249,8 @@ const PlanningGroup& Robot::Group(const std::string& group_name) const {
                                fmt::join(known, ", ")));
 }
 
-Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& packages) {
-  NeedFolder(folder);
+Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::path>& packages) {
+  const fs::path folder = FindRobotFolder(folder_or_name);
   Robot robot;
   robot.folder = fs::absolute(folder);
   robot.resources = {robot.folder, packages};
@@ -232,7 +258,7 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const fs::path robot_file = folder / "robot.yaml";
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
-  root.AllowOnly({"name", "urdf", "spheres", "edge_resolution_m", "edge_check", "groups",
+  root.AllowOnly({"name", "urdf", "srdf", "spheres", "edge_resolution_m", "edge_check", "groups",
                   "allowed_pairs", "links_without_spheres", "planners", "voxels"});
   ContentHash hash;
   hash.Add(robot_text);
@@ -243,35 +269,19 @@ Robot LoadRobot(const fs::path& folder, const std::map<std::string, fs::path>& p
   const std::string urdf_text = ReadText(urdf_file);
   hash.Add(urdf_text);
   robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &robot.warnings);
-  robot.groups = ReadGroups(root.At("groups"), robot.model);
-
+  ReadSemantics(root, folder, &robot, &hash);
   if (const auto spheres = root.Find("spheres")) {
-    const fs::path spheres_file = NamedFile(folder, *spheres);
-    const std::string spheres_text = ReadText(spheres_file);
-    hash.Add(spheres_text);
-    robot.spheres = ReadSpheres(YamlNode::Parse(spheres_text, spheres_file.string()), robot.model);
-    std::set<int> meant;
-    if (const auto names = root.Find("links_without_spheres")) {
-      for (const YamlNode& name : names->Elements()) {
-        meant.insert(LinkAt(name, name.String(), robot.model));
-      }
-    }
-    const std::vector<std::string> unchecked = UncheckedLinks(robot.model, robot.spheres, meant);
-    if (!unchecked.empty()) {
-      robot.warnings.push_back(fmt::format(
-          "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
-          "meant, name them in links_without_spheres",
-          spheres_file.string(), fmt::join(unchecked, ", ")));
-    }
+    const fs::path file = NamedFile(folder, *spheres);
+    const std::string text = ReadText(file);
+    hash.Add(text);
+    robot.spheres = ReadLinkSpheres(file, text, robot.model);
   }
+  if (!robot.spheres.empty()) WarnOfUncheckedLinks(root, &robot);
   if (const auto resolution = root.Find("edge_resolution_m")) {
     robot.edge_resolution_m = resolution->PositiveDouble();
   }
   if (const auto method = root.Find("edge_check")) {
     robot.edge_check = method->Enum<EdgeCheck>();
-  }
-  if (const auto pairs = root.Find("allowed_pairs")) {
-    robot.allowed_pairs = ReadAllowedPairs(*pairs, robot.model);
   }
   if (const auto voxels = root.Find("voxels")) robot.voxels = ReadVoxels(*voxels);
   if (const auto planners = root.Find("planners")) {

@@ -20,14 +20,19 @@ namespace planbench {
 /// robot.yaml:
 ///   name: fetch
 ///   urdf: fetch.urdf
-///   spheres: spheres.yaml          # optional; without it only the meshes model can be used
+///   srdf: fetch.srdf               # optional: groups with their states, pairs that are never
+///                                  #   checked, and sphere approximations (Srdf)
+///   spheres: spheres.yaml          # or a URDF or SRDF with spheres (ReadLinkSpheres); optional:
+///                                  #   without any only the meshes model can be used
 ///   edge_resolution_m: 0.02        # optional, default 0.02
 ///   edge_check: certified          # or fixed; optional, default certified
-///   groups:
+///   groups:                        # instead of the SRDF's; needed without one
 ///     - name: arm_with_torso
 ///       joints: [torso_lift_joint, ...]
-///       tip_link: gripper_link
-///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other
+///       tip_link: gripper_link     # or a list: one an arm
+///       states: {tuck: [0.1, ...]}                # optional: named configurations
+///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other,
+///                                                #   beside those of the SRDF
 ///   links_without_spheres: [link, ...]           # optional: links with a body that are not
 ///   checked
 ///                                                #   by intention; others are warned of
@@ -38,16 +43,11 @@ namespace planbench {
 ///     upper: [1, 1, 2]
 ///     walls: true                  # whether all outside of the box counts as occupied
 ///     hollow: false                # optional: objects are their surface alone
-///
-/// spheres.yaml:
-///   links:
-///     gripper_link:
-///       - {center: [x, y, z], radius: r}         # m, in the link's frame
 struct Robot {
   std::string name;
   std::filesystem::path folder;
-  std::string content_id;  ///< Content hash of robot.yaml, the URDF and the spheres: equal robots,
-                           ///< equal ids.
+  std::string content_id;  ///< Content hash of robot.yaml, the URDF, the SRDF and the spheres:
+                           ///< equal robots, equal ids.
   RobotModel model;
   std::vector<PlanningGroup> groups;
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.

@@ -62,11 +62,14 @@ int RobotModel::FindJoint(const std::string& name) const {
 }
 
 bool RobotModel::Adjacent(int link_a, int link_b) const {
+  if (link_a == link_b) return false;
   const auto is_parent_of = [this](int parent, int child) {
     const int joint = links_[static_cast<std::size_t>(child)].parent_joint;
     return joint >= 0 && joints_[static_cast<std::size_t>(joint)].parent_link == parent;
   };
-  return is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a);
+  return is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a) ||
+         links_[static_cast<std::size_t>(link_a)].body ==
+             links_[static_cast<std::size_t>(link_b)].body;
 }
 
 std::vector<double> RobotModel::DefaultPositions() const {
@@ -85,15 +88,21 @@ std::vector<double> RobotModel::DefaultPositions() const {
 
 PlanningGroup RobotModel::MakeGroup(const std::string& name,
                                     const std::vector<std::string>& joint_names,
-                                    const std::string& tip_link) const {
+                                    const std::string& tip_link,
+                                    const std::vector<std::string>& more_tips) const {
   const auto fail = [&](const std::string& what) {
     throw InputError(fmt::format("group '{}' of robot '{}': {}", name, name_, what));
   };
   if (joint_names.empty()) fail("has no joints");
   PlanningGroup group;
   group.name = name;
-  group.tip_link = FindLink(tip_link);
-  if (group.tip_link < 0) fail(fmt::format("tip link '{}' is unknown", tip_link));
+  const auto find_tip = [&](const std::string& tip) {
+    const int link = FindLink(tip);
+    if (link < 0) fail(fmt::format("tip link '{}' is unknown", tip));
+    return link;
+  };
+  group.tip_link = find_tip(tip_link);
+  for (const std::string& tip : more_tips) group.more_tips.push_back(find_tip(tip));
 
   std::set<std::string> seen;
   std::vector<JointSpace::Joint> space;

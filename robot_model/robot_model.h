@@ -50,8 +50,9 @@ Eigen::Isometry3d JointMotion(const Joint& joint, std::span<const double> full_p
 
 struct Link {
   std::string name;
-  std::string where;              ///< For messages: file, line and name.
-  int parent_joint = -1;          ///< -1 for the root link.
+  std::string where;      ///< For messages: file, line and name.
+  int parent_joint = -1;  ///< -1 for the root link.
+  int body = -1;          ///< The outermost link, towards the root, that this one is rigid to.
   std::vector<int> child_joints;  ///< In URDF order.
   std::vector<PlacedShape>
       collision;  ///< Collision geometry of the URDF; meshes named, not loaded.
@@ -75,7 +76,9 @@ struct PlanningGroup {
   std::vector<int> joints;  ///< Joint indices, in group order.
   std::vector<Follower> followers;
   int tip_link = -1;
+  std::vector<int> more_tips;  ///< Of further arms.
   JointSpace space;
+  std::map<std::string, std::vector<double>> states;  ///< Named configurations, in group order.
 };
 
 /// Immutable kinematic tree of a robot, rooted at its base link B. Links are ordered so that a
@@ -103,7 +106,7 @@ class RobotModel {
   int FindLink(const std::string& name) const;
   int FindJoint(const std::string& name) const;
 
-  /// True if a joint connects the two links.
+  /// True if a joint connects the two links, or nothing but fixed joints stands between them.
   bool Adjacent(int link_a, int link_b) const;
   /// Full positions with every joint at zero, or at the nearest limit to zero; planar and floating
   /// joints at the identity.
@@ -111,9 +114,10 @@ class RobotModel {
 
   /// A planning group from joint names in order; throws InputError for joints that are unknown, or
   /// fixed, planar or floating, or follow another, a repeated name, an unknown tip link, or a
-  /// continuous joint with a follower that is elsewhere a turn later.
+  /// continuous joint with a follower that is elsewhere a turn later. It has no states.
   PlanningGroup MakeGroup(const std::string& name, const std::vector<std::string>& joint_names,
-                          const std::string& tip_link) const;
+                          const std::string& tip_link,
+                          const std::vector<std::string>& more_tips = {}) const;
 
  private:
   std::string name_;

@@ -334,6 +334,7 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
     link.name = visit.link->name;
     link.where = converter.WhereLink(link.name);
     link.collision = converter.ConvertCollision(*visit.link);
+    link.body = link_index;
     if (visit.joint != nullptr) {
       Joint joint = converter.ConvertJoint(*visit.joint);
       joint.parent_link = visit.parent;
@@ -342,6 +343,9 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
         joint.position_index = model.num_positions();
         const std::vector<std::string> names = PositionNames(joint);
         model.position_names_.insert(model.position_names_.end(), names.begin(), names.end());
+      }
+      if (joint.type == JointType::kFixed) {
+        link.body = model.links_[static_cast<std::size_t>(visit.parent)].body;
       }
       link.parent_joint = static_cast<int>(model.joints_.size());
       model.links_[static_cast<std::size_t>(visit.parent)].child_joints.push_back(

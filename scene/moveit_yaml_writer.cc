@@ -2,63 +2,41 @@
 #include <fmt/ranges.h>
 
 #include <fstream>
-#include <regex>
 #include <set>
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/yaml_text.h"
 #include "scene/moveit_yaml.h"
 #include "scene/pose.h"
 
 namespace planbench {
 namespace {
 
-// Plain if YAML cannot take the text for anything but a name, else in double quotes.
-std::string Text(const std::string& text) {
-  static const std::regex kPlain(R"([A-Za-z_][A-Za-z0-9_./-]*)");
-  static const std::regex kReserved("true|false|yes|no|on|off|y|n|null|inf|nan", std::regex::icase);
-  if (std::regex_match(text, kPlain) && !std::regex_match(text, kReserved)) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
-}
-
-// The shortest text that reads back as the same double.
-std::string Number(double value) { return fmt::format("{}", value + 0.0); }  // No "-0".
-
 std::string Vector(const Eigen::Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", Number(v.x()), Number(v.y()), Number(v.z()));
+  return fmt::format("[{}, {}, {}]", YamlNumber(v.x()), YamlNumber(v.y()), YamlNumber(v.z()));
 }
 
 std::string Orientation(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q = OrientationOf(pose);
-  return fmt::format("[{}, {}, {}, {}]", Number(q.x()), Number(q.y()), Number(q.z()),
-                     Number(q.w()));
+  return fmt::format("[{}, {}, {}, {}]", YamlNumber(q.x()), YamlNumber(q.y()), YamlNumber(q.z()),
+                     YamlNumber(q.w()));
 }
 
 std::string TextList(const std::vector<std::string>& texts) {
   std::vector<std::string> quoted;
-  for (const std::string& text : texts) quoted.push_back(Text(text));
+  for (const std::string& text : texts) quoted.push_back(YamlText(text));
   return fmt::format("[{}]", fmt::join(quoted, ", "));
 }
 
 std::string Header(const std::string& frame, const std::string& indent) {
-  return fmt::format("{0}header:\n{0}  frame_id: {1}\n", indent, Text(frame));
+  return fmt::format("{0}header:\n{0}  frame_id: {1}\n", indent, YamlText(frame));
 }
 
 std::string JointStateYaml(const JointState& state, const std::string& frame,
                            const std::string& indent) {
   std::vector<std::string> positions;
-  for (const double position : state.positions) positions.push_back(Number(position));
+  for (const double position : state.positions) positions.push_back(YamlNumber(position));
   return indent + "joint_state:\n" + Header(frame, indent + "  ") +
          fmt::format("{0}  name: {1}\n{0}  position: [{2}]\n", indent, TextList(state.names),
                      fmt::join(positions, ", "));
@@ -69,7 +47,7 @@ struct ShapeWriter {
 
   std::string operator()(const Box& box) const { return Primitive("box", Vector(box.size)); }
   std::string operator()(const Sphere& sphere) const {
-    return Primitive("sphere", fmt::format("[{}]", Number(sphere.radius)));
+    return Primitive("sphere", fmt::format("[{}]", YamlNumber(sphere.radius)));
   }
   std::string operator()(const Cylinder& cylinder) const {
     return Primitive("cylinder", HeightRadius(cylinder.length, cylinder.radius));
@@ -84,7 +62,7 @@ struct ShapeWriter {
   std::string operator()(const HalfSpace&) const { return "coef: [0, 0, 1, 0]\n"; }
   std::string operator()(const Mesh& mesh) const {
     if (!mesh.resource.empty()) {
-      return fmt::format("resource: {}\n{}dimensions: {}\n", Text(mesh.resource), indent,
+      return fmt::format("resource: {}\n{}dimensions: {}\n", YamlText(mesh.resource), indent,
                          Vector(mesh.scale));
     }
     std::vector<std::string> vertices;
@@ -103,7 +81,7 @@ struct ShapeWriter {
     return fmt::format("type: {}\n{}dimensions: {}\n", type, indent, dimensions);
   }
   static std::string HeightRadius(double height, double radius) {
-    return fmt::format("[{}, {}]", Number(height), Number(radius));
+    return fmt::format("[{}, {}]", YamlNumber(height), YamlNumber(radius));
   }
 };
 
@@ -129,7 +107,7 @@ std::string ShapeList(const std::vector<const PlacedShape*>& shapes, const std::
 // The fields of a moveit_msgs/CollisionObject, each line at `indent`.
 std::string ObjectFields(const SceneObject& object, const std::string& frame,
                          const std::string& indent) {
-  std::string yaml = fmt::format("{}id: {}\n", indent, Text(object.id)) + Header(frame, indent);
+  std::string yaml = fmt::format("{}id: {}\n", indent, YamlText(object.id)) + Header(frame, indent);
   if (object.X_WO.matrix() != Eigen::Isometry3d::Identity().matrix()) {
     yaml += indent + "pose:\n" + indent + "  " + PoseFields(object.X_WO, indent + "  ");
   }
@@ -160,7 +138,7 @@ std::string AttachedYaml(const std::vector<AttachedObject>& all, const std::stri
   std::string yaml = indent + "attached_collision_objects:\n";
   const std::string inner = indent + "    ";
   for (const AttachedObject& attached : all) {
-    std::string fields = fmt::format("{}link_name: {}\n", inner, Text(attached.link));
+    std::string fields = fmt::format("{}link_name: {}\n", inner, YamlText(attached.link));
     fields += inner + "object:\n" + ObjectFields(attached.object, attached.link, inner + "  ");
     fields += fmt::format("{}touch_links: {}\n", inner, TextList(attached.touch_links));
     yaml += ListElement(std::move(fields), indent + "  ");
@@ -173,7 +151,7 @@ std::string FrameYaml(const FrameTransform& frame, const std::string& world_fram
   return fmt::format(
       "  - header:\n      frame_id: {}\n    child_frame_id: {}\n    transform:\n"
       "      translation: {}\n      rotation: {}\n",
-      Text(frame.frame), Text(world_frame), Vector(frame.X_WF.translation()),
+      YamlText(frame.frame), YamlText(world_frame), Vector(frame.X_WF.translation()),
       Orientation(frame.X_WF));
 }
 
@@ -214,8 +192,8 @@ void WriteFile(const std::filesystem::path& path, const std::string& text) {
 
 std::string SceneToYaml(const Problem& problem) {
   const Scene& scene = problem.scene;
-  std::string yaml =
-      fmt::format("name: {}\nrobot_model_name: {}\n", Text(scene.name), Text(scene.robot_name));
+  std::string yaml = fmt::format("name: {}\nrobot_model_name: {}\n", YamlText(scene.name),
+                                 YamlText(scene.robot_name));
   yaml += "robot_state:\n" + JointStateYaml(problem.start, scene.world_frame, "  ");
   if (!scene.attached.empty()) yaml += AttachedYaml(scene.attached, "  ");
   if (!scene.world_frame.empty() || !scene.fixed_frames.empty()) {
@@ -236,8 +214,8 @@ std::string SceneToYaml(const Problem& problem) {
 }
 
 std::string RequestToYaml(const Problem& problem) {
-  std::string yaml = fmt::format("group_name: {}\nallowed_planning_time: {}\n", Text(problem.group),
-                                 Number(problem.time_limit_s));
+  std::string yaml = fmt::format("group_name: {}\nallowed_planning_time: {}\n",
+                                 YamlText(problem.group), YamlNumber(problem.time_limit_s));
   if (problem.workspace) {
     yaml += "workspace_parameters:\n" + Header(problem.workspace->frame, "  ");
     yaml += "  min_corner: " + Vector(problem.workspace->min_corner) + "\n";
@@ -250,11 +228,11 @@ std::string RequestToYaml(const Problem& problem) {
     if (seen.contains(goal.joint)) seen.clear();
     if (seen.empty()) yaml += "  - joint_constraints:\n";
     seen.insert(goal.joint);
-    yaml += fmt::format("      - joint_name: {}\n        position: {}\n", Text(goal.joint),
-                        Number(goal.position));
+    yaml += fmt::format("      - joint_name: {}\n        position: {}\n", YamlText(goal.joint),
+                        YamlNumber(goal.position));
     if (goal.tolerance_above != 0 || goal.tolerance_below != 0) {
       yaml += fmt::format("        tolerance_above: {}\n        tolerance_below: {}\n",
-                          Number(goal.tolerance_above), Number(goal.tolerance_below));
+                          YamlNumber(goal.tolerance_above), YamlNumber(goal.tolerance_below));
     }
   }
   return yaml;

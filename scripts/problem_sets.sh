@@ -24,3 +24,23 @@ ensure_problem_set() {
   mv "$out.new" "$out"
   printf '%s\n' "$key" >"$out.key"
 }
+
+# The folder of a robot given by path (relative to FROM) or by the name of one that ships.
+# robot_folder ROBOT FROM
+robot_folder() {
+  (cd "$2" && [ -d "$1" ] && realpath "$1") || printf '%s/robots/%s\n' "$PWD" "$1"
+}
+
+# Names of the sets that are compared for a robot by default: the study's for the Fetch, problems/*_NAME.yaml for others.
+# generated_sets NAME
+generated_sets() {
+  local spec
+  if [ "$1" = fetch ]; then
+    printf '%s\n' shelf_zero_test shelf_height_test shelf_height_rot_test
+    return
+  fi
+  for spec in problems/*_"$1".yaml; do
+    [ -e "$spec" ] || die "no problem sets are generated for the robot '$1'; give some with --problems DIR"
+    basename "$spec" .yaml
+  done
+}

@@ -117,6 +117,16 @@ double PieceDistance(const Piece& a, const Piece& b) {
   throw std::logic_error("the oracle has no distance between two shapes that are not spheres");
 }
 
+// The outermost link towards the root with only fixed joints between.
+int BodyOf(const RobotModel& model, int link) {
+  for (const Joint& joint : model.joints()) {
+    if (joint.child_link == link && joint.type == JointType::kFixed) {
+      return BodyOf(model, joint.parent_link);
+    }
+  }
+  return link;
+}
+
 bool MustCheck(const Robot& robot, const Scene& scene, const Body& a, const Body& b) {
   if (a.kind == Body::kObject && b.kind == Body::kObject) return false;
   if (scene.allowed_collisions.Allowed(a.name, b.name)) return false;
@@ -125,6 +135,7 @@ bool MustCheck(const Robot& robot, const Scene& scene, const Body& a, const Body
       if (joint.parent_link == a.link && joint.child_link == b.link) return false;
       if (joint.parent_link == b.link && joint.child_link == a.link) return false;
     }
+    if (BodyOf(robot.model, a.link) == BodyOf(robot.model, b.link)) return false;
     for (const auto& [x, y] : robot.allowed_pairs) {
       if ((x == a.link && y == b.link) || (x == b.link && y == a.link)) return false;
     }

@@ -19,18 +19,32 @@ TEST_P(CollisionCheckerContract, AdjacencyAndAllowedPairsOfTheRobot) {
     checker->SetScene({}, base);
     EXPECT_TRUE(checker->IsFree(q)) << "adjacent links may overlap";
   }
-  // Two links that are welded together over a third, made to overlap: always in collision ...
-  const int camera = arm.model.FindLink("camera");
-  const int torso = arm.model.FindLink("torso");
+  // Two links that are welded together over a third, made to overlap, are no pair ...
   for (LinkSphere& sphere : arm.spheres) {
-    if (sphere.link == camera) sphere.radius = 0.8;
+    if (sphere.link == arm.model.FindLink("camera")) sphere.radius = 0.4;
+  }
+  {
+    const auto checker = Make(arm);
+    Scene scene;
+    for (const char* link : {"base", "upper", "fore", "hand", "finger", "pad"}) {
+      scene.allowed_collisions.SetEntry("camera", link, true);
+    }
+    checker->SetScene(scene, base);
+    EXPECT_TRUE(checker->IsFree(q)) << "links rigid to each other may overlap";
+  }
+  arm = MakeTestArm();
+  // ... but two that only a held joint keeps together are always in collision ...
+  const int pad = arm.model.FindLink("pad");
+  const int hand = arm.model.FindLink("hand");
+  for (LinkSphere& sphere : arm.spheres) {
+    if (sphere.link == pad) sphere.radius = 0.4;
   }
   {
     const auto checker = Make(arm);
     Scene scene;
     for (const Link& link : arm.model.links()) {
-      if (link.name != "torso" && link.name != "camera") {
-        scene.allowed_collisions.SetEntry("camera", link.name, true);
+      if (link.name != "hand" && link.name != "pad") {
+        scene.allowed_collisions.SetEntry("pad", link.name, true);
       }
     }
     checker->SetScene(scene, base);
@@ -38,22 +52,22 @@ TEST_P(CollisionCheckerContract, AdjacencyAndAllowedPairsOfTheRobot) {
     const auto contact = checker->FindContact(q);
     ASSERT_TRUE(contact);
     EXPECT_EQ(std::set<std::string>({contact->body_a, contact->body_b}),
-              std::set<std::string>({"torso", "camera"}));
+              std::set<std::string>({"hand", "pad"}));
     EXPECT_LT(checker->FindClosest(q).distance_m, 0);
-    scene.allowed_collisions.SetEntry("camera", "torso", true);
+    scene.allowed_collisions.SetEntry("pad", "hand", true);
     checker->SetScene(scene, base);
     EXPECT_TRUE(checker->IsFree(q));
   }
   // ... unless the robot's description allows it.
   for (int link = 0; link < arm.model.num_links(); ++link) {
-    if (link != camera && link != torso) arm.allowed_pairs.emplace_back(link, camera);
+    if (link != pad && link != hand) arm.allowed_pairs.emplace_back(link, pad);
   }
   EXPECT_FALSE([&] {
     const auto checker = Make(arm);
     checker->SetScene({}, base);
     return checker->IsFree(q);
   }());
-  arm.allowed_pairs.emplace_back(camera, torso);
+  arm.allowed_pairs.emplace_back(pad, hand);
   const auto checker = Make(arm);
   checker->SetScene({}, base);
   EXPECT_TRUE(checker->IsFree(q));

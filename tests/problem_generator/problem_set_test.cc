@@ -108,6 +108,29 @@ TEST_F(ProblemSetTest, WrittenSetsReadBackWithStartsAndGoalsAsSpecified) {
   }
 }
 
+TEST(ShippedSets, OfOtherRobotsHaveFreeEndsFromTheRobotsOwnStates) {
+  for (const std::string name : {"panda", "ur5e"}) {
+    const Robot robot = LoadRobot(name);
+    const PlanningGroup& group = robot.groups.front();
+    const auto checker = MakeCollisionChecker(robot, group, CollisionModel::kSpheres);
+    for (const std::string kind : {"shelf_", "table_"}) {
+      if (name == "ur5e" && kind == "shelf_") continue;  // there is none
+      SCOPED_TRACE(kind + name);
+      const ProblemSpec spec = LoadProblemSpec(ShippedProblems() / (kind + name + ".yaml"), robot);
+      const std::vector<double>& ready = group.states.at("ready");
+      EXPECT_EQ(spec.queries[0].start.configuration, ready);
+      for (const Problem& problem : MakeProblems(spec, robot, 1, FirstIndices(3), 0, 2).problems) {
+        checker->SetScene(problem.scene, FullPositions(robot.model, problem.start.names,
+                                                       problem.start.positions, "start"));
+        EXPECT_TRUE(checker->IsFree(ready));
+        std::vector<double> goal;
+        for (const auto& joint : problem.goal) goal.push_back(joint.position);
+        EXPECT_TRUE(checker->IsFree(goal));
+      }
+    }
+  }
+}
+
 TEST_F(ProblemSetTest, GripperIsWhereTheQuerySaysWithinTolerances) {
   const ProblemSpec spec = Shipped("shelf_height_rot_test");
   const PlanningGroup& group = fetch_.Group(spec.group);

@@ -1,5 +1,6 @@
 #include "robot_model/robot_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -122,6 +123,68 @@ TEST(LoadRobot, FetchSpheresEqualThePublishedOnes) {
   EXPECT_EQ(ours, published);
 }
 
+TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
+  constexpr char kSrdf[] = R"(<robot name="small">
+    <group name="turning"><joint name="turn"/></group>
+    <group_state name="back" group="turning"><joint name="turn" value="3"/></group_state>
+    <disable_collisions link1="base" link2="arm"/><disable_collisions link1="base" link2="leg"/>
+    <link_sphere_approximation link="arm"><sphere center="1 0 0" radius="0.5"/>
+    </link_sphere_approximation></robot>)";
+  TemporaryFolder folder;
+  folder.Write("small.urdf", kUrdf);
+  folder.Write("small.srdf", kSrdf);
+  folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");
+  const Robot robot = LoadRobot(folder.path());
+  ASSERT_EQ(robot.groups.size(), 1u);
+  EXPECT_EQ(robot.groups[0].name, "turning");
+  EXPECT_EQ(robot.groups[0].states.at("back"), std::vector<double>{3});
+  EXPECT_EQ(robot.allowed_pairs.size(), 1u);
+  ASSERT_EQ(robot.spheres.size(), 1u);
+  EXPECT_EQ(robot.spheres[0].radius, 0.5);
+  ASSERT_EQ(robot.warnings.size(), 1u);
+  EXPECT_THAT(robot.warnings[0], testing::HasSubstr("leg"));
+
+  folder.Write("small.srdf", std::string(kSrdf) + "\n");
+  EXPECT_NE(LoadRobot(folder.path()).content_id, robot.content_id);
+
+  // What robot.yaml says itself stands before it.
+  folder.Write(
+      "robot.yaml",
+      "name: small\nurdf: small.urdf\nsrdf: small.srdf\nspheres: spheres.yaml\n"
+      "groups:\n  - {name: own, joints: [turn], tip_link: [arm, base], states: {up: [1]}}\n");
+  folder.Write("spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
+  const Robot own = LoadRobot(folder.path());
+  EXPECT_EQ(own.groups[0].name, "own");
+  EXPECT_EQ(own.groups[0].states.at("up"), std::vector<double>{1});
+  EXPECT_EQ(own.groups[0].more_tips, std::vector<int>{own.model.FindLink("base")});
+  EXPECT_EQ(own.spheres[0].radius, 2);
+  EXPECT_EQ(own.allowed_pairs.size(), 1u);
+
+  folder.Write("small.srdf", "<robot name='small'/>");
+  folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:3", "srdf", "no group"});
+}
+
+TEST(LoadRobot, SpheresMayBeTheGeometryOfAUrdf) {
+  TemporaryFolder folder;
+  WriteSmallRobot(folder, ".");
+  folder.Write("robot.yaml", std::string(kRobot) + "spheres: spheres.urdf\n");
+  const auto write = [&](const std::string& link, const std::string& geometry) {
+    folder.Write("spheres.urdf", "<robot name='s'>\n<link name='" + link +
+                                     "'><collision><origin xyz='0 0 3'/><geometry>" + geometry +
+                                     "</geometry></collision></link></robot>");
+  };
+  write("arm", "<sphere radius='0.5'/>");
+  const Robot robot = LoadRobot(folder.path());
+  ASSERT_EQ(robot.spheres.size(), 1u);
+  EXPECT_EQ(robot.spheres[0].link, robot.model.FindLink("arm"));
+  EXPECT_EQ(robot.spheres[0].p_LS, Eigen::Vector3d(0, 0, 3));
+  write("leg", "<sphere radius='0.5'/>");
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"spheres.urdf:2", "leg", "small"});
+  write("arm", "<box size='1 1 1'/>");
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"spheres.urdf:2", "arm", "box"});
+}
+
 TEST(LoadRobot, ContentIdFollowsTheContentNotThePlace) {
   TemporaryFolder folder;
   WriteSmallRobot(folder, "here");
@@ -204,7 +267,8 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
   folder.Write("robot.yaml", yaml);
   const std::vector<std::string> warnings = LoadRobot(folder.path()).warnings;
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("spheres.yaml: no spheres for base, which"), std::string::npos)
+  EXPECT_NE(warnings[0].find("robot.yaml:3: spheres: no spheres for base, which"),
+            std::string::npos)
       << warnings[0];
 
   folder.Write("robot.yaml", yaml + "links_without_spheres: [base]\n");
@@ -213,12 +277,39 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
   ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:5", "'basis'"});
 }
 
+TEST(LoadRobot, LoadsThePandaAndTheUr5e) {
+  const fs::path robots = fs::path(PLANBENCH_SOURCE_DIR) / "robots";
+  const Robot panda = LoadRobot(robots / "panda");
+  EXPECT_EQ(panda.groups[0].space.size(), 7);
+  EXPECT_EQ(panda.groups[0].states.at("ready").size(), 7u);
+  EXPECT_EQ(panda.spheres.size(), 58u);
+  // The flange at the data sheet's figures, with all joints at zero: 0.088 m ahead, 0.926 m up.
+  std::vector<double> zero(static_cast<std::size_t>(panda.model.num_positions()), 0.0);
+  const auto X_BL = ComputeLinkPoses(panda.model, zero);
+  const Eigen::Vector3d flange =
+      X_BL[static_cast<std::size_t>(panda.model.FindLink("panda_link8"))].translation();
+  EXPECT_LT((flange - Eigen::Vector3d(0.088, 0, 0.926)).norm(), 1e-9);
+
+  const Robot ur5e = LoadRobot(robots / "ur5e");
+  EXPECT_EQ(ur5e.groups[0].space.size(), 6);
+  // Stretched out along -x: 0.425 + 0.3922 m; 0.1333 + 0.0996 m to the side; 0.1625 - 0.0997 m up.
+  const auto X_BU = ComputeLinkPoses(ur5e.model, std::vector<double>(6, 0.0));
+  const Eigen::Vector3d tool =
+      X_BU[static_cast<std::size_t>(ur5e.model.FindLink("tool0"))].translation();
+  EXPECT_LT((tool - Eigen::Vector3d(-0.8172, -0.2329, 0.0628)).norm(), 1e-9);
+}
+
 TEST(LoadRobot, ShippedRobotsHaveNothingToWarnOf) {
   for (const fs::directory_entry& entry :
        fs::directory_iterator(fs::path(PLANBENCH_SOURCE_DIR) / "robots")) {
     const Robot robot = LoadRobot(entry.path());
     EXPECT_TRUE(robot.warnings.empty()) << robot.warnings.front();
   }
+}
+
+TEST(LoadRobot, FindsShippedRobotsByName) {
+  EXPECT_EQ(LoadRobot("panda").folder, fs::path(PLANBENCH_SOURCE_DIR) / "robots/panda");
+  ExpectInputError([] { LoadRobot("pando"); }, {"pando: no such folder", "fetch, panda, ur5e"});
 }
 
 TEST(Robot, FindsGroupsByName) {

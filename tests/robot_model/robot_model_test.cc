@@ -127,6 +127,28 @@ TEST_F(RobotModelTest, AdjacentLinksAreJoinedByAJoint) {
   EXPECT_FALSE(adjacent("trunk", "trunk"));
 }
 
+TEST(RobotModel, LinksRigidToEachOtherAreAdjacent) {
+  const RobotModel model = RobotModel::FromUrdf(R"(<robot name="rigid">
+    <link name="base"/><link name="post"/><link name="lamp"/><link name="sign"/><link name="arm"/>
+    <link name="hand"/>
+    <joint name="a" type="fixed"><parent link="base"/><child link="post"/></joint>
+    <joint name="b" type="fixed"><parent link="post"/><child link="lamp"/></joint>
+    <joint name="c" type="fixed"><parent link="base"/><child link="sign"/></joint>
+    <joint name="d" type="continuous"><parent link="lamp"/><child link="arm"/></joint>
+    <joint name="e" type="fixed"><parent link="arm"/><child link="hand"/></joint>
+  </robot>)",
+                                                "rigid.urdf");
+  const auto adjacent = [&](const char* a, const char* b) {
+    return model.Adjacent(model.FindLink(a), model.FindLink(b));
+  };
+  EXPECT_TRUE(adjacent("base", "lamp"));
+  EXPECT_TRUE(adjacent("lamp", "sign"));
+  EXPECT_TRUE(adjacent("arm", "hand"));
+  EXPECT_TRUE(adjacent("lamp", "arm")) << "a joint between them";
+  EXPECT_FALSE(adjacent("base", "arm"));
+  EXPECT_FALSE(adjacent("hand", "lamp"));
+}
+
 TEST_F(RobotModelTest, DefaultPositionsAreTheNearestToZeroWithinLimits) {
   EXPECT_EQ(model_.DefaultPositions(), (std::vector<double>{0.1, -1, 0}));
 }

@@ -26,6 +26,7 @@ const std::map<std::string, std::vector<std::string>> kConfinedLibraries = {
     {"SQLite", {"sqlite3.h"}},
     {"assimp", {"assimp/"}},
     {"urdfdom", {"urdf_parser/", "urdf_model/", "urdf_world/"}},
+    {"tinyxml2", {"tinyxml2.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
     {"xxHash", {"xxhash.h"}},
 };

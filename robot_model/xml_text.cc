@@ -1,0 +1,159 @@
+#include "robot_model/xml_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "common/error.h"
+#include "common/text.h"
+
+namespace planbench {
+namespace {
+
+bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+class TagChecker {
+ public:
+  TagChecker(std::string_view text, const std::string& origin) : origin_(origin) {
+    XmlTagReader tags(text);
+    while (const auto tag = tags.Next()) Check(*tag);
+    if (!open_.empty()) {
+      Fail(open_.back().line, fmt::format("<{}> is not closed", open_.back().element));
+    }
+  }
+
+ private:
+  [[noreturn]] void Fail(int line, const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", origin_, line, what));
+  }
+
+  void Check(const XmlTag& tag) {
+    if (tag.closing) {
+      if (open_.empty() || open_.back().element != tag.element) {
+        Fail(tag.line, open_.empty()
+                           ? fmt::format("</{}> closes nothing", tag.element)
+                           : fmt::format("</{}> stands where <{}> of line {} must be "
+                                         "closed first",
+                                         tag.element, open_.back().element, open_.back().line));
+      }
+      open_.pop_back();
+      return;
+    }
+    if (const auto bad = FindInvalidUtf8(tag.text)) {
+      Fail(tag.line, fmt::format("<{}>: the byte {} is no UTF-8; the file must be UTF-8 text",
+                                 tag.element, tag.text.substr(*bad, 1)));
+    }
+    RefuseXacro(tag);
+    if (!tag.empty) open_.push_back(tag);
+  }
+
+  void RefuseXacro(const XmlTag& tag) const {
+    // The last four are xacro of before it had a namespace.
+    const bool is_xacro =
+        tag.element.starts_with("xacro:") ||
+        (open_.size() == 1 && (tag.element == "include" || tag.element == "macro" ||
+                               tag.element == "property" || tag.element == "insert_block"));
+    std::string what;
+    if (is_xacro) {
+      what = fmt::format("<{}> is xacro and not expanded", tag.element);
+    } else if (Within("link") || Within("joint") || tag.element == "link" ||
+               tag.element == "joint") {
+      for (const std::string_view begin : {"${", "$("}) {
+        const std::size_t at = tag.text.find(begin);
+        if (at == std::string_view::npos) continue;
+        const std::size_t end = tag.text.find(begin == "${" ? '}' : ')', at);
+        what = fmt::format("{}<{}>: '{}' is xacro and not expanded", Place(), tag.element,
+                           tag.text.substr(at, end - at + 1));
+        break;
+      }
+    }
+    if (what.empty()) return;
+    Fail(tag.line,
+         fmt::format("{}; expand the file first: xacro {} > expanded.urdf", what, origin_));
+  }
+
+  bool Within(std::string_view element) const {
+    return open_.size() > 1 && open_[1].element == element;
+  }
+
+  // "link 'name': " inside a link or joint.
+  std::string Place() const {
+    if (!Within("link") && !Within("joint")) return "";
+    return fmt::format("{} '{}': ", open_[1].element, open_[1].Attribute("name").value_or(""));
+  }
+
+  const std::string& origin_;
+  std::vector<XmlTag> open_;
+};
+
+}  // namespace
+
+std::optional<std::string> XmlTag::Attribute(std::string_view name) const {
+  const std::string_view tag = text;
+  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
+    if (at == 0 || !IsSpace(tag[at - 1])) continue;
+    std::size_t i = at + name.size();
+    while (i < tag.size() && IsSpace(tag[i])) ++i;
+    if (i >= tag.size() || tag[i] != '=') continue;
+    ++i;
+    while (i < tag.size() && IsSpace(tag[i])) ++i;
+    if (i >= tag.size() || (tag[i] != '"' && tag[i] != '\'')) continue;
+    const std::size_t end = tag.find(tag[i], i + 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    return std::string(tag.substr(i + 1, end - i - 1));
+  }
+  return std::nullopt;
+}
+
+std::optional<XmlTag> XmlTagReader::Next() {
+  while (true) {
+    at_ = text_.find('<', at_);
+    if (at_ == std::string_view::npos) return std::nullopt;
+    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(counted_),
+                                         text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
+    counted_ = at_;
+    const std::string_view rest = text_.substr(at_);
+    if (rest.starts_with("<!--")) {
+      Skip("-->");
+    } else if (rest.starts_with("<![CDATA[")) {
+      Skip("]]>");
+    } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
+      Skip(">");
+    } else {
+      return Read();
+    }
+  }
+}
+
+void XmlTagReader::Skip(std::string_view end) {
+  at_ = text_.find(end, at_);
+  at_ = at_ == std::string_view::npos ? text_.size() : at_ + end.size();
+}
+
+XmlTag XmlTagReader::Read() {
+  std::size_t end = at_;
+  for (char quote = 0; end < text_.size() && (quote != 0 || text_[end] != '>'); ++end) {
+    const char c = text_[end];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    }
+  }
+  XmlTag tag;
+  tag.text = text_.substr(at_, end - at_);
+  tag.line = line_;
+  tag.closing = tag.text.starts_with("</");
+  tag.empty = tag.text.ends_with('/');
+  const std::string_view name = tag.text.substr(tag.closing ? 2 : 1);
+  tag.element = name.substr(0, name.find_first_of(" \t\r\n/"));
+  at_ = end;
+  return tag;
+}
+
+void CheckXmlText(std::string_view text, const std::string& origin) {
+  const TagChecker checked(text, origin);
+}
+
+}  // namespace planbench

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace planbench {
+
+/// A tag of XML text.
+struct XmlTag {
+  std::string_view text;     ///< From '<' to before '>'.
+  std::string_view element;  ///< Its name.
+  int line = 1;              ///< From 1.
+  bool closing = false;      ///< </element>
+  bool empty = false;        ///< <element/>
+
+  /// The value of an attribute, nothing if the tag has none of that name.
+  std::optional<std::string> Attribute(std::string_view name) const;
+};
+
+/// The start and end tags of XML text, in order; comments, declarations and character data are
+/// passed over. Goes on as well as it can in text that is not well-formed. Refers to the text.
+class XmlTagReader {
+ public:
+  explicit XmlTagReader(std::string_view text) : text_(text) {}
+
+  std::optional<XmlTag> Next();
+
+ private:
+  void Skip(std::string_view end);
+  XmlTag Read();
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t counted_ = 0;  // Lines up to here are counted.
+  int line_ = 1;
+};
+
+/// Refuses (InputError with file and line) what XML parsers pass over in silence, or report without
+/// a place: text that is no UTF-8, elements that are not closed, and what xacro would have to
+/// expand first. `origin` names the text.
+void CheckXmlText(std::string_view text, const std::string& origin);
+
+}  // namespace planbench

@@ -1,0 +1,132 @@
+#include "robot_tools/robot_writer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+
+#include "common/enum_names.h"
+#include "common/error.h"
+#include "common/yaml_text.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLineWidth = 100;
+
+// "[a, b, c]", broken into lines that are indented by `indent`.
+std::string List(const std::vector<std::string>& elements, std::size_t indent) {
+  std::string text = "[";
+  std::size_t column = indent;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const std::string element = elements[i] + (i + 1 < elements.size() ? "," : "]");
+    if (i > 0 && column + element.size() + 1 > kLineWidth) {
+      text += '\n';
+      text.append(indent, ' ');
+      column = indent;
+    } else if (i > 0) {
+      text += ' ';
+      ++column;
+    }
+    text += element;
+    column += element.size();
+  }
+  return elements.empty() ? "[]" : text;
+}
+
+std::vector<std::string> Numbers(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(YamlNumber(value));
+  return texts;
+}
+
+std::string LinkName(const RobotModel& model, int link) {
+  return YamlText(model.links()[static_cast<std::size_t>(link)].name);
+}
+
+std::string GroupYaml(const PlanningGroup& group, const RobotModel& model) {
+  std::vector<std::string> joints;
+  for (const JointSpace::Joint& joint : group.space.joints())
+    joints.push_back(YamlText(joint.name));
+  std::vector<std::string> tips = {LinkName(model, group.tip_link)};
+  for (const int tip : group.more_tips) tips.push_back(LinkName(model, tip));
+  std::string yaml =
+      fmt::format("  - name: {}\n    joints: {}\n    tip_link: {}\n", YamlText(group.name),
+                  List(joints, 13), tips.size() == 1 ? tips.front() : List(tips, 15));
+  if (!group.states.empty()) yaml += "    states:  # rad or m, in the order of the joints\n";
+  for (const auto& [name, q] : group.states) {
+    yaml += fmt::format("      {}: {}\n", YamlText(name), List(Numbers(q), 8));
+  }
+  return yaml;
+}
+
+std::string PairsYaml(const RobotDraft& draft) {
+  std::string yaml;
+  for (const RobotDraft::ExemptPairs& exempt : draft.exempt) {
+    if (!exempt.pairs.empty()) yaml += fmt::format("  # {}\n", exempt.reason);
+    for (const auto& [a, b] : exempt.pairs) {
+      yaml += fmt::format("  - [{}, {}]\n", LinkName(draft.robot.model, a),
+                          LinkName(draft.robot.model, b));
+    }
+  }
+  return yaml;
+}
+
+void WriteFile(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw InputError("cannot write " + path.string());
+}
+
+}  // namespace
+
+std::string RobotYaml(const RobotDraft& draft) {
+  const Robot& robot = draft.robot;
+  std::string yaml = fmt::format(
+      "# Made by make_robot from {}. Paths are relative to this folder.\n", draft.origin);
+  yaml += fmt::format("name: {}\nurdf: {}\n", YamlText(robot.name), YamlText(robot.name + ".urdf"));
+  if (!robot.spheres.empty()) yaml += "spheres: spheres.yaml\n";
+  yaml += fmt::format(
+      "\n# No point of the robot moves further than this, m, between two configurations that an "
+      "edge "
+      "is\n# checked at, where edges are sampled (fixed) and not proven (certified).\n"
+      "edge_resolution_m: {}\nedge_check: {}\n\ngroups:\n",
+      YamlNumber(robot.edge_resolution_m), EnumName(robot.edge_check));
+  for (const PlanningGroup& group : robot.groups) yaml += GroupYaml(group, robot.model);
+  const std::string pairs = PairsYaml(draft);
+  if (!pairs.empty()) yaml += "\n# Never checked against each other.\nallowed_pairs:\n" + pairs;
+  if (!draft.links_without_spheres.empty()) {
+    std::vector<std::string> links;
+    for (const std::string& link : draft.links_without_spheres) links.push_back(YamlText(link));
+    yaml += fmt::format(
+        "\n# Have a body in the URDF that is not checked.\nlinks_without_spheres:\n  {}\n",
+        List(links, 3));
+  }
+  return yaml;
+}
+
+std::string SpheresYaml(const Robot& robot) {
+  std::string yaml = "# Centres and radii in m, in each link's frame.\nlinks:\n";
+  int link = -1;
+  for (const LinkSphere& sphere : robot.spheres) {
+    if (sphere.link != link) yaml += fmt::format("  {}:\n", LinkName(robot.model, sphere.link));
+    link = sphere.link;
+    const Eigen::Vector3d& p = sphere.p_LS;
+    yaml += fmt::format("    - {{center: [{}, {}, {}], radius: {}}}\n", YamlNumber(p.x()),
+                        YamlNumber(p.y()), YamlNumber(p.z()), YamlNumber(sphere.radius));
+  }
+  return yaml;
+}
+
+void WriteRobotFolder(const RobotDraft& draft, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder.string());
+  WriteFile(folder / (draft.robot.name + ".urdf"), draft.urdf_text);
+  if (!draft.robot.spheres.empty()) WriteFile(folder / "spheres.yaml", SpheresYaml(draft.robot));
+  WriteFile(folder / "robot.yaml", RobotYaml(draft));
+}
+
+}  // namespace planbench

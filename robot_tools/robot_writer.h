@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// What a robot folder is made of.
+struct RobotDraft {
+  /// Pairs of links that are never checked against each other.
+  struct ExemptPairs {
+    std::string reason;
+    std::vector<std::pair<int, int>> pairs;
+  };
+  Robot robot;            ///< Name, model, groups, spheres, edge resolution and check.
+  std::string urdf_text;  ///< Written as it is.
+  std::string origin;     ///< Of all this, for the first line of robot.yaml.
+  std::vector<ExemptPairs> exempt;
+  std::vector<std::string> links_without_spheres;
+};
+
+/// robot.yaml for a draft whose files are NAME.urdf and, if it has spheres, spheres.yaml.
+std::string RobotYaml(const RobotDraft& draft);
+/// spheres.yaml: the spheres by link.
+std::string SpheresYaml(const Robot& robot);
+
+/// Writes the folder. Throws InputError if a file cannot be written.
+void WriteRobotFolder(const RobotDraft& draft, const std::filesystem::path& folder);
+
+}  // namespace planbench

@@ -1,0 +1,186 @@
+#include "robot_tools/make_robot.h"
+
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/read_text.h"
+#include "robot_model/robot_folder.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+
+// Three joints, a box, a cylinder, a sphere and a mesh-free hand whose second finger follows.
+constexpr char kUrdf[] = R"(<robot name="crane">
+  <link name="base"><collision><geometry><box size="0.4 0.4 0.2"/></geometry></collision></link>
+  <link name="mast"><collision><origin xyz="0 0 0.5"/><geometry>
+    <cylinder radius="0.05" length="1"/></geometry></collision></link>
+  <link name="boom"><collision><origin xyz="0.6 0 0"/><geometry>
+    <cylinder radius="0.05" length="0.2"/></geometry></collision></link>
+  <link name="hook"><collision><geometry><sphere radius="0.06"/></geometry></collision></link>
+  <link name="eye"/>
+  <joint name="slew" type="continuous"><parent link="base"/><child link="mast"/>
+    <origin xyz="0 0 0.2"/><axis xyz="0 0 1"/></joint>
+  <joint name="luff" type="revolute"><parent link="mast"/><child link="boom"/>
+    <origin xyz="0.1 0 1"/><axis xyz="0 1 0"/><limit lower="-1" upper="1.2" velocity="1" effort="1"/>
+  </joint>
+  <joint name="reel" type="prismatic"><parent link="boom"/><child link="hook"/>
+    <origin xyz="0.9 0 -0.2"/><axis xyz="0 0 -1"/>
+    <limit lower="0" upper="0.6" velocity="1" effort="1"/></joint>
+  <joint name="ring" type="fixed"><parent link="hook"/><child link="eye"/></joint>
+</robot>)";
+
+constexpr char kSrdf[] = R"(<robot name="crane">
+  <group name="jib"><chain base_link="base" tip_link="eye"/></group>
+  <group_state name="parked" group="jib"><joint name="luff" value="-0.5"/></group_state>
+  <group_state name="bent" group="jib"><joint name="luff" value="3"/></group_state>
+  <virtual_joint name="yard" type="fixed" parent_frame="world" child_link="base"/>
+  <disable_collisions link1="base" link2="boom" reason="Never"/>
+  <disable_collisions link1="base" link2="wheel" reason="Never"/>
+</robot>)";
+
+class MakeRobotTest : public testing::Test {
+ protected:
+  MakeRobotTest() {
+    folder_.Write("in/crane.urdf", kUrdf);
+    folder_.Write("in/crane.srdf", kSrdf);
+    flags_.urdf = folder_.path() / "in/crane.urdf";
+    flags_.out = folder_.path() / "out";
+    flags_.samples = 500;
+  }
+  std::string Make() { return fmt::format("{}", fmt::join(MakeRobot(flags_), "\n")); }
+  void Srdf(const std::string& text = kSrdf) {
+    folder_.Write("in/crane.srdf", text);
+    flags_.srdf = folder_.path() / "in/crane.srdf";
+  }
+  void ExpectRefused(std::vector<std::string> parts) {
+    ExpectInputError([&] { MakeRobot(flags_); }, parts);
+    EXPECT_FALSE(std::filesystem::exists(flags_.out)) << "something was written";
+  }
+
+  TemporaryFolder folder_;
+  MakeRobotFlags flags_;
+};
+
+TEST_F(MakeRobotTest, WithoutAnSrdfGroupsAreProposedAndPairsSampled) {
+  const std::string report = Make();
+  const Robot robot = LoadRobot(flags_.out);
+  EXPECT_TRUE(robot.warnings.empty());
+  EXPECT_EQ(robot.name, "crane");
+  ASSERT_EQ(robot.groups.size(), 1u);
+  EXPECT_EQ(robot.groups[0].name, "arm");
+  EXPECT_EQ(robot.groups[0].space.size(), 3);
+  EXPECT_EQ(robot.groups[0].tip_link, robot.model.FindLink("eye"));
+  EXPECT_GE(robot.spheres.size(), 4u);
+  EXPECT_THAT(robot.allowed_pairs, testing::Contains(std::minmax(robot.model.FindLink("base"),
+                                                                 robot.model.FindLink("boom"))));
+  EXPECT_LE(robot.edge_resolution_m, 0.02);
+  EXPECT_THAT(report, HasSubstr("500 random configurations"));
+  EXPECT_THAT(report, HasSubstr("arm: 3 joints, tip eye"));
+  EXPECT_THAT(report, HasSubstr("enclose"));
+  EXPECT_THAT(ReadText(flags_.out / "robot.yaml"), HasSubstr("from crane.urdf."));
+}
+
+TEST_F(MakeRobotTest, AnSrdfSaysGroupsStatesAndPairs) {
+  Srdf();
+  const std::string report = Make();
+  const Robot robot = LoadRobot(flags_.out);
+  ASSERT_EQ(robot.groups.size(), 1u);
+  EXPECT_EQ(robot.groups[0].name, "jib");
+  EXPECT_EQ(robot.groups[0].states.at("parked"), (std::vector<double>{0, -0.5, 0}));
+  EXPECT_EQ(robot.allowed_pairs.size(), 1u);
+  EXPECT_THAT(report, HasSubstr("1 of 2 disabled pairs"));
+  EXPECT_THAT(report, HasSubstr("wheel"));
+  EXPECT_THAT(report, HasSubstr("'bent' of jib is out of the limits: luff at 3"));
+  EXPECT_THAT(report, HasSubstr("base stands in world by the fixed joint 'yard'"));
+}
+
+TEST_F(MakeRobotTest, TheWrittenRobotIsTheOneThatItWasMadeFrom) {
+  Srdf();
+  Make();
+  const Robot once = LoadRobot(flags_.out);
+  // Made again from what was written, with an SRDF's part taken from robot.yaml's own text.
+  flags_.urdf = flags_.out / "crane.urdf";
+  flags_.spheres = flags_.out / "spheres.yaml";
+  flags_.out = folder_.path() / "again";
+  Make();
+  const Robot again = LoadRobot(flags_.out);
+  EXPECT_EQ(again.content_id, once.content_id) << ReadText(flags_.out / "robot.yaml");
+}
+
+TEST_F(MakeRobotTest, AHandOfSpheresThatAlwaysTouchIsExempt) {
+  folder_.Write(
+      "in/spheres.yaml",
+      "links:\n  base: [{center: [0, 0, 0], radius: 0.3}]\n"
+      "  boom: [{center: [0, 0, -1], radius: 1.5}]\n  hook: [{center: [0, 0, 0], radius: 0.01}]\n");
+  Srdf(
+      "<robot name='crane'><group name='jib'><joint name='slew'/></group>"
+      "<disable_collisions link1='hook' link2='boom'/></robot>");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  const std::string report = Make();
+  EXPECT_THAT(report, HasSubstr("not checked either: base and boom"));
+  EXPECT_THAT(report, HasSubstr("so that they are not checked: mast"));
+  EXPECT_EQ(LoadRobot(flags_.out).allowed_pairs.size(), 2u);
+  EXPECT_TRUE(LoadRobot(flags_.out).warnings.empty()) << "robot.yaml names the link";
+}
+
+TEST_F(MakeRobotTest, WhatTouchesByDefaultWhileNoGroupMovesItIsExempt) {
+  // The hook hangs at the boom's foot unless it is let down.
+  folder_.Write("in/spheres.yaml",
+                "links:\n  mast: [{center: [0, 0, 1], radius: 0.1}]\n"
+                "  hook: [{center: [-0.9, 0, 0.2], radius: 0.1}]\n");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  Srdf(
+      "<robot name='crane'><group name='foot'><joint name='slew'/></group>"
+      "<disable_collisions link1='hook' link2='boom'/></robot>");
+  EXPECT_THAT(Make(), HasSubstr("moved apart by no group, so that they are not checked either: "
+                                "mast and hook"));
+  Srdf(
+      "<robot name='crane'><group name='jib'><joint name='reel'/></group>"
+      "<disable_collisions link1='hook' link2='boom'/></robot>");
+  flags_.replace = true;
+  EXPECT_THAT(Make(), testing::Not(HasSubstr("moved apart by no group")));
+}
+
+TEST_F(MakeRobotTest, MeshesNeedSpheresAndAreCopied) {
+  const std::string mesh =
+      std::string(kUrdf).replace(std::string(kUrdf).find("<sphere radius=\"0.06\"/>"), 23,
+                                 "<mesh filename=\"package://crane/hook.stl\"/>");
+  folder_.Write("in/crane.urdf", mesh);
+  ExpectRefused({"crane.urdf:7", "link 'hook'", "mesh", "--spheres", "--without-spheres"});
+  flags_.without_spheres = true;
+  ExpectRefused({"package://crane/hook.stl"});
+
+  folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
+  flags_.without_spheres = false;
+  flags_.replace = true;
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  EXPECT_THAT(Make(), AllOf(HasSubstr("1 meshes are missing"), HasSubstr("hook.stl")));
+  folder_.Write("in/crane/hook.stl", "solid");
+  EXPECT_THAT(Make(), HasSubstr("1 mesh files copied"));
+  EXPECT_TRUE(std::filesystem::exists(flags_.out / "crane/hook.stl"));
+}
+
+TEST_F(MakeRobotTest, RefusesInOneLine) {
+  folder_.Write("in/spheres.yaml", "links:\n  toe: [{center: [0, 0, 0], radius: 0.1}]\n");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  ExpectRefused({"spheres.yaml:2", "toe"});
+  flags_.spheres.clear();
+  Srdf("<robot name='walker'>\n<group name='leg'><joint name='knee'/></group></robot>");
+  ExpectRefused({"crane.srdf:2", "'knee'", "SRDF of 'walker'"});
+  Srdf("<robot name='crane'><group name='eye'><joint name='ring'/></group></robot>");
+  ExpectRefused({"crane.srdf", "no group"});
+  flags_.srdf.clear();
+  flags_.name = "a/b";
+  ExpectRefused({"'a/b'", "--name"});
+  flags_.name = "";
+  Make();
+  ExpectInputError([&] { MakeRobot(flags_); }, {flags_.out.string(), "--replace"});
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,101 @@
+#include "robot_tools/pair_sampling.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace planbench {
+namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
+
+// base - a - b - c, joints along x about z, 1 m apart; `sign` is welded to the base. c folds back
+// to where a is, and to the base in part of its configurations.
+constexpr char kUrdf[] = R"(<robot name="chain">
+  <link name="base"/><link name="a"/><link name="b"/><link name="c"/><link name="post"/>
+  <link name="sign"/>
+  <joint name="j1" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+  <joint name="j2" type="revolute"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="-0.1" upper="0.1" velocity="1" effort="1"/></joint>
+  <joint name="j3" type="continuous"><parent link="b"/><child link="c"/><origin xyz="1 0 0"/>
+    <axis xyz="0 0 1"/></joint>
+  <joint name="f1" type="fixed"><parent link="base"/><child link="post"/></joint>
+  <joint name="f2" type="fixed"><parent link="post"/><child link="sign"/></joint>
+</robot>)";
+
+class PairSamplingTest : public testing::Test {
+ protected:
+  int Link(const char* name) const { return model_.FindLink(name); }
+  std::pair<int, int> Links(const char* a, const char* b) const {
+    return std::minmax(Link(a), Link(b));
+  }
+  LinkSphere Ball(const char* link, double x, double radius) const {
+    return {Link(link), {x, 0, 0}, radius};
+  }
+
+  const RobotModel model_ = RobotModel::FromUrdf(kUrdf, "chain.urdf");
+  // c reaches a's sphere when it folds back; b's never meets the base; c's inner sphere is always
+  // in a's far one.
+  const std::vector<LinkSphere> spheres_ = {Ball("base", 0, 0.2), Ball("sign", 0, 0.2),
+                                            Ball("a", 0.5, 0.2), Ball("b", 0.5, 0.2),
+                                            Ball("c", 1.5, 0.2)};
+};
+
+TEST_F(PairSamplingTest, TellsPairsThatMeetFromThoseThatNeverDo) {
+  const PairSamples samples = SamplePairs(model_, spheres_, 2000, 1);
+  EXPECT_EQ(samples.samples, 2000);
+  int a_and_c = 0;
+  for (const auto& pair : samples.pairs) {
+    EXPECT_FALSE(model_.Adjacent(pair.link_a, pair.link_b));
+    EXPECT_LT(pair.link_a, pair.link_b);
+    if (std::pair(pair.link_a, pair.link_b) == Links("a", "c")) a_and_c = pair.contacts;
+  }
+  // c's sphere turns at 1.5 m about a point 1.5 m from a's sphere: it touches where the chord is
+  // below 0.4 m, about 0.27 of 2 pi, half a percent off for the bend of j2.
+  EXPECT_NEAR(a_and_c / 2000.0, 0.085, 0.02);
+  EXPECT_THAT(samples.Never(), testing::Contains(Links("base", "b")));
+  EXPECT_THAT(samples.Never(), testing::Not(testing::Contains(Links("a", "c"))));
+  EXPECT_THAT(samples.Always(), testing::IsEmpty());
+}
+
+TEST_F(PairSamplingTest, OverlapByConstructionIsAlways) {
+  std::vector<LinkSphere> spheres = spheres_;
+  spheres.push_back(Ball("c", 0, 0.9));
+  spheres.push_back(Ball("a", 1.2, 0.3));
+  EXPECT_THAT(SamplePairs(model_, spheres, 500, 1).Always(), ElementsAre(Links("a", "c")));
+}
+
+TEST_F(PairSamplingTest, TheSameSeedDrawsTheSame) {
+  const auto counts = [&](std::uint64_t seed) {
+    std::vector<int> contacts;
+    for (const auto& pair : SamplePairs(model_, spheres_, 500, seed).pairs) {
+      contacts.push_back(pair.contacts);
+    }
+    return contacts;
+  };
+  EXPECT_EQ(counts(1), counts(1));
+  EXPECT_NE(counts(1), counts(2));
+}
+
+TEST_F(PairSamplingTest, NamesWhatTouchesInAConfiguration) {
+  std::vector<double> folded(static_cast<std::size_t>(model_.num_positions()), 0.0);
+  EXPECT_THAT(PairsInContact(model_, spheres_, {}, folded), testing::IsEmpty());
+  folded[2] = 3.14159265;
+  EXPECT_THAT(PairsInContact(model_, spheres_, {}, folded), ElementsAre(Links("a", "c")));
+  EXPECT_THAT(PairsInContact(model_, spheres_, {{Link("c"), Link("a")}}, folded),
+              testing::IsEmpty());
+}
+
+TEST_F(PairSamplingTest, SharesAddUp) {
+  const double all = FreeShare(model_, spheres_, {}, 1000, 1);
+  EXPECT_GT(all, 0.8);
+  EXPECT_LT(all, 1);
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& pair : SamplePairs(model_, spheres_, 100, 1).pairs) {
+    pairs.emplace_back(pair.link_a, pair.link_b);
+  }
+  EXPECT_EQ(FreeShare(model_, spheres_, pairs, 1000, 1), 1);
+}
+
+}  // namespace
+}  // namespace planbench
