@@ -52,8 +52,8 @@ class FakePlanner {
   std::function<void(const PlanRequest&)> handler_;
   MessageCollector<PlanRequest> requests_;
   MessageCollector<PlanCancelMessage> cancels_;
-  Subscription subscription_;
   std::unique_ptr<NodeAnnouncer> announcer_;
+  Subscription subscription_;  ///< Ends first: what a handler does to the announcer is done then.
 };
 
 /// A scene server of one set, "cans", problems 1 to 3; finds every path valid.
