@@ -55,7 +55,7 @@ class StderrCapture {
 };
 
 /// Threads started while this lives get no signals: they are for the main thread, and would cut
-/// short what LCM's threads wait in.
+/// short what these wait in.
 class SignalsBlocked {
  public:
   SignalsBlocked() {

@@ -6,11 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
 #include "messaging/channels.h"
+#include "messaging/event_log_reader.h"
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/temporary_folder.h"
@@ -40,12 +40,9 @@ class SessionRecorderTest : public testing::Test {
   }
 
   std::vector<ReceivedMessage> Events() {
-    lcm::LogFile log(Folder() / "s.lcmlog", "r");
     std::vector<ReceivedMessage> events;
-    while (const lcm::LogEvent* event = log.readNextEvent()) {
-      const auto* data = static_cast<const std::uint8_t*>(event->data);
-      events.push_back({event->channel, {data, data + event->datalen}, event->timestamp});
-    }
+    ReadEventLog(Folder() / "s.lcmlog",
+                 [&](const ReceivedMessage& message) { events.push_back(message); });
     return events;
   }
 

@@ -177,14 +177,27 @@ std::string SmallPacket(const std::string& after_header) {
   return std::string("LC02\0\0\0\1", 8) + after_header;
 }
 
-TEST(BusTest, PacketsOfNoMeaningAreCountedAndHarmNobody) {
-  const std::string url = PrivateUdpUrl();
-  Bus bus(url);
-  std::atomic<int> num_received = 0;
-  const Subscription all = bus.SubscribeToAll([&](const ReceivedMessage&) { ++num_received; }, 0);
-  MessageCollector<DiscoverMessage> collector(&bus, "CHANNEL");
-  bus.Start();
-  const Stranger stranger(url, MulticastAddress().group.c_str());
+/// A bus on the network that hears everything.
+class OpenBusTest : public testing::Test {
+ protected:
+  OpenBusTest() { bus_.Start(); }
+  /// Publishes a message; expects that it and no other arrives, in spite of what was sent before.
+  void ExpectOnlyTheNext() {
+    PublishNumber(&bus_, "CHANNEL", 1);
+    EXPECT_EQ(collector_.WaitFor(1).size(), 1u);
+    EXPECT_EQ(num_received_, 1);
+  }
+
+  const std::string url_ = PrivateUdpUrl();
+  Bus bus_{url_};
+  std::atomic<int> num_received_ = 0;
+  const Subscription all_ =
+      bus_.SubscribeToAll([this](const ReceivedMessage&) { ++num_received_; }, 0);
+  MessageCollector<DiscoverMessage> collector_{&bus_, "CHANNEL"};
+};
+
+TEST_F(OpenBusTest, PacketsOfNoMeaningAreCountedAndHarmNobody) {
+  const Stranger stranger(url_, MulticastAddress().group.c_str());
   const std::vector<std::string> packets = {
       "",
       "LC02",
@@ -197,25 +210,15 @@ TEST(BusTest, PacketsOfNoMeaningAreCountedAndHarmNobody) {
                   "A\0",
                   22)};
   for (const std::string& packet : packets) stranger.Send(packet);
-  PublishNumber(&bus, "CHANNEL", 1);
-  EXPECT_EQ(collector.WaitFor(1).size(), 1u);
-  EXPECT_EQ(num_received, 1);
-  EXPECT_EQ(bus.counters().malformed, static_cast<std::int64_t>(packets.size()));
+  ExpectOnlyTheNext();
+  EXPECT_EQ(bus_.counters().malformed, static_cast<std::int64_t>(packets.size()));
 }
 
-TEST(BusTest, PacketsForAnotherGroupOrForTheHostAreNotSeen) {
-  const std::string url = PrivateUdpUrl();
-  Bus bus(url);
-  std::atomic<int> num_received = 0;
-  const Subscription all = bus.SubscribeToAll([&](const ReceivedMessage&) { ++num_received; }, 0);
-  MessageCollector<DiscoverMessage> collector(&bus, "CHANNEL");
-  bus.Start();
-  Stranger(url, "127.0.0.1").Send(SmallPacket({"A\0", 2}));
-  Stranger(url, "239.255.76.68").Send(SmallPacket({"A\0", 2}));
-  PublishNumber(&bus, "CHANNEL", 1);
-  EXPECT_EQ(collector.WaitFor(1).size(), 1u);
-  EXPECT_EQ(num_received, 1);
-  EXPECT_EQ(bus.counters().malformed, 0);
+TEST_F(OpenBusTest, PacketsForAnotherGroupOrForTheHostAreNotSeen) {
+  Stranger(url_, "127.0.0.1").Send(SmallPacket({"A\0", 2}));
+  Stranger(url_, "239.255.76.68").Send(SmallPacket({"A\0", 2}));
+  ExpectOnlyTheNext();
+  EXPECT_EQ(bus_.counters().malformed, 0);
 }
 
 /// Publishes in lockstep with a lasting subscription, while others on the same channel come and go.
