@@ -18,10 +18,8 @@ struct EarlierSession {
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder);
 
 /// A session can be given more sets, problems, planners, directions or trials when it is resumed,
-/// but nothing else that can change a result: its tables would compare what is not alike. So every
-/// field of the messages (lcmtypes/lcmt_session.lcm) must be equal but for those that tell when and
-/// where it ran; sets and planners that only one of them has do not matter. Throws InputError with
-/// the first field that differs, before and now.
+/// but nothing else that can change a result (messaging/session_conditions.h): its tables would
+/// compare what is not alike. Throws InputError with the first field that differs, before and now.
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now);
 
 }  // namespace planbench

@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "logger/event_log.h"
 #include "logger/message_queue.h"
 #include "logger/results_database.h"
 #include "logger/session_folder.h"
+#include "messaging/event_log.h"
 
 namespace planbench {
 

@@ -6,6 +6,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "report/figures.h"
+#include "report/merge_sessions.h"
 #include "report/page.h"
 #include "report/print_figures.h"
 #include "report/write_file.h"
@@ -22,6 +23,7 @@ struct Flags {
   std::string csv;
   std::string latex;
   std::string figures;
+  std::string merge;
 };
 
 void MakeFolder(const std::string& folder) {
@@ -39,7 +41,11 @@ void WriteTables(const std::string& folder, const char* extension, const std::ve
   }
 }
 
-int Run(const Flags& flags) {
+int Run(Flags flags) {
+  if (!flags.merge.empty()) {
+    std::cout << "report: " << MergeSessions(flags.sessions, flags.merge) << "\n";
+    flags.sessions = {flags.merge};
+  }
   std::vector<StoredSession> sessions;
   for (const std::string& name : flags.sessions) {
     StoredSessions stored = ReadSessions(name);
@@ -81,5 +87,8 @@ int main(int argc, char** argv) {
   app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs)");
   app.add_option("--figures", flags.figures,
                  "folder for the figures as SVG (needs node) and PDF (needs rsvg-convert)");
+  app.add_option("--merge", flags.merge,
+                 "session folder to make of the sessions, which are parts of one: of this the page "
+                 "is made");
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
 }

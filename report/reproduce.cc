@@ -36,8 +36,9 @@ std::vector<std::string> Values(const std::string& recorded, bool are_named) {
 
 }  // namespace
 
-std::string ReproducingCommand(const StoredSession& session) {
-  if (session.flags.empty()) return "";
+std::string ReproducingCommand(const std::map<std::string, std::string>& flags) {
+  if (flags.empty()) return "";
+  if (const auto merged = flags.find(kMergedCommands); merged != flags.end()) return merged->second;
   constexpr auto kOwn = std::to_array<std::string_view>({"out", "resume", "lcm-url"});
   constexpr auto kNamed =
       std::to_array<std::string_view>({"package-path", "planner-command", "set", "reference"});
@@ -45,7 +46,7 @@ std::string ReproducingCommand(const StoredSession& session) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   std::string command = "benchmark_driver";
-  for (const auto& [flag, value] : session.flags) {
+  for (const auto& [flag, value] : flags) {
     if (value.empty() || value == "false" || is_one_of(kOwn, flag)) continue;
     if (value == "true") {
       command += " --" + flag;

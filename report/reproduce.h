@@ -1,14 +1,16 @@
 #pragma once
 
+#include <map>
 #include <string>
-
-#include "results/stored_session.h"
 
 namespace planbench {
 
+/// Among the flags of a session that was merged of parts: the commands of the parts.
+inline constexpr char kMergedCommands[] = "merged";
+
 /// The command that runs a session again, from the driver's flags as it recorded them, quoted for a
 /// shell; "" if they are not known. Flags that were left out, and those that name this session's
-/// own folder or bus, are not in it.
-std::string ReproducingCommand(const StoredSession& session);
+/// own folder or bus, are not in it. Of a merged session those of its parts, joined by &&.
+std::string ReproducingCommand(const std::map<std::string, std::string>& flags);
 
 }  // namespace planbench

@@ -335,13 +335,17 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
     for (const auto& [flag, value] : session.flags) flags.insert(flag);
   }
   for (const std::string& flag : flags) {
+    if (flag == kMergedCommands) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
     field("--" + flag, [&](const StoredSession& session) {
       const auto found = session.flags.find(flag);
       return found == session.flags.end() ? std::string() : found->second;
     });
   }
-  if (!only_different) field("command", ReproducingCommand);
+  if (!only_different) {
+    field("command",
+          [](const StoredSession& session) { return ReproducingCommand(session.flags); });
+  }
   for (std::size_t i = 0; i < compared.sessions().size(); ++i) {
     table.columns.push_back({fmt::format("session_{}", i + 1), compared.session_names()[i]});
   }

@@ -6,9 +6,7 @@ namespace planbench {
 namespace {
 
 std::string Command(const std::map<std::string, std::string>& flags) {
-  StoredSession session;
-  session.flags = flags;
-  return ReproducingCommand(session);
+  return ReproducingCommand(flags);
 }
 
 TEST(ReproducingCommandTest, RepeatsWhatWasGiven) {
@@ -30,6 +28,10 @@ TEST(ReproducingCommandTest, RepeatsFlagsThatWereGivenSeveralTimes) {
   EXPECT_EQ(Command({{"problems", "/a,/b c"}}), "benchmark_driver --problems /a --problems '/b c'");
   EXPECT_EQ(Command({{"set", "ara.k=[1,2],rrtc.range=1"}}),
             "benchmark_driver --set 'ara.k=[1,2]' --set rrtc.range=1");
+}
+
+TEST(ReproducingCommandTest, OfAMergedSessionIsThatOfItsParts) {
+  EXPECT_EQ(Command({{kMergedCommands, "a && b"}, {"seed", "1"}}), "a && b");
 }
 
 TEST(ReproducingCommandTest, QuotesForTheShell) {

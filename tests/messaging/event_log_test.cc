@@ -1,11 +1,11 @@
-#include "logger/event_log.h"
+#include "messaging/event_log.h"
 
 #include <gtest/gtest.h>
 
 #include <lcm/lcm-cpp.hpp>
 
 #include "common/error.h"
-#include "session_files.h"
+#include "common/read_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -84,9 +84,9 @@ TEST(EventLog, CutsOffATornLastEvent) {
 
 TEST(EventLog, NeverOverwrites) {
   const TemporaryFolder folder;
-  WriteText(folder / "a.lcmlog", "precious");
+  folder.Write("a.lcmlog", "precious");
   EXPECT_THROW(EventLog(folder / "a.lcmlog", EventLog::Mode::kNew), InputError);
-  EXPECT_EQ(TextOf(folder / "a.lcmlog"), "precious");
+  EXPECT_EQ(ReadText(folder / "a.lcmlog"), "precious");
 }
 
 TEST(EventLog, RefusesAFolderThatIsNotThere) {

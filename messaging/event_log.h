@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "logger/message_queue.h"
+#include "messaging/packet_reader.h"
 
 struct _lcm_eventlog_t;
 

@@ -1,4 +1,4 @@
-#include "logger/event_log.h"
+#include "messaging/event_log.h"
 
 #include <lcm/eventlog.h>
 #include <spdlog/spdlog.h>

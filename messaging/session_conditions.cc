@@ -1,0 +1,106 @@
+#include "messaging/session_conditions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+
+namespace planbench {
+namespace {
+
+/// `session` without what may differ from `other`.
+SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
+  session.start_utime = 0;
+  session.finished = false;
+  session.total_time_s = 0;
+  session.num_runs = 0;
+  session.host = session.cpu = "";
+  session.settings.clear();  // the flags: what they change is in the conditions
+  const auto keep_common = [](auto* map, const auto& others) {
+    std::erase_if(*map, [&](const auto& entry) { return !others.contains(entry.first); });
+  };
+  keep_common(&session.conditions.problem_sets, other.conditions.problem_sets);
+  std::erase_if(session.conditions.contestants, [&](const Contestant& contestant) {
+    const auto& others = other.conditions.contestants;
+    return std::none_of(others.begin(), others.end(),
+                        [&](const Contestant& o) { return o.planner == contestant.planner; });
+  });
+  std::sort(session.conditions.contestants.begin(), session.conditions.contestants.end(),
+            [](const auto& a, const auto& b) { return a.planner < b.planner; });
+
+  std::erase_if(session.nodes, [&](const NodeStatusMessage& node) {
+    if (node.kind == NodeKind::kSceneServer) return false;
+    return node.kind != NodeKind::kPlanner ||
+           std::none_of(other.nodes.begin(), other.nodes.end(),
+                        [&](const auto& o) { return o.kind == node.kind && o.name == node.name; });
+  });
+  std::sort(session.nodes.begin(), session.nodes.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (NodeStatusMessage& node : session.nodes) {
+    node.utime = node.start_utime = 0;
+    node.busy = false;
+    node.request_id = node.host = "";
+    node.pid = 0;
+    if (node.kind == NodeKind::kSceneServer) {
+      node.name = "scene server";  // there is one
+      node.settings.clear();       // the folders it was given; what is in them has ids
+    }
+  }
+  return session;
+}
+
+/// Every field as text, by its place: "node[ara].setting[tip_guide].value".
+std::map<std::string, std::string> FieldsOf(const SessionMessage& session) {
+  std::map<std::string, std::string> fields;
+  std::vector<std::string> place;  // of structs, the outermost first
+  std::istringstream lines(Print<SessionMessage>(Encode(session), channel::kSession));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t depth = line.find_first_not_of(' ') / 2;
+    const std::size_t colon = line.find(':');
+    const std::string name = line.substr(2 * depth, colon - 2 * depth);
+    place.resize(depth);
+    if (colon + 1 == line.size()) {
+      place.push_back(name);
+      continue;
+    }
+    const std::string value = line.substr(colon + 2);
+    // Elements of lists go by their key, if they have one.
+    const bool is_key = name == "name" || name == "key" || name == "planner";
+    if (is_key && !place.empty() && std::isdigit(place.back()[place.back().find('[') + 1]) != 0) {
+      place.back().replace(place.back().find('[') + 1, std::string::npos,
+                           value.substr(1, value.size() - 2) + "]");
+      continue;
+    }
+    if (name == "utime") continue;  // of the moment
+    fields[fmt::format("{}{}{}", fmt::join(place, "."), place.empty() ? "" : ".", name)] = value;
+  }
+  return fields;
+}
+
+}  // namespace
+
+std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
+                                                           const SessionMessage& second) {
+  const std::map<std::string, std::string> of_first = FieldsOf(Comparable(first, second));
+  const std::map<std::string, std::string> of_second = FieldsOf(Comparable(second, first));
+  const auto text = [](const auto& fields, const std::string& field) {
+    const auto found = fields.find(field);
+    return found == fields.end() ? "nothing" : found->second;
+  };
+  for (const auto* fields : {&of_first, &of_second}) {
+    for (const auto& [field, value] : *fields) {
+      ConditionDifference difference{field, text(of_first, field), text(of_second, field)};
+      if (difference.first != difference.second) return difference;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace planbench

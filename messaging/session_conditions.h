@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// A field of two sessions (lcmtypes/lcmt_session.lcm) that is not the same in both.
+struct ConditionDifference {
+  std::string field;  ///< Its place: "node[ara].setting[tip_guide].value".
+  std::string first;  ///< "nothing" if it is in the other session alone.
+  std::string second;
+};
+
+/// Runs of two sessions belong together only if nothing differs that can change a result: every
+/// field must be equal but for those that tell when and where a session ran and what it ran; sets
+/// and planners that only one of them has do not matter. The first field that differs, if any.
+std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
+                                                           const SessionMessage& second);
+
+}  // namespace planbench

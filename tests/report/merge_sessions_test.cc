@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/exit_codes.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/event_log.h"
+#include "messaging/record_log.h"
+#include "results/compared_sessions.h"
+#include "results/comparison.h"
+#include "tests/report/example_session.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+
+/// A session's folder holds its event log; the rest is made of it.
+class MergeSessionsTest : public testing::Test {
+ protected:
+  static SessionMessage Session(const std::string& run_id, std::int64_t start_utime, int num_runs) {
+    SessionMessage session = ExampleSession();
+    session.run_id = run_id;
+    session.host = "host";
+    session.start_utime = start_utime;
+    session.finished = true;
+    session.total_time_s = 10;
+    session.num_runs = num_runs;
+    session.conditions.problem_sets["shelf"] = "content";
+    return session;
+  }
+
+  void Write(const std::string& folder, const SessionMessage& session,
+             const std::vector<MadeRun>& runs) {
+    std::filesystem::create_directory(folder_ / folder);
+    EventLog log(folder_ / folder / (folder + ".lcmlog"), EventLog::Mode::kNew);
+    log.Write({channel::kSession, Encode(session), session.start_utime});
+    SceneMessage scene;
+    scene.scene_id = SceneId(scene.scene);
+    log.Write({channel::kScene, Encode(scene), 1});
+    for (const MadeRun& run : runs) {
+      const std::string key = fmt::format("{}/{}", run.contestant, run.problem);
+      RunRecordMessage record = MakeRecord(run, session.run_id, 0);
+      record.request_id = record.request.request_id = record.result.request_id =
+          session.run_id + "/" + key;
+      log.Write({channel::kRunRecord, Encode(record), 2});
+    }
+  }
+
+  int Merge(const std::vector<std::string>& folders) {
+    std::vector<std::string> arguments = {std::string(PLANBENCH_BIN_DIR) + "/report", "--merge",
+                                          (folder_ / "whole").string(), "--out",
+                                          (folder_ / "page.html").string()};
+    for (const std::string& folder : folders) arguments.push_back((folder_ / folder).string());
+    ChildProcess process(arguments, folder_ / "report");
+    const int code = process.Wait().value_or(-1);
+    output_ = process.Output();
+    errors_ = process.Errors();
+    return code;
+  }
+
+  void ExpectRefused(const std::vector<std::string>& folders, const std::string& reason) {
+    EXPECT_EQ(Merge(folders), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "whole"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "whole.merging"));
+  }
+
+  TemporaryFolder folder_;
+  std::string output_, errors_;
+};
+
+TEST_F(MergeSessionsTest, PartsMakeTheSessionThatTheyAreOf) {
+  const std::vector<MadeRun> first = {{.contestant = "A", .problem = 1, .time_s = 1},
+                                      {.contestant = "A", .problem = 2, .time_s = 2}};
+  const std::vector<MadeRun> second = {
+      {.contestant = "A", .problem = 3, .status = PlanStatus::kTimedOut, .time_s = 10},
+      {.contestant = "B", .problem = 1, .time_s = 4}};
+  SessionMessage later = Session("later", 2'000'000, 5);  // one was never recorded
+  later.host = "another";
+  later.settings["problems-range"] = "3-5";
+  Write("one", Session("early", 1'000'000, 2), first);
+  Write("two", later, second);
+  ASSERT_EQ(Merge({"two", "one"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("4 runs of 2 sessions, 0 of them"));
+
+  const StoredSessions stored = ReadSessions(folder_ / "whole");
+  ASSERT_EQ(stored.sessions.size(), 1u);
+  const StoredSession& whole = stored.sessions.front();
+  EXPECT_EQ(whole.run_id, "early");
+  EXPECT_TRUE(whole.finished);
+  EXPECT_EQ(whole.total_time_s, 20);
+  EXPECT_EQ(whole.num_runs, 7);  // 2 and 5
+  EXPECT_EQ(whole.host, "host, another");
+  EXPECT_EQ(whole.flags.at("merged"),
+            "benchmark_driver --launch --time 10 --trials 2 && "
+            "benchmark_driver --launch --problems-range 3-5 --time 10 --trials 2");
+
+  // As if all had been one session.
+  std::vector<MadeRun> all = first;
+  all.insert(all.end(), second.begin(), second.end());
+  WriteSession(folder_ / "oracle", all);
+  const ComparedSessions merged(stored.sessions);
+  const ComparedSessions oracle(ReadSessions(folder_ / "oracle").sessions);
+  for (const char* contestant : {"A", "B"}) {
+    EXPECT_EQ(SummarizeSuccess(merged.pooled().at(contestant)).share,
+              SummarizeSuccess(oracle.pooled().at(contestant)).share);
+    EXPECT_EQ(SummarizeTimes(merged.pooled().at(contestant)).penalised_mean_s,
+              SummarizeTimes(oracle.pooled().at(contestant)).penalised_mean_s);
+  }
+
+  // What goes on with a session, or shows it, reads the log.
+  const auto log = FindEventLog(folder_ / "whole");
+  const RecordedSession recorded = ReadRecords(log);
+  ASSERT_EQ(recorded.sessions.size(), 1u);
+  ASSERT_EQ(recorded.runs.size(), 4u);
+  for (const RunRecordMessage& run : recorded.runs) {
+    EXPECT_EQ(run.run_id, "early");
+    EXPECT_TRUE(run.request_id.starts_with("early/")) << run.request_id;
+    EXPECT_EQ(run.request.request_id, run.request_id);
+  }
+  EXPECT_EQ(ReadScenes(log).size(), 1u);
+}
+
+TEST_F(MergeSessionsTest, ARunThatTwoTellOfCountsOnce) {
+  const MadeRun run = {.contestant = "A", .problem = 1};
+  Write("one", Session("same", 1'000'000, 2), {run});
+  SessionMessage resumed = Session("same", 2'000'000, 2);
+  Write("two", resumed, {run, {.contestant = "A", .problem = 2}});
+  ASSERT_EQ(Merge({"one", "two"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("2 runs of 1 session, 1 of them"));
+  const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_EQ(whole.runs.size(), 2u);
+  EXPECT_EQ(whole.num_runs, 2);
+}
+
+TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {
+  Write("one", Session("early", 1'000'000, 1), {{.contestant = "A"}});
+  Write("again", Session("later", 2'000'000, 1), {{.contestant = "A", .time_s = 2}});
+  SessionMessage other = Session("other", 3'000'000, 1);
+  other.conditions.request.seed = 8;
+  Write("seed", other, {{.contestant = "B"}});
+  std::filesystem::create_directory(folder_ / "empty");
+  ExpectRefused({"one", "again"}, "tell differently of A, shelf 1, forward, trial 1");
+  ExpectRefused({"one", "seed"}, "conditions.request.seed is 7 in ");
+  ExpectRefused({"one", "empty"}, "holds no .lcmlog");
+}
+
+}  // namespace
+}  // namespace planbench
