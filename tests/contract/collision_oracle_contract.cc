@@ -11,6 +11,8 @@
 #include "tests/contract/collision_checker_contract.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
+#include "tests/robot_model/random_configuration.h"
+#include "tests/support/random_robot.h"
 
 namespace planbench {
 
@@ -61,6 +63,41 @@ TEST_P(CollisionCheckerContract, VerdictsAndDistancesAgreeWithTheOracle) {
     }
   }
   // The test is worth something only if both verdicts occur often.
+  EXPECT_GT(num_free, num_judged / 10);
+  EXPECT_LT(num_free, num_judged * 9 / 10);
+}
+
+TEST_P(CollisionCheckerContract, RandomRobotsAgreeWithTheOracle) {
+  constexpr int kNum = 30;
+  int num_free = 0;
+  int num_judged = 0;
+  for (int joints = 2; joints <= 14; ++joints) {
+    SCOPED_TRACE(joints);
+    const Robot robot = MakeRandomRobot(joints, 1, /*with_follower=*/false);
+    const auto checker = Make(robot);
+    std::mt19937 held(static_cast<unsigned>(joints));
+    const auto base = RandomPositions(robot.model, &held);
+    const int n = checker->space().size();
+    for (const NamedScene& world : MakeTestScenes()) {
+      if (!world.scene.attached.empty()) continue;  // to links of another robot
+      SCOPED_TRACE(world.what);
+      checker->SetScene(world.scene, base);
+      const auto qs = Configurations(checker->space(), kNum, 3);
+      for (int i = 0; i < kNum; ++i) {
+        const auto q = Row(qs, n, i);
+        const double clearance =
+            OracleClearance(OraclePairs(robot, checker->group(), world.scene, base, q));
+        if (std::abs(clearance) <= tolerance()) continue;
+        ++num_judged;
+        num_free += clearance > 0 ? 1 : 0;
+        EXPECT_EQ(checker->IsFree(q), clearance > 0) << clearance;
+        if (clearance <= 0) continue;
+        const ClosestPair closest = checker->FindClosest(q);
+        EXPECT_NEAR(closest.distance_m, clearance, tolerance())
+            << closest.body_a << " and " << closest.body_b;
+      }
+    }
+  }
   EXPECT_GT(num_free, num_judged / 10);
   EXPECT_LT(num_free, num_judged * 9 / 10);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contract/planner_contract.h"
+#include "contract/random_robots_contract.h"
 #include "scene/moveit_yaml.h"
 #include "support/expect_input_error.h"
 #include "support/shared_data.h"
@@ -28,6 +29,11 @@ std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
 
 INSTANTIATE_TEST_SUITE_P(Ara, PlannerContract,
                          testing::Values(PlannerFactory{"ara", MakeForContract}));
+
+TEST(AraPlanner, PlansForRandomRobotsByItsDefaults) {
+  ExpectPlansForRandomRobots(
+      [](const Robot& robot) { return MakeAraPlanner(robot, YamlNode::Parse("", "ara.yaml")); });
+}
 
 class AraPlannerTest : public testing::Test {
  protected:

@@ -5,6 +5,7 @@
 #include "planner_rrtc/ompl_algorithms.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/planner_contract.h"
+#include "tests/contract/random_robots_contract.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 
@@ -36,6 +37,13 @@ std::vector<PlannerFactory> AllPlanners() {
 
 INSTANTIATE_TEST_SUITE_P(Rrtc, PlannerContract, testing::ValuesIn(AllPlanners()),
                          [](const auto& info) { return info.param.name; });
+
+TEST(RrtcPlanner, PlansForRandomRobotsByItsDefaults) {
+  for (const char* settings : {"", "algorithm: RRTConnect"}) {
+    ExpectPlansForRandomRobots(
+        [&](const Robot& robot) { return MakeRrtcPlanner(robot, Settings(settings)); });
+  }
+}
 
 class RrtcPlannerTest : public testing::Test {
  protected:
