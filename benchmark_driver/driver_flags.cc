@@ -95,11 +95,15 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
     return option->needs(launch)->allow_extra_args(false)->group("With --launch");
   };
   using Texts = std::vector<std::string>;
-  launch->needs(with_launch(app->add_option("--robot", options->robot, "robot folder")));
+  launch->needs(with_launch(app->add_option("--robot", options->robot,
+                                            "robot folder, or the name of a robot that ships")));
   launch->needs(with_launch(
       app->add_option("--problems", options->problems, "problem set folder; repeatable")));
   with_launch(app->add_option("--referee-robot", options->referee_robot,
                               "folder of a mesh robot that judges paths too"));
+  with_launch(app->add_flag("--allow-standing-contacts", options->allow_standing_contacts,
+                            "links of the referee's robot that touch in every configuration may; "
+                            "default: they end the session before it begins"));
   with_launch(app->add_option("--package-path", options->package_paths,
                               "NAME=DIR: folder that package://NAME/ stands for; repeatable"));
   with_launch(

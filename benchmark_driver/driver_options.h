@@ -31,6 +31,7 @@ struct DriverOptions {
   std::filesystem::path robot;
   std::vector<std::filesystem::path> problems;
   std::optional<std::filesystem::path> referee_robot;
+  bool allow_standing_contacts = false;  ///< Of the referee's robot.
   std::vector<std::string> package_paths;
   std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>.
 };

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
 #include "planning/path_measures.h"
 #include "results/statistics.h"
@@ -72,6 +73,25 @@ std::vector<EffortColumn> EffortColumns() {
   return columns;
 }
 
+// What the mesh robot says of a number of paths.
+struct MeshVerdicts {
+  int judged = 0;
+  int valid = 0;
+  ReasonCount reasons;  // Of those that are not.
+
+  void Add(const std::optional<PathVerdict>& verdict) {
+    if (!verdict) return;
+    ++judged;
+    valid += verdict->valid ? 1 : 0;
+    if (!verdict->valid) reasons.Add(verdict->reason);
+  }
+  void Add(const MeshVerdicts& others) {
+    judged += others.judged;
+    valid += others.valid;
+  }
+  double Share() const { return judged > 0 ? static_cast<double>(valid) / judged : 1; }
+};
+
 }  // namespace
 
 std::string EffortTable(const SessionResults& results) {
@@ -102,31 +122,38 @@ std::string EffortTable(const SessionResults& results) {
 std::string MeshTable(const SessionResults& results) {
   TextTable table("Paths judged with the robot's meshes",
                   {"set", "contestant", "confirmed", "mesh-valid", "simplified", "mesh-valid"}, 2);
-  bool any = false;
+  MeshVerdicts raw_of_all;
+  MeshVerdicts simplified_of_all;
+  std::string notes =
+      "Runs confirmed with the planners' own collision model, by what the mesh robot says of "
+      "them.\n";
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
-      int judged = 0, valid = 0, simplified_judged = 0, simplified_valid = 0;
+      MeshVerdicts raw;
+      MeshVerdicts simplified;
       for (const RunRecordMessage* record : one.records) {
         if (!Confirmed(*record)) continue;
-        if (const auto& verdict = record->path_check.mesh_verdict) {
-          ++judged;
-          valid += verdict->valid;
-        }
-        if (const auto& verdict = record->simplified_check.mesh_verdict) {
-          ++simplified_judged;
-          simplified_valid += verdict->valid;
-        }
+        raw.Add(record->path_check.mesh_verdict);
+        simplified.Add(record->simplified_check.mesh_verdict);
       }
-      any = any || judged > 0;
-      table.Add({set.name, one.contestant->name, fmt::format("{}", judged),
-                 fmt::format("{}", valid), fmt::format("{}", simplified_judged),
-                 fmt::format("{}", simplified_valid)});
+      raw_of_all.Add(raw);
+      simplified_of_all.Add(simplified);
+      table.Add({set.name, one.contestant->name, fmt::format("{}", raw.judged),
+                 fmt::format("{}", raw.valid), fmt::format("{}", simplified.judged),
+                 fmt::format("{}", simplified.valid)});
+      if (raw.valid == raw.judged) continue;
+      notes += fmt::format("{}, {}: {} not mesh-valid, mostly: {}\n", set.name,
+                           one.contestant->name, raw.judged - raw.valid, raw.reasons.Commonest());
     }
   }
-  if (!any) return "";
-  return table.Format(
-      "Runs confirmed with the planners' own collision model, by what the mesh robot says of "
-      "them.\n\n");
+  if (raw_of_all.judged == 0) return "";
+  if (simplified_of_all.Share() < raw_of_all.Share()) {
+    notes += fmt::format(
+        "Simplified paths pass nearer to obstacles than the spheres tell: {:.1f} % of them are "
+        "mesh-valid, {:.1f} % of the raw ones.\n",
+        100 * simplified_of_all.Share(), 100 * raw_of_all.Share());
+  }
+  return table.Format(notes + "\n");
 }
 
 }  // namespace planbench

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
+#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
 
 namespace planbench {
@@ -14,19 +14,8 @@ namespace {
 struct Failures {
   int num_runs = 0;
   std::map<int, int> by_problem;
-  std::map<std::string, int> reasons;
-
-  const std::string& CommonestReason() const {
-    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-    return std::max_element(reasons.begin(), reasons.end(), fewer)->first;
-  }
+  ReasonCount reasons;
 };
-
-std::string Shortened(std::string text, std::size_t width) {
-  if (text.size() <= width) return text;
-  text.resize(std::min(text.find_last_of(' ', width - 4), width - 4));
-  return text.substr(0, text.find_last_not_of(' ') + 1) + " ...";
-}
 
 }  // namespace
 
@@ -40,7 +29,7 @@ std::string FailureSummary(const SessionResults& results) {
         Failures& failures = by_status[record->status];
         ++failures.num_runs;
         ++failures.by_problem[record->problem_index];
-        ++failures.reasons[record->message];
+        failures.reasons.Add(record->message);
       }
       for (const auto& [status, failures] : by_status) {
         std::string line = fmt::format("  {}, {}: {} {}, problem{}", set.name, one.contestant->name,
@@ -48,9 +37,9 @@ std::string FailureSummary(const SessionResults& results) {
                                        failures.by_problem.size() > 1 ? "s" : "");
         for (const auto& [problem, count] : failures.by_problem)
           line += fmt::format(" {}", problem);
-        text += Shortened(line, kTextWidth) + "\n";
-        if (const std::string& reason = failures.CommonestReason(); !reason.empty()) {
-          text += Shortened("    mostly: " + reason, kTextWidth) + "\n";
+        text += Shortened(line) + "\n";
+        if (const std::string& reason = failures.reasons.Commonest(); !reason.empty()) {
+          text += Shortened("    mostly: " + reason) + "\n";
         }
       }
     }

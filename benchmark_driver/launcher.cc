@@ -87,6 +87,7 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   }
   if (options.referee_robot) {
     server.insert(server.end(), {"--referee-robot", options.referee_robot->string()});
+    if (options.allow_standing_contacts) server.push_back("--allow-standing-contacts");
   }
   start(kSceneServer, std::move(server));
 

@@ -22,6 +22,7 @@
 #include "messaging/program.h"
 #include "results/reference.h"
 #include "robot_model/robot_folder.h"
+#include "robot_model/shipped_robots.h"
 
 namespace planbench {
 namespace {
@@ -94,7 +95,8 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   std::string url = lcm_url;
   std::filesystem::path session_folder;
   const std::vector<LineUpEntry> line_up =
-      MakeLineUp(options.line_up, options.launch ? std::optional(options.robot) : std::nullopt);
+      MakeLineUp(options.line_up,
+                 options.launch ? std::optional(FindRobotFolder(options.robot)) : std::nullopt);
   if (options.launch) {
     RequirePrograms(line_up, ProgramFolder());
     CheckRobots(options, line_up);

@@ -62,6 +62,12 @@ std::string BreakLines(const std::string& text, std::size_t indent) {
   return broken;
 }
 
+std::string Shortened(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  text.resize(std::min(text.find_last_of(' ', width - 4), width - 4));
+  return text.substr(0, text.find_last_not_of(' ') + 1) + " ...";
+}
+
 std::string Milliseconds(double seconds) {
   if (std::isnan(seconds)) return "-";
   const double ms = seconds * 1e3;

@@ -29,6 +29,9 @@ inline constexpr std::size_t kTextWidth = 100;
 /// stays.
 std::string BreakLines(const std::string& text, std::size_t indent = 2);
 
+/// `text` cut at a blank, with "...", to `width` at most.
+std::string Shortened(std::string text, std::size_t width = kTextWidth);
+
 /// How values are shown: NaN is "-".
 std::string Milliseconds(double seconds);
 std::string Number(double value, int decimals);

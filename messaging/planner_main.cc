@@ -16,7 +16,9 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   std::string config;
   std::vector<std::string> overrides;
   std::vector<std::string> package_paths;
-  program.app().add_option("--robot", robot_folder, "robot folder")->required();
+  program.app()
+      .add_option("--robot", robot_folder, "robot folder, or the name of a robot that ships")
+      ->required();
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
   program.app().add_option("--config", config, "settings file; default: the robot folder's");
   program.app()

@@ -20,7 +20,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> package_paths;
   std::vector<std::filesystem::path> problem_folders;
   std::string name = "scene_server";
-  program.app().add_option("--robot", robot_folder, "robot folder, e.g. robots/fetch")->required();
+  program.app()
+      .add_option("--robot", robot_folder, "robot folder, or the name of a robot that ships")
+      ->required();
   program.app()
       .add_option("--problems", problem_folders,
                   "problem set, or folder of problem sets (may be repeated)")
@@ -29,6 +31,9 @@ int main(int argc, char** argv) {
   program.app().add_option("--referee-robot", referee_folder,
                            "robot folder, or folder with one .urdf file, whose meshes judge every "
                            "path too");
+  bool allow_standing_contacts = false;
+  program.app().add_flag("--allow-standing-contacts", allow_standing_contacts,
+                         "links of the referee's robot that touch in every configuration may");
   AddPackagePathFlag(&program.app(), &package_paths);
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
 
@@ -38,7 +43,8 @@ int main(int argc, char** argv) {
     for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
     std::optional<Robot> referee;
     if (!referee_folder.empty()) referee = LoadRefereeRobot(referee_folder, robot, packages);
-    SceneService service(std::move(robot), std::move(referee), problem_folders);
+    SceneService service(std::move(robot), std::move(referee), problem_folders,
+                         allow_standing_contacts);
     Bus bus(program.lcm_url());
     SceneServerNode node(&bus, name, &service);
     bus.Start();

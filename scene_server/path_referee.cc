@@ -12,6 +12,7 @@
 #include "planning/path_judge.h"
 #include "planning/resolve.h"
 #include "robot_model/full_positions.h"
+#include "scene_server/standing_contacts.h"
 
 namespace planbench {
 namespace {
@@ -101,6 +102,17 @@ std::shared_ptr<const Scene> PathReferee::InMeshRobotsFrame(
     moved_by_ = X_NW;
   }
   return moved_;
+}
+
+std::vector<std::pair<std::string, std::string>> PathReferee::StandingContacts(
+    const std::string& group, const JointState& start, const AllowedCollisionMatrix& allowed) {
+  const std::scoped_lock lock(mutex_);
+  const std::vector<double> positions =
+      FullPositionsWherePossible(mesh_robot_->model, start.names, start.positions);
+  CollisionChecker& checker =
+      mesh_checkers_->Get(mesh_robot_->Group(group), CollisionModel::kMeshes, "standing contacts",
+                          std::make_shared<const Scene>(), positions);
+  return FindStandingContacts(&checker, allowed, positions);
 }
 
 PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,

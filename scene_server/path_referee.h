@@ -4,6 +4,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "messaging/messages.h"
 #include "robot_model/robot_folder.h"
@@ -33,6 +36,12 @@ class PathReferee {
   /// unknown group, a start or goal that cannot be resolved.
   PathCheckReplyMessage Judge(const PathCheckRequestMessage& request,
                               const std::shared_ptr<const Scene>& scene);
+
+  /// Pairs of links of the mesh robot that touch in every configuration of a group, with the other
+  /// joints as in `start` and without pairs that may (see FindStandingContacts). Needs a mesh
+  /// robot.
+  std::vector<std::pair<std::string, std::string>> StandingContacts(
+      const std::string& group, const JointState& start, const AllowedCollisionMatrix& allowed);
 
  private:
   std::shared_ptr<const Scene> InMeshRobotsFrame(const std::string& scene_id,

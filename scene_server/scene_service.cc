@@ -1,11 +1,14 @@
 #include "scene_server/scene_service.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <utility>
 
+#include "common/content_hash.h"
 #include "common/error.h"
 #include "robot_model/mesh_robot_id.h"
+#include "scene_server/standing_contacts.h"
 
 namespace planbench {
 namespace {
@@ -37,12 +40,46 @@ Reply AnswerOrRefuse(const std::string& request_id, Answer answer) {
 }  // namespace
 
 SceneService::SceneService(Robot robot, std::optional<Robot> mesh_robot,
-                           const std::vector<std::filesystem::path>& problem_folders)
+                           const std::vector<std::filesystem::path>& problem_folders,
+                           bool allow_standing_contacts)
     : robot_(std::move(robot)),
       mesh_robot_(std::move(mesh_robot)),
       library_(robot_, problem_folders),
       collision_(robot_),
-      referee_(robot_, mesh_robot_ ? &*mesh_robot_ : nullptr) {}
+      referee_(robot_, mesh_robot_ ? &*mesh_robot_ : nullptr) {
+  if (mesh_robot_) SettleStandingContacts(allow_standing_contacts);
+}
+
+void SceneService::SettleStandingContacts(bool allow) {
+  for (const auto& [name, set] : library_.sets()) {
+    ServedProblem problem;
+    try {
+      problem = library_.Find(name, set.problems.front().index);
+    } catch (const InputError&) {
+      continue;  // The library has said it.
+    }
+    for (const auto& [a, b] : referee_.StandingContacts(
+             problem.message.group, problem.message.start, problem.scene->allowed_collisions)) {
+      if (!allow) {
+        throw InputError(fmt::format(
+            "--referee-robot {}: its links '{}' and '{}' touch in each of {} random "
+            "configurations, "
+            "so that every path of the set '{}' would be in collision; name them in allowed_pairs "
+            "of a robot.yaml there, or let them with --allow-standing-contacts",
+            mesh_robot_->folder.string(), a, b, kStandingDraws, name));
+      }
+      spdlog::warn("--allow-standing-contacts: '{}' and '{}' of the referee's robot", a, b);
+      // Checkers look the pairs up when a scene is set.
+      mesh_robot_->allowed_pairs.emplace_back(mesh_robot_->model.FindLink(a),
+                                              mesh_robot_->model.FindLink(b));
+      ContentHash hash;
+      hash.Add(mesh_robot_->content_id);
+      hash.Add(a);
+      hash.Add(b);
+      mesh_robot_->content_id = hash.HexDigest();
+    }
+  }
+}
 
 ProblemSetsMessage SceneService::ProblemSets(const std::string& server_name) {
   ProblemSetsMessage message;

@@ -25,10 +25,12 @@ struct ProblemAnswer {
 /// answer carries the request's request_id. Thread-safe.
 class SceneService {
  public:
-  /// `mesh_robot`: the referee's, whose meshes judge paths too (see LoadRefereeRobot). Throws
-  /// InputError as ProblemLibrary and PathReferee do.
+  /// `mesh_robot`: the referee's, whose meshes judge paths too (see LoadRefereeRobot). If links of
+  /// it touch in every configuration, as the first problem of a set has it, they are allowed to and
+  /// named, or refused. Throws InputError as ProblemLibrary and PathReferee do, and for such links.
   SceneService(Robot robot, std::optional<Robot> mesh_robot,
-               const std::vector<std::filesystem::path>& problem_folders);
+               const std::vector<std::filesystem::path>& problem_folders,
+               bool allow_standing_contacts = false);
   // Its parts refer to each other.
   SceneService(const SceneService&) = delete;
   SceneService& operator=(const SceneService&) = delete;
@@ -43,6 +45,7 @@ class SceneService {
   PathCheckReplyMessage AnswerPathCheck(const PathCheckRequestMessage& request);
 
  private:
+  void SettleStandingContacts(bool allow);
   /// Throws InputError if no problem has that scene.
   std::shared_ptr<const Scene> RequireScene(const std::string& scene_id);
 

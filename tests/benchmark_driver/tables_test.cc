@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
 
 namespace planbench {
@@ -302,12 +303,29 @@ TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
     records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
     records.back().path_check.mesh_verdict = Valid({});
     records.back().path_check.mesh_verdict->valid = i == 1;
+    records.back().path_check.mesh_verdict->reason =
+        fmt::format("collision on segment {} at 0.{}: 'arm' and 'post', 0.0{} m deep", i, i, i);
   }
   records[0].simplified_check.mesh_verdict = Valid({});
   // A path that the referee rejects on the planners' own model counts for nothing.
   records.push_back(OfProblem(4, AttemptOf(PlanStatus::kInvalidPath, 1)));
   records.back().path_check.mesh_verdict = Valid({});
   EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
+  EXPECT_THAT(Brief(records),
+              HasSubstr("box, ARA*: 2 not mesh-valid, mostly: collision on segment 2 "
+                        "at 0.2"));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("Simplified paths pass nearer")));
+  records[0].simplified_check.mesh_verdict->valid = false;
+  EXPECT_THAT(Brief(records), HasSubstr("Simplified paths pass nearer"));
+}
+
+TEST(TablesTest, ReasonsThatDifferInFiguresAloneAreOne) {
+  ReasonCount count;
+  EXPECT_EQ(count.Commonest(), "");
+  count.Add("start is in collision: 'link2' and 'can', 0.0120 m deep");
+  count.Add("start is in collision: 'link3' and 'can', 0.0120 m deep");
+  count.Add("start is in collision: 'link3' and 'can', 0.0310 m deep");
+  EXPECT_EQ(count.Commonest(), "start is in collision: 'link3' and 'can', 0.0120 m deep");
 }
 
 TEST(TablesTest, ContestantsAreExplained) {
