@@ -121,8 +121,6 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
   }
   std::sort(links.begin(), links.end(),
             [](const CompiledTree& a, const CompiledTree& b) { return a.link < b.link; });
-  num_nodes_ = kernel.nodes.size();
-  num_reaches_ = kernel.reaches.size();
 }
 
 void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
@@ -179,10 +177,10 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   return tree;
 }
 
-void CompiledRobot::Truncate() {
-  kernel.nodes.resize(num_nodes_);
-  kernel.pairs.clear();
-  kernel.reaches.resize(num_reaches_);
+void CompiledRobot::Truncate(const Extent& extent) {
+  kernel.nodes.resize(extent.nodes);
+  kernel.reaches.resize(extent.reaches);
+  kernel.pairs.resize(extent.pairs);
 }
 
 Ball CompiledRobot::BallOf(const Node& node, int body) const {

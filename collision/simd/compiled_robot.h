@@ -30,11 +30,21 @@ struct CompiledRobot {
   CompiledRobot(const Robot& robot, const PlanningGroup& group,
                 std::span<const double> base_positions);
 
+  /// How much of the kernel's robot there is.
+  struct Extent {
+    std::size_t nodes = 0;
+    std::size_t reaches = 0;
+    std::size_t pairs = 0;
+  };
+  Extent extent() const {
+    return {kernel.nodes.size(), kernel.reaches.size(), kernel.pairs.size()};
+  }
+  /// Forgets the balls and pairs that were added since.
+  void Truncate(const Extent& extent);
+
   /// A tree of one ball fixed to a link, given in the link's frame, for something that is not a
-  /// sphere of the robot. Drops nothing that was added before; see Truncate.
+  /// sphere of the robot.
   CompiledTree AddBall(int link, const Ball& ball_L);
-  /// Forgets added balls, and all pairs.
-  void Truncate();
 
   /// A pair of trees of different bodies, unless they can never meet within the joint limits.
   void AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful);
@@ -77,8 +87,6 @@ struct CompiledRobot {
   std::vector<double> base_positions_;
   RigidBodies rigid_bodies_;
   std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
-  std::size_t num_nodes_ = 0;          ///< Without added balls.
-  std::size_t num_reaches_ = 0;
 };
 
 }  // namespace planbench

@@ -50,6 +50,7 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   if (!robot_holds) {
     held_.clear();
     compiled_robot_.emplace(*robot_, *group_, base_positions);
+    without_pairs_ = compiled_robot_->extent();
     if (model_ == CollisionModel::kVoxels) {
       field_ = std::make_unique<DistanceFieldBuilder>(
           robot_->voxels ? *robot_->voxels : VoxelsWithinReach(*compiled_robot_));
@@ -62,11 +63,12 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   scene_.objects = scene.objects;
   scene_.attached = scene.attached;
   base_positions_.assign(base_positions.begin(), base_positions.end());
-  if (!robot_holds || !same_matrix || !pairs_hold_ || !scene.attached.empty()) {
-    pairs_hold_ = false;
+  if (!robot_holds || !same_matrix || !without_attached_) {
+    without_attached_.reset();
     CompilePairs(rules);
-    pairs_hold_ = scene.attached.empty();
+    without_attached_ = compiled_robot_->extent();
   }
+  AttachObjects(rules);
   world_.SetObjects(scene_, *compiled_robot_);
   if (field_ != nullptr) SetGrid();
   CompileTrees(rules);
@@ -94,7 +96,7 @@ void CompiledScene::CompilePairs(const PairRules& rules) {
     allowed_names_.insert(names.second);
   }
 
-  compiled_robot_->Truncate();
+  compiled_robot_->Truncate(without_pairs_);
   links_distance_ = kInfinity;
   const auto checks = [&](const CompiledTree& a, const CompiledTree& b) {
     return rules.ChecksLinks(a.link, b.link);
@@ -104,7 +106,10 @@ void CompiledScene::CompilePairs(const PairRules& rules) {
       if (b.body >= a.body) compiled_robot_->AddPairs(a, b, checks, &links_distance_);
     }
   }
+}
 
+void CompiledScene::AttachObjects(const PairRules& rules) {
+  compiled_robot_->Truncate(*without_attached_);
   attached_.clear();
   for (const AttachedObject& attached : scene_.attached) {
     const std::vector<Ball> balls = BallsAround(attached.object);

@@ -56,6 +56,7 @@ class CompiledScene {
 
  private:
   void CompilePairs(const PairRules& rules);
+  void AttachObjects(const PairRules& rules);
   void CompileTrees(const PairRules& rules);
   void JudgeStandingTrees();
   void SetGrid();
@@ -68,12 +69,14 @@ class CompiledScene {
   // Of the held positions.
   std::vector<double> held_;  ///< That the following are of.
   std::optional<CompiledRobot> compiled_robot_;
+  CompiledRobot::Extent without_pairs_;
   std::unique_ptr<DistanceFieldBuilder> field_;  ///< Voxels.
 
   // Of the scene.
   Scene scene_;  ///< Its objects, what is attached, and the matrix.
   std::vector<double> base_positions_;
-  bool pairs_hold_ = false;  ///< The pairs are those of scene_, which has nothing attached.
+  /// Of the robot with its own pairs, as the matrix of scene_ has them; none: not compiled.
+  std::optional<CompiledRobot::Extent> without_attached_;
   std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
   std::vector<CompiledTree> attached_;
   double links_distance_ = 0;  ///< Of links that do not move relative to each other, m.
