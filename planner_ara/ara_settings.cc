@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "common/error.h"
 
 namespace planbench {
 namespace {
+
+constexpr std::string_view kEverywhere = "everywhere";
 
 void ApplyByJoint(const YamlNode& node, const std::string& key,
                   std::map<std::string, double>* values) {
@@ -82,7 +85,12 @@ void AraSettings::Apply(const YamlNode& node) {
   use_long_primitives = node.BoolOr("use_long_primitives", use_long_primitives);
   use_short_primitives = node.BoolOr("use_short_primitives", use_short_primitives);
   long_primitives_beyond = NonNegative(node, "long_primitives_beyond", long_primitives_beyond);
-  short_primitives_within = NonNegative(node, "short_primitives_within", short_primitives_within);
+  if (const std::optional<YamlNode> value = node.Find("short_primitives_within");
+      value && value->IsScalar() && value->String() == kEverywhere) {
+    short_primitives_within = std::numeric_limits<double>::infinity();
+  } else {
+    short_primitives_within = NonNegative(node, "short_primitives_within", short_primitives_within);
+  }
   two_way = node.BoolOr("two_way", two_way);
   crowding = NonNegative(node, "crowding", crowding);
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
@@ -119,6 +127,9 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"use_long_primitives", fmt::format("{}", use_long_primitives)},
       {"use_short_primitives", fmt::format("{}", use_short_primitives)},
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
+      {"short_primitives_within", std::isfinite(short_primitives_within)
+                                      ? fmt::format("{}", short_primitives_within)
+                                      : std::string(kEverywhere)},
       {"two_way", fmt::format("{}", two_way)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
@@ -135,9 +146,6 @@ std::map<std::string, std::string> AraSettings::AsText() const {
     text["crowding_joints"] = fmt::format("[{}]", fmt::join(crowding_joints, ", "));
   }
   if (!edge_weights.empty()) text["edge_weights"] = ByJointAsText(edge_weights);
-  if (std::isfinite(short_primitives_within)) {
-    text["short_primitives_within"] = fmt::format("{}", short_primitives_within);
-  }
   return text;
 }
 

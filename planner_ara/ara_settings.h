@@ -2,7 +2,6 @@
 
 #include <array>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -49,8 +48,9 @@ struct AraSettings {
   /// Long primitives are used in states at least this far (weighted joint distance) from both start
   /// and goal.
   double long_primitives_beyond = 0;
-  /// Short primitives are used in states at most this far from start or goal; absent: everywhere.
-  double short_primitives_within = std::numeric_limits<double>::infinity();
+  /// Short primitives are used in states at most this far from start or goal; `everywhere`:
+  /// infinity.
+  double short_primitives_within = 0.2;
   /// Searches from start and goal in turn within one request; else from the start alone (the goal,
   /// if the request's direction is backward).
   bool two_way = true;

@@ -48,12 +48,29 @@ std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> r
   return major;
 }
 
+std::vector<std::vector<char>> JointsOnOneArm(const RobotModel& model, const PlanningGroup& group) {
+  const auto moves = [&](int joint, int other) {
+    while (other >= 0 && other != joint) {
+      const int link = model.joints()[static_cast<std::size_t>(other)].parent_link;
+      other = model.links()[static_cast<std::size_t>(link)].parent_joint;
+    }
+    return other == joint;
+  };
+  std::vector<std::vector<char>> on_one_arm;
+  for (const int a : group.joints) {
+    std::vector<char>& row = on_one_arm.emplace_back();
+    for (const int b : group.joints) row.push_back(moves(a, b) || moves(b, a));
+  }
+  return on_one_arm;
+}
+
 double DefaultCell(const JointSpace::Joint& joint) {
   return joint.prismatic ? std::min(0.005, (joint.upper - joint.lower) / 40) : kDegree;
 }
 
 MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const double> discretization,
-                                   std::span<const char> major) {
+                                   std::span<const char> major,
+                                   const std::vector<std::vector<char>>& on_one_arm) {
   const auto n = static_cast<std::size_t>(space.size());
   std::vector<int> cells;
   for (std::size_t j = 0; j < n; ++j) {
@@ -77,7 +94,7 @@ MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const doub
   };
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = a + 1; b < n; ++b) {
-      if (!turns_the_arm(a) || !turns_the_arm(b)) continue;
+      if (!turns_the_arm(a) || !turns_the_arm(b) || on_one_arm[a][b] == 0) continue;
       for (const int sign : {1, -1}) {
         std::vector<int> move(n, 0);
         move[a] = cells[a];

@@ -8,9 +8,9 @@ namespace planbench {
 
 /// The values of epsilon an anytime search goes through: initial, initial - decrement, ..., final.
 struct EpsilonSchedule {
-  double initial = 10;   ///< >= final
-  double decrement = 1;  ///< > 0
-  double final = 1;      ///< >= 1
+  double initial = 100;    ///< >= final
+  double decrement = 0.5;  ///< > 0
+  double final = 1;        ///< >= 1
 
   /// The next value below both `epsilon` and the bound already proven (values the bound has
   /// overtaken are skipped); nothing once `bound` has reached the final value.

@@ -35,7 +35,8 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
     options.weights.push_back(weight == settings.joint_weights.end() ? 1 : weight->second);
   }
   options.primitives = settings.primitives.empty()
-                           ? DefaultPrimitives(space, options.discretization, major)
+                           ? DefaultPrimitives(space, options.discretization, major,
+                                               JointsOnOneArm(robot.model, group))
                            : LoadMotionPrimitives((robot.folder / settings.primitives).string(),
                                                   space, options.discretization);
   if (!settings.use_long_primitives) options.primitives.long_moves.clear();
@@ -218,7 +219,8 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   const double crowd =
       visits_.empty() ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
   double detour = 0;
-  if (tip_distance_) {
+  // Where the goal can be had at once, no guide is needed.
+  if (tip_distance_ && !(state == kStart && IsValidEdge(state, kToNearestGoal))) {
     SelectSource(state);
     detour = unit_ * tip_weight_ * (*tip_distance_)(from_);
   }

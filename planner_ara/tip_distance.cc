@@ -1,8 +1,10 @@
 #include "planner_ara/tip_distance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace planbench {
 namespace {
@@ -13,79 +15,155 @@ constexpr double kCell = 0.07;   // m
 constexpr double kMargin = 0.5;  // m
 constexpr double kMostCellsAlongAxis = 200;
 
-VoxelSettings GridAround(GroupKinematics* kinematics, std::span<const double> start,
-                         std::span<const double> goal) {
-  const int tip = kinematics->group().tip_link;
-  kinematics->Update(start);
-  const Eigen::Vector3d p_start = kinematics->X_BL(tip).translation();
-  kinematics->Update(goal);
-  const Eigen::Vector3d p_goal = kinematics->X_BL(tip).translation();
+std::vector<int> TipsOf(const PlanningGroup& group) {
+  std::vector<int> tips{group.tip_link};
+  tips.insert(tips.end(), group.more_tips.begin(), group.more_tips.end());
+  return tips;
+}
+
+VoxelSettings GridAround(GroupKinematics* kinematics, const std::vector<int>& tips,
+                         std::span<const double> start, std::span<const double> goal) {
+  Eigen::AlignedBox3d box;
+  for (const std::span<const double> q : {start, goal}) {
+    kinematics->Update(q);
+    for (const int tip : tips) box.extend(kinematics->X_BL(tip).translation());
+  }
   VoxelSettings settings;
-  settings.lower = p_start.cwiseMin(p_goal).array() - kMargin;
-  settings.upper = p_start.cwiseMax(p_goal).array() + kMargin;
+  settings.lower = box.min().array() - kMargin;
+  settings.upper = box.max().array() + kMargin;
   settings.resolution_m =
-      std::max(kCell, (settings.upper - settings.lower).maxCoeff() / kMostCellsAlongAxis);
+      std::max(kCell, (box.sizes().maxCoeff() + 2 * kMargin) / kMostCellsAlongAxis);
   return settings;
 }
 
 }  // namespace
 
-TipDistance::TipDistance(const Scene& scene, const RobotModel& model, const PlanningGroup& group,
-                         std::span<const double> base_positions, std::span<const double> start,
-                         std::span<const double> goal)
-    : kinematics_(model, group, base_positions), grid_(GridAround(&kinematics_, start, goal)) {
-  grid_.Mark(scene);
-  is_passage_ = grid_.cells();
+TipGrid::TipGrid(const Scene& scene, const RobotModel& model, const PlanningGroup& group,
+                 std::span<const double> base_positions, std::span<const double> start,
+                 std::span<const double> goal)
+    : kinematics_(model, group, base_positions),
+      tips_(TipsOf(group)),
+      scene_(&scene),
+      grid_(GridAround(&kinematics_, tips_, start, goal)),
+      cells_(tips_.size()) {}
+
+void TipGrid::Mark() {
+  if (!passages_.empty()) return;
+  grid_.Mark(*scene_);
   const auto [nx, ny, nz] = grid_.size();
-  for (std::uint8_t& cell : is_passage_) cell = cell == 0 ? 1 : 0;
-  // No way leads along the border, so that every cell of a way has all its neighbours.
-  for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) {
-      const bool on_face = k == 0 || k == nz - 1 || j == 0 || j == ny - 1;
-      for (int i = 0; i < nx; i += on_face ? 1 : nx - 1) is_passage_[grid_.Index(i, j, k)] = 0;
-    }
-  }
-  for (int dk = -1; dk <= 1; ++dk) {
-    for (int dj = -1; dj <= 1; ++dj) {
-      for (int di = -1; di <= 1; ++di) offsets_.push_back((dk * ny + dj) * nx + di);
-    }
-  }
-  steps_.assign(is_passage_.size(), kUnseen);
-  const std::size_t goal_cell = CellOf(goal);
-  steps_[goal_cell] = 0;
-  queue_.push_back(goal_cell);
-}
-
-// Cells that are no passage have a distance, too, but the way ends in them.
-void TipDistance::SpreadTo(std::size_t cell) {
-  while (steps_[cell] == kUnseen && next_ < queue_.size()) {
-    const std::size_t from = queue_[next_++];
-    for (const std::ptrdiff_t offset : offsets_) {
-      const std::size_t neighbour = from + static_cast<std::size_t>(offset);
-      if (steps_[neighbour] != kUnseen) continue;
-      steps_[neighbour] = steps_[from] + 1;
-      if (is_passage_[neighbour] != 0) queue_.push_back(neighbour);
+  words_ = static_cast<std::size_t>(nx + 63) / 64;
+  passages_.assign(words_ * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz), 0);
+  for (int k = 1; k < nz - 1; ++k) {
+    for (int j = 1; j < ny - 1; ++j) {
+      const std::size_t row = static_cast<std::size_t>(k * ny + j) * words_;
+      for (int i = 1; i < nx - 1; ++i) {
+        const auto x = static_cast<std::size_t>(i);
+        const std::uint64_t free = grid_.cells()[grid_.Index(i, j, k)] == 0 ? 1 : 0;
+        passages_[row + x / 64] |= free << x % 64;
+      }
     }
   }
 }
 
-std::size_t TipDistance::CellOf(std::span<const double> q) {
+const std::vector<std::size_t>& TipGrid::CellsOf(std::span<const double> q) {
   kinematics_.Update(q);
-  const Eigen::Vector3d p = kinematics_.X_BL(kinematics_.group().tip_link).translation();
-  std::array<int, 3> cell;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double steps = std::floor((p[axis] - grid_.origin()[axis]) / grid_.resolution());
-    const auto a = static_cast<std::size_t>(axis);
-    cell[a] = static_cast<int>(std::clamp(steps, 1.0, grid_.size()[a] - 2.0));
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    const Eigen::Vector3d p = kinematics_.X_BL(tips_[t]).translation();
+    std::array<int, 3> cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double steps = std::floor((p[axis] - grid_.origin()[axis]) / grid_.resolution());
+      const auto a = static_cast<std::size_t>(axis);
+      cell[a] = static_cast<int>(std::clamp(steps, 1.0, grid_.size()[a] - 2.0));
+    }
+    cells_[t] = grid_.Index(cell[0], cell[1], cell[2]);
   }
-  return grid_.Index(cell[0], cell[1], cell[2]);
+  return cells_;
+}
+
+TipDistance::TipDistance(std::shared_ptr<TipGrid> grid, std::span<const double> goal)
+    : grid_(std::move(grid)), goal_(goal.begin(), goal.end()) {}
+
+TipDistance::Wave TipDistance::StartAt(std::size_t cell) const {
+  const auto nx = static_cast<std::size_t>(grid_->size()[0]);
+  const auto ny = static_cast<std::size_t>(grid_->size()[1]);
+  Wave wave;
+  wave.steps.assign(grid_->num_cells(), kUnseen);
+  wave.steps[cell] = 0;
+  for (auto* bits : {&wave.front, &wave.seen, &wave.next})
+    bits->assign(grid_->passages().size(), 0);
+  const std::size_t row = cell / nx;
+  const std::size_t word = row * grid_->words_a_row() + cell % nx / 64;
+  wave.front[word] = wave.seen[word] = std::uint64_t{1} << cell % nx % 64;
+  wave.first = wave.last = {static_cast<int>(row % ny), static_cast<int>(row / ny)};
+  return wave;
+}
+
+// By one step, whole words of cells at once. Cells that are no passage have a distance, too, but
+// the way ends in them.
+void TipDistance::Spread(Wave* wave) const {
+  const std::size_t words = grid_->words_a_row();
+  const auto [nx, ny, nz] = grid_->size();
+  std::array<int, 2> first = {ny, nz};
+  std::array<int, 2> last = {-1, -1};
+  std::vector<std::uint64_t> near(words);
+  for (int k = wave->first[1] - 1; k <= wave->last[1] + 1; ++k) {
+    for (int j = wave->first[0] - 1; j <= wave->last[0] + 1; ++j) {
+      std::fill(near.begin(), near.end(), 0);
+      for (int b = std::max(k - 1, wave->first[1]); b <= std::min(k + 1, wave->last[1]); ++b) {
+        for (int a = std::max(j - 1, wave->first[0]); a <= std::min(j + 1, wave->last[0]); ++a) {
+          const std::size_t row = static_cast<std::size_t>(b * ny + a) * words;
+          for (std::size_t w = 0; w < words; ++w) near[w] |= wave->front[row + w];
+        }
+      }
+      const std::size_t row = static_cast<std::size_t>(k * ny + j) * words;
+      for (std::size_t w = 0; w < words; ++w) {
+        const std::uint64_t below = w > 0 ? near[w - 1] >> 63 : 0;
+        const std::uint64_t above = w + 1 < words ? near[w + 1] << 63 : 0;
+        const std::uint64_t reached =
+            (near[w] | near[w] << 1 | near[w] >> 1 | below | above) & ~wave->seen[row + w];
+        if (reached == 0) continue;
+        wave->seen[row + w] |= reached;
+        int* steps = wave->steps.data() +
+                     static_cast<std::size_t>(k * ny + j) * static_cast<std::size_t>(nx) + 64 * w;
+        for (std::uint64_t bits = reached; bits != 0; bits &= bits - 1) {
+          steps[std::countr_zero(bits)] = wave->layer + 1;
+        }
+        const std::uint64_t passed = reached & grid_->passages()[row + w];
+        if (passed == 0) continue;
+        wave->next[row + w] = passed;
+        first = {std::min(first[0], j), std::min(first[1], k)};
+        last = {std::max(last[0], j), std::max(last[1], k)};
+      }
+    }
+  }
+  for (int k = wave->first[1]; k <= wave->last[1]; ++k) {
+    for (int j = wave->first[0]; j <= wave->last[0]; ++j) {
+      std::fill_n(wave->front.begin() +
+                      static_cast<std::ptrdiff_t>(k * ny + j) * static_cast<std::ptrdiff_t>(words),
+                  words, 0);
+    }
+  }
+  wave->front.swap(wave->next);
+  wave->first = first;
+  wave->last = last;
+  wave->spent = last[0] < 0;
+  if (!wave->spent) ++wave->layer;
+}
+
+int TipDistance::StepsTo(std::size_t cell, Wave* wave) const {
+  while (wave->steps[cell] == kUnseen && !wave->spent) Spread(wave);
+  return wave->steps[cell] != kUnseen ? wave->steps[cell] : wave->layer + 1;
 }
 
 double TipDistance::operator()(std::span<const double> q) {
-  const std::size_t cell = CellOf(q);
-  SpreadTo(cell);
-  const int steps = steps_[cell] != kUnseen ? steps_[cell] : steps_[queue_.back()] + 1;
-  return steps * grid_.resolution();
+  if (waves_.empty()) {
+    grid_->Mark();
+    for (const std::size_t cell : grid_->CellsOf(goal_)) waves_.push_back(StartAt(cell));
+  }
+  const std::vector<std::size_t>& cells = grid_->CellsOf(q);
+  int steps = 0;
+  for (std::size_t t = 0; t < waves_.size(); ++t) steps += StepsTo(cells[t], &waves_[t]);
+  return steps * grid_->resolution();
 }
 
 }  // namespace planbench

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,39 +13,72 @@
 
 namespace planbench {
 
-/// How far the origin of a group's tip link is from where it is at the goal, as the crow would fly
-/// round the obstacles: breadth-first search over the cells of a grid that no object of the scene
-/// meets, diagonal steps counting as one (the workspace heuristic of Cohen, Chitta and Likhachev,
-/// "Search-based planning for manipulation with motion primitives", ICRA 2010). A guide: it bounds
-/// no cost.
+/// The cells of a grid that no object of a scene meets: passages for the tips of a group. It spans
+/// the tips at start and goal and 0.5 m around.
+class TipGrid {
+ public:
+  /// `base_positions`: full positions, at which joints outside the group are held. Nothing is
+  /// marked yet. Scene, model and group must outlive this.
+  TipGrid(const Scene& scene, const RobotModel& model, const PlanningGroup& group,
+          std::span<const double> base_positions, std::span<const double> start,
+          std::span<const double> goal);
+
+  /// Marks the objects, the first time. Throws InputError for those that VoxelGrid refuses.
+  void Mark();
+
+  double resolution() const { return grid_.resolution(); }  ///< m
+  /// Cells along x, y and z; cell (i, j, k) has the index i + nx (j + ny k).
+  const std::array<int, 3>& size() const { return grid_.size(); }
+  std::size_t num_cells() const { return grid_.cells().size(); }
+  std::size_t words_a_row() const { return words_; }
+  /// A bit a cell, so many words a row of cells along x; empty: not marked yet. No way leads along
+  /// the border, so that every passage has all its neighbours.
+  const std::vector<std::uint64_t>& passages() const { return passages_; }
+  /// By tip, the cell that the origin of its link is in at q, or the nearest one.
+  const std::vector<std::size_t>& CellsOf(std::span<const double> q);
+
+ private:
+  GroupKinematics kinematics_;
+  std::vector<int> tips_;  // link indices
+  const Scene* scene_;
+  VoxelGrid grid_;
+  std::size_t words_ = 0;
+  std::vector<std::uint64_t> passages_;
+  std::vector<std::size_t> cells_;
+};
+
+/// How far the origins of a group's tip links are from where they are at the goal, as the crow
+/// would fly round the obstacles, all tips together: breadth-first search over a TipGrid, diagonal
+/// steps counting as one (the workspace heuristic of Cohen, Chitta and Likhachev, "Search-based
+/// planning for manipulation with motion primitives", ICRA 2010). A guide: it bounds no cost.
 class TipDistance {
  public:
-  /// `base_positions`: full positions, at which joints outside the group are held. The grid spans
-  /// the tips at `start` and `goal` and 0.5 m around. Throws InputError for objects that VoxelGrid
-  /// refuses. Model and group must outlive this.
-  TipDistance(const Scene& scene, const RobotModel& model, const PlanningGroup& group,
-              std::span<const double> base_positions, std::span<const double> start,
-              std::span<const double> goal);
+  TipDistance(std::shared_ptr<TipGrid> grid, std::span<const double> goal);
 
   /// Distance at q, m; beyond the grid that of its nearest cell, in a cell that the goal cannot be
-  /// reached from more than the longest of all.
+  /// reached from more than the longest of all. The first call marks the grid, and throws as that.
   double operator()(std::span<const double> q);
 
  private:
   static constexpr int kUnseen = -1;
 
-  std::size_t CellOf(std::span<const double> q);
-  void SpreadTo(std::size_t cell);
+  // The search from where one tip is at the goal, which goes no further than it has been asked for.
+  struct Wave {
+    int layer = 0;                     // Steps to the front.
+    bool spent = false;                // Nothing is left to spread to.
+    std::vector<std::uint64_t> front;  // As TipGrid::passages.
+    std::vector<std::uint64_t> seen;
+    std::vector<std::uint64_t> next;  // Scratch, all zero between layers.
+    std::array<int, 2> first, last;   // Rows (j, k) that bound the front.
+    std::vector<int> steps;           // By cell.
+  };
+  Wave StartAt(std::size_t cell) const;
+  void Spread(Wave* wave) const;
+  int StepsTo(std::size_t cell, Wave* wave) const;
 
-  GroupKinematics kinematics_;
-  VoxelGrid grid_;
-  // By cell.
-  std::vector<std::uint8_t> is_passage_;
-  std::vector<int> steps_;
-  // The search, which goes no further than it has been asked for.
-  std::vector<std::ptrdiff_t> offsets_;  // of the neighbours
-  std::vector<std::size_t> queue_;
-  std::size_t next_ = 0;
+  std::shared_ptr<TipGrid> grid_;
+  std::vector<double> goal_;
+  std::vector<Wave> waves_;  // By tip; none before the first call.
 };
 
 }  // namespace planbench

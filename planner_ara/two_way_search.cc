@@ -44,11 +44,11 @@ void TwoWaySearch::GuideByTip(const Scene& scene, std::span<const double> base_p
                               double weight) {
   guided_ = true;
   const CollisionChecker& checker = edges_->checker();
+  const Side& forward = *sides_.front();
+  const auto grid = std::make_shared<TipGrid>(scene, checker.robot().model, checker.group(),
+                                              base_positions, forward.root, forward.target);
   for (const auto& side : sides_) {
-    side->graph.GuideByTip(
-        std::make_unique<TipDistance>(scene, checker.robot().model, checker.group(), base_positions,
-                                      side->root, side->target),
-        weight);
+    side->graph.GuideByTip(std::make_unique<TipDistance>(grid, side->target), weight);
   }
 }
 

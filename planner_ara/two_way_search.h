@@ -36,8 +36,8 @@ class TwoWaySearch {
                const ManipulationGraphOptions& options, bool two_way);
   ~TwoWaySearch();
 
-  /// Before the first Improve: the tip's way round the obstacles guides the searches, too, by
-  /// `weight` (rad/m). Throws InputError as TipDistance does.
+  /// Before the first Improve: the tips' way round the obstacles guides the searches, too, by
+  /// `weight` (rad/m). The scene must outlive this; Improve may then throw as TipGrid::Mark.
   void GuideByTip(const Scene& scene, std::span<const double> base_positions, double weight);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either

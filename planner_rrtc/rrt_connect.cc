@@ -87,8 +87,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
     candidate.in_domain = InDomain(candidate);
     if (!candidate.in_domain) continue;
     flat_.Interpolate(trees_[candidate.tree].nodes.Positions(candidate.near.node), sample,
-                      std::min(1.0, *settings_->range / candidate.near.distance),
-                      ends_.data() + At(k));
+                      std::min(1.0, range_ / candidate.near.distance), ends_.data() + At(k));
     std::copy_n(ends_.data() + At(k), n,
                 unchecked_ends_.data() + At(static_cast<int>(unchecked_.size())));
     unchecked_.push_back(k);
@@ -110,7 +109,7 @@ int RrtConnect::Extend(int k, double* reached) {
   if (!candidate.end_is_valid || !IsValidEdge(nodes.Positions(candidate.near.node), reached)) {
     if (settings_->domain_radius > 0) {
       domain = std::isinf(domain) ? settings_->domain_radius
-                                  : std::max(*settings_->range, domain * (1 - kDomainChange));
+                                  : std::max(range_, domain * (1 - kDomainChange));
     }
     return -1;
   }
@@ -118,8 +117,8 @@ int RrtConnect::Extend(int k, double* reached) {
   int node = Add(candidate.tree, reached, candidate.near.node);
   if (settings_->extension == Extension::kStep) return node;
   const double* sample = samples_.data() + At(k);
-  for (int i = 1; i * *settings_->range < candidate.near.distance; ++i) {
-    const double t = std::min(1.0, (i + 1) * *settings_->range / candidate.near.distance);
+  for (int i = 1; i * range_ < candidate.near.distance; ++i) {
+    const double t = std::min(1.0, (i + 1) * range_ / candidate.near.distance);
     flat_.Interpolate(nodes.Positions(candidate.near.node), sample, t, step_.data());
     if (!IsValidEdge(nodes.Positions(node), step_.data())) break;
     std::copy_n(step_.data(), n, reached);
@@ -135,7 +134,7 @@ int RrtConnect::Connect(int tree, const double* q) {
     const ScopedTimer timer(&nearest_ticks_);
     near = nodes.Nearest(q);
   }
-  const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / *settings_->range)));
+  const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / range_)));
   int node = near.node;
   for (int i = 1; i <= num_steps; ++i) {
     flat_.Interpolate(nodes.Positions(near.node), q, static_cast<double>(i) / num_steps,
@@ -167,6 +166,7 @@ std::optional<RrtConnect::Meeting> RrtConnect::Grow(const SearchQuery& query, Jo
   while (!query.ShouldStop()) {
     // As OMPL does: the goals drawn keep up with half the size of the tree.
     if (num_goals_drawn_ < std::min(goals->max_samples(), NumStates(kGoal) / 2)) AddGoal(goals);
+    range_ = settings_->range.value_or(ShrinkingRange(num_iterations_));
     Prepare(sampler, batch, tree);
     int taken = 0;
     bool grown = false;

@@ -83,6 +83,7 @@ class RrtConnect {
   // Of the query being served:
   const RrtcSettings* settings_ = nullptr;
   EdgeChecker* edges_ = nullptr;
+  double range_ = 0;  ///< Of the extensions prepared.
   std::int64_t num_iterations_ = 0;
   std::int64_t num_out_of_domain_ = 0;
   int num_goals_drawn_ = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <vector>
 
 #include "planner_rrtc/ompl_algorithms.h"
@@ -28,8 +29,8 @@ double ReadDomainRadius(const YamlNode& node) {
   return radius;
 }
 
-std::optional<double> ReadRange(const YamlNode& node, bool may_be_default) {
-  if (may_be_default && node.String() == "default") return std::nullopt;
+std::optional<double> ReadRange(const YamlNode& node) {
+  if (node.IsScalar() && node.String() == "default") return std::nullopt;
   return node.PositiveDouble();
 }
 
@@ -47,12 +48,20 @@ std::string_view RrtcSettings::AlgorithmName() const {
 
 std::string RrtcSettings::VariantName() const {
   if (ompl_algorithm != nullptr) return fmt::format("{} (OMPL)", AlgorithmName());
-  const std::string_view trees = balance ? "balanced" : "alternating";
+  std::string variant =
+      fmt::format("{}, {}", EnumName(extension), balance ? "balanced" : "alternating");
   const bool connect = extension == Extension::kConnect;
-  std::string variant(connect == balance ? (balance ? "balanced" : "canonical")
-                                         : fmt::format("{}, {}", EnumName(extension), trees));
+  if (connect && balance) variant = "balanced";
+  if (!connect && !balance && range) variant = "canonical";
   if (domain_radius > 0) variant += ", dynamic domain";
   return fmt::format("{} ({})", AlgorithmName(), variant);
+}
+
+double ShrinkingRange(std::int64_t iterations) {
+  constexpr double kFirst = 2;
+  constexpr double kLast = 0.6;
+  constexpr double kHalfLife = 50;
+  return kLast + (kFirst - kLast) * std::exp2(-static_cast<double>(iterations) / kHalfLife);
 }
 
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
@@ -62,7 +71,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
   const bool is_ompl = settings.ompl_algorithm != nullptr;
-  if (const auto value = node.Find("range")) settings.range = ReadRange(*value, is_ompl);
+  if (const auto value = node.Find("range")) settings.range = ReadRange(*value);
   if (const auto value = node.Find("extension")) settings.extension = value->Enum<Extension>();
   if (const auto value = node.Find("balance")) settings.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {

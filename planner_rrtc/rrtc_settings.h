@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,8 +34,9 @@ struct RrtcSettings {
   const OmplAlgorithm* ompl_algorithm = nullptr;
   SamplerKind sampler = SamplerKind::kUniform;
   /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit. None
-  /// (`default`): OMPL's own choice, 20 % of the space's extent.
-  std::optional<double> range = 1;
+  /// (`default`): the algorithm's own choice, for RRT-Connect ShrinkingRange, for OMPL's 20 % of
+  /// the space's extent.
+  std::optional<double> range;
 
   // Of RRT-Connect:
   /// Of the tree that draws the sample; the other one always connects.
@@ -61,6 +63,11 @@ struct RrtcSettings {
   /// grows the smaller one; OMPL's have "(OMPL)".
   std::string VariantName() const;
 };
+
+/// The range of RRT-Connect after so many iterations: from 2 down to 0.6, the way halved every 50
+/// iterations. Long motions are soon through where there is room; a search that goes on needs short
+/// ones. docs/rrtc.md has the measurements.
+double ShrinkingRange(std::int64_t iterations);
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for
 /// unknown keys, algorithms (naming the known ones), and bad values.

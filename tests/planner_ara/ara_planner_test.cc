@@ -18,11 +18,13 @@ namespace {
 const std::string kPlanarSettings = "primitives: " PLANBENCH_SOURCE_DIR
                                     "/tests/planner_ara/data/planar3.mprim\n"
                                     "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n"
-                                    "epsilon_initial: 10\n";
+                                    "epsilon_initial: 10\n"
+                                    "epsilon_decrement: 1\n"
+                                    "short_primitives_within: everywhere\n";
 
 std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
   if (robot.name == "fetch") {
-    return MakeAraPlanner(robot, YamlNode::LoadFile(robot.planner_settings.at("ara").string()));
+    return MakeAraPlanner(robot, YamlNode::Parse("", "ara.yaml"));
   }
   return MakeAraPlanner(robot, YamlNode::Parse(kPlanarSettings, "ara.yaml"));
 }
@@ -47,14 +49,14 @@ class AraPlannerTest : public testing::Test {
 };
 
 TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
-  ExpectInputError([&] { Make(kPlanarSettings + "speed: 3"); }, {"ara.yaml:4", "speed"});
+  ExpectInputError([&] { Make(kPlanarSettings + "speed: 3"); }, {"ara.yaml:6", "speed"});
   ExpectInputError([&] { Make(kPlanarSettings + "crowding_joints: [knee]"); },
                    {"ara.yaml", "crowding_joints", "knee"});
   ExpectInputError(
       [&] { Make(kPlanarSettings + "use_long_primitives: false\nuse_short_primitives: false"); },
       {"ara.yaml", "no motion primitive"});
   ExpectInputError([&] { Make(kPlanarSettings + "joint_weights: {knee: 2}"); },
-                   {"ara.yaml:4", "knee", "no joint"});
+                   {"ara.yaml:6", "knee", "no joint"});
   ExpectInputError(
       [&] {
         Make("primitives: " PLANBENCH_SOURCE_DIR

@@ -64,7 +64,13 @@ memory_limit_mb: 100
 
 TEST(AraSettings, NothingLeavesTheDefaults) {
   EXPECT_EQ(Read("").AsText(), AraSettings().AsText());
-  EXPECT_TRUE(std::isinf(Read("").short_primitives_within));
+  EXPECT_EQ(Read("").short_primitives_within, 0.2);
+}
+
+TEST(AraSettings, ShortPrimitivesCanBeUsedEverywhere) {
+  const AraSettings settings = Read("short_primitives_within: everywhere");
+  EXPECT_TRUE(std::isinf(settings.short_primitives_within));
+  EXPECT_EQ(settings.AsText().at("short_primitives_within"), "everywhere");
 }
 
 TEST(AraSettings, LaterValuesAreLaidOverEarlierOnes) {

@@ -1,5 +1,6 @@
 #include "planner_ara/motion_primitives.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -136,6 +137,10 @@ TEST(MotionPrimitives, RefusesAFileThatIsNotThere) {
   }
 }
 
+std::vector<std::vector<char>> OneArm(std::size_t num_joints) {
+  return std::vector(num_joints, std::vector<char>(num_joints, 1));
+}
+
 TEST(DefaultPrimitives, FollowFromLimitsAndReaches) {
   const JointSpace space = ThreeJoints();
   const std::vector<char> major = MajorJoints(space, std::vector<double>{1.0, 0.4, 1.0});
@@ -144,7 +149,7 @@ TEST(DefaultPrimitives, FollowFromLimitsAndReaches) {
   for (const JointSpace::Joint& joint : space.joints()) cells.push_back(DefaultCell(joint));
   EXPECT_DOUBLE_EQ(cells[0], std::numbers::pi / 180);
   EXPECT_DOUBLE_EQ(cells[2], 0.005);
-  const MotionPrimitives primitives = DefaultPrimitives(space, cells, major);
+  const MotionPrimitives primitives = DefaultPrimitives(space, cells, major, OneArm(3));
   // A third of 4 rad is more than the 40 degrees of a joint of short reach.
   EXPECT_EQ(primitives.long_moves, (Rows{{20, 0, 0}, {0, 40, 0}, {0, 0, 20}}));
   EXPECT_EQ(primitives.short_moves, (Rows{{10, 0, 0}, {0, 20, 0}, {0, 0, 10}}));
@@ -155,22 +160,71 @@ TEST(DefaultPrimitives, DivideTheCircleWhereADivisorIsNear) {
                           {"b", true, false, -std::numbers::pi, std::numbers::pi, 1}});
   const double cell = 2 * std::numbers::pi / 100;  // 20 degrees are 5.6 cells
   const MotionPrimitives primitives =
-      DefaultPrimitives(space, std::vector<double>{cell, cell}, std::vector<char>{1, 1});
+      DefaultPrimitives(space, std::vector<double>{cell, cell}, std::vector<char>{1, 1}, OneArm(2));
   EXPECT_EQ(primitives.long_moves, (Rows{{5, 0}, {0, 5}, {5, 5}, {5, -5}}));
   EXPECT_EQ(primitives.short_moves, (Rows{{2, 0}, {0, 2}}));
 }
 
-TEST(DefaultPrimitives, OfTheFetchAreThoseOfItsFile) {
+TEST(DefaultPrimitives, JointsOfTwoArmsDoNotMoveTogether) {
+  std::string urdf = "<robot name='two_arms'><link name='base'/>";
+  for (const std::string side : {"left", "right"}) {
+    std::string parent = "base";
+    for (const std::string part : {"upper", "lower"}) {
+      urdf += fmt::format(
+          "<link name='{0}_{1}'/><joint name='{0}_{1}_joint' type='revolute'><parent link='{2}'/>"
+          "<child link='{0}_{1}'/><limit lower='-2' upper='2' velocity='1' effort='1'/></joint>",
+          side, part, parent);
+      parent = side + "_" + part;
+    }
+  }
+  const RobotModel model = RobotModel::FromUrdf(urdf + "</robot>", "two_arms.urdf");
+  const PlanningGroup group = model.MakeGroup(
+      "both", {"left_upper_joint", "left_lower_joint", "right_upper_joint", "right_lower_joint"},
+      "left_lower", {"right_lower"});
+  const auto on_one_arm = JointsOnOneArm(model, group);
+  EXPECT_EQ(on_one_arm, (std::vector<std::vector<char>>{
+                            {1, 1, 0, 0}, {1, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 1, 1}}));
+  const MotionPrimitives primitives =
+      DefaultPrimitives(group.space, std::vector<double>(4, std::numbers::pi / 180),
+                        std::vector<char>(4, 1), on_one_arm);
+  // 4 single ones, and 2 a pair of an arm.
+  EXPECT_EQ(primitives.long_moves.size(), 8u);
+  for (const std::vector<int>& move : primitives.long_moves) {
+    EXPECT_TRUE((move[0] == 0 && move[1] == 0) || (move[2] == 0 && move[3] == 0));
+  }
+}
+
+TEST(DefaultPrimitives, OfTheFetchMoveItsArmInPairsAndItsWristByMore) {
   const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.groups.front();
   std::vector<double> cells;
   for (const JointSpace::Joint& joint : group.space.joints()) cells.push_back(DefaultCell(joint));
-  const MotionPrimitives generated =
-      DefaultPrimitives(group.space, cells, MajorJoints(group.space, JointReaches(fetch, group)));
-  const MotionPrimitives own =
-      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/ara.mprim", group.space, cells);
-  EXPECT_EQ(generated.long_moves, own.long_moves);
-  EXPECT_EQ(generated.short_moves, own.short_moves);
+  const MotionPrimitives primitives =
+      DefaultPrimitives(group.space, cells, MajorJoints(group.space, JointReaches(fetch, group)),
+                        JointsOnOneArm(fetch.model, group));
+  const std::vector<int> moves = {20, 20, 20, 20, 20, 40, 40, 40};  // torso to wrist roll
+  Rows long_moves;
+  Rows short_moves;
+  const auto single = [](std::size_t j, int size) {
+    std::vector<int> row(8, 0);
+    row[j] = size;
+    return row;
+  };
+  for (std::size_t j = 0; j < moves.size(); ++j) {
+    long_moves.push_back(single(j, moves[j]));
+    short_moves.push_back(single(j, moves[j] / 2));
+  }
+  for (std::size_t a = 1; a <= 4; ++a) {
+    for (std::size_t b = a + 1; b <= 4; ++b) {
+      for (const int sign : {1, -1}) {
+        std::vector<int> row = single(a, 20);
+        row[b] = 20 * sign;
+        long_moves.push_back(row);
+      }
+    }
+  }
+  EXPECT_EQ(primitives.long_moves, long_moves);
+  EXPECT_EQ(primitives.short_moves, short_moves);
 }
 
 const JointSpace kEight(std::vector<JointSpace::Joint>(8));

@@ -1,8 +1,10 @@
 #include "planner_rrtc/rrtc_planner.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "planner_rrtc/ompl_algorithms.h"
+#include "planner_rrtc/rrtc_settings.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/planner_contract.h"
 #include "tests/contract/random_robots_contract.h"
@@ -30,7 +32,7 @@ std::vector<PlannerFactory> AllPlanners() {
   add("RRT_Connect_halton", "{sampler: halton}");
   add("RRT_Connect_dynamic_domain", "{domain_radius: 2}");
   for (const OmplAlgorithm& algorithm : OmplAlgorithms()) {
-    add(std::string(algorithm.name), "{algorithm: " + std::string(algorithm.name) + "}");
+    add(std::string(algorithm.name), fmt::format("{{algorithm: {}, range: 1}}", algorithm.name));
   }
   return factories;
 }
@@ -85,16 +87,14 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
   expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
   expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
-  expect_refused("range: default", {"rrtc.yaml:1", "range", "default"});
   expect_refused("algorithm: RRT\nmetric: max", {"rrtc.yaml:2", "metric", "max", "sum"});
   expect_refused("algorithm: RRT\nlongest_valid_segment_fraction: 2",
                  {"rrtc.yaml:2", "longest_valid_segment_fraction", "2"});
 }
 
-TEST_F(RrtcPlannerTest, TheFetchsOwnSettingsAreAccepted) {
+TEST_F(RrtcPlannerTest, TheFetchsStudySettingsAreAccepted) {
   const Robot fetch = LoadFetch();
-  const YamlNode settings = YamlNode::LoadFile(fetch.planner_settings.at("rrtc").string());
-  EXPECT_EQ(MakeRrtcPlanner(fetch, settings)->Describe().algorithm, "RRT-Connect (balanced)");
+  EXPECT_FALSE(fetch.planner_settings.contains("rrtc")) << "the defaults suit it";
   const YamlNode study = YamlNode::LoadFile((fetch.folder / "rrtc_study.yaml").string());
   const PlannerDescription description = MakeRrtcPlanner(fetch, study)->Describe();
   EXPECT_EQ(description.algorithm, "RRTConnect (OMPL)");
@@ -114,7 +114,7 @@ TEST_F(RrtcPlannerTest, Describes) {
   EXPECT_EQ(description.collision_models, EnumValues<CollisionModel>());
   EXPECT_EQ(description.settings, (std::map<std::string, std::string>{{"algorithm", "RRT-Connect"},
                                                                       {"sampler", "uniform"},
-                                                                      {"range", "1"},
+                                                                      {"range", "default"},
                                                                       {"extension", "connect"},
                                                                       {"balance", "true"},
                                                                       {"domain_radius", "0"}}));
@@ -124,7 +124,8 @@ TEST_F(RrtcPlannerTest, ItsNameSaysWhichVariantItIs) {
   const auto name = [&](const std::string& settings) {
     return MakeRrtcPlanner(robot_, Settings(settings))->Describe().algorithm;
   };
-  EXPECT_EQ(name("{extension: step, balance: false}"), "RRT-Connect (canonical)");
+  EXPECT_EQ(name("{extension: step, balance: false, range: 1}"), "RRT-Connect (canonical)");
+  EXPECT_EQ(name("{extension: step, balance: false}"), "RRT-Connect (step, alternating)");
   EXPECT_EQ(name("{extension: connect, balance: false}"), "RRT-Connect (connect, alternating)");
   EXPECT_EQ(name("{extension: step, balance: true}"), "RRT-Connect (step, balanced)");
   EXPECT_EQ(name("{domain_radius: 4}"), "RRT-Connect (balanced, dynamic domain)");
@@ -178,6 +179,18 @@ TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {
     const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
     EXPECT_EQ(result.status, PlanStatus::kInvalidRequest) << "range '" << text << "'";
     EXPECT_NE(result.message.find("range"), std::string::npos) << result.message;
+  }
+}
+
+TEST_F(RrtcPlannerTest, ByDefaultTheRangeShrinksAsTheSearchLasts) {
+  EXPECT_EQ(ShrinkingRange(0), 2);
+  EXPECT_NEAR(ShrinkingRange(50), 1.3, 1e-12);
+  EXPECT_NEAR(ShrinkingRange(5000), 0.6, 1e-12);
+  const PlanResult result = Solve("range: default");
+  EXPECT_EQ(result.path, Solve("").path);
+  const JointSpace& space = robot_.groups.front().space;
+  for (std::size_t i = 1; i < result.path.size(); ++i) {
+    EXPECT_LE(space.Distance(result.path[i - 1], result.path[i]), 2 + 1e-9);
   }
 }
 
