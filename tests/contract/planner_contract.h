@@ -6,10 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <ostream>
+#include <random>
 #include <string>
 #include <thread>
 
@@ -120,6 +122,34 @@ TEST_P(PlannerContract, SolvesForTheFetch) {
     PlanRequest request = MakeRequest(fetch, FetchTucked(), FetchOverTable());
     request.direction = direction;
     ExpectSolved(fetch, request, scene, Make(fetch)->Plan(request, scene, nullptr));
+  }
+}
+
+TEST_P(PlannerContract, SolvesForTheOtherRobotsThatShip) {
+  for (const std::string name : {"panda", "ur5e"}) {
+    SCOPED_TRACE(name);
+    const Robot robot = LoadRobot(PLANBENCH_SOURCE_DIR "/robots/" + name);
+    const PlanningGroup& group = robot.groups.front();
+    const Configuration start = group.states.at("ready");
+    Scene scene;
+    scene.world_frame = robot.model.links().front().name;
+    AddBox(&scene, "shelf", {0.4, 0, 1.2}, {0.3, 0.6, 0.02});
+    AddBox(&scene, "table", {0.4, 0, -0.3}, {0.6, 1.2, 0.02});
+    const auto checker = MakeReferenceChecker(robot, group, CollisionModel::kSpheres);
+    checker->SetScene(scene, robot.model.DefaultPositions());
+    std::mt19937 random(1);
+    Configuration goal;
+    do {
+      goal = start;
+      for (int j = 0; j < group.space.size(); ++j) {
+        const JointSpace::Joint& joint = group.space.joint(j);
+        double& q = goal[static_cast<std::size_t>(j)];
+        q = std::clamp(q + std::uniform_real_distribution<double>(-0.6, 0.6)(random), joint.lower,
+                       joint.upper);
+      }
+    } while (!checker->IsFree(goal));
+    const PlanRequest request = MakeRequest(robot, start, goal);
+    ExpectSolved(robot, request, scene, Make(robot)->Plan(request, scene, nullptr));
   }
 }
 

@@ -23,10 +23,8 @@ const std::string kPlanarSettings = "primitives: " PLANBENCH_SOURCE_DIR
                                     "short_primitives_within: everywhere\n";
 
 std::unique_ptr<Planner> MakeForContract(const Robot& robot) {
-  if (robot.name == "fetch") {
-    return MakeAraPlanner(robot, YamlNode::Parse("", "ara.yaml"));
-  }
-  return MakeAraPlanner(robot, YamlNode::Parse(kPlanarSettings, "ara.yaml"));
+  const bool planar = robot.model.FindJoint("elbow") >= 0;
+  return MakeAraPlanner(robot, YamlNode::Parse(planar ? kPlanarSettings : "", "ara.yaml"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ara, PlannerContract,
