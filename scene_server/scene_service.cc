@@ -62,7 +62,8 @@ void SceneService::SettleStandingContacts(bool allow) {
              problem.message.group, problem.message.start, problem.scene->allowed_collisions)) {
       if (!allow) {
         throw InputError(fmt::format(
-            "--referee-robot {}: its links '{}' and '{}' touch in each of {} random configurations, "
+            "--referee-robot {}: its links '{}' and '{}' touch in each of {} random "
+            "configurations, "
             "so that every path of the set '{}' would be in collision; name them in allowed_pairs "
             "of a robot.yaml there, or let them with --allow-standing-contacts",
             mesh_robot_->folder.string(), a, b, kStandingDraws, name));

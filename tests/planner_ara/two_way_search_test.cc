@@ -91,8 +91,9 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
   };
   for (const Guide& guide : {Guide{0, 0}, Guide{0.1, 0}, Guide{3, 0}, Guide{0.1, 5}}) {
     options_.crowding = guide.crowding;
+    const Scene scene = PostsScene();
     TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
-    if (guide.tip > 0) search.GuideByTip(PostsScene(), std::vector<double>(4, 0.0), guide.tip);
+    if (guide.tip > 0) search.GuideByTip(scene, std::vector<double>(4, 0.0), guide.tip);
     double last_cost = kInfinity;
     double last_bound = kInfinity;
     for (const double epsilon : {50.0, 3.0, 1.5, 1.2, 1.0}) {
