@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "messaging/any_message.h"
 #include "messaging/wire.h"
 #include "scene/moveit_yaml.h"
 #include "tests/messaging/codec_fixture.h"
@@ -33,6 +34,21 @@ TYPED_TEST(EveryMessage, KeepsEveryField) {
     EXPECT_TRUE(decoded == message);
     EXPECT_FALSE(decoded == TypeParam{});
   }
+}
+
+TYPED_TEST(EveryMessage, IsKnownByItsFingerprint) {
+  const std::vector<std::uint8_t> bytes = Encode(Example<TypeParam>());
+  const auto printed = PrintAny(bytes, "CH");
+  ASSERT_TRUE(printed);
+  EXPECT_EQ(printed->type, Fields<TypeParam>::Wire::getTypeName());
+  EXPECT_EQ(printed->text, Print<TypeParam>(bytes, "CH"));
+  EXPECT_THROW(PrintAny(std::span(bytes).first(bytes.size() - 1), "CH"), MessageError);
+}
+
+TEST(PrintAny, LeavesWhatItDoesNotKnow) {
+  EXPECT_FALSE(PrintAny({}, "CH"));
+  EXPECT_FALSE(PrintAny(std::vector<std::uint8_t>(7, 0), "CH"));
+  EXPECT_FALSE(PrintAny(std::vector<std::uint8_t>(100, 0x5a), "CH"));
 }
 
 TYPED_TEST(EveryMessage, WhatIsSpoiltIsRefusedWhereItStands) {

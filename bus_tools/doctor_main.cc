@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include "bus_tools/diagnosis.h"
+#include "common/exit_codes.h"
+#include "messaging/program.h"
+
+namespace planbench {
+namespace {
+
+int Main(int argc, char** argv) {
+  Program program("bus_doctor",
+                  "Looks at the bus: multicast route, receive buffer, loss (measured), who else is "
+                  "on the port, versions; and says how to mend what is wrong. Exit code 1 if "
+                  "something is.");
+  return program.Run(argc, argv, [&] {
+    bool healthy = true;
+    for (const Finding& finding : Diagnose({.lcm_url = program.lcm_url()})) {
+      fmt::print("{}", FindingText(finding));
+      healthy = healthy && finding.kind != Finding::Kind::kFault;
+    }
+    return healthy ? kExitOk : kExitFailed;
+  });
+}
+
+}  // namespace
+}  // namespace planbench
+
+int main(int argc, char** argv) { return planbench::Main(argc, argv); }

@@ -1,0 +1,64 @@
+#include "bus_tools/echo.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <sstream>
+
+#include "common/text.h"
+#include "messaging/any_message.h"
+#include "messaging/codec.h"
+
+namespace planbench {
+namespace {
+
+// Cut where a character begins.
+std::string Cut(std::string line, std::size_t length) {
+  if (length == 0 || line.size() <= length) return line;
+  std::size_t end = length;
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) --end;
+  line.resize(end);
+  return line + "...";
+}
+
+std::string TimeOfDay(std::int64_t utime) {
+  const std::chrono::system_clock::time_point time{std::chrono::microseconds(utime)};
+  return fmt::format("{:%H:%M:%S}.{:03}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)),
+                     utime / 1000 % 1000);
+}
+
+}  // namespace
+
+std::string EchoText(const ReceivedMessage& message, const EchoFormat& format) {
+  std::string type;
+  std::string fields;
+  try {
+    if (const auto printed = PrintAny(message.bytes, message.channel)) {
+      type = printed->type;
+      fields = printed->text;
+    } else {
+      type = "of no type that this version knows";
+    }
+  } catch (const MessageError& error) {
+    type = "damaged";
+    fields = error.what();
+  }
+  std::string text = fmt::format("{}  {}  {}, {} bytes\n", TimeOfDay(message.utime),
+                                 Printable(message.channel), type, message.bytes.size());
+  if (!format.fields) return text;
+  std::istringstream lines(fields);
+  std::size_t num_lines = 0;
+  std::size_t num_left = 0;
+  for (std::string line; std::getline(lines, line); ++num_lines) {
+    if (format.max_lines > 0 && num_lines >= format.max_lines) {
+      ++num_left;
+    } else {
+      text += "  " + Cut(std::move(line), format.max_line_length) + "\n";
+    }
+  }
+  if (num_left > 0) text += fmt::format("  ... {} more lines\n", num_left);
+  return text;
+}
+
+}  // namespace planbench

@@ -1,0 +1,92 @@
+#include "bus_tools/diagnosis.h"
+
+#include <gmock/gmock.h>
+
+#include "common/version.h"
+#include "messaging/bus.h"
+#include "messaging/channels.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/private_bus.h"
+#include "tests/support/wait_until.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+using Kind = Finding::Kind;
+
+std::vector<Finding> Look(const std::string& url, int listen_ms = 50) {
+  return Diagnose({.lcm_url = url,
+                   .listen = std::chrono::milliseconds(listen_ms),
+                   .num_small = 20,
+                   .num_large = 2});
+}
+
+/// The finding whose text begins with that.
+Finding Of(const std::vector<Finding>& findings, const std::string& subject) {
+  for (const Finding& finding : findings) {
+    if (finding.text.compare(0, subject.size(), subject) == 0) return finding;
+  }
+  ADD_FAILURE() << "nothing is said of " << subject;
+  return {};
+}
+
+TEST(Diagnosis, OfAQuietBusFindsNoFault) {
+  const std::vector<Finding> findings = Look(PrivateUdpUrl());
+  for (const std::string subject : {"route", "reach", "port", "types"}) {
+    EXPECT_EQ(Of(findings, subject).kind, Kind::kGood) << Of(findings, subject).text;
+  }
+  EXPECT_THAT(Of(findings, "loss").text, HasSubstr("messages of 1 kB arrived"));
+  EXPECT_THAT(findings.back().text, HasSubstr("messages of 1 MB arrived"));
+}
+
+TEST(Diagnosis, NamesWhatTheUrlLacks) {
+  const std::string bare = "udpm://239.255.76.67:" + std::to_string(FreeUdpPort()) + "?ttl=1";
+  const std::vector<Finding> findings = Look(bare);
+  EXPECT_EQ(Of(findings, "reach").kind, Kind::kNote);
+  EXPECT_THAT(Of(findings, "reach").mend, HasSubstr("ttl=0"));
+  EXPECT_EQ(Of(findings, "receive buffer").kind, Kind::kFault);
+  EXPECT_THAT(Of(findings, "receive buffer").mend, HasSubstr("recv_buf_size=4194304"));
+  ExpectInputError([] { Look("tcpq://localhost"); }, {"tcpq://localhost", "udpm://"});
+}
+
+TEST(Diagnosis, NamesWhoElseIsOnThePort) {
+  const std::string url = PrivateUdpUrl();
+  Bus bus(url);
+  bus.Start();
+  NodeStatusMessage one;
+  one.name = "scene_server";
+  one.kind = NodeKind::kSceneServer;
+  one.host = "here";
+  one.pid = 11;
+  one.start_utime = 1;
+  one.version = Version();
+  NodeStatusMessage twin = one;
+  twin.pid = 12;
+  twin.version = "0.0.1";
+  const Subscription asked =
+      bus.Subscribe<DiscoverMessage>(channel::kDiscover, [&](const DiscoverMessage&) {
+        bus.Publish(channel::kNodeStatus, one);
+        bus.Publish(channel::kNodeStatus, twin);
+        bus.PublishBytes("STRANGE", std::vector<std::uint8_t>(30, 9));
+      });
+  const std::vector<Finding> findings = Look(url, 1500);
+  EXPECT_THAT(Of(findings, "port").text,
+              testing::AllOf(HasSubstr("2 of planbench"), HasSubstr("scene_server, pid 11 on here"),
+                             HasSubstr("pid 12"), HasSubstr("planbench 0.0.1")));
+  for (const std::string subject : {"names: 2", "scene servers: 2", "versions", "types: 1"}) {
+    const Finding finding = Of(findings, subject);
+    EXPECT_EQ(finding.kind, Kind::kFault) << finding.text;
+    EXPECT_FALSE(finding.mend.empty());
+  }
+  EXPECT_THAT(Of(findings, "versions").text, HasSubstr("0.0.1"));
+  EXPECT_THAT(Of(findings, "types").text, HasSubstr("STRANGE"));
+}
+
+TEST(FindingText, HasTheMendBelow) {
+  EXPECT_EQ(FindingText({Kind::kFault, "loss", "do this"}), "FAULT  loss\n       -> do this\n");
+  EXPECT_EQ(FindingText({Kind::kGood, "route", ""}), "good   route\n");
+}
+
+}  // namespace
+}  // namespace planbench
