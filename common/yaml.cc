@@ -1,6 +1,7 @@
 #include "common/yaml.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -108,6 +109,37 @@ bool ParseDouble(std::string_view text, std::string_view tag, double* value) {
   return ParseNumber(text, value);
 }
 
+// Where a document begins.
+class DocumentStart : public YAML::EventHandler {
+ public:
+  YAML::Mark mark;
+
+  void OnDocumentStart(const YAML::Mark& start) override { mark = start; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// yaml-cpp 0.7 reads documents without end where a bracket closes that none has opened.
+void RequireDocumentsThatEnd(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStart document;
+  for (int last = -1; parser.HandleNextDocument(document); last = document.mark.pos) {
+    if (document.mark.pos == last) {
+      throw YAML::ParserException(document.mark, "nothing is open that could end here");
+    }
+  }
+}
+
 int LineOf(std::string_view text, std::size_t offset) {
   return 1 +
          static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
@@ -131,6 +163,7 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
   }
   std::vector<YAML::Node> documents;
   try {
+    RequireDocumentsThatEnd(text);
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);

@@ -92,6 +92,14 @@ TEST(YamlNode, SyntaxErrorsNameTheLine) {
   EXPECT_THROW(Parse(std::string(100000, '[')), InputError);
 }
 
+// yaml-cpp would read documents until the memory is full.
+TEST(YamlNode, BracketsThatCloseNothingAreSyntaxErrors) {
+  for (const char* text : {"a: 1\n}", "a: 1\n]", "{a: 1}\n}\n"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text); }), HasSubstr("no valid YAML")) << text;
+  }
+  EXPECT_THAT(ErrorOf([] { Parse("a: 1\n}"); }), StartsWith("file.yaml:2: no valid YAML"));
+}
+
 TEST(YamlNode, AbsentAndNullAreTheSame) {
   const YamlNode node = Parse("a: ~\nb:\nc: 0\n");
   EXPECT_FALSE(node.Find("a"));
