@@ -8,6 +8,7 @@
 #include <map>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/yaml.h"
 #include "messaging/channels.h"
 
@@ -51,7 +52,7 @@ std::filesystem::path FindConfig(const YamlNode& node, const std::filesystem::pa
                                  const std::filesystem::path& robot_folder) {
   const std::filesystem::path name = node.String();
   for (const std::filesystem::path& folder : {line_up.parent_path(), robot_folder}) {
-    if (std::filesystem::is_regular_file(folder / name)) return folder / name;
+    if (IsFile(folder / name)) return folder / name;
   }
   node.Fail(fmt::format("no such file beside the line-up or in {}", robot_folder.string()));
 }

@@ -1,12 +1,13 @@
 #include "logger/rebuild.h"
 
+#include "common/file_kind.h"
 #include "logger/session_recorder.h"
 #include "messaging/event_log_reader.h"
 
 namespace planbench {
 
 bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions& options) {
-  if (!std::filesystem::is_regular_file(event_log)) {
+  if (!IsFile(event_log)) {
     throw InputError(event_log.string() + ": there is no such event log");
   }
   SessionRecorder recorder(options.out, options.resume, options.name,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/yaml.h"
 
 namespace planbench {
@@ -335,7 +336,7 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
   spec.name = file.stem().string();
   const YamlNode setup_file = root.At("setup");
   const std::filesystem::path setup_path = file.parent_path() / setup_file.String();
-  if (!std::filesystem::is_regular_file(setup_path)) {
+  if (!IsFile(setup_path)) {
     setup_file.Fail("there is no file " + setup_path.string());
   }
   const Setup setup = ReadSetup(YamlNode::LoadFile(setup_path.string()), robot, &spec);

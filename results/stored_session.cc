@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/sqlite.h"
 #include "results/database_version.h"
 
@@ -213,8 +214,8 @@ class Reader {
 
 StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
   std::filesystem::path file = folder_or_file;
-  if (std::filesystem::is_directory(file)) file /= "results.sqlite";
-  if (!std::filesystem::exists(file)) throw InputError(file.string() + " does not exist");
+  if (IsFolder(file)) file /= "results.sqlite";
+  if (!IsFile(file)) throw InputError(file.string() + " does not exist");
   try {
     return Reader(file).Read();
   } catch (const InputError& error) {

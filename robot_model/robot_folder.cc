@@ -10,6 +10,7 @@
 
 #include "common/content_hash.h"
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/read_text.h"
 #include "common/yaml.h"
 #include "robot_model/link_spheres.h"
@@ -297,7 +298,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
 Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
                        const std::map<std::string, fs::path>& packages) {
   NeedFolder(folder);
-  if (fs::exists(folder / "robot.yaml")) {
+  if (IsFile(folder / "robot.yaml")) {
     Robot referee = LoadRobot(folder, packages);
     AddPlanningGroups(planning_robot, &referee);
     RequireCommonBase(planning_robot, referee);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/sibling_program.h"
 
 namespace planbench {
@@ -15,11 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder `robots` of the checkout; empty if the program stands elsewhere.
+// The folder `robots` of the checkout, or of the installation; empty if the program stands
+// elsewhere.
 fs::path ShippedRobots() {
   fs::path above = ProgramFolder();
   while (above.has_relative_path()) {
-    if (fs::exists(above / "robots/fetch/robot.yaml")) return above / "robots";
+    for (const char* robots : {"robots", "share/planbench/robots"}) {
+      if (IsFile(above / robots / "fetch/robot.yaml")) return above / robots;
+    }
     above = above.parent_path();
   }
   return {};
@@ -28,8 +32,7 @@ fs::path ShippedRobots() {
 }  // namespace
 
 fs::path FindRobotFolder(const fs::path& folder_or_name) {
-  std::error_code error;
-  if (fs::is_directory(folder_or_name, error)) return folder_or_name;
+  if (IsFolder(folder_or_name)) return folder_or_name;
   const fs::path shipped = ShippedRobots();
   std::vector<std::string> names;
   if (!shipped.empty()) {

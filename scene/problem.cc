@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/text.h"
 
 namespace planbench {
@@ -38,7 +39,7 @@ std::string ProblemSetNameOf(const fs::path& folder) {
 }
 
 ProblemSet ListProblemSet(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
+  if (!IsFolder(folder)) {
     throw InputError(folder.string() + ": there is no such folder of problems");
   }
   std::map<int, ProblemFiles> by_index;

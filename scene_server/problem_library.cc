@@ -7,6 +7,7 @@
 
 #include "common/content_hash.h"
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/read_text.h"
 #include "scene/moveit_yaml.h"
 
@@ -41,7 +42,7 @@ void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
 
 /// The folder itself if it holds problems, else the folders below it that do, by path.
 std::vector<fs::path> SetFolders(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
+  if (!IsFolder(folder)) {
     throw InputError(folder.string() + ": there is no such folder of problems");
   }
   std::vector<fs::path> above;
