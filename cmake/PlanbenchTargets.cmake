@@ -9,11 +9,12 @@
 # planbench_benchmark(NAME [LINK ...]): a program in benchmarks/, made of NAME.cc.
 
 add_library(planbench_options INTERFACE)
-target_include_directories(planbench_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(planbench_options INTERFACE -Wall -Wextra -Wno-psabi)
+target_include_directories(planbench_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/planbench>)
+target_compile_options(planbench_options INTERFACE "$<BUILD_INTERFACE:-Wall;-Wextra>" -Wno-psabi)
 target_link_libraries(planbench_options INTERFACE Eigen3::Eigen fmt::fmt)
 if(PLANBENCH_WERROR)
-  target_compile_options(planbench_options INTERFACE -Werror)
+  target_compile_options(planbench_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(PLANBENCH_SANITIZE)
   target_compile_options(planbench_options INTERFACE
@@ -82,6 +83,12 @@ function(planbench_program name)
   target_link_libraries(${name} PRIVATE planbench_options ${ARG_LINK})
   planbench_reuse(${name} planbench_headers)
   add_dependencies(planbench_programs ${name})
+  # Beside each other, where they find each other; the names to call are planbench-NAME, for /usr/bin has a logger.
+  install(TARGETS ${name} DESTINATION lib/planbench)
+  string(REPLACE "_" "-" link "planbench-${name}")
+  install(CODE "set(folder \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin)
+file(MAKE_DIRECTORY \${folder})
+file(CREATE_LINK ../lib/planbench/${name} \${folder}/${link} SYMBOLIC)")
 endfunction()
 
 function(planbench_planner name)

@@ -1,0 +1,120 @@
+// A planner of its own, in Java: the straight line from start to goal, if the scene server finds it free. It does what
+// lcmtypes/README.md says under "One request, step by step".
+import java.util.*;
+import java.util.concurrent.*;
+import lcm.lcm.*;
+import planbench.*;
+
+public class StraightLine implements LCMSubscriber {
+  final String name, channel;
+  final LCM lcm = new LCM(System.getenv("LCM_DEFAULT_URL"));
+  final long start = utime();
+  final Map<String, lcmt_plan_result> results = new LinkedHashMap<>() {
+    protected boolean removeEldestEntry(Map.Entry<String, lcmt_plan_result> eldest) { return size() > 64; }
+  };
+  final BlockingQueue<lcmt_plan_request> work = new LinkedBlockingQueue<>();
+  final BlockingQueue<lcmt_collision_reply> replies = new LinkedBlockingQueue<>();
+  lcmt_plan_request current;  // null: idle
+  lcmt_problem_sets sets;     // of the scene server; null: not heard yet
+
+  StraightLine(String name) throws Exception {
+    this.name = name;
+    channel = name.toUpperCase().replace('-', '_');
+    lcm.subscribe("PROBLEM_SETS|DISCOVER|COLLISION_REPLY|PLAN_(REQUEST|CANCEL)_" + channel, this);
+  }
+
+  static long utime() { return System.currentTimeMillis() * 1000; }
+  public synchronized void messageReceived(LCM lcm, String from, LCMDataInputStream in) {
+    try {
+      if (from.equals("PROBLEM_SETS")) sets = new lcmt_problem_sets(in);
+      else if (from.equals("DISCOVER")) announce();
+      else if (from.equals("COLLISION_REPLY")) replies.add(new lcmt_collision_reply(in));
+      else if (from.startsWith("PLAN_REQUEST_")) answer(new lcmt_plan_request(in));
+      else send(results.get(new lcmt_plan_cancel(in).request_id));
+    } catch (java.io.IOException error) {
+      System.err.println(from + ": " + error.getMessage());
+    }
+  }
+
+  void send(lcmt_plan_result result) { if (result != null) lcm.publish("PLAN_RESULT_" + channel, result); }
+
+  // Every copy of a request is answered at once: with its result, or with what becomes of it.
+  void answer(lcmt_plan_request request) {
+    if (results.containsKey(request.request_id)) { send(results.get(request.request_id)); return; }
+    if (current == null) work.add(current = request);
+    lcmt_plan_ack ack = new lcmt_plan_ack();
+    ack.utime = utime(); ack.planner = name; ack.request_id = request.request_id; ack.message = "";
+    ack.verdict = current.request_id.equals(request.request_id) ? lcmt_plan_ack.WORKING : lcmt_plan_ack.BUSY;
+    lcm.publish("PLAN_ACK_" + channel, ack);
+  }
+
+  synchronized void announce() {
+    if (sets == null) return;  // the robot's id is the scene server's
+    lcmt_node_status s = new lcmt_node_status();
+    s.utime = utime(); s.start_utime = start; s.kind = lcmt_node_status.KIND_PLANNER;
+    s.state = current == null ? lcmt_node_status.STATE_IDLE : lcmt_node_status.STATE_BUSY;
+    s.request_id = current == null ? "" : current.request_id;
+    s.name = name; s.host = "localhost"; s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
+    s.robot_name = sets.robot_name; s.robot_id = sets.robot_id;
+    s.algorithm = "Straight line (Java)"; s.planner_class = "search-and-sample"; s.deterministic = true;
+    s.num_collision_models = 1; s.collision_model = new String[] {"spheres"}; s.setting = new lcmt_key_value[0];
+    lcm.publish("NODE_STATUS", s);
+  }
+
+  lcmt_plan_result plan(lcmt_plan_request request) throws InterruptedException {
+    long begin = System.nanoTime();
+    int n = request.num_goals;  // one goal for each joint of the group
+    String[] joints = new String[n];
+    double[][] line = new double[2][n];
+    for (int i = 0; i < n; ++i) {
+      joints[i] = request.goal[i].joint_name;
+      line[0][i] = request.start.position[Arrays.asList(request.start.joint_name).indexOf(joints[i])];
+      line[1][i] = request.goal[i].position;
+    }
+    lcmt_collision_request q = new lcmt_collision_request();
+    q.utime = utime(); q.request_id = name + "-" + UUID.randomUUID();
+    q.scene_id = request.scene_id; q.group = request.group; q.state = request.start;
+    q.collision_model = request.collision_model;
+    q.edge_check = request.edge_check; q.edge_resolution_m = request.edge_resolution_m;
+    q.position = new double[0][]; q.num_joints = n; q.num_edges = 1;
+    q.edge_from = new double[][] {line[0]}; q.edge_to = new double[][] {line[1]};
+    lcmt_collision_reply reply = null;
+    while (reply == null && System.nanoTime() - begin < request.time_limit_s * 1e9) {
+      lcm.publish("COLLISION_REQUEST", q);  // again until it is answered
+      reply = replies.poll(250, TimeUnit.MILLISECONDS);
+      while (reply != null && !reply.request_id.equals(q.request_id)) reply = replies.poll();
+    }
+    boolean free = reply != null && reply.ok && reply.edge[0].free;
+    lcmt_plan_result r = new lcmt_plan_result();
+    r.planner = name; r.run_id = request.run_id; r.request_id = request.request_id;
+    r.status = free ? r.SOLVED : reply == null ? r.TIMED_OUT : reply.ok ? r.EXHAUSTED : r.INVALID_REQUEST;
+    r.message = free ? "" : reply == null ? "no answer" : reply.ok ? "the straight line is not free" : reply.message;
+    r.path = free ? pathOf(joints, line) : pathOf(new String[0], new double[0][]);
+    r.simplified_path = request.simplify ? r.path : pathOf(new String[0], new double[0][]);
+    r.progress = new lcmt_plan_progress[0]; r.counter = new lcmt_named_value[0];
+    r.planning_time_s = r.total_time_s = (System.nanoTime() - begin) / 1e9; r.utime = utime();
+    return r;
+  }
+
+  static lcmt_path pathOf(String[] joints, double[][] waypoints) {
+    lcmt_path path = new lcmt_path();
+    path.joint_name = joints; path.position = waypoints;
+    path.num_joints = joints.length; path.num_waypoints = waypoints.length;
+    return path;
+  }
+
+  public static void main(String[] args) throws Exception {
+    StraightLine planner = new StraightLine(args.length > 0 ? args[0] : "straight");
+    while (true) {
+      planner.announce();
+      lcmt_plan_request request = planner.work.poll(500, TimeUnit.MILLISECONDS);
+      lcmt_plan_result result = request == null ? null : planner.plan(request);
+      if (result == null) continue;
+      synchronized (planner) {
+        planner.results.put(request.request_id, result);
+        planner.current = null;
+        planner.send(result);
+      }
+    }
+  }
+}

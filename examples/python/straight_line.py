@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""A planner of its own, in Python: the straight line from start to goal, if the scene server finds it free. It does what
+lcmtypes/README.md says under "One request, step by step"; lcm-gen and LCM's module `lcm` are needed."""
+import collections, os, subprocess, sys, tempfile, threading, time, uuid
+
+import lcm
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TYPES = os.path.join(HERE, "..", "..", "lcmtypes")
+MODULES = tempfile.mkdtemp()
+subprocess.run(["lcm-gen", "--python", "--ppath", MODULES] +
+               [os.path.join(TYPES, f) for f in os.listdir(TYPES) if f.endswith(".lcm")], check=True)
+sys.path.insert(0, MODULES)
+import planbench as pb  # noqa: E402
+
+
+class StraightLine:
+    def __init__(self, name):
+        self.name, self.channel = name, name.upper().replace("-", "_")
+        self.lcm = lcm.LCM()  # $LCM_DEFAULT_URL
+        self.start, self.current, self.sets = self.utime(), None, None
+        self.results = collections.OrderedDict()
+        self.reply, self.replied = None, threading.Condition()
+        for channel, handler in (("PROBLEM_SETS", self.on_sets), ("DISCOVER", lambda *_: self.announce()),
+                                 ("COLLISION_REPLY", self.on_reply), ("PLAN_REQUEST_" + self.channel, self.on_request),
+                                 ("PLAN_CANCEL_" + self.channel, self.on_cancel)):
+            self.lcm.subscribe(channel, handler)
+
+    @staticmethod
+    def utime():
+        return int(time.time() * 1e6)
+
+    def on_sets(self, _, data):
+        self.sets = pb.lcmt_problem_sets.decode(data)
+
+    def on_reply(self, _, data):
+        with self.replied:
+            self.reply = pb.lcmt_collision_reply.decode(data)
+            self.replied.notify_all()
+
+    def on_cancel(self, _, data):
+        self.send(self.results.get(pb.lcmt_plan_cancel.decode(data).request_id))
+
+    def on_request(self, _, data):  # every copy is answered at once
+        request = pb.lcmt_plan_request.decode(data)
+        if request.request_id in self.results:
+            return self.send(self.results[request.request_id])
+        if self.current is None:
+            self.current = request
+            threading.Thread(target=self.work, args=(request,), daemon=True).start()
+        ack = pb.lcmt_plan_ack()
+        ack.utime, ack.planner, ack.request_id = self.utime(), self.name, request.request_id
+        ack.verdict = ack.WORKING if self.current.request_id == request.request_id else ack.BUSY
+        self.lcm.publish("PLAN_ACK_" + self.channel, ack.encode())
+
+    def send(self, result):
+        if result is not None:
+            self.lcm.publish("PLAN_RESULT_" + self.channel, result.encode())
+
+    def announce(self):
+        if self.sets is None:
+            return  # the robot's id is the scene server's
+        current, status = self.current, pb.lcmt_node_status()
+        status.utime, status.start_utime, status.name = self.utime(), self.start, self.name
+        status.kind, status.state = status.KIND_PLANNER, status.STATE_BUSY if current else status.STATE_IDLE
+        status.request_id = current.request_id if current else ""
+        status.host, status.pid, status.version, status.commit = "localhost", os.getpid(), "example", "example"
+        status.robot_name, status.robot_id = self.sets.robot_name, self.sets.robot_id
+        status.algorithm, status.planner_class = "Straight line (Python)", "search-and-sample"
+        status.deterministic, status.num_collision_models, status.collision_model = True, 1, ["spheres"]
+        self.lcm.publish("NODE_STATUS", status.encode())
+
+    def ask(self, question, deadline):
+        while time.monotonic() < deadline:  # again until it is answered
+            self.lcm.publish("COLLISION_REQUEST", question.encode())
+            with self.replied:
+                if self.replied.wait_for(lambda: self.reply and self.reply.request_id == question.request_id, 0.25):
+                    return self.reply
+        return None
+
+    def work(self, request):
+        begin, question, result = time.monotonic(), pb.lcmt_collision_request(), pb.lcmt_plan_result()
+        at = dict(zip(request.start.joint_name, request.start.position))
+        joints = [goal.joint_name for goal in request.goal]
+        line = [[at[joint] for joint in joints], [goal.position for goal in request.goal]]
+        question.utime, question.request_id = self.utime(), self.name + "-" + str(uuid.uuid4())
+        for field in ("scene_id", "group", "collision_model", "edge_resolution_m", "edge_check"):
+            setattr(question, field, getattr(request, field))
+        question.state, question.num_joints, question.num_edges = request.start, len(joints), 1
+        question.edge_from, question.edge_to = [line[0]], [line[1]]
+        reply = self.ask(question, begin + request.time_limit_s)
+        result.planner, result.run_id, result.request_id = self.name, request.run_id, request.request_id
+        if reply is None or not reply.ok:
+            result.status = result.TIMED_OUT if reply is None else result.INVALID_REQUEST
+            result.message = "no answer about collisions" if reply is None else reply.message
+        elif reply.edge[0].free:
+            result.status = result.SOLVED
+            for path in [result.path] + ([result.simplified_path] if request.simplify else []):
+                path.num_joints, path.num_waypoints, path.joint_name, path.position = len(joints), 2, joints, line
+        else:
+            result.status, result.message = result.EXHAUSTED, "the straight line is not free"
+        result.planning_time_s = result.total_time_s = time.monotonic() - begin
+        result.utime = self.utime()
+        self.results[request.request_id] = result
+        while len(self.results) > 64:
+            self.results.popitem(last=False)
+        self.current = None
+        self.send(result)
+
+    def run(self):
+        while True:
+            self.announce()
+            end = time.monotonic() + 0.5
+            while time.monotonic() < end:
+                self.lcm.handle_timeout(50)
+
+
+StraightLine(sys.argv[1] if len(sys.argv) > 1 else "straight").run()

@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "scene/moveit_yaml.h"
+#include "tests/support/child_process.h"
+#include "tests/support/planning_problems.h"
+#include "tests/support/temporary_folder.h"
+
+// The planners of examples/, started by the driver.
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+bool Succeeds(const std::string& command) {
+  return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+class ExamplesTest : public testing::Test {
+ protected:
+  // Two problems: the straight line is free, and in collision.
+  ExamplesTest() {
+    const Robot fetch = LoadFetch();
+    Configuration near = FetchOverTable();
+    near[7] += 0.5;
+    for (const int index : {1, 2}) {
+      Problem problem;
+      problem.scene = FetchTableScene(fetch);
+      const PlanRequest request =
+          MakeRequest(fetch, index == 1 ? near : FetchTucked(), FetchOverTable());
+      problem.start = request.start;
+      problem.goal = request.goal;
+      problem.group = request.group;
+      problem.time_limit_s = 5;
+      const std::string number = "000" + std::to_string(index) + ".yaml";
+      fs::create_directories(set_);
+      WriteProblem(problem, set_ / ("scene" + number), set_ / ("request" + number));
+    }
+  }
+
+  // What the driver says after a session of `planner` with the program that `command` starts.
+  std::string Run(const std::string& planner, const std::string& command) {
+    ChildProcess driver(
+        {PLANBENCH_BIN_DIR "/benchmark_driver", "--launch", "--robot", "fetch", "--problems", set_,
+         "--planners", planner, "--planner-command", planner + "=" + command, "--directions",
+         "forward", "--out", folder_.path() / "session"},
+        folder_.path() / "driver");
+    EXPECT_EQ(driver.Wait(), 0) << driver.Errors();
+    return driver.Output();
+  }
+
+  static void ExpectTheFirstSolvedAndTheSecondNot(const std::string& output) {
+    EXPECT_THAT(output, testing::ContainsRegex(" 2 +1 +1 +50\\.0 ")) << output;
+    EXPECT_THAT(output, HasSubstr("1 EXHAUSTED, problem 2\n"));
+    EXPECT_THAT(output, HasSubstr("mostly: the straight line is not free"));
+  }
+
+  TemporaryFolder folder_;
+  fs::path set_ = folder_.path() / "lines";
+  const fs::path examples_ = fs::path(PLANBENCH_SOURCE_DIR) / "examples";
+};
+
+TEST_F(ExamplesTest, InCppAgainstTheInstalledPackage) {
+  const fs::path prefix = folder_.path() / "prefix";
+  const fs::path build = folder_.path() / "build";
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"cmake", "--install", PLANBENCH_BUILD_DIR, "--prefix", prefix},
+           {"cmake", "-S", examples_ / "cpp", "-B", build,
+            "-DCMAKE_PREFIX_PATH=" + prefix.string()},
+           {"cmake", "--build", build}}) {
+    ChildProcess child(command, folder_.path() / "cmake");
+    ASSERT_EQ(child.Wait(), 0) << child.Output() << child.Errors();
+  }
+  // Robots that ship are found in an installation, too.
+  ChildProcess server({prefix / "bin/planbench-scene-server", "--robot", "nobody", "--problems", set_},
+                      folder_.path() / "server");
+  EXPECT_EQ(server.Wait(), 2);
+  EXPECT_THAT(server.Errors(), HasSubstr("those are: fetch, panda, ur5e"));
+  ExpectTheFirstSolvedAndTheSecondNot(
+      Run("straight", (build / "straight_line").string() + " --name straight --robot " +
+                          (prefix / "share/planbench/robots/fetch").string()));
+}
+
+TEST_F(ExamplesTest, InJava) {
+  const fs::path jar = fs::path(PLANBENCH_BUILD_DIR) / "planbench_types.jar";
+  if (!Succeeds("javac -version") || !fs::exists(jar)) {
+    GTEST_SKIP() << "needs javac and " << jar << " (./spy makes it)";
+  }
+  ExpectTheFirstSolvedAndTheSecondNot(
+      Run("java-line", "PLANBENCH_TYPES_JAR=" + jar.string() +
+                           " PLANBENCH_JAVA_CLASSES=" + (folder_.path() / "classes").string() +
+                           " " + (examples_ / "java/run").string() + " java-line"));
+}
+
+TEST_F(ExamplesTest, InPython) {
+  if (!Succeeds("python3 -c 'import lcm'")) GTEST_SKIP() << "needs LCM's module for Python, lcm";
+  ExpectTheFirstSolvedAndTheSecondNot(
+      Run("python", "python3 " + (examples_ / "python/straight_line.py").string() + " python"));
+}
+
+}  // namespace
+}  // namespace planbench
