@@ -76,8 +76,9 @@ TEST_F(ExamplesTest, InCppAgainstTheInstalledPackage) {
     ASSERT_EQ(child.Wait(), 0) << child.Output() << child.Errors();
   }
   // Robots that ship are found in an installation, too.
-  ChildProcess server({prefix / "bin/planbench-scene-server", "--robot", "nobody", "--problems", set_},
-                      folder_.path() / "server");
+  ChildProcess server(
+      {prefix / "bin/planbench-scene-server", "--robot", "nobody", "--problems", set_},
+      folder_.path() / "server");
   EXPECT_EQ(server.Wait(), 2);
   EXPECT_THAT(server.Errors(), HasSubstr("those are: fetch, panda, ur5e"));
   ExpectTheFirstSolvedAndTheSecondNot(
