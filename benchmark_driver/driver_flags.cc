@@ -136,6 +136,19 @@ std::vector<int> ParseRange(const std::string& text) {
   return {indices.begin(), indices.end()};
 }
 
+Shard ParseShard(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, bad_index] = std::from_chars(text.data(), end, shard.index);
+  const bool divided = bad_index == std::errc() && slash != end && *slash == '/';
+  const auto [rest, bad_count] = std::from_chars(divided ? slash + 1 : end, end, shard.count);
+  if (!divided || bad_count != std::errc() || rest != end || shard.index < 1 ||
+      shard.index > shard.count) {
+    throw InputError("--shard " + text + ": expected I/N, I from 1 to N");
+  }
+  return shard;
+}
+
 void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   SessionConditions& conditions = options->conditions;
   PlanRequest& request = conditions.request;
@@ -146,6 +159,9 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       "--problems-range",
       [=](const std::string& text) { options->problem_indices = ParseRange(text); },
       "problem indices, e.g. 1-20 or 1-5,8; default: all");
+  app->add_option_function<std::string>(
+      "--shard", [=](const std::string& text) { options->shard = ParseShard(text); },
+      "I/N: the I-th of N parts of the session, which report --merge joins");
   app->add_option("--lineup", options->line_up.file,
                   "file of contestants: planners, their settings and conditions");
   AddNames(

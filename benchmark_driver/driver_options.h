@@ -11,6 +11,12 @@
 
 namespace planbench {
 
+/// One of `count` parts of a session, from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
 /// What the driver was asked to do.
 struct DriverOptions {
   std::vector<std::string> sets;     ///< Empty: every set the scene server announces.
@@ -18,6 +24,7 @@ struct DriverOptions {
   LineUpFlags line_up;
   Directions directions = Directions::kAuto;  ///< Of contestants that say nothing else.
   int trials = 1;
+  Shard shard;
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
   double discovery_timeout_s = 5;
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.

@@ -116,15 +116,25 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
       if (entrant.directions == Directions::kAuto) other = run.request_id;
     }
   };
+  const bool any_seeds_matter = std::any_of(entrants.begin(), entrants.end(),
+                                            [](const Entrant& e) { return !e.deterministic; });
+  const int num_trials = any_seeds_matter ? options.trials : 1;
+  int num_parts = 0;  // Trials of all problems.
   for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
     for (const int index : SelectProblems(*set, options.problem_indices)) {
-      for (int trial = 1; trial <= options.trials; ++trial) {
+      for (int trial = 1; trial <= num_trials; ++trial) {
+        if (num_parts++ % options.shard.count != options.shard.index - 1) continue;
         const std::uint64_t order = Derive(request.seed, "order", set->name, index, trial);
         for (const Entrant& entrant : Shuffled(entrants, order)) {
           if (trial == 1 || !entrant.deterministic) add(set->name, index, entrant, trial);
         }
       }
     }
+  }
+  if (schedule.empty() && options.shard.count > 1) {
+    throw InputError(
+        fmt::format("--shard {}/{}: there are no more than {} parts, trials of problems",
+                    options.shard.index, options.shard.count, num_parts));
   }
   return schedule;
 }

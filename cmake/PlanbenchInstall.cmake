@@ -24,6 +24,7 @@ install(FILES ${CMAKE_BINARY_DIR}/planbenchConfig.cmake ${CMAKE_BINARY_DIR}/plan
               cmake/FindLCM.cmake
         DESTINATION ${package_folder})
 
+install(PROGRAMS scripts/planbench_slurm DESTINATION lib/planbench)
 install(DIRECTORY robots problems lineups lcmtypes DESTINATION share/planbench PATTERN CMakeLists.txt EXCLUDE)
 install(DIRECTORY docs DESTINATION share/doc/planbench)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/planbench)

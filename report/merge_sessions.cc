@@ -152,9 +152,12 @@ class Merge {
   }
 
   std::string Summary(const fs::path& out) const {
-    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once",
+    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}",
                        out.string(), runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s",
-                       num_repeated_);
+                       num_repeated_,
+                       missing_shards_.empty()
+                           ? ""
+                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, ", ")));
   }
 
  private:
@@ -178,12 +181,16 @@ class Merge {
     });
     session_ = parts.front()->session;
     std::vector<std::string> hosts, processors, commands;
+    std::set<std::string> shards;
     session_.finished = true;
     session_.total_time_s = 0;
     session_.num_runs = 0;
     for (const Part* part : parts) {
       const SessionMessage& session = part->session;
       session_.finished = session_.finished && session.finished;
+      if (const auto shard = session.settings.find("shard"); shard != session.settings.end()) {
+        shards.insert(shard->second);
+      }
       session_.total_time_s += session.total_time_s;
       session_.num_runs += part->num_missing();
       hosts.push_back(session.host);
@@ -201,8 +208,23 @@ class Merge {
     }
     session_.host = Joined(hosts, ", ");
     session_.cpu = Joined(processors, ", ");
+    FindMissingShards(shards);
+    session_.finished = session_.finished && missing_shards_.empty();
     const std::string command = Joined(commands, " && ");
     if (!command.empty()) session_.settings[kMergedCommands] = command;
+  }
+
+  /// Of texts "I/N", of any N, those that are not there.
+  void FindMissingShards(const std::set<std::string>& shards) {
+    for (const std::string& shard : shards) {
+      const std::size_t slash = shard.find('/');
+      if (slash == std::string::npos) continue;
+      const int count = std::atoi(shard.c_str() + slash + 1);
+      for (int i = 1; i <= count; ++i) {
+        const std::string other = fmt::format("{}/{}", i, count);
+        if (!shards.contains(other)) missing_shards_.insert(other);
+      }
+    }
   }
 
   template <typename Value>
@@ -220,6 +242,7 @@ class Merge {
   std::map<std::string, Part> parts_;  ///< By run id.
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
+  std::set<std::string> missing_shards_;
   SessionMessage session_;
 };
 

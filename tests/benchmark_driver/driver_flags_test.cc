@@ -51,6 +51,16 @@ TEST(ParseRangeTest, ReadsNumbersAndRanges) {
   EXPECT_EQ(ParseRange("1-100").size(), 100u);
 }
 
+TEST(ParseShardTest, TakesOneOfSeveralAndRefusesTheRest) {
+  const Shard shard = ParseShard("2/8");
+  EXPECT_EQ(shard.index, 2);
+  EXPECT_EQ(shard.count, 8);
+  for (const char* text : {"", "1", "1/", "/2", "0/2", "3/2", "-1/2", "1/2/3", "1 /2", "a/b", "1/0",
+                           "1/99999999999"}) {
+    ExpectInputError([&] { ParseShard(text); }, {std::string("--shard ") + text, "I/N"});
+  }
+}
+
 TEST(ParseRangeTest, RefusesWhatIsNoRange) {
   for (const char* text : {"a", "1-", "-1", "-", "1-2-3", "4-1", "1,,2", "1,", ",1", " 1", "1.5",
                            "+1", "99999999999", "0-2000000000"}) {

@@ -146,6 +146,34 @@ TEST(ScheduleTest, RangeSelectsWhatASetHas) {
                           "run/cage/2/ara/forward/1", "run/cage/5/ara/forward/1"));
 }
 
+TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
+  DriverOptions options;
+  options.conditions.request.run_id = "run";
+  options.trials = 3;
+  Entrant seedless = Of("ara");
+  seedless.deterministic = true;
+  const std::vector<Entrant> entrants = {seedless, Of("rrtc")};
+  const std::vector<std::string> whole = Ids(MakeSchedule(options, entrants, Served()));
+  for (const int count : {1, 2, 4, 7}) {
+    std::vector<std::string> united;
+    std::size_t largest = 0;
+    std::size_t smallest = whole.size();
+    for (int index = 1; index <= count; ++index) {
+      options.shard = {index, count};
+      const std::vector<std::string> part = Ids(MakeSchedule(options, entrants, Served()));
+      EXPECT_EQ(part, Ids(MakeSchedule(options, entrants, Served()))) << "deterministic";
+      largest = std::max(largest, part.size());
+      smallest = std::min(smallest, part.size());
+      united.insert(united.end(), part.begin(), part.end());
+    }
+    EXPECT_THAT(united, testing::UnorderedElementsAreArray(whole)) << count;
+    EXPECT_LE(largest, smallest + 2 * whole.size() / static_cast<std::size_t>(count));
+  }
+  options.shard = {99, 100};
+  ExpectInputError([&] { MakeSchedule(options, entrants, Served()); },
+                   {"--shard 99/100", "no more than"});
+}
+
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
   DriverOptions options;
   options.sets = {"kitchen"};

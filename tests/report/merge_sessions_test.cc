@@ -73,6 +73,19 @@ class MergeSessionsTest : public testing::Test {
   std::string output_, errors_;
 };
 
+TEST_F(MergeSessionsTest, MissingShardsAreNamedAndTheSessionIsNotFinished) {
+  for (const int shard : {1, 3}) {
+    SessionMessage part = Session(fmt::format("part{}", shard), 1000 * shard, 1);
+    part.settings["shard"] = fmt::format("{}/4", shard);
+    Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
+  }
+  ASSERT_EQ(Merge({"part1", "part3"}), kExitOk) << errors_;
+  EXPECT_THAT(output_ + errors_, HasSubstr("shards missing: 2/4, 4/4"));
+  const StoredSessions stored = ReadSessions(folder_ / "whole");
+  ASSERT_EQ(stored.sessions.size(), 1u);
+  EXPECT_FALSE(stored.sessions.front().finished);
+}
+
 TEST_F(MergeSessionsTest, PartsMakeTheSessionThatTheyAreOf) {
   const std::vector<MadeRun> first = {{.contestant = "A", .problem = 1, .time_s = 1},
                                       {.contestant = "A", .problem = 2, .time_s = 2}};

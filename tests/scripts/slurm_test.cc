@@ -1,0 +1,177 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/sqlite.h"
+#include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
+
+namespace planbench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string Read(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+std::vector<std::string> Lines(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+/// scripts/planbench_slurm with stand-ins for sbatch, which runs the tasks at once, and for the
+/// driver, which notes its arguments and, unless it is told to die, says that it has finished.
+class SlurmTest : public testing::Test {
+ protected:
+  SlurmTest() {
+    WriteProgram(
+        "bin/sbatch",
+        "for a in \"$@\"; do case $a in --array=*) tasks=$(echo ${a#--array=} | tr , ' ');; "
+        "esac; script=$a; done\n"
+        "echo \"$@\" >> $NOTES/sbatch\n"
+        "if [ -n \"${tasks-}\" ]; then for t in $tasks; do SLURM_ARRAY_TASK_ID=$t bash "
+        "$script || true; done; else bash $script; fi >> $NOTES/log 2>&1\necho 17\n");
+    WriteProgram(
+        "programs/benchmark_driver",
+        "echo \"$@\" >> $NOTES/driver\n"
+        "while [ $# -gt 1 ]; do case $1 in --out | --resume) out=$2;; esac; shift; done\n"
+        "mkdir -p $out; case $out in */${DIES-none}) echo '{\"finished\": false}' ;; *) echo "
+        "'{\"finished\": true}';; esac > $out/run.json\n");
+    WriteProgram("programs/report", "echo \"$@\" >> $NOTES/report\n");
+  }
+
+  void WriteProgram(const std::string& name, const std::string& body) {
+    fs::permissions(folder_.Write(name, "#!/usr/bin/env bash\nset -eu\n" + body),
+                    fs::perms::owner_all);
+  }
+
+  int Submit(std::vector<std::string> arguments, const std::string& dies = "none") {
+    arguments.insert(arguments.begin(), PLANBENCH_SOURCE_DIR "/scripts/planbench_slurm");
+    ChildProcess program(arguments, folder_ / "slurm",
+                         {{"PATH", (folder_ / "bin").string() + ":" + std::getenv("PATH")},
+                          {"PLANBENCH_PROGRAMS", (folder_ / "programs").string()},
+                          {"NOTES", folder_.path().string()},
+                          {"DIES", dies}});
+    const int code = program.Wait().value_or(-1);
+    output_ = program.Output();
+    errors_ = program.Errors();
+    return code;
+  }
+
+  TemporaryFolder folder_;
+  const std::string out_ = (folder_ / "study").string();
+  std::string output_, errors_;
+};
+
+TEST_F(SlurmTest, RunsEveryShardAndMergesThem) {
+  ASSERT_EQ(Submit({"--tasks", "3", "--out", out_, "--sbatch", "--partition=cpu --exclusive",
+                    "--robot", "fetch", "--problems", "a folder"}),
+            0)
+      << errors_;
+  EXPECT_THAT(output_, HasSubstr("submitted job 17: 3 of 3 shards"));
+  const std::string flags = "--launch --robot fetch --problems a folder --shard ";
+  EXPECT_THAT(Lines(folder_ / "driver"), ElementsAre(flags + "1/3 --out " + out_ + "/shards/1",
+                                                     flags + "2/3 --out " + out_ + "/shards/2",
+                                                     flags + "3/3 --out " + out_ + "/shards/3"))
+      << Read(folder_ / "log");
+  EXPECT_THAT(Lines(folder_ / "report"),
+              ElementsAre("--merge merged --out report.html shards/1 shards/2 shards/3"));
+  const std::vector<std::string> submitted = Lines(folder_ / "sbatch");
+  ASSERT_EQ(submitted.size(), 2u);
+  EXPECT_THAT(submitted[0], HasSubstr("--array=1,2,3 --partition=cpu --exclusive"));
+  EXPECT_THAT(submitted[1], HasSubstr("--dependency=afterany:17"));
+}
+
+TEST_F(SlurmTest, WhatDiedIsResumedAndWhatIsFinishedIsLeft) {
+  const std::vector<std::string> command = {"--tasks", "3", "--out", out_, "--seed", "7"};
+  ASSERT_EQ(Submit(command, "2"), 0) << errors_;
+  fs::remove(folder_ / "driver");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_THAT(output_, HasSubstr("1 of 3 shards"));
+  EXPECT_THAT(Lines(folder_ / "driver"),
+              ElementsAre("--launch --seed 7 --shard 2/3 --resume " + out_ + "/shards/2"));
+  fs::remove(folder_ / "driver");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_FALSE(fs::exists(folder_ / "driver"));
+  EXPECT_EQ(Lines(folder_ / "report").size(), 3u);
+}
+
+TEST_F(SlurmTest, RefusesBadUseInOneLine) {
+  ASSERT_EQ(Submit({"--tasks", "2", "--out", out_, "--dry-run", "--seed", "1"}), 0) << errors_;
+  EXPECT_THAT(output_, HasSubstr("2 of 2 shards to run"));
+  EXPECT_FALSE(fs::exists(folder_ / "sbatch"));
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } cases[] = {
+      {{"--tasks", "2", "--out", out_, "--seed", "2"},
+       "holds another session: 2 shards of: --seed 1"},
+      {{"--tasks", "0", "--out", out_}, "--tasks: a number of shards is needed, found '0'"},
+      {{"--out", out_}, "--tasks: a number"},
+      {{"--tasks", "2"}, "--out: a folder is needed"},
+      {{"--tasks", "2", "--out", out_, "--shard", "1/2"}, "--shard: that is this program's to say"},
+      {{"--tasks"}, "--tasks: which?"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    EXPECT_EQ(Submit(arguments), 2);
+    EXPECT_THAT(errors_, HasSubstr(message));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+  }
+}
+
+// On whatever cluster the machine belongs to.
+TEST(Slurm, MergedShardsAreTheSessionInOneButForTimes) {
+  if (std::system("sinfo -h -o %t 2>/dev/null | grep -qE '^(idle|mix)'") != 0) {
+    GTEST_SKIP() << "needs a Slurm cluster with an idle node: slurm-wlm and munge, running";
+  }
+  TemporaryFolder folder;
+  const std::vector<std::string> flags = {"--robot",    PLANBENCH_SOURCE_DIR "/robots/fetch",
+                                          "--problems", PLANBENCH_SOURCE_DIR "/problems/shelf_demo",
+                                          "--planners", "rrtc",
+                                          "--trials",   "2",
+                                          "--time",     "30"};
+  std::vector<std::string> command = {PLANBENCH_SOURCE_DIR "/scripts/planbench_slurm", "--tasks",
+                                      "3", "--out", folder / "study"};
+  command.insert(command.end(), flags.begin(), flags.end());
+  ChildProcess slurm(command, folder / "slurm", {{"PLANBENCH_PROGRAMS", PLANBENCH_BIN_DIR}});
+  ASSERT_EQ(slurm.Wait(), 0) << slurm.Errors();
+  ASSERT_TRUE(WaitUntil([&] { return fs::exists(folder / "study/report.html"); }))
+      << Read(folder / "study/logs/merge") << Read(folder / "study/logs/1");
+
+  command = {PLANBENCH_BIN_DIR "/benchmark_driver", "--launch", "--out", folder / "one"};
+  command.insert(command.end(), flags.begin(), flags.end());
+  ChildProcess driver(command, folder / "driver");
+  ASSERT_EQ(driver.Wait(), 0) << driver.Errors();
+  const auto rows = [&](const std::string& session) {
+    SqliteConnection database(folder / (session + "/results.sqlite"),
+                              SqliteConnection::Mode::kReadOnly);
+    SqliteStatement statement = database.Prepare(
+        "SELECT problem_set, problem_index, trial, seed, status, path_length FROM runs ORDER BY 1, "
+        "2, 3");
+    std::vector<std::vector<SqliteValue>> all;
+    while (statement.Step()) {
+      std::vector<SqliteValue>& row = all.emplace_back();
+      for (int column = 0; column < 6; ++column) row.push_back(statement.Value(column));
+    }
+    return all;
+  };
+  EXPECT_EQ(rows("one").size(), 12u);
+  EXPECT_EQ(rows("study/merged"), rows("one"));
+}
+
+}  // namespace
+}  // namespace planbench
