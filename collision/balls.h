@@ -1,18 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "geometry/ball.h"
 #include "scene/scene.h"
 
 namespace planbench {
-
-struct Ball {
-  Eigen::Vector3d center;  ///< m
-  double radius;           ///< m
-};
 
 /// A small ball that encloses all of the given ones (at least one), up to rounding: a
 /// 1.01-approximation by Badoiu and Clarkson's iteration (Optimal core-sets for balls, 2008).

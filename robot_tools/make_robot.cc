@@ -18,10 +18,11 @@
 #include "robot_model/robot_folder.h"
 #include "robot_model/srdf.h"
 #include "robot_tools/group_proposal.h"
+#include "robot_tools/link_bodies.h"
 #include "robot_tools/mesh_files.h"
 #include "robot_tools/pair_sampling.h"
 #include "robot_tools/robot_writer.h"
-#include "robot_tools/sphere_cover.h"
+#include "sphere_fitting/outer_spheres.h"
 
 namespace planbench {
 namespace {
@@ -29,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using LinkPairs = std::vector<std::pair<int, int>>;
 
-constexpr int kMostSpheresOfAShape = 100;
+constexpr int kMostSpheresOfALink = 100;
 constexpr int kFreeSamples = 1000;
 
 // A fiftieth of how far the robot reaches, in mm, and no more than arms of a metre need.
@@ -177,7 +178,7 @@ class RobotMaker {
       robot().spheres = srdf_->spheres;
       SayWhatSpheresLeave("the SRDF's approximations");
     } else {
-      CoverUrdf();
+      EncloseUrdf();
     }
     if (robot().spheres.empty()) {
       throw InputError(
@@ -201,35 +202,32 @@ class RobotMaker {
         fmt::join(draft_.links_without_spheres, ", "));
   }
 
-  void CoverUrdf() {
-    double overshoot_m = 0;
+  void EncloseUrdf() {
+    const LinkBodies links = ReadLinkBodies(robot().model, robot().resources);
+    for (const std::string& remark : links.remarks) Say(remark);
+    FitGoal goal;
+    goal.protrusion_m = flags_.protrusion_m;
+    goal.most_a_link = kMostSpheresOfALink;
+    std::vector<std::vector<Ball>> sets;
+    double protrusion_m = 0;
     std::string worst;
-    int covered = 0;
-    for (int link = 0; link < robot().model.num_links(); ++link) {
-      const Link& description = robot().model.links()[static_cast<std::size_t>(link)];
-      for (const PlacedShape& placed : description.collision) {
-        if (std::holds_alternative<Mesh>(placed.shape)) {
-          throw InputError(fmt::format(
-              "{}: its collision geometry is a mesh; give a sphere model with --spheres FILE, or "
-              "--without-spheres for a robot that is checked with its meshes alone",
-              description.where));
-        }
-        const SphereCover cover =
-            CoverWithSpheres(placed.shape, flags_.overshoot_m, kMostSpheresOfAShape);
-        for (const SphereCover::Ball& ball : cover.balls) {
-          robot().spheres.push_back({link, placed.X_FS * ball.center, ball.radius});
-        }
-        if (!std::holds_alternative<Sphere>(placed.shape)) ++covered;
-        if (cover.overshoot_m > overshoot_m) {
-          overshoot_m = cover.overshoot_m;
-          worst = description.name;
-        }
-      }
+    int enclosed = 0;
+    const std::vector<OuterSet> fitted = FitOuterSpheres(links.bodies, goal);
+    for (std::size_t i = 0; i < fitted.size(); ++i) {
+      sets.push_back(fitted[i].balls);
+      if (links.bodies[i].has_solids()) ++enclosed;
+      const double here = GreatestProtrusion(links.bodies[i], sets.back());
+      if (here <= protrusion_m) continue;
+      protrusion_m = here;
+      worst = LinkName(links.links[i]);
     }
+    robot().spheres = ToLinkSpheres(links, sets);
     SayWhatSpheresLeave("the URDF's collision geometry");
-    if (covered == 0) return;
-    Say("  they enclose {} boxes and cylinders, and reach up to {:.3f} m beyond them (at {})",
-        covered, overshoot_m, worst);
+    if (enclosed == 0) return;
+    Say("  they enclose the meshes, boxes and cylinders of {} links, and reach up to {:.3f} m "
+        "beyond "
+        "them (at {})",
+        enclosed, protrusion_m, worst);
   }
 
   void MakePairs() {
@@ -344,8 +342,7 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
   app->add_option(
       "--spheres", spheres,
       "sphere model: a URDF of spheres, an SRDF with approximations, or a spheres.yaml; "
-      "default: the SRDF's, else those that enclose the URDF's spheres, boxes and "
-      "cylinders");
+      "default: the SRDF's, else those that enclose the URDF's collision geometry");
   app->add_option("--out", out, "folder to write")->required();
   app->add_option("--name", name, "name of the robot; default: the URDF's");
   app->add_option("--package-path", package_paths, "NAME=DIR, for package:// URIs of meshes");
@@ -355,8 +352,9 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
   app->add_option("--seed", seed, "of these configurations")
       ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
       ->capture_default_str();
-  app->add_option("--overshoot", overshoot_m,
-                  "how far spheres may reach beyond the boxes and cylinders they enclose, m")
+  app->add_option(
+         "--protrusion", protrusion_m,
+         "how far spheres may reach beyond the meshes, boxes and cylinders they enclose, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app->add_flag("--without-spheres", without_spheres,

@@ -18,7 +18,7 @@ struct MakeRobotFlags {
   std::vector<std::string> package_paths;
   int samples = 10'000;
   std::uint64_t seed = 1;
-  double overshoot_m = 0.03;
+  double protrusion_m = 0.03;
   bool without_spheres = false;
   bool replace = false;
 

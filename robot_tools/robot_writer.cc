@@ -8,6 +8,7 @@
 #include "common/enum_names.h"
 #include "common/error.h"
 #include "common/yaml_text.h"
+#include "robot_tools/sphere_writer.h"
 
 namespace planbench {
 namespace {
@@ -107,25 +108,13 @@ std::string RobotYaml(const RobotDraft& draft) {
   return yaml;
 }
 
-std::string SpheresYaml(const Robot& robot) {
-  std::string yaml = "# Centres and radii in m, in each link's frame.\nlinks:\n";
-  int link = -1;
-  for (const LinkSphere& sphere : robot.spheres) {
-    if (sphere.link != link) yaml += fmt::format("  {}:\n", LinkName(robot.model, sphere.link));
-    link = sphere.link;
-    const Eigen::Vector3d& p = sphere.p_LS;
-    yaml += fmt::format("    - {{center: [{}, {}, {}], radius: {}}}\n", YamlNumber(p.x()),
-                        YamlNumber(p.y()), YamlNumber(p.z()), YamlNumber(sphere.radius));
-  }
-  return yaml;
-}
-
 void WriteRobotFolder(const RobotDraft& draft, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError("cannot make the folder " + folder.string());
   WriteFile(folder / (draft.robot.name + ".urdf"), draft.urdf_text);
-  if (!draft.robot.spheres.empty()) WriteFile(folder / "spheres.yaml", SpheresYaml(draft.robot));
+  if (!draft.robot.spheres.empty())
+    WriteFile(folder / "spheres.yaml", SpheresYaml(draft.robot.model, draft.robot.spheres, {}));
   WriteFile(folder / "robot.yaml", RobotYaml(draft));
 }
 

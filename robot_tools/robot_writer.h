@@ -25,8 +25,6 @@ struct RobotDraft {
 
 /// robot.yaml for a draft whose files are NAME.urdf and, if it has spheres, spheres.yaml.
 std::string RobotYaml(const RobotDraft& draft);
-/// spheres.yaml: the spheres by link.
-std::string SpheresYaml(const Robot& robot);
 
 /// Writes the folder. Throws InputError if a file cannot be written.
 void WriteRobotFolder(const RobotDraft& draft, const std::filesystem::path& folder);

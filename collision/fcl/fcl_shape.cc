@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "collision/shape_check.h"
-#include "collision/solid_mesh.h"
 #include "common/error.h"
+#include "geometry/solid_mesh.h"
 
 namespace planbench {
 namespace {

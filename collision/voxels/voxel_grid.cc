@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "collision/shape_check.h"
-#include "collision/solid_mesh.h"
+#include "geometry/solid_mesh.h"
 
 namespace planbench {
 namespace {

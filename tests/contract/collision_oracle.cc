@@ -243,16 +243,4 @@ Eigen::Isometry3d RandomPose(std::mt19937_64* generator, double range_m) {
   return X;
 }
 
-TriangleMesh BoxMesh(const Eigen::Vector3d& size) {
-  TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner) {
-    mesh.vertices.emplace_back(((corner & 1) != 0 ? 0.5 : -0.5) * size.x(),
-                               ((corner & 2) != 0 ? 0.5 : -0.5) * size.y(),
-                               ((corner & 4) != 0 ? 0.5 : -0.5) * size.z());
-  }
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
 }  // namespace planbench

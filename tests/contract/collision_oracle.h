@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/polyhedra.h"
 #include "geometry/shapes.h"
 #include "robot_model/robot_folder.h"
 #include "scene/scene.h"
@@ -40,8 +41,5 @@ std::vector<double> WithGroupAt(const Robot& robot, const PlanningGroup& group,
 /// Uniform within the limits.
 std::vector<double> RandomConfiguration(const JointSpace& space, std::mt19937_64* generator);
 Eigen::Isometry3d RandomPose(std::mt19937_64* generator, double range_m);
-
-/// A closed surface around a box centred at the origin.
-TriangleMesh BoxMesh(const Eigen::Vector3d& size);
 
 }  // namespace planbench

@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/read_text.h"
 #include "robot_model/robot_folder.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/generated_meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -51,6 +55,7 @@ class MakeRobotTest : public testing::Test {
     flags_.urdf = folder_.path() / "in/crane.urdf";
     flags_.out = folder_.path() / "out";
     flags_.samples = 500;
+    flags_.protrusion_m = 0.1;
   }
   std::string Make() { return fmt::format("{}", fmt::join(MakeRobot(flags_), "\n")); }
   void Srdf(const std::string& text = kSrdf) {
@@ -146,23 +151,33 @@ TEST_F(MakeRobotTest, WhatTouchesByDefaultWhileNoGroupMovesItIsExempt) {
   EXPECT_THAT(Make(), testing::Not(HasSubstr("moved apart by no group")));
 }
 
-TEST_F(MakeRobotTest, MeshesNeedSpheresAndAreCopied) {
+TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
   const std::string mesh =
       std::string(kUrdf).replace(std::string(kUrdf).find("<sphere radius=\"0.06\"/>"), 23,
-                                 "<mesh filename=\"package://crane/hook.stl\"/>");
+                                 "<mesh filename=\"package://crane/hook.obj\"/>");
   folder_.Write("in/crane.urdf", mesh);
-  ExpectRefused({"crane.urdf:7", "link 'hook'", "mesh", "--spheres", "--without-spheres"});
+  ExpectRefused({"crane.urdf:7", "link 'hook'", "package://crane/hook.obj"});
   flags_.without_spheres = true;
-  ExpectRefused({"package://crane/hook.stl"});
+  ExpectRefused({"package://crane/hook.obj"});
 
   folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
   flags_.without_spheres = false;
   flags_.replace = true;
   flags_.spheres = folder_.path() / "in/spheres.yaml";
-  EXPECT_THAT(Make(), AllOf(HasSubstr("1 meshes are missing"), HasSubstr("hook.stl")));
-  folder_.Write("in/crane/hook.stl", "solid");
-  EXPECT_THAT(Make(), HasSubstr("1 mesh files copied"));
-  EXPECT_TRUE(std::filesystem::exists(flags_.out / "crane/hook.stl"));
+  EXPECT_THAT(Make(), AllOf(HasSubstr("1 meshes are missing"), HasSubstr("hook.obj")));
+
+  folder_.Write("in/crane/hook.obj", MeshAsObj(TorusMesh(0.1, 0.03, 20, 10)));
+  flags_.spheres.clear();
+  EXPECT_THAT(Make(), AllOf(HasSubstr("1 mesh files copied"),
+                            HasSubstr("meshes, boxes and cylinders of 4 links")));
+  EXPECT_TRUE(std::filesystem::exists(flags_.out / "crane/hook.obj"));
+  const Robot robot = LoadRobot(flags_.out);
+  for (const double angle : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+    const Eigen::Vector3d p(0.125 * std::cos(angle), 0.125 * std::sin(angle), 0);
+    EXPECT_TRUE(std::any_of(robot.spheres.begin(), robot.spheres.end(), [&](const LinkSphere& s) {
+      return s.link == robot.model.FindLink("hook") && (p - s.p_LS).norm() <= s.radius;
+    }));
+  }
 }
 
 TEST_F(MakeRobotTest, RefusesInOneLine) {

@@ -1,4 +1,4 @@
-#include "collision/solid_mesh.h"
+#include "geometry/solid_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -83,10 +83,20 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
   }
   for (std::size_t t = 0; t < all.size(); ++t) {
     Component& component = components[static_cast<std::size_t>(root(vertex_of[t]))];
-    if (!component.seen) component_points_.push_back(all[t].a);
+    if (!component.seen) {
+      component_points_.push_back(all[t].a);
+      ++survey_.components;
+      if (!component.closed) ++survey_.open;
+      if (component.closed && !component.oriented) ++survey_.not_oriented;
+    }
     component.seen = true;
     all[t].oriented = component.oriented;
-    if (component.closed) triangles_.push_back(all[t]);
+    if (!component.closed) continue;
+    triangles_.push_back(all[t]);
+    if (!component.oriented) continue;
+    // Of the pyramid over the triangle, seen from a vertex of the mesh.
+    const Eigen::Vector3d& apex = mesh.vertices.front();
+    survey_.volume += (all[t].a - apex).dot((all[t].b - apex).cross(all[t].c - apex)) / 6;
   }
   if (has_inside()) BuildGrid();
 }

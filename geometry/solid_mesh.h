@@ -13,7 +13,16 @@ namespace planbench {
 /// every edge is shared by an even number of them.
 class SolidMesh {
  public:
+  /// What its components are.
+  struct Survey {
+    int components = 0;
+    int open = 0;          ///< Of them not closed.
+    int not_oriented = 0;  ///< Closed, but neighbours disagree about where the outside is.
+    double volume = 0;     ///< Of the closed, oriented ones, m^3; less than 0: turned inside out.
+  };
   explicit SolidMesh(const TriangleMesh& mesh);
+
+  const Survey& survey() const { return survey_; }
 
   /// True if some component is closed, so that the mesh has an inside.
   bool has_inside() const { return !triangles_.empty(); }
@@ -32,6 +41,7 @@ class SolidMesh {
   bool InGrid(const Eigen::Vector3d& point, std::size_t* cell) const;
   void BuildGrid();
 
+  Survey survey_;
   std::vector<Eigen::Vector3d> component_points_;
   std::vector<Triangle> triangles_;  // of the closed components
   // Triangles by the cells of a grid over x and y that their bounding rectangles touch.

@@ -1,4 +1,4 @@
-#include "collision/solid_mesh.h"
+#include "geometry/solid_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/contract/collision_oracle.h"
+#include "geometry/polyhedra.h"
 
 namespace planbench {
 namespace {

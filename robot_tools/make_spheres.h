@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace planbench {
+
+/// The flags of make_spheres.
+struct MakeSpheresFlags {
+  std::filesystem::path urdf;
+  std::vector<std::string> package_paths;
+  int spheres = 0;          ///< In all; 0: as many as protrusion_m needs.
+  double protrusion_m = 0;  ///< Greatest; 0: what `spheres` reach.
+  int most_a_link = 1000;
+  std::filesystem::path outer;  ///< Files to write; empty: not written.
+  std::filesystem::path inner;
+  std::filesystem::path srdf;
+  std::filesystem::path urdf_out;
+
+  void AddTo(CLI::App* app);
+};
+
+/// Fits spheres to a robot's collision geometry and writes them. Returns what to tell the user, a
+/// line each: what is odd about meshes, and a table of how close the spheres are, link by link.
+/// Throws InputError, and writes nothing, for what it cannot do.
+std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags);
+
+}  // namespace planbench

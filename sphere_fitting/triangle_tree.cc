@@ -1,0 +1,112 @@
+#include "sphere_fitting/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint32_t kTrianglesOfALeaf = 4;
+
+double SquaredDistanceToSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d edge = b - a;
+  const double length2 = edge.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(edge) / length2, 0.0, 1.0) : 0.0;
+  return (a + t * edge - p).squaredNorm();
+}
+
+double SquaredDistanceToTriangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d normal = (b - a).cross(c - a);
+  const double normal2 = normal.squaredNorm();
+  const bool above = normal2 > 0 && normal.cross(b - a).dot(p - a) >= 0 &&
+                     normal.cross(c - b).dot(p - b) >= 0 && normal.cross(a - c).dot(p - c) >= 0;
+  if (above) {
+    const double height = normal.dot(p - a);
+    return height * height / normal2;
+  }
+  return std::min({SquaredDistanceToSegment(p, a, b), SquaredDistanceToSegment(p, b, c),
+                   SquaredDistanceToSegment(p, c, a)});
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) {
+  triangles_.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    triangles_.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  }
+  if (!triangles_.empty()) Build(0, static_cast<std::uint32_t>(triangles_.size()));
+}
+
+void TriangleTree::Build(std::uint32_t begin, std::uint32_t end) {
+  Node node;
+  node.begin = begin;
+  node.end = end;
+  node.low = node.high = triangles_[begin][0];
+  Vector3d middle_low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d middle_high = -middle_low;
+  for (std::uint32_t t = begin; t < end; ++t) {
+    const Corners& corners = triangles_[t];
+    for (const Vector3d& corner : corners) {
+      node.low = node.low.cwiseMin(corner);
+      node.high = node.high.cwiseMax(corner);
+    }
+    const Vector3d middle = corners[0] + corners[1] + corners[2];
+    middle_low = middle_low.cwiseMin(middle);
+    middle_high = middle_high.cwiseMax(middle);
+  }
+  const std::size_t index = nodes_.size();
+  nodes_.push_back(node);
+  if (end - begin <= kTrianglesOfALeaf) return;
+  Eigen::Index axis = 0;
+  (middle_high - middle_low).maxCoeff(&axis);
+  const std::uint32_t half = begin + (end - begin) / 2;
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
+                   [axis](const Corners& a, const Corners& b) {
+                     return a[0][axis] + a[1][axis] + a[2][axis] <
+                            b[0][axis] + b[1][axis] + b[2][axis];
+                   });
+  Build(begin, half);
+  nodes_[index].second = static_cast<std::uint32_t>(nodes_.size());
+  Build(half, end);
+}
+
+double TriangleTree::Distance(const Vector3d& point) const {
+  double best2 = std::numeric_limits<double>::infinity();
+  if (nodes_.empty()) return best2;
+  const auto to_box = [&](std::uint32_t index) {
+    const Node& node = nodes_[index];
+    return (node.low - point).cwiseMax(point - node.high).cwiseMax(0).squaredNorm();
+  };
+  struct Open {
+    double distance2;
+    std::uint32_t node;
+  };
+  std::array<Open, 64> stack;  // Halving leaves no tree of 2^32 triangles deeper than that.
+  std::size_t size = 0;
+  stack[size++] = {to_box(0), 0};
+  while (size > 0) {
+    const Open open = stack[--size];
+    if (open.distance2 >= best2) continue;
+    const Node& node = nodes_[open.node];
+    if (node.second == 0) {
+      for (std::uint32_t t = node.begin; t < node.end; ++t) {
+        best2 = std::min(best2, SquaredDistanceToTriangle(point, triangles_[t]));
+      }
+      continue;
+    }
+    Open near = {to_box(open.node + 1), open.node + 1};
+    Open far = {to_box(node.second), node.second};
+    if (far.distance2 < near.distance2) std::swap(near, far);
+    stack[size++] = far;
+    stack[size++] = near;
+  }
+  return std::sqrt(best2);
+}
+
+}  // namespace planbench
