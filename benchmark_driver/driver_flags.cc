@@ -212,7 +212,8 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
              options->references.push_back(SplitNameValue(text, "--reference", "NAME=FILE"));
            }
          },
-         "NAME=FILE: results from elsewhere (CSV, docs/lineups.md) to stand in the tables; "
+         "NAME=FILE: results from elsewhere (CSV or OMPL's, docs/lineups.md) to stand in the "
+         "tables; "
          "repeatable")
       ->allow_extra_args(false);
   app->add_flag("--skip-bad-problems", options->skip_bad_problems,

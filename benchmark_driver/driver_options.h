@@ -29,7 +29,7 @@ struct DriverOptions {
   double discovery_timeout_s = 5;
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
 
-  /// Results from elsewhere to stand in the tables: name, CSV file (results/reference.h).
+  /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).
   std::vector<std::pair<std::string, std::string>> references;
 
   bool launch = false;

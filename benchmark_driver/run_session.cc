@@ -20,7 +20,8 @@
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/program.h"
-#include "results/reference.h"
+#include "results/compared_sessions.h"
+#include "results/imported_results.h"
 #include "robot_model/robot_folder.h"
 #include "robot_model/shipped_robots.h"
 
@@ -89,8 +90,11 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
 
   std::vector<Attempt> references;
   for (const auto& [name, file] : options.references) {
-    const auto more = ReadReference(file, name, options.conditions.request.time_limit_s);
-    references.insert(references.end(), more.begin(), more.end());
+    const StoredSession imported =
+        ImportResults(file, name, options.conditions.request.time_limit_s);
+    for (const StoredRun& run : imported.runs) {
+      references.push_back(AttemptOf(run, imported.contestants[run.contestant].name));
+    }
   }
   std::string url = lcm_url;
   std::filesystem::path session_folder;

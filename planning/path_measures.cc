@@ -7,22 +7,12 @@
 #include <limits>
 #include <vector>
 
+#include "planning/motion_time.h"
 #include "planning/path_samples.h"
 #include "robot_model/group_kinematics.h"
 
 namespace planbench {
 namespace {
-
-/// Unit vector of the straight motion, which must not be of zero length.
-std::vector<double> DirectionOf(const JointSpace& space, const Configuration& from,
-                                const Configuration& to, double length) {
-  std::vector<double> direction(from.size());
-  for (int j = 0; j < space.size(); ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    direction[k] = space.Difference(j, from[k], to[k]) / length;
-  }
-  return direction;
-}
 
 /// Angle between unit vectors, accurate near 0 and pi too (Kahan), where the arc cosine is not.
 double AngleBetween(const std::vector<double>& u, const std::vector<double>& v) {
@@ -54,6 +44,11 @@ std::span<const PathMeasure> PathMeasures() {
        .unit = "",
        .meaning = "as OMPL defines it; 0 is smoothest",
        .take = [](P& p) { return PathSmoothness(p.space(), p.path()); }},
+      {.name = "motion_time",
+       .unit = "s",
+       .meaning = "shortest time to follow the path exactly, each joint reaching its limit of "
+                  "velocity in 0.5 s at least",
+       .take = [](P& p) { return MotionTime(p.space(), p.path()); }},
       {.name = "clearance",
        .unit = "m",
        .meaning = "smallest distance to a collision along a valid path, if it was asked for",

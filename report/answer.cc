@@ -130,12 +130,13 @@ std::string HowSure(const ComparedSessions& compared,
 std::string Rejections(const ComparedSessions& compared) {
   int claimed = 0, rejected = 0;
   for (const ComparedContestant& contestant : compared.contestants()) {
+    if (compared.sessions()[contestant.session].imported) continue;
     for (const StoredRun* run : contestant.runs) {
       claimed += run->claimed;
       rejected += run->status == PlanStatus::kInvalidPath;
     }
   }
-  if (claimed == 0) return "no path was claimed";
+  if (claimed == 0) return "no path was claimed to the referee";
   return rejected == 0 ? fmt::format("the referee confirmed every one of {} paths", claimed)
                        : fmt::format("the referee rejected {} of {} paths", rejected, claimed);
 }
@@ -163,7 +164,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     const StoredSession& session = compared.sessions()[i];
     const std::string& name = compared.session_names()[i];
     const int num_runs = static_cast<int>(session.runs.size());
-    if (!session.described) {
+    if (session.imported) {
+      cautions.push_back(fmt::format(
+          "{}: {} runs from elsewhere, on another machine or under other conditions; no referee "
+          "judged their paths: confirmed are those that the file calls solved.",
+          name, num_runs));
+    } else if (!session.described) {
       cautions.push_back(fmt::format(
           "{}: the session's own message is missing; its conditions are not known.", name));
     } else if (!session.finished) {

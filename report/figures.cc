@@ -115,6 +115,22 @@ Json SurvivalJson(const Outcomes& outcomes) {
           {"limit", kMs * outcomes.time_limit_s}};
 }
 
+Json Rounded(const std::optional<double>& value) { return value ? Rounded(*value) : Json(); }
+
+Json StepsJson(const std::vector<AnytimeStep>& steps) {
+  Json time = Json::array(), median = Json::array(), lower = Json::array(), upper = Json::array();
+  for (const AnytimeStep& step : steps) {
+    time.push_back(Rounded(kMs * step.time_s));
+    median.push_back(Rounded(step.median));
+    lower.push_back(Rounded(step.lower));
+    upper.push_back(Rounded(step.upper));
+  }
+  return {{"time", std::move(time)},
+          {"median", std::move(median)},
+          {"lower", std::move(lower)},
+          {"upper", std::move(upper)}};
+}
+
 Json ProfileJson(const std::vector<ProfileStep>& steps) {
   Json ratio = Json::array(), share = Json::array();
   for (const ProfileStep& step : steps) {
@@ -180,6 +196,19 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
                  {Rounded(mean.setup_s / total), Rounded(mean.collision_s / total),
                   Rounded(mean.guidance_s / total), Rounded(mean.search_s / total)}}};
       });
+  const auto improvement = [&](std::vector<AnytimeStep> AnytimeCurves::*steps) {
+    return ByContestant(compared, set,
+                        [&](const Outcomes&, const ComparedContestant& contestant) -> Json {
+                          std::vector<const StoredRun*> runs;
+                          for (const StoredRun* run : contestant.runs) {
+                            if (run->problem_set == name) runs.push_back(run);
+                          }
+                          const AnytimeCurves curves = ImprovementOverTime(runs);
+                          return (curves.*steps).empty() ? Json() : StepsJson(curves.*steps);
+                        });
+  };
+  json["anytime_cost"] = improvement(&AnytimeCurves::cost);
+  json["anytime_bound"] = improvement(&AnytimeCurves::bound);
   return json;
 }
 

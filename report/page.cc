@@ -62,12 +62,16 @@ std::string ReportPage(const Json& data, const EmbeddedViews& views) {
   return Page(WebFile("page.html"), scripts);
 }
 
-std::string ViewPage(const Json& view) {
-  std::string scripts = DataElement("data", view) + ThreeScripts();
-  for (const char* name : {"palette.js", "theme.js", "viewer.js", "view.js"}) {
+std::string PageWithViews(std::string_view html, const std::string& data, std::string_view script) {
+  std::string scripts = data + ThreeScripts();
+  for (const char* name : {"palette.js", "theme.js", "viewer.js"}) {
     scripts += ScriptElement(WebFile(name));
   }
-  return Page(WebFile("view.html"), scripts);
+  return Page(html, scripts + ScriptElement(script));
+}
+
+std::string ViewPage(const Json& view) {
+  return PageWithViews(WebFile("view.html"), DataElement("data", view), WebFile("view.js"));
 }
 
 }  // namespace planbench

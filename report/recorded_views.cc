@@ -71,6 +71,7 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
   EmbeddedViews embedded;
   std::vector<std::unique_ptr<RecordedViews>> sessions(compared.sessions().size());
   for (std::size_t s = 0; s < sessions.size(); ++s) {
+    if (compared.sessions()[s].imported) continue;
     try {
       sessions[s] = std::make_unique<RecordedViews>(compared.sessions()[s], "");
     } catch (const InputError& error) {

@@ -38,6 +38,23 @@ void ForEach(const ComparedSessions& compared, Visit visit) {
   }
 }
 
+/// The bodies that a reason names ("'a' and 'b'"), or all of it.
+std::string ContactOf(const std::string& reason) {
+  const std::size_t begin = reason.find('\'');
+  const std::size_t middle = reason.find("' and '", begin + 1);
+  if (begin == std::string::npos || middle == std::string::npos) return reason;
+  const std::size_t end = reason.find('\'', middle + 7);
+  return reason.substr(begin, end == std::string::npos ? end : end + 1 - begin);
+}
+
+/// "'a' and 'b' (3)"; "" if there is none.
+std::string Commonest(const std::map<std::string, int>& counts) {
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? "" : fmt::format("{} ({})", most->first, most->second);
+}
+
 void AdjustSet(std::vector<ComparedPair>::iterator first,
                std::vector<ComparedPair>::iterator last) {
   std::vector<double> p_values;
@@ -283,27 +300,32 @@ Table MeshTable(const ComparedSessions& compared) {
       "meshes",
       "Confirmed paths judged with the robot's meshes",
       "Raw paths that the referee confirmed with the planners' own collision model, by what "
-      "the exact geometry says of them. Wilson's interval over the attempts.",
+      "the exact geometry says of them. Wilson's interval over the attempts. Commonest contact: of "
+      "those that the meshes do not allow, in parentheses how many.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"judged", "judged", Style::kCount},
        {"valid", "valid", Style::kCount},
-       {"valid_percent", "% [95 %]", Style::kShare, true}},
+       {"valid_percent", "% [95 %]", Style::kShare, true},
+       {"commonest_contact", "commonest contact"}},
       {}};
-  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
-                        const Outcomes&) {
-    int judged = 0, valid = 0;
-    for (const StoredRun* run : ConfirmedRuns(contestant, set)) {
-      if (!run->mesh_valid) continue;
-      ++judged;
-      valid += *run->mesh_valid;
-    }
-    if (judged == 0) return;
-    const Interval interval = WilsonInterval(valid, judged);
-    table.rows.push_back(
-        {set, contestant.name, judged, valid,
-         Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}}});
-  });
+  ForEach(
+      compared, [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
+        int judged = 0, valid = 0;
+        std::map<std::string, int> contacts;
+        for (const StoredRun* run : ConfirmedRuns(contestant, set)) {
+          if (!run->mesh_valid) continue;
+          ++judged;
+          valid += *run->mesh_valid;
+          if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
+        }
+        if (judged == 0) return;
+        const Interval interval = WilsonInterval(valid, judged);
+        table.rows.push_back(
+            {set, contestant.name, judged, valid,
+             Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}},
+             Commonest(contacts)});
+      });
   return table;
 }
 
@@ -357,6 +379,69 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   return table;
 }
 
+Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
+  Table table{
+      "changes",
+      "What changed from session to session",
+      "Contestants of one name, on the problems that both sessions have, against the session that "
+      "was "
+      "begun first. Time ratio: geometric mean of after / before over the problems solved in both, "
+      "with a bootstrap 95 % interval. p: signed-rank test of problem by problem, adjusted for all "
+      "rows (Holm). Faster or slower: beyond chance at the 5 % level.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"before", "before"},
+       {"after", "after"},
+       {"problems", "problems", Style::kCount},
+       {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
+       {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
+       {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
+       {"p_holm", "p (Holm)", Style::kPValue},
+       {"change", "change"}},
+      {}};
+  const auto begun = [&](const ComparedContestant& one) -> const std::string& {
+    return compared.sessions()[one.session].date;
+  };
+  std::vector<PairedComparison> results;
+  const auto confirmed = [](const Outcomes& outcomes) {
+    const SuccessSummary s = SummarizeSuccess(outcomes);
+    return Estimate{100 * s.share, Interval{100 * s.interval.lower, 100 * s.interval.upper}};
+  };
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    for (const ComparedContestant& after : compared.contestants()) {
+      const ComparedContestant* before = nullptr;
+      for (const ComparedContestant& one : compared.contestants()) {
+        const bool is_other = one.own_name == after.own_name && one.session != after.session;
+        if (!is_other || !by_contestant.contains(one.name)) continue;
+        if (begun(one) < begun(after) && (before == nullptr || begun(one) < begun(*before))) {
+          before = &one;
+        }
+      }
+      if (before == nullptr || !by_contestant.contains(after.name)) continue;
+      const Outcomes& old_outcomes = by_contestant.at(before->name);
+      const Outcomes& new_outcomes = by_contestant.at(after.name);
+      const PairedComparison result = Compare(new_outcomes, old_outcomes, seed);
+      if (result.num_problems == 0) continue;
+      table.rows.push_back(
+          {set, after.own_name, compared.session_names()[before->session],
+           compared.session_names()[after.session], result.num_problems, confirmed(old_outcomes),
+           confirmed(new_outcomes),
+           result.ratio ? Cell(Estimate{result.ratio->mean, result.ratio->interval}) : Cell()});
+      results.push_back(result);
+    }
+  }
+  std::vector<double> p_values;
+  for (const PairedComparison& result : results) p_values.push_back(result.test.p_value);
+  const std::vector<double> adjusted = AdjustPValues(p_values);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double effect = results[i].test.RankBiserial();
+    const bool sure = adjusted[i] <= 0.05;
+    table.rows[i].emplace_back(adjusted[i]);
+    table.rows[i].emplace_back(std::string(!sure ? "not shown" : effect < 0 ? "faster" : "slower"));
+  }
+  return table;
+}
+
 Table ConditionTable(const ComparedSessions& compared) {
   Table table{"conditions",
               "Conditions of the measurement",
@@ -388,7 +473,7 @@ std::vector<Table> AllTables(const ComparedSessions& compared,
                                TimeTable(compared),           PairTable(pairs),
                                QualityTable(compared, seed),  PhaseTable(compared),
                                FailureTable(compared),        MeshTable(compared),
-                               ConditionTable(compared)};
+                               ChangeTable(compared, seed),   ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   return tables;
 }

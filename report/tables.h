@@ -35,10 +35,12 @@ Table PairTable(const std::vector<ComparedPair>& pairs);
 Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);
 Table PhaseTable(const ComparedSessions& compared);
 Table FailureTable(const ComparedSessions& compared);
-/// Verdicts of the mesh robot; no rows if there are none.
+/// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
 Table MeshTable(const ComparedSessions& compared);
 /// What the sessions were, side by side; `only_different`: where they differ.
 Table SessionTable(const ComparedSessions& compared, bool only_different);
+/// Contestants of one name in several sessions, each against that of the session begun first.
+Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed);
 /// What the conditions of the measurement leave uncertain.
 Table ConditionTable(const ComparedSessions& compared);
 

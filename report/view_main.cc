@@ -6,6 +6,7 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "messaging/record_log.h"
 #include "report/page.h"
 #include "report/recorded_views.h"
 #include "report/write_file.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct Flags {
   std::string session;
+  std::string log;
   std::int64_t run = 0;
   std::string problem;
   std::string robot;
@@ -35,14 +37,39 @@ Json ViewOfRun(const Flags& flags) {
   throw InputError(fmt::format("{}: no run {}", flags.session, flags.run));
 }
 
+/// The run of that number among those of the log, from 1; 0: the last.
+Json ViewOfLog(const Flags& flags) {
+  RecordedSession recorded = ReadRecords(flags.log);
+  const auto num_runs = static_cast<std::int64_t>(recorded.runs.size());
+  const std::int64_t number = flags.run == 0 ? num_runs : flags.run;
+  if (number < 1 || number > num_runs) {
+    throw InputError(fmt::format("{}: no run {}; it holds {}", flags.log, number, num_runs));
+  }
+  const RunRecordMessage& run = recorded.runs[static_cast<std::size_t>(number - 1)];
+  const auto scenes = ReadScenes(flags.log);
+  const auto scene = scenes.find(run.request.scene_id);
+  if (scene == scenes.end()) {
+    throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
+  }
+  std::string robot = flags.robot;
+  for (const SessionMessage& session : recorded.sessions) {
+    const auto flag = session.settings.find("robot");
+    if (robot.empty() && session.run_id == run.run_id && flag != session.settings.end()) {
+      robot = flag->second;
+    }
+  }
+  if (robot.empty()) throw InputError(flags.log + " does not name the robot's folder: --robot DIR");
+  return RunView(LoadRobot(robot), scene->second, run, kFrames);
+}
+
 Json ViewOfProblem(const Flags& flags) {
-  if (flags.robot.empty()) throw InputError("--problem needs --robot");
+  if (flags.robot.empty()) throw InputError("--problems needs --robot");
   const std::filesystem::path place = flags.problem;
   const std::string number = place.filename().string();
   int index = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
   if (error != std::errc() || end != number.data() + number.size()) {
-    throw InputError("--problem: " + flags.problem + " does not end in a problem's index (SET/3)");
+    throw InputError("--problems: " + flags.problem + " does not end in a problem's index (SET/3)");
   }
   const ProblemSet set = ListProblemSet(place.parent_path());
   const ProblemFiles* files = set.Find(index);
@@ -51,11 +78,18 @@ Json ViewOfProblem(const Flags& flags) {
   return ProblemView(robot, ReadProblem(files->scene, files->request, robot));
 }
 
-int Run(const Flags& flags) {
-  if (flags.session.empty() == flags.problem.empty()) {
-    throw InputError("one of --session and --problem is needed (see view --help)");
+Json ViewOf(const Flags& flags) {
+  if (static_cast<int>(!flags.session.empty()) + static_cast<int>(!flags.log.empty()) +
+          static_cast<int>(!flags.problem.empty()) !=
+      1) {
+    throw InputError("one of --session, --log and --problems is needed (see view --help)");
   }
-  WriteFile(flags.out, ViewPage(flags.problem.empty() ? ViewOfRun(flags) : ViewOfProblem(flags)));
+  if (!flags.session.empty()) return ViewOfRun(flags);
+  return flags.log.empty() ? ViewOfProblem(flags) : ViewOfLog(flags);
+}
+
+int Run(const Flags& flags) {
+  WriteFile(flags.out, ViewPage(ViewOf(flags)));
   std::cout << "view: " << flags.out << "\n";
   return kExitOk;
 }
@@ -67,9 +101,12 @@ int main(int argc, char** argv) {
   CLI::App app("Makes a page that shows a run, or a problem, in 3D.", "view");
   planbench::AddVersionFlag(&app);
   planbench::Flags flags;
-  CLI::Option* session = app.add_option("--session", flags.session, "session folder");
-  app.add_option("--run", flags.run, "id of the run in the session's table runs")->needs(session);
-  app.add_option("--problem", flags.problem, "SET/3: problem 3 of the problem set folder SET");
+  app.add_option("--session", flags.session, "session folder; --run tells which run");
+  app.add_option("--log", flags.log, "event log; of its runs the last, or that which --run tells");
+  app.add_option("--run", flags.run,
+                 "id of the run in the session's table runs; of a log its number, from 1");
+  app.add_option("--problems,--problem", flags.problem,
+                 "SET/3: problem 3 of the problem set folder SET");
   app.add_option("--robot", flags.robot, "robot folder; default: the session's");
   app.add_option("--out", flags.out, "the page")->capture_default_str();
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });

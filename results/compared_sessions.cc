@@ -45,6 +45,8 @@ std::vector<std::string> NameSessions(const std::vector<StoredSession>& sessions
   return names;
 }
 
+}  // namespace
+
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
   Attempt attempt;
   attempt.problem_set = run.problem_set;
@@ -59,8 +61,6 @@ Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
   return attempt;
 }
 
-}  // namespace
-
 ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
     : sessions_(std::move(sessions)), session_names_(NameSessions(sessions_)) {
   std::vector<std::string> names;
@@ -68,7 +68,7 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
     const std::size_t first = contestants_.size();
     for (const StoredContestant& one : sessions_[s].contestants) {
       names.push_back(one.name);
-      contestants_.push_back({"", one.settings, s, {}});
+      contestants_.push_back({"", one.name, one.settings, s, {}});
     }
     for (const StoredRun& run : sessions_[s].runs) {
       contestants_[first + run.contestant].runs.push_back(&run);

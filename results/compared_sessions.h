@@ -13,11 +13,15 @@ namespace planbench {
 
 /// A contestant of one session among those of all.
 struct ComparedContestant {
-  std::string name;  ///< Unique: with that of the session, or a number, where it must be.
+  std::string name;      ///< Unique: with that of the session, or a number, where it must be.
+  std::string own_name;  ///< In its session.
   std::string settings;
   std::size_t session = 0;
   std::vector<const StoredRun*> runs;  ///< In the order of the database.
 };
+
+/// A run as the comparison knows it.
+Attempt AttemptOf(const StoredRun& run, const std::string& contestant);
 
 /// Sessions side by side.
 class ComparedSessions {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "results/outcomes.h"
 #include "results/statistics.h"
+#include "results/stored_session.h"
 
 namespace planbench {
 
@@ -29,5 +31,24 @@ struct ProfileStep {
 /// rises, ascending.
 std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
     const std::map<std::string, Outcomes>& contestants);
+
+/// Quartiles over the runs of what they have in hand at a time. Nothing where so many of the runs
+/// have no solution yet that the quartile is infinite.
+struct AnytimeStep {
+  double time_s = 0;
+  std::optional<double> lower, median, upper;
+};
+/// How the solutions of an anytime planner improve.
+struct AnytimeCurves {
+  /// Cost over the lowest that any of the runs found on the same problem: costs of different
+  /// problems do not compare.
+  std::vector<AnytimeStep> cost;
+  std::vector<AnytimeStep> bound;  ///< Proven, of the cost over the optimum.
+};
+/// Of runs of one contestant, at kAnytimeSteps times between the first solution and the last
+/// improvement, each so many times the one before. Both empty unless a run improved its solution;
+/// the bound's empty unless there are any.
+inline constexpr int kAnytimeSteps = 60;
+AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs);
 
 }  // namespace planbench

@@ -98,6 +98,7 @@ std::vector<Field> Fields() {
        [](StoredRun* run, const SqliteValue& v) {
          if (const auto valid = Int(v)) run->mesh_valid = *valid != 0;
        }},
+      {"mesh_reason", [](StoredRun* run, const SqliteValue& v) { run->mesh_reason = Text(v); }},
   };
   for (const PathMeasure& measure : PathMeasures()) {
     const std::string name = measure.name;
@@ -112,14 +113,9 @@ class Reader {
  public:
   explicit Reader(const std::filesystem::path& file)
       : file_(file), connection_(file, SqliteConnection::Mode::kReadOnly) {
-    const auto count_tables = [&](const char* names) {
-      return Int(connection_.QueryValue(
-                     fmt::format("SELECT count(*) FROM sqlite_master WHERE name IN ({})", names)))
-          .value_or(0);
-    };
     const std::int64_t version = Int(connection_.QueryValue("PRAGMA user_version")).value_or(0);
-    if (version < 1 || count_tables("'runs', 'plannerConfigs', 'sessions'") < 3) {
-      throw InputError(count_tables("'runs', 'plannerConfigs'") == 2
+    if (version < 1 || CountTables("'runs', 'plannerConfigs', 'sessions'") < 3) {
+      throw InputError(CountTables("'runs', 'plannerConfigs'") == 2
                            ? "was written by another program than planbench"
                            : "is no results database of planbench");
     }
@@ -132,6 +128,7 @@ class Reader {
   StoredSessions Read() {
     ReadDescriptions();
     ReadRuns();
+    ReadProgress();
     StoredSessions stored;
     for (auto& [run_id, session] : sessions_) stored.sessions.push_back(std::move(session));
     std::stable_sort(stored.sessions.begin(), stored.sessions.end(),
@@ -142,6 +139,12 @@ class Reader {
   }
 
  private:
+  std::int64_t CountTables(const char* names) {
+    return Int(connection_.QueryValue(
+                   fmt::format("SELECT count(*) FROM sqlite_master WHERE name IN ({})", names)))
+        .value_or(0);
+  }
+
   StoredSession& Session(const std::string& run_id) {
     StoredSession& session = sessions_[run_id];
     session.run_id = run_id;
@@ -199,13 +202,30 @@ class Reader {
           contestants_.try_emplace({session.run_id, select.Int(1)}, session.contestants.size());
       if (is_new) session.contestants.push_back({select.Text(2), Text(select.Value(3))});
       run.contestant = known->second;
+      places_[run.id] = {&session, session.runs.size()};
       session.runs.push_back(std::move(run));
+    }
+  }
+
+  void ReadProgress() {
+    if (CountTables("'progress'") == 0) return;
+    SqliteStatement select = connection_.Prepare(
+        "SELECT runid, time, epsilon, cost, expansions FROM progress ORDER BY runid, time");
+    while (select.Step()) {
+      const auto place = places_.find(select.Int(0));
+      const auto time_s = Real(select.Value(1));
+      const auto cost = Real(select.Value(3));
+      if (place == places_.end() || !time_s || !cost) continue;
+      place->second.first->runs[place->second.second].progress.push_back(
+          {*time_s, Real(select.Value(2)).value_or(0), *cost, Int(select.Value(4)).value_or(0)});
     }
   }
 
   std::filesystem::path file_;
   SqliteConnection connection_;
   std::map<std::string, StoredSession> sessions_;
+  /// Session and index of a run, by its id.
+  std::map<std::int64_t, std::pair<StoredSession*, std::size_t>> places_;
   /// By session and `plannerConfigs.id`.
   std::map<std::pair<std::string, std::int64_t>, std::size_t> contestants_;
 };

@@ -24,14 +24,16 @@ struct StoredRun {
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;
-  std::string message;             ///< Why it is not solved.
-  std::optional<double> time_s;    ///< Planning time; nothing if no answer came.
-  double roundtrip_time_s = 0;     ///< By the driver's clock.
-  double time_limit_s = 0;         ///< Of the request.
-  PhaseTimes phases;               ///< Zero if no answer came.
-  MeasuredValues measures;         ///< Of the raw path, finite ones.
-  MeasuredValues measures_simple;  ///< Of the simplified path.
-  std::optional<bool> mesh_valid;  ///< The raw path, judged with the robot's meshes.
+  std::string message;                 ///< Why it is not solved.
+  std::optional<double> time_s;        ///< Planning time; nothing if no answer came.
+  double roundtrip_time_s = 0;         ///< By the driver's clock.
+  double time_limit_s = 0;             ///< Of the request.
+  PhaseTimes phases;                   ///< Zero if no answer came.
+  MeasuredValues measures;             ///< Of the raw path, finite ones.
+  MeasuredValues measures_simple;      ///< Of the simplified path.
+  std::optional<bool> mesh_valid;      ///< The raw path, judged with the robot's meshes.
+  std::string mesh_reason;             ///< Why they do not allow it.
+  std::vector<PlanProgress> progress;  ///< Improved solutions of an anytime planner, in order.
 
   bool confirmed() const { return status == PlanStatus::kSolved; }
 };
@@ -46,6 +48,7 @@ struct StoredContestant {
 struct StoredSession {
   std::filesystem::path file;
   std::string run_id;
+  bool imported = false;   ///< From elsewhere (imported_results.h): nobody judged its paths.
   bool described = false;  ///< The session's own message was stored: what follows is known.
   bool finished = false;
   double total_time_s = 0;

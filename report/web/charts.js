@@ -133,8 +133,9 @@ const charts = (() => {
     };
   }
 
-  // Curves of shares: [{place, name, x: [], share: [], lower: [], upper: []}] on a log axis that ends at `last`.
-  function curves(list, {first, last, title, share}) {
+  // Curves: [{place, name, x: [], share: [], lower: [], upper: []}] on a log axis that ends at `last`. Shares, which are 0 until
+  // the first step, unless `range` tells that of the values; null: none.
+  function curves(list, {first, last, title, share, range}) {
     const band = list.length > 6 ? 0 : list.length > 3 ? 0.08 : 0.14;
     const values = [];
     for (const curve of list) {
@@ -143,33 +144,35 @@ const charts = (() => {
         lower: !curve.lower || i < 0 ? 0 : curve.lower[i], upper: !curve.upper || i < 0 ? 0 : curve.upper[i],
         tip: curve.name,
       });
-      if (curve.x.length === 0 || curve.x[0] > first) values.push(point(first, -1));
+      if (!range && (curve.x.length === 0 || curve.x[0] > first)) values.push(point(first, -1));
       curve.x.forEach((x, i) => values.push(point(x, i)));
       if (curve.x.length === 0 || curve.x[curve.x.length - 1] < last) values.push(point(last, curve.x.length - 1));
     }
     const places = list.map(curve => curve.place);
-    const domain = [first, last];
+    const domain = [first, last], wide = range && range[1] > 20;
     return {
       height: 260,
       signals: [{name: "focus", value: null}],
       data: [{name: "steps", values}],
       scales: [
         {name: "x", type: "log", domain, range: "width"},
-        {name: "y", type: "linear", domain: [0, 1], range: "height"},
+        {name: "y", type: wide ? "log" : "linear", domain: range || [0, 1], zero: false, range: "height", clamp: true},
         {name: "colour", type: "ordinal", domain: places, range: places.map(theme.colour)},
         {name: "dash", type: "ordinal", domain: places, range: places.map(theme.dash)},
       ],
       axes: [logAxis("x", "bottom", domain, title),
-             {scale: "y", orient: "left", format: "%", grid: true, domain: false, tickCount: 5, title: share}],
+             wide ? logAxis("y", "left", range, share) :
+                    {scale: "y", orient: "left", format: range ? "~r" : "%", grid: true, domain: false, tickCount: 5, title: share}],
       marks: [{
         type: "group", from: {facet: {name: "curve", data: "steps", groupby: "place"}},
         marks: [
           {type: "area", from: {data: "curve"}, interactive: false, encode: {update: {
-            x: {scale: "x", field: "x"}, y: {scale: "y", field: "lower"}, y2: {scale: "y", field: "upper"},
+            x: {scale: "x", field: "x"}, y: {scale: "y", field: "lower"}, defined: {signal: "datum.share !== null"},
+            y2: {signal: "datum.upper === null ? 0 : scale('y', datum.upper)"},
             interpolate: {value: "step-after"}, fill: {scale: "colour", field: "place"},
             fillOpacity: {signal: `focus === null ? ${band} : focus === datum.place ? 0.22 : 0`}}}},
           {type: "line", from: {data: "curve"}, encode: {update: {
-            x: {scale: "x", field: "x"}, y: {scale: "y", field: "share"}, interpolate: {value: "step-after"},
+            x: {scale: "x", field: "x"}, y: {scale: "y", field: "share"}, defined: {signal: "datum.share !== null"}, interpolate: {value: "step-after"},
             stroke: {scale: "colour", field: "place"}, strokeDash: {scale: "dash", field: "place"},
             strokeWidth: {signal: "focus === datum.place ? 3.5 : 2"}, tooltip: {field: "tip"},
             strokeOpacity: {signal: "focus === null || focus === datum.place ? 1 : 0.2"}}}},

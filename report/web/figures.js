@@ -27,11 +27,27 @@ const figureKinds = {
                            {first: 1, last, title: "time over that of the fastest", share: "problems"});
     },
   },
+  cost: {
+    list: set => set.anytime_cost,
+    make: (set, names, places, values) => improvement(names, places, values, "cost over the best found"),
+  },
+  bound: {
+    list: set => set.anytime_bound,
+    make: (set, names, places, values) => improvement(names, places, values, "proven bound"),
+  },
   phases: {
     list: set => set.phases,
     make: (set, names, places, values) => charts.phases(names, values),
   },
 };
+
+function improvement(names, places, values, title) {
+  const numbers = values.flatMap(value => value.median.concat(value.upper)).filter(one => one !== null);
+  return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, share: value.median})), {
+    first: Math.min(...values.map(value => value.time[0])), last: Math.max(...values.map(value => value.time[value.time.length - 1])),
+    title: "time, ms", share: title, range: [1, Math.max(1.1, ...numbers)],
+  });
+}
 
 // The figure of a measure on a set, by the measure's place in data.measures.
 function qualityFigure(data, set, kind) {

@@ -24,12 +24,13 @@ const report = (() => {
   }
 
   // Rows of one set stand together below its name.
-  function tableElement({title, columns, rows}) {
+  // `cellOf(row, heading, text)` may put elements in the place of a cell's text.
+  function tableElement({title, columns, rows}, cellOf = (row, heading, text) => [text]) {
     const grouped = columns[0].heading === "set" ? 1 : 0;
     const shown = columns.slice(grouped);
-    const cell = (tag, text, column) => {
+    const cell = (tag, text, column, content = [text]) => {
       const kind = column.numeric ? "numeric" : text.length > 40 ? "" : "short";
-      return element(tag, {class: kind, ...(tag === "th" ? {scope: "col"} : {})}, text);
+      return element(tag, {class: kind, ...(tag === "th" ? {scope: "col"} : {})}, ...content);
     };
     const body = element("tbody");
     let group = null;
@@ -38,7 +39,8 @@ const report = (() => {
         group = row[0];
         body.append(element("tr", {}, element("th", {colspan: String(shown.length), scope: "colgroup"}, group)));
       }
-      body.append(element("tr", {}, ...row.slice(grouped).map((text, i) => cell("td", text, shown[i]))));
+      body.append(element("tr", {}, ...row.slice(grouped).map((text, i) =>
+        cell("td", text, shown[i], cellOf(row, shown[i].heading, text)))));
     }
     return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": title},
                    element("table", {}, element("thead", {}, element("tr", {}, ...shown.map(column =>
@@ -46,10 +48,10 @@ const report = (() => {
   }
 
   // A table with the note on how it was computed; `open`: seen at once.
-  function tableBlock(name, open) {
+  function tableBlock(name, open, cellOf) {
     const table = tables[name];
     if (!table) return element("p", {class: "note"}, "Nothing to show.");
-    const parts = [tableElement(table), element("p", {class: "note"}, table.note)];
+    const parts = [tableElement(table, cellOf), element("p", {class: "note"}, table.note)];
     if (open) return element("div", {}, ...parts);
     return element("details", {}, element("summary", {}, `Table: ${table.title}`), ...parts);
   }
@@ -137,6 +139,7 @@ const report = (() => {
     if (data.differences) {
       made.append(element("h3", {}, "Where the sessions differ"), tableElement(data.differences));
     }
+    if (tables.changes) made.append(element("h3", {}, tables.changes.title), tableBlock("changes", true));
     made.append(note("Contestants, in the order of their penalised mean time over all runs; each opens to its settings."));
     data.contestants.forEach((contestant, place) => {
       made.append(element("details", {}, element("summary", {}, swatch(place), " " + contestant.name),
@@ -256,8 +259,42 @@ const report = (() => {
       tableBlock("phases", false));
   }
 
+  function anytime() {
+    if (sets.every(set => set.anytime_cost.length === 0)) return;
+    const grids = element("div");
+    const part = (title, kind) => grids.append(element("h3", {}, title), figuresOfSets(kind));
+    const made = section("anytime", "Getting better with time",
+      note("Of planners that go on improving: median and quartiles, over the attempts, of what they have in hand at a time. Cost: " +
+           "in the planner's own unit, over the lowest that the contestant found on the same problem. Bound: proven, of the " +
+           "cost over the optimum. A curve begins when half of the attempts have a path; a band reaches the top where a " +
+           "quarter has none."),
+      legend(() => grids), grids);
+    part("Cost", "cost");
+    if (sets.some(set => set.anytime_bound.length > 0)) part("Bound", "bound");
+    return made;
+  }
+
+  // The problems of failures lead to what happened there.
+  function failureCell(row, heading, text) {
+    if (heading !== "problems") return [text];
+    const [setName, contestant, status] = row, {attempts} = data;
+    const set = sets.findIndex(one => one.name === setName);
+    return text.split(", ").flatMap((one, i) => {
+      const problem = parseInt(one, 10);
+      const link = element("button", {type: "button", class: "link"}, one);
+      link.addEventListener("click", () => {
+        showProblem(set, problem);
+        const shown = attempts.run.findIndex((run, k) => attempts.set[k] === set && attempts.problem[k] === problem &&
+          names[attempts.contestant[k]] === contestant && attempts.statuses[attempts.status[k]] === status &&
+          k in views.by_attempt);
+        if (shown >= 0) showView(shown);
+      });
+      return i === 0 ? [link] : [", ", link];
+    });
+  }
+
   function rest() {
-    section("failures", "What failed, and why", tables.failures ? tableBlock("failures", true) :
+    section("failures", "What failed, and why", tables.failures ? tableBlock("failures", true, failureCell) :
                                                                   note("Every attempt ended with a confirmed path."));
     if (tables.meshes) section("meshes", "The robot's true geometry", tableBlock("meshes", true));
     section("conditions", "Conditions of the measurement", ...data.cautions.map(caution => element("p", {}, caution)),
@@ -342,7 +379,7 @@ const report = (() => {
   answer();
   compared();
   if (names.length > 0) {
-    for (const part of [success, times, pairs, quality, phases, rest, problems]) part();
+    for (const part of [success, times, pairs, quality, phases, anytime, rest, problems]) part();
   }
   return {data};
 })();

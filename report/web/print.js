@@ -18,9 +18,9 @@ function write(name, spec) {
 
 // The page has its legends beside the figures.
 function withLegend(kind, spec) {
+  const ofCurves = {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300};
   const legend = {
-    survival: {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300},
-    profile: {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300},
+    survival: ofCurves, profile: ofCurves, cost: ofCurves, bound: ofCurves,
     phases: {fill: "colour", symbolType: "square"},
   }[kind];
   if (!legend) return spec;

@@ -1,7 +1,10 @@
 "use strict";
 // A problem in 3D: its solids, the robot as spheres at start and goal, and its paths side by side, played or scrubbed.
 // Poses are computed beforehand (report/view_data.h); the view interpolates between neighbouring frames alone.
-function makeViewer(container, data) {
+// `previous`: a viewer whose place this one takes, seen from the same point.
+function makeViewer(container, data, previous = null) {
+  const seenFrom = previous && previous.seenFrom();
+  if (previous) previous.dispose();
   const element = (tag, attributes, ...children) => {
     const made = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
@@ -236,7 +239,13 @@ function makeViewer(container, data) {
     moveTo(time);
   }
   rebuild();
-  look(views["from behind"]);
+  if (seenFrom) {
+    camera.position.copy(seenFrom.position);
+    controls.target.copy(seenFrom.target);
+    controls.update();
+  } else {
+    look(views["from behind"]);
+  }
   controls.addEventListener("change", draw);
   const stopListening = theme.onChange(rebuild);
   addEventListener("resize", draw);
@@ -252,5 +261,6 @@ function makeViewer(container, data) {
     renderer.forceContextLoss();
     container.replaceChildren();
   }
-  return {moveTo, canvas, dispose};
+  const seen = () => ({position: camera.position.clone(), target: controls.target.clone()});
+  return {moveTo, play: () => { if (started === null) play.click(); }, canvas, seenFrom: seen, dispose};
 }

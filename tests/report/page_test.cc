@@ -58,6 +58,12 @@ constexpr char kProbe[] = R"script(
     found.problem = problem.querySelectorAll("select")[1].options.length;
     [...problem.querySelectorAll("button")].pop().click();
     found.next = problem.querySelectorAll("select")[1].value;
+    const failures = [...document.querySelectorAll("#failures button.link")];
+    found.failures = failures.map(one => one.textContent);
+    if (failures.length > 0) {
+      failures[0].click();
+      found.led = [...problem.querySelectorAll("select")].map(one => one.selectedOptions[0].textContent);
+    }
   }
 )script";
 
@@ -100,6 +106,16 @@ TEST_F(PageTest, HasAMarkForEveryRowOfTheData) {
   EXPECT_EQ(found["attempts"], 3);            // at the first problem of the second set
   EXPECT_EQ(found["problem"], 12);
   EXPECT_EQ(found["next"], "1");
+  EXPECT_EQ(found["failures"], (nlohmann::json{"6", "11", "12"}));
+  EXPECT_EQ(found["led"], (nlohmann::json{"a<i>set</i>", "6"}));
+}
+
+TEST_F(PageTest, DrawsImprovementsWithTheirBounds) {
+  const nlohmann::json found =
+      Open({{.contestant = "A", .progress = {{0.1, 4, 30, 1}, {1, 2, 15, 2}}},
+            {.contestant = "A", .problem = 2, .progress = {{0.5, 3, 10, 1}}}});
+  // Cost and bound besides success, times, survival, phases and path quality.
+  EXPECT_EQ(found["charts"], 7);
 }
 
 TEST_F(PageTest, IsRightForNoRunAndForOne) {

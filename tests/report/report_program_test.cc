@@ -63,6 +63,30 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
 }
 
+TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
+  WriteSession(folder_ / "example", {{.contestant = "A"}, {.contestant = "A", .problem = 2}});
+  folder_.Write("other.csv", "problem_set,problem_index,solved,time_s\nshelf,1,1,4\nshelf,9,1,4\n");
+  ASSERT_EQ(Run({Path("example"), "--import", Path("other.csv"), "--as", "elsewhere", "--out",
+                 Path("page.html"), "--csv", Path("csv"), "--ompl-log", Path("all.log")}),
+            kExitOk)
+      << errors_;
+  // Of the problems, the common one alone.
+  const std::string times = ReadText(folder_ / "csv" / "times.csv");
+  EXPECT_THAT(times, HasSubstr("\nshelf,elsewhere,1,4000,"));
+  EXPECT_THAT(times, HasSubstr("\nshelf,A,2,1000,"));
+  EXPECT_THAT(ReadText(folder_ / "page.html"), HasSubstr("1 runs from elsewhere"));
+  EXPECT_THAT(ReadText(folder_ / "all-1-shelf.log"), HasSubstr("Experiment shelf\n"));
+  EXPECT_THAT(ReadText(folder_ / "all-2-shelf.log"), HasSubstr("\nelsewhere\n"));
+  // Alone; and what cannot be.
+  EXPECT_EQ(Run({"--import", Path("all-1-shelf.log"), "--as", "B", "--out", Path("page.html")}),
+            kExitOk);
+  EXPECT_EQ(Run({Path("example"), "--import", Path("other.csv")}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("needs its --as NAME"));
+  folder_.Write("none.csv", "problem_set,problem_index,solved,time_s\nbox,1,1,4\n");
+  EXPECT_EQ(Run({Path("example"), "--import", Path("none.csv"), "--as", "x"}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("sets here: box; there: shelf"));
+}
+
 TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
   if (std::system("command -v node >/dev/null") != 0) {
     GTEST_SKIP() << "no node here: apt-get install nodejs";
@@ -91,7 +115,7 @@ TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
 
 TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {
   const std::string source = PLANBENCH_SOURCE_DIR;
-  ASSERT_EQ(Run({"--problem", source + "/problems/shelf_demo/3", "--robot",
+  ASSERT_EQ(Run({"--problems", source + "/problems/shelf_demo/3", "--robot",
                  source + "/robots/fetch", "--out", Path("view.html")},
                 "view"),
             kExitOk)
@@ -115,6 +139,8 @@ TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {
   expect_refused({"--problem", set, "--robot", robot}, "SET/3");
   expect_refused({"--session", Path("example"), "--run", "7"}, "no run 7");
   expect_refused({"--session", Path("example"), "--run", "1"}, "holds no .lcmlog");
+  folder_.Write("empty.lcmlog", "");
+  expect_refused({"--log", Path("empty.lcmlog")}, "it holds 0");
 }
 
 }  // namespace

@@ -155,6 +155,64 @@ TEST_F(ReportTest, FiguresHaveEveryRunAndEveryProblem) {
   EXPECT_TRUE(json["sets"][2]["all"]);
 }
 
+TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
+  const auto run = [](int problem, bool valid, const std::string& reason) {
+    return MadeRun{
+        .contestant = "A", .problem = problem, .mesh_valid = valid, .mesh_reason = reason};
+  };
+  const ComparedSessions compared =
+      Read({run(1, true, ""),
+            run(2, false, "segment 1: 'arm' and 'shelf', 0.001 m deep"),
+            run(3, false, "segment 7: 'arm' and 'shelf' in contact"),
+            run(4, false, "segment 2: 'hand' and 'box', 0.002 m deep"),
+            {.contestant = "B", .problem = 1}});
+  const Table table = MeshTable(compared);
+  ASSERT_EQ(table.rows.size(), 1u);
+  const Row row = Texts(table, 0);
+  EXPECT_EQ(row[2], "4");
+  EXPECT_EQ(row[3], "1");
+  EXPECT_EQ(row[5], "'arm' and 'shelf' (2)");
+}
+
+TEST_F(ReportTest, ImprovementsAreFiguresOfTheirOwn) {
+  const ComparedSessions compared = Read(
+      {{.contestant = "A", .progress = {{0.1, 4, 30, 1}, {1, 2, 15, 2}}}, {.contestant = "B"}});
+  const Json json = FigureData(compared, {}, {});
+  ASSERT_EQ(json["sets"][0]["anytime_cost"].size(), 1u);
+  EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["median"].front(), 2);
+  EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["median"].back(), 1);
+  EXPECT_EQ(json["sets"][0]["anytime_bound"][0]["upper"].back(), 2);
+  EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["time"].back(), 1000);
+}
+
+TEST_F(ReportTest, ChangesBetweenSessionsAreToldWithTheirUncertainty) {
+  const TemporaryFolder folder;
+  std::vector<MadeRun> before, after;
+  for (int problem = 1; problem <= 8; ++problem) {
+    before.push_back({.contestant = "A", .problem = problem, .time_s = 1 + problem / 10.0});
+    before.push_back({.contestant = "B", .problem = problem, .time_s = 1});
+    after.push_back({.contestant = "A", .problem = problem, .time_s = 2 + problem / 5.0});
+    after.push_back({.contestant = "B", .problem = problem, .time_s = problem % 2 == 0 ? 0.5 : 2});
+  }
+  SessionMessage later = ExampleSession();
+  later.start_utime = 60'000'000;
+  WriteSession(folder / "new", after, later);
+  WriteSession(folder / "old", before, ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "new").sessions;
+  sessions.push_back(ReadSessions(folder / "old").sessions.front());
+  const Table table = ChangeTable(ComparedSessions(std::move(sessions)), 1);
+  ASSERT_EQ(table.rows.size(), 2u);
+  const std::size_t a = Texts(table, 0)[1] == "A" ? 0 : 1;
+  const Row slower = Texts(table, a);
+  EXPECT_EQ(slower[2], "old");
+  EXPECT_EQ(slower[3], "new");
+  EXPECT_EQ(slower[7], "2.00 [2.00, 2.00]");
+  EXPECT_EQ(slower[8], FormatCell(2 * 2 / 256.0, Style::kPValue));  // 2 / 2^8, of two tests
+  EXPECT_EQ(slower[9], "slower");
+  EXPECT_EQ(Texts(table, 1 - a)[9], "not shown");
+  EXPECT_TRUE(ChangeTable(compared_, 1).rows.empty());
+}
+
 TEST_F(ReportTest, SeveralSessionsAreListedWhereTheyDiffer) {
   const TemporaryFolder folder;
   WriteSession(folder / "one", {{.contestant = "A"}}, ExampleSession());

@@ -105,5 +105,51 @@ TEST(PerformanceProfilesTest, WhatNobodySolvedCountsAgainstAll) {
   EXPECT_TRUE(PerformanceProfiles({}).empty());
 }
 
+StoredRun AnytimeRun(int problem, std::vector<PlanProgress> progress) {
+  StoredRun run;
+  run.problem_index = problem;
+  run.progress = std::move(progress);
+  return run;
+}
+
+AnytimeCurves CurvesOf(const std::vector<StoredRun>& runs) {
+  std::vector<const StoredRun*> pointers;
+  for (const StoredRun& run : runs) pointers.push_back(&run);
+  return ImprovementOverTime(pointers);
+}
+
+TEST(ImprovementOverTimeTest, QuartilesOfWhatTheRunsHaveInHand) {
+  // Costs over the best of each problem: 4, 2, 1 and 3; a third run finds nothing.
+  const AnytimeCurves curves =
+      CurvesOf({AnytimeRun(1, {{0.1, 8, 40, 1}, {1, 4, 20, 2}, {10, 1, 10, 3}}),
+                AnytimeRun(2, {{0.5, 0, 6, 1}}), AnytimeRun(2, {{0.1, 5, 2, 1}})});
+  ASSERT_EQ(curves.cost.size(), static_cast<std::size_t>(kAnytimeSteps));
+  const AnytimeStep& first = curves.cost.front();
+  EXPECT_EQ(first.time_s, 0.1);
+  EXPECT_EQ(first.lower, 2.5);  // between 1 and 4
+  EXPECT_EQ(first.median, 4);
+  EXPECT_EQ(first.upper, std::nullopt);  // one of three has nothing yet
+  const AnytimeStep& last = curves.cost.back();
+  EXPECT_EQ(last.time_s, 10);
+  EXPECT_EQ(last.lower, 1);
+  EXPECT_EQ(last.median, 1);
+  EXPECT_EQ(last.upper, 2);  // between 1 and 3
+  // Halfway, by the definition: from 1 s on the first has 20 / 10.
+  for (const AnytimeStep& step : curves.cost) {
+    const double a = step.time_s < 1 ? 4 : step.time_s < 10 ? 2 : 1;
+    if (step.time_s < 0.5) continue;
+    EXPECT_EQ(step.median, std::min(a, 3.0)) << step.time_s;
+  }
+  // The second tells no bound.
+  EXPECT_EQ(curves.bound.front().median, 8);
+  EXPECT_EQ(curves.bound.back().lower, 3);  // between 1 and 5
+}
+
+TEST(ImprovementOverTimeTest, IsNothingWhereNothingImproved) {
+  EXPECT_TRUE(CurvesOf({}).cost.empty());
+  EXPECT_TRUE(CurvesOf({AnytimeRun(1, {}), AnytimeRun(2, {{1, 2, 3, 4}})}).cost.empty());
+  EXPECT_TRUE(CurvesOf({AnytimeRun(1, {{1, 0, 3, 4}, {2, 0, 2, 4}})}).bound.empty());
+}
+
 }  // namespace
 }  // namespace planbench

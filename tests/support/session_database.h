@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct MadeRun {
   std::string reason = "";
   double length = 2;
   double length_simplified = 1;
+  std::optional<bool> mesh_valid = {};  ///< Verdict of the mesh robot, if it has one.
+  std::string mesh_reason = "";
+  std::vector<PlanProgress> progress = {};
 };
 
 inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id, int number) {
@@ -45,6 +49,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   result.status = claimed ? PlanStatus::kSolved : run.status;
   result.planning_time_s = result.total_time_s = run.time_s;
   result.phases = {run.time_s / 8, run.time_s / 2, run.time_s / 4, run.time_s / 8, 0.25};
+  result.progress = run.progress;
   if (!claimed) return record;
   record.result.joint_names = {"j"};
   result.path = {{0}, {1}};
@@ -55,6 +60,11 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   }
   record.path_check.verdict->measures["path_length"] = run.length;
   record.simplified_check.verdict->measures["path_length"] = run.length_simplified;
+  if (run.mesh_valid) {
+    PathVerdict& verdict = record.path_check.mesh_verdict.emplace();
+    verdict.valid = *run.mesh_valid;
+    verdict.reason = run.mesh_reason;
+  }
   return record;
 }
 

@@ -1,12 +1,12 @@
-#include "results/reference.h"
+#include "results/csv_results.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <sstream>
+#include <vector>
 
 #include "common/error.h"
 #include "common/read_text.h"
@@ -14,11 +14,21 @@
 namespace planbench {
 namespace {
 
+/// Cells may be quoted; a quote within quotes is doubled.
 std::vector<std::string> SplitLine(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  if (line.ends_with(',')) cells.emplace_back();
+  std::vector<std::string> cells = {""};
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];
+    } else if (line[i] == '"') {
+      quoted = !quoted;
+    } else if (line[i] == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += line[i];
+    }
+  }
   return cells;
 }
 
@@ -77,34 +87,44 @@ class Row {
 constexpr int kMostProblems = 1'000'000;
 constexpr double kLongest = 1e9;  // s
 
-Attempt ReadAttempt(const Row& row, const std::string& name, double time_limit_s) {
-  Attempt attempt;
-  attempt.contestant = name;
-  attempt.problem_set = row.Text("problem_set");
-  attempt.problem_index = row.Has("query_index") ? row.Int("query_index", 0, kMostProblems) + 1
-                                                 : row.Int("problem_index", 0, kMostProblems);
-  attempt.claimed = row.Int("solved", 0, 1) == 1;
-  attempt.status = attempt.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
-  attempt.time_s = row.Number("time_s", 0, kLongest);
-  attempt.time_limit_s =
+StoredRun ReadRun(const Row& row, double time_limit_s) {
+  StoredRun run;
+  run.problem_set = row.Text("problem_set");
+  run.problem_index = row.Has("query_index") ? row.Int("query_index", 0, kMostProblems) + 1
+                                             : row.Int("problem_index", 0, kMostProblems);
+  run.claimed = row.Int("solved", 0, 1) == 1;
+  run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
+  run.time_s = row.Number("time_s", 0, kLongest);
+  run.time_limit_s =
       row.Has("time_limit_s") ? row.Number("time_limit_s", 0, kLongest) : time_limit_s;
-  if (row.Has("trial")) attempt.trial = row.Int("trial", 1, kMostProblems);
+  if (row.Has("trial")) run.trial = row.Int("trial", 1, kMostProblems);
   if (row.Has("direction")) {
     const auto direction = ParseEnum<Direction>(row.Text("direction"));
     if (!direction) row.Fail("direction", "forward or backward");
-    attempt.direction = *direction;
+    run.direction = *direction;
   }
-  return attempt;
+  if (row.Has("reason")) run.message = row.Text("reason");
+  const auto measure = [&](const std::string& column, const char* name, MeasuredValues* values) {
+    if (row.Has(column) && !row.Text(column).empty()) {
+      (*values)[name] = row.Number(column, 0, kLongest);
+    }
+  };
+  for (const PathMeasure& one : PathMeasures()) {
+    measure(one.name, one.name, &run.measures);
+    measure(std::string(one.name) + "_simplified", one.name, &run.measures_simple);
+  }
+  return run;
 }
 
 }  // namespace
 
-std::vector<Attempt> ReadReference(const std::filesystem::path& file, const std::string& name,
-                                   double time_limit_s) {
+StoredSession ReadCsvResults(const std::filesystem::path& file, const std::string& name,
+                             double time_limit_s) {
   std::istringstream lines(ReadText(file));
   const std::string file_name = file.string();
   std::vector<std::string> header;
-  std::vector<Attempt> attempts;
+  StoredSession session;
+  session.contestants = {{name, "imported from " + file_name + "\n"}};
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -114,11 +134,10 @@ std::vector<Attempt> ReadReference(const std::filesystem::path& file, const std:
       header = SplitLine(line);
       continue;
     }
-    const Row row(file_name, number, header, SplitLine(line));
-    attempts.push_back(ReadAttempt(row, name, time_limit_s));
+    session.runs.push_back(ReadRun(Row(file_name, number, header, SplitLine(line)), time_limit_s));
+    session.runs.back().id = number;
   }
-  if (attempts.empty()) throw InputError(file.string() + ": no results");
-  return attempts;
+  return session;
 }
 
 }  // namespace planbench

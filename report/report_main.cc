@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "common/command_line.h"
+#include "common/error.h"
+#include "common/exit_codes.h"
+#include "report/figures.h"
+#include "report/merge_sessions.h"
+#include "report/page.h"
+#include "report/print_figures.h"
+#include "report/write_file.h"
+#include "results/imported_results.h"
+#include "results/ompl_log.h"
+
+namespace planbench {
+namespace {
+
+/// A page that is to be sent by mail.
+constexpr std::size_t kMostBytesOfViews = 30'000'000;
+
+struct Flags {
+  std::vector<std::string> sessions;
+  std::string out = "report.html";
+  std::string csv;
+  std::string latex;
+  std::string figures;
+  std::string merge;
+  std::vector<std::string> imports;
+  std::vector<std::string> import_names;
+  std::string ompl_log;
+};
+
+void MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
+}
+
+void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
+                 std::string (*format)(const Table&)) {
+  if (folder.empty()) return;
+  MakeFolder(folder);
+  for (const Table& table : tables) {
+    WriteFile(std::filesystem::path(folder) / (table.name + extension), format(table));
+  }
+}
+
+std::vector<StoredSession> ReadAll(const Flags& flags) {
+  std::vector<StoredSession> sessions;
+  for (const std::string& name : flags.sessions) {
+    StoredSessions stored = ReadSessions(name);
+    if (stored.num_foreign_runs > 0) {
+      std::cerr << fmt::format("report: {}: {} runs of other programs are left out (--import)\n",
+                               name, stored.num_foreign_runs);
+    }
+    std::move(stored.sessions.begin(), stored.sessions.end(), std::back_inserter(sessions));
+  }
+  const std::size_t num_own = sessions.size();
+  double time_limit_s = 0;
+  for (const StoredSession& session : sessions) {
+    for (const StoredRun& run : session.runs)
+      time_limit_s = std::max(time_limit_s, run.time_limit_s);
+  }
+  if (flags.imports.size() != flags.import_names.size()) {
+    throw InputError("every --import FILE needs its --as NAME");
+  }
+  for (std::size_t i = 0; i < flags.imports.size(); ++i) {
+    StoredSession imported = ImportResults(flags.imports[i], flags.import_names[i], time_limit_s);
+    if (num_own > 0) KeepProblemsOf({sessions.begin(), sessions.begin() + num_own}, &imported);
+    sessions.push_back(std::move(imported));
+  }
+  return sessions;
+}
+
+/// A log holds one experiment: of several sets each has a file, with the set's name in it.
+void WriteOmplLogs(const std::filesystem::path& file, const std::vector<StoredSession>& sessions) {
+  std::vector<std::pair<const StoredSession*, std::string>> experiments;
+  for (const StoredSession& session : sessions) {
+    std::set<std::string> sets;
+    for (const StoredRun& run : session.runs) sets.insert(run.problem_set);
+    for (const std::string& set : sets) experiments.emplace_back(&session, set);
+  }
+  if (experiments.empty()) throw InputError("--ompl-log: there are no runs to write");
+  int number = 0;
+  for (const auto& [session, set] : experiments) {
+    std::filesystem::path of_set = file;
+    if (experiments.size() > 1) {
+      std::string name = set;
+      std::replace_if(
+          name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+      of_set.replace_filename(fmt::format("{}-{}-{}{}", file.stem().string(), ++number, name,
+                                          file.extension().string()));
+    }
+    WriteFile(of_set, OmplLog(*session, set));
+    std::cout << "report: " << of_set.string() << "\n";
+  }
+}
+
+int Run(Flags flags) {
+  if (flags.sessions.empty() && flags.imports.empty()) {
+    throw InputError("session is required: a session folder, or --import FILE --as NAME");
+  }
+  if (!flags.merge.empty()) {
+    std::cout << "report: " << MergeSessions(flags.sessions, flags.merge) << "\n";
+    flags.sessions = {flags.merge};
+  }
+  std::vector<StoredSession> sessions = ReadAll(flags);
+  if (!flags.ompl_log.empty()) WriteOmplLogs(flags.ompl_log, sessions);
+  const ComparedSessions compared(std::move(sessions));
+  const std::uint64_t seed = BootstrapSeed(compared);
+  const std::vector<ComparedPair> pairs = ComparePairs(compared, seed);
+  const std::vector<Table> tables = AllTables(compared, pairs, seed);
+  WriteTables(flags.csv, ".csv", tables, TableCsv);
+  WriteTables(flags.latex, ".tex", tables, TableLatex);
+  const Json data = FigureData(compared, pairs, tables);
+  if (!flags.figures.empty()) {
+    MakeFolder(flags.figures);
+    PrintFigures(data, flags.figures);
+  }
+  WriteFile(flags.out, ReportPage(data, EmbedViews(compared, kMostBytesOfViews)));
+  std::cout << "report: " << flags.out << "\n";
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace planbench
+
+int main(int argc, char** argv) {
+  CLI::App app("Makes a page of what sessions measured: one HTML file that opens anywhere.",
+               "report");
+  planbench::AddVersionFlag(&app);
+  planbench::Flags flags;
+  app.add_option("session", flags.sessions,
+                 "session folders, or results databases; several are compared side by side");
+  app.add_option("--out", flags.out, "the page")->capture_default_str();
+  app.add_option("--csv", flags.csv, "folder for the tables as CSV");
+  app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs)");
+  app.add_option("--figures", flags.figures,
+                 "folder for the figures as SVG (needs node) and PDF (needs rsvg-convert)");
+  app.add_option("--merge", flags.merge,
+                 "session folder to make of the sessions, which are parts of one: of this the page "
+                 "is made");
+  app.add_option(
+         "--import", flags.imports,
+         "results from elsewhere (CSV, OMPL's logs and databases, docs/lineups.md) to stand "
+         "beside the sessions; repeatable")
+      ->allow_extra_args(false);
+  app.add_option("--as", flags.import_names, "name of what the --import before it brings")
+      ->allow_extra_args(false);
+  app.add_option("--ompl-log", flags.ompl_log, "file for the runs as a log of OMPL's benchmarks");
+  return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
+}

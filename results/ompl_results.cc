@@ -1,0 +1,416 @@
+#include "results/ompl_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "common/error.h"
+#include "common/read_text.h"
+#include "common/sqlite.h"
+
+namespace planbench {
+namespace {
+
+/// Of a run, by name with '_' for spaces; those without a value are absent.
+using Properties = std::map<std::string, std::string>;
+
+/// The enumeration of OMPL's statuses, which its logs name; databases may not.
+std::vector<std::string> StatusesOfOmpl() {
+  return {"Unknown status", "Invalid start",
+          "Invalid goal",   "Unrecognized goal type",
+          "Timeout",        "Approximate solution",
+          "Exact solution", "Crash",
+          "Abort",          "Infeasible"};
+}
+
+PlanStatus StatusNamed(const std::string& text) {
+  static const std::map<std::string, PlanStatus> statuses = {
+      {"Exact solution", PlanStatus::kSolved},
+      {"Invalid start", PlanStatus::kStartInvalid},
+      {"Invalid goal", PlanStatus::kGoalInvalid},
+      {"Unrecognized goal type", PlanStatus::kInvalidRequest},
+      {"Crash", PlanStatus::kNoAnswer},
+      {"Abort", PlanStatus::kCancelled},
+      {"Infeasible", PlanStatus::kExhausted}};
+  if (const auto own = ParseEnum<PlanStatus>(text)) return *own;
+  const auto found = statuses.find(text);
+  return found == statuses.end() ? PlanStatus::kTimedOut : found->second;
+}
+
+std::optional<double> Number(const Properties& properties, const std::string& name) {
+  const auto found = properties.find(name);
+  if (found == properties.end()) return std::nullopt;
+  const std::string& text = found->second;
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw InputError(fmt::format("{}: '{}' is no number", name, text));
+  }
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+int Whole(const Properties& properties, const std::string& name, int otherwise) {
+  constexpr double kMost = 1e9;
+  const auto value = Number(properties, name);
+  if (value && !(*value >= 0 && *value <= kMost)) {
+    throw InputError(fmt::format("{}: {} is out of range", name, *value));
+  }
+  return value ? static_cast<int>(*value) : otherwise;
+}
+
+/// Collects runs as a session.
+class OmplSession {
+ public:
+  explicit OmplSession(std::string name) : name_(std::move(name)) {}
+
+  StoredSession& session() { return session_; }
+
+  std::size_t Contestant(const std::string& planner, const std::string& settings) {
+    for (std::size_t i = 0; i < session_.contestants.size(); ++i) {
+      const StoredContestant& known = session_.contestants[i];
+      if (known.name == planner && known.settings == settings) return i;
+    }
+    session_.contestants.push_back({planner, settings});
+    return session_.contestants.size() - 1;
+  }
+
+  StoredRun& AddRun(std::size_t contestant, const std::string& experiment, double time_limit_s,
+                    const std::vector<std::string>& statuses, const Properties& properties) {
+    StoredRun run;
+    run.id = static_cast<std::int64_t>(session_.runs.size()) + 1;
+    run.contestant = contestant;
+    SetProblem(experiment, properties, &run);
+    SetStatus(statuses, properties, &run);
+    run.time_limit_s = time_limit_s;
+    run.time_s = Number(properties, "time");
+    const auto measure = [&](const std::string& property, const char* name,
+                             MeasuredValues* values) {
+      if (const auto value = Number(properties, property)) (*values)[name] = *value;
+    };
+    for (const auto& [property, name] : {std::pair("solution_length", "path_length"),
+                                         std::pair("solution_smoothness", "smoothness"),
+                                         std::pair("solution_clearance", "clearance")}) {
+      measure(property, name, &run.measures);
+      measure(std::string("simplified_") + property, name, &run.measures_simple);
+    }
+    run.phases.simplification_s = Number(properties, "simplification_time").value_or(0);
+    session_.runs.push_back(std::move(run));
+    return session_.runs.back();
+  }
+
+  StoredSession Take() {
+    const bool several = session_.contestants.size() > 1;
+    for (StoredContestant& one : session_.contestants) {
+      one.settings = "planner = " + one.name + "\n" + one.settings;
+      one.name = several ? name_ + ": " + one.name : name_;
+    }
+    return std::move(session_);
+  }
+
+ private:
+  void SetProblem(const std::string& experiment, const Properties& properties, StoredRun* run) {
+    run->problem_set = experiment;
+    run->problem_index = 1;
+    const std::size_t slash = experiment.rfind('/');
+    if (slash != std::string::npos) {
+      int index = 0;
+      const char* last = experiment.data() + experiment.size();
+      const auto [end, error] = std::from_chars(experiment.data() + slash + 1, last, index);
+      if (error == std::errc() && end == last && index >= 0) {
+        run->problem_set = experiment.substr(0, slash);
+        run->problem_index = index;
+      }
+    }
+    if (const auto set = properties.find("problem_set"); set != properties.end()) {
+      run->problem_set = set->second;
+    }
+    run->problem_index = Whole(properties, "problem_index", run->problem_index);
+    int& trials = trials_[{run->contestant, run->problem_set, run->problem_index}];
+    run->trial = Whole(properties, "trial", ++trials);
+    if (const auto direction = properties.find("direction"); direction != properties.end()) {
+      run->direction = ParseEnum<Direction>(direction->second).value_or(Direction::kForward);
+    }
+  }
+
+  static void SetStatus(const std::vector<std::string>& statuses, const Properties& properties,
+                        StoredRun* run) {
+    const int status = Whole(properties, "status", -1);
+    if (status >= 0 && status < static_cast<int>(statuses.size())) {
+      const std::string& text = statuses[static_cast<std::size_t>(status)];
+      run->status = StatusNamed(text);
+      if (run->status != PlanStatus::kSolved) run->message = text;
+    } else {
+      const bool solved =
+          Whole(properties, "solved", 0) == 1 && Whole(properties, "approximate_solution", 0) == 0;
+      run->status = solved ? PlanStatus::kSolved : PlanStatus::kTimedOut;
+    }
+    if (run->status == PlanStatus::kSolved && Whole(properties, "correct_solution", 1) == 0) {
+      run->status = PlanStatus::kInvalidPath;
+      run->message = "OMPL found the path incorrect";
+    }
+    run->claimed = run->confirmed() || run->status == PlanStatus::kInvalidPath;
+  }
+
+  std::string name_;
+  StoredSession session_;
+  /// Runs so far, by contestant, set and problem.
+  std::map<std::tuple<std::size_t, std::string, int>, int> trials_;
+};
+
+// ---- Logs
+// ----------------------------------------------------------------------------------------
+
+std::vector<std::string> Split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  for (std::size_t at; (at = text.find(separator, from)) != std::string::npos;) {
+    parts.push_back(text.substr(from, at - from));
+    from = at + separator.size();
+  }
+  parts.push_back(text.substr(from));
+  return parts;
+}
+
+class LogReader {
+ public:
+  explicit LogReader(const std::filesystem::path& file) : file_(file), text_(ReadText(file)) {}
+
+  StoredSession Read(const std::string& name) {
+    OmplSession session(name);
+    try {
+      const int num_planners = ReadHeader(&session.session());
+      for (int i = 0; i < num_planners; ++i) ReadPlanner(&session);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}:{}: {}", file_.string(), line_, error.what()));
+    }
+    return session.Take();
+  }
+
+ private:
+  std::string Next() {
+    std::string line;
+    if (!std::getline(text_, line)) throw InputError("the log ends here");
+    ++line_;
+    if (line.ends_with('\r')) line.pop_back();
+    return line;
+  }
+
+  /// The number that a line of the form "7 runs" begins with.
+  static int Count(const std::string& line, const std::string& what) {
+    int count = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), count);
+    const std::string rest(end, static_cast<std::size_t>(line.data() + line.size() - end));
+    if (error != std::errc() || count < 0 || !rest.starts_with(" " + what)) {
+      throw InputError("'" + line + "' is not the number of " + what);
+    }
+    return count;
+  }
+
+  /// Returns the number of planners.
+  int ReadHeader(StoredSession* session) {
+    const auto after = [](const std::string& line, const std::string& begin) {
+      return line.substr(begin.size());
+    };
+    int num_blocks = 0;
+    while (true) {
+      std::string line = Next();
+      if (line.find(" version ") != std::string::npos && session->version.empty()) {
+        session->version = line;
+      } else if (line.starts_with("Experiment ")) {
+        experiment_ = after(line, "Experiment ");
+      } else if (line.starts_with("Running on ")) {
+        session->host = after(line, "Running on ");
+      } else if (line.starts_with("Starting at ")) {
+        session->date = after(line, "Starting at ");
+      } else if (line.starts_with("<<<|")) {
+        std::string block;
+        while (!(line = Next()).starts_with("|>>>")) block += line + "\n";
+        if (++num_blocks == 2) session->cpu = block.substr(0, block.find('\n'));
+      } else if (line.ends_with("is the random seed")) {
+        session->seed = line.substr(0, line.find(' '));
+      } else if (line.ends_with(" seconds per run")) {
+        time_limit_s_ =
+            Number({{"time limit", line.substr(0, line.find(' '))}}, "time limit").value_or(0);
+      } else if (line.ends_with(" to collect the data")) {
+        session->total_time_s =
+            Number({{"total time", line.substr(0, line.find(' '))}}, "total time").value_or(0);
+      } else if (line.ends_with(" enum type") || line.ends_with(" enum types")) {
+        for (int i = Count(line, "enum"); i > 0; --i) {
+          std::vector<std::string> names = Split(Next(), "|");
+          if (names.front() == "status") statuses_ = {names.begin() + 1, names.end()};
+        }
+      } else if (line.ends_with(" planners")) {
+        return Count(line, "planners");
+      }
+    }
+  }
+
+  /// Names of "7 properties for each run" and what follows.
+  std::vector<std::string> ReadNames(int count) {
+    std::vector<std::string> names;
+    for (; count > 0; --count) {
+      std::string name = Next();
+      name = name.substr(0, name.rfind(' '));  // the type
+      std::replace(name.begin(), name.end(), ' ', '_');
+      names.push_back(std::move(name));
+    }
+    return names;
+  }
+
+  Properties ReadValues(const std::vector<std::string>& names, const std::string& text,
+                        const std::string& separator) const {
+    std::vector<std::string> values = Split(text, separator);
+    values.pop_back();  // each value is followed by a separator
+    if (values.size() < names.size()) {
+      throw InputError(fmt::format("{} values for {} properties", values.size(), names.size()));
+    }
+    Properties properties;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string& value = values[i];
+      if (!value.empty() && value != "nan" && value != "inf") properties[names[i]] = value;
+    }
+    return properties;
+  }
+
+  void ReadPlanner(OmplSession* session) {
+    const std::string planner = Next();
+    std::string settings;
+    for (int i = Count(Next(), "common properties"); i > 0; --i) settings += Next() + "\n";
+    const std::size_t contestant = session->Contestant(planner, settings);
+    const auto names = ReadNames(Count(Next(), "properties for each run"));
+    const int num_runs = Count(Next(), "runs");
+    const std::size_t first = session->session().runs.size();
+    for (int i = 0; i < num_runs; ++i) {
+      session->AddRun(contestant, experiment_, time_limit_s_, statuses_,
+                      ReadValues(names, Next(), "; "));
+    }
+    const std::string line = Next();
+    if (line == ".") return;
+    const auto progress_names = ReadNames(Count(line, "progress properties for each run"));
+    const int num_series = Count(Next(), "runs");
+    for (int i = 0; i < num_series; ++i) {
+      const std::string series = Next();
+      if (i < num_runs) {
+        ReadProgress(progress_names, series, &session->session().runs[first + i]);
+      }
+    }
+    if (Next() != ".") throw InputError("a planner's results end with '.'");
+  }
+
+  void ReadProgress(const std::vector<std::string>& names, const std::string& series,
+                    StoredRun* run) const {
+    for (const std::string& sample : Split(series, ";")) {
+      if (sample.empty()) continue;
+      const Properties properties = ReadValues(names, sample, ",");
+      const auto time_s = Number(properties, "time");
+      const auto cost = Number(properties, "best_cost");
+      // OMPL samples at intervals: only improvements count.
+      const bool better = cost && (run->progress.empty() || *cost < run->progress.back().cost);
+      if (!time_s || !better) continue;
+      PlanProgress progress;
+      progress.elapsed_s = *time_s;
+      progress.cost = *cost;
+      run->progress.push_back(progress);
+    }
+  }
+
+  std::filesystem::path file_;
+  std::istringstream text_;
+  int line_ = 0;
+  std::string experiment_;
+  double time_limit_s_ = 0;
+  std::vector<std::string> statuses_ = StatusesOfOmpl();
+};
+
+// ---- Databases
+// -----------------------------------------------------------------------------------
+
+/// As a log would have it; nothing if NULL.
+std::optional<std::string> TextOf(const SqliteValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* real = std::get_if<double>(&value)) return fmt::format("{}", *real);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  return std::nullopt;
+}
+
+std::vector<std::string> ColumnsOf(SqliteConnection* connection, const std::string& table) {
+  std::vector<std::string> columns;
+  SqliteStatement rows = connection->Prepare("PRAGMA table_info(" + table + ")");
+  while (rows.Step()) columns.push_back(rows.Text(1));
+  return columns;
+}
+
+/// Without them, and for rows that were appended to a database of planbench's, whose statuses are
+/// its own: OMPL's.
+std::vector<std::string> StatusesOf(SqliteConnection* connection, bool is_planbench) {
+  std::map<std::int64_t, std::string> named;
+  if (!is_planbench) {
+    SqliteStatement rows =
+        connection->Prepare("SELECT value, description FROM enums WHERE name = 'status'");
+    while (rows.Step()) named[rows.Int(0)] = rows.Text(1);
+  }
+  if (named.empty()) return StatusesOfOmpl();
+  std::vector<std::string> statuses;
+  for (const auto& [value, text] : named) {
+    if (value == static_cast<std::int64_t>(statuses.size())) statuses.push_back(text);
+  }
+  return statuses;
+}
+
+void ReadRuns(SqliteConnection* connection, OmplSession* session) {
+  const std::vector<std::string> columns = ColumnsOf(connection, "runs");
+  const bool is_planbench = std::find(columns.begin(), columns.end(), "run_id") != columns.end();
+  const std::vector<std::string> statuses = StatusesOf(connection, is_planbench);
+  SqliteStatement rows = connection->Prepare(
+      std::string("SELECT p.name, p.settings, e.name, e.timelimit, e.hostname, e.version, e.date, "
+                  "r.* FROM runs r JOIN plannerConfigs p ON p.id = r.plannerid "
+                  "JOIN experiments e ON e.id = r.experimentid ") +
+      (is_planbench ? "WHERE r.run_id IS NULL " : "") + "ORDER BY r.id");
+  constexpr int kFirst = 7;
+  while (rows.Step()) {
+    Properties properties;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (auto text = TextOf(rows.Value(kFirst + static_cast<int>(i)))) {
+        properties[columns[i]] = std::move(*text);
+      }
+    }
+    std::string settings = TextOf(rows.Value(1)).value_or("");
+    const std::size_t contestant = session->Contestant(rows.Text(0), settings);
+    session->AddRun(
+        contestant, rows.Text(2),
+        Number({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
+        statuses, properties);
+    session->session().host = TextOf(rows.Value(4)).value_or("");
+    session->session().version = TextOf(rows.Value(5)).value_or("");
+    session->session().date = TextOf(rows.Value(6)).value_or("");
+  }
+}
+
+}  // namespace
+
+StoredSession ReadOmplLog(const std::filesystem::path& file, const std::string& name) {
+  return LogReader(file).Read(name);
+}
+
+StoredSession ReadOmplDatabase(const std::filesystem::path& file, const std::string& name) {
+  OmplSession session(name);
+  try {
+    SqliteConnection connection(file, SqliteConnection::Mode::kReadOnly);
+    ReadRuns(&connection, &session);
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  } catch (const SqliteError& error) {
+    throw InputError(file.string() + ": is no benchmark database of OMPL's: " + error.what());
+  }
+  return session.Take();
+}
+
+}  // namespace planbench

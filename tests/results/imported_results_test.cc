@@ -1,0 +1,78 @@
+#include "results/imported_results.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+class ImportedCsvTest : public testing::Test {
+ protected:
+  std::vector<StoredRun> Read(const std::string& text) {
+    folder_.Write("r.csv", text);
+    const StoredSession session = ImportResults(folder_.path() / "r.csv", "published", 60);
+    EXPECT_EQ(session.contestants.at(0).name, "published");
+    EXPECT_TRUE(session.imported);
+    return session.runs;
+  }
+  void ExpectRefused(const std::string& text, const std::vector<std::string>& parts) {
+    ExpectInputError([&] { Read(text); }, parts);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImportedCsvTest, ReadsWhatIsThere) {
+  const auto runs = Read(
+      "problem_set,query_index,solved,time_s,waypoints\r\nbox,0,1,2.25,9\r\n\r\nbox,1,0,60,0\r\n");
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].problem_set, "box");
+  EXPECT_EQ(runs[0].problem_index, 1);
+  EXPECT_EQ(runs[0].status, PlanStatus::kSolved);
+  EXPECT_TRUE(runs[0].claimed);
+  EXPECT_EQ(runs[0].time_s, 2.25);
+  EXPECT_EQ(runs[0].time_limit_s, 60);
+  EXPECT_EQ(runs[0].direction, Direction::kForward);
+  EXPECT_EQ(runs[0].trial, 1);
+  EXPECT_EQ(runs[1].status, PlanStatus::kTimedOut);
+  EXPECT_FALSE(runs[1].claimed);
+}
+
+TEST_F(ImportedCsvTest, OptionalColumnsCount) {
+  const auto runs = Read(
+      "trial,direction,time_limit_s,problem_set,problem_index,solved,time_s\n"
+      "3,backward,10,cage,7,1,0.5\n");
+  ASSERT_EQ(runs.size(), 1u);
+  EXPECT_EQ(runs[0].trial, 3);
+  EXPECT_EQ(runs[0].direction, Direction::kBackward);
+  EXPECT_EQ(runs[0].time_limit_s, 10);
+  EXPECT_EQ(runs[0].problem_index, 7);
+}
+
+TEST_F(ImportedCsvTest, MeasuresAndReasonsAreRead) {
+  const auto runs = Read(
+      "problem_set,problem_index,solved,time_s,reason,path_length,clearance_simplified\n"
+      "\"a, \"\"b\"\"\",1,1,2,,3.5,\nbox,2,0,9,\"hit, twice\",,\n");
+  EXPECT_EQ(runs[0].problem_set, "a, \"b\"");
+  EXPECT_EQ(runs[0].measures, (MeasuredValues{{"path_length", 3.5}}));
+  EXPECT_TRUE(runs[0].measures_simple.empty());
+  EXPECT_EQ(runs[1].message, "hit, twice");
+}
+
+TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
+  const std::string header = "problem_set,problem_index,solved,time_s\n";
+  ExpectRefused("", {"r.csv", "no results"});
+  ExpectRefused(header, {"r.csv", "no results"});
+  ExpectRefused("problem_set,solved,time_s\nbox,1,2\n", {"r.csv", "problem_index"});
+  ExpectRefused(header + "box,1,1\n", {"r.csv:2", "3 values for 4 columns"});
+  ExpectRefused(header + "box,1,1,\n", {"r.csv:2", "time_s", "''"});
+  ExpectRefused(header + "box,1,1,nan\n", {"r.csv:2", "time_s", "'nan'"});
+  ExpectRefused(header + "box,1,2,1\n", {"r.csv:2", "solved", "'2'"});
+  ExpectRefused(header + "box,1.5,1,1\n", {"r.csv:2", "problem_index", "whole"});
+  ExpectInputError([] { ImportResults("/none/r.csv", "x", 1); }, {"/none/r.csv"});
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,182 @@
+#include "results/ompl_results.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "common/sqlite.h"
+#include "results/compared_sessions.h"
+#include "results/comparison.h"
+#include "results/imported_results.h"
+#include "results/ompl_log.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/session_database.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+constexpr char kLog[] =
+    "OMPL version 1.6.0\nExperiment lab/3\nRunning on host1\nStarting at 2024-05-01 10:00:00\n"
+    "<<<|\na demo\n|>>>\n<<<|\na cpu\n|>>>\n7 is the random seed\n1.5 seconds per run\n"
+    "1024 MB per run\n4 runs per planner\n0.5 seconds spent to collect the data\n1 enum type\n"
+    "status|Unknown status|Invalid start|Invalid goal|Unrecognized goal type|Timeout|"
+    "Approximate solution|Exact solution|Crash\n2 planners\n"
+    "geometric_RRTstar\n1 common properties\nrange = 0.5\n6 properties for each run\ntime REAL\n"
+    "solved BOOLEAN\nstatus ENUM\nsolution length REAL\nsimplified solution length REAL\n"
+    "correct solution BOOLEAN\n4 runs\n"
+    "0.01; 1; 6; 3.25; 3; 1; \n0.02; 1; 6; 3.5; inf; 0; \n1.5; 1; 5; 9; ; 1; \n"
+    "1.5; 0; 4; ; ; ; \n"
+    "2 progress properties for each run\ntime REAL\nbest cost REAL\n4 runs\n"
+    "0.1,inf,;0.2,5,;0.3,5,;0.4,4,;\n0.2,6,;\n\n\n.\n"
+    "geometric_PRM\n0 common properties\n1 properties for each run\nsolved BOOLEAN\n1 runs\n1; \n"
+    ".\n";
+
+class OmplResultsTest : public testing::Test {
+ protected:
+  StoredSession Log(const std::string& text) {
+    folder_.Write("own.log", text);
+    return ImportResults(folder_ / "own.log", "OMPL", 60);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(OmplResultsTest, ALogsPlannersAreContestants) {
+  const StoredSession session = Log(kLog);
+  EXPECT_EQ(session.host, "host1");
+  EXPECT_EQ(session.cpu, "a cpu");
+  EXPECT_EQ(session.seed, "7");
+  ASSERT_EQ(session.contestants.size(), 2u);
+  EXPECT_EQ(session.contestants[0].name, "OMPL: geometric_RRTstar");
+  EXPECT_EQ(session.contestants[0].settings, "planner = geometric_RRTstar\nrange = 0.5\n");
+  ASSERT_EQ(session.runs.size(), 5u);
+  const StoredRun& first = session.runs[0];
+  EXPECT_EQ(first.problem_set, "lab");
+  EXPECT_EQ(first.problem_index, 3);
+  EXPECT_EQ(first.time_s, 0.01);
+  EXPECT_EQ(first.time_limit_s, 1.5);
+  EXPECT_EQ(first.status, PlanStatus::kSolved);
+  EXPECT_EQ(first.measures, (MeasuredValues{{"path_length", 3.25}}));
+  EXPECT_EQ(first.measures_simple, (MeasuredValues{{"path_length", 3}}));
+  // Improvements alone.
+  ASSERT_EQ(first.progress.size(), 2u);
+  EXPECT_EQ(first.progress[1].elapsed_s, 0.4);
+  EXPECT_EQ(first.progress[1].cost, 4);
+  EXPECT_EQ(session.runs[1].status, PlanStatus::kInvalidPath);
+  EXPECT_TRUE(session.runs[1].claimed);
+  EXPECT_EQ(session.runs[1].trial, 2);
+  EXPECT_TRUE(session.runs[1].measures_simple.empty());
+  EXPECT_EQ(session.runs[2].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(session.runs[2].message, "Approximate solution");
+  EXPECT_EQ(session.runs[3].message, "Timeout");
+  EXPECT_EQ(session.runs[4].contestant, 1u);
+  EXPECT_TRUE(session.runs[4].confirmed());
+  EXPECT_EQ(session.runs[4].time_s, std::nullopt);
+}
+
+TEST_F(OmplResultsTest, ADamagedLogIsRefusedByLine) {
+  std::string text = kLog;
+  ExpectInputError([&] { Log(text.substr(0, text.find("4 runs\n0.01"))); }, {"own.log:28"});
+  ExpectInputError([&] { Log(text.replace(text.find("0.02; "), 6, "x; ")); },
+                   {"own.log:31", "time: 'x' is no number"});
+  ExpectInputError([&] { Log(text.replace(text.find("x; "), 3, "")); }, {"own.log:31", "5 values"});
+}
+
+TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
+  {
+    SqliteConnection database(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate);
+    database.Execute(
+        "CREATE TABLE experiments (id INTEGER PRIMARY KEY, name, timelimit, hostname, version, "
+        "date); CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name, settings);"
+        "CREATE TABLE enums (name, value, description);"
+        "CREATE TABLE runs (id INTEGER PRIMARY KEY, experimentid, plannerid, time REAL, solved, "
+        "status, solution_length REAL);"
+        "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
+        "INSERT INTO plannerConfigs VALUES (4, 'PRM', 'k = 5');"
+        "INSERT INTO enums VALUES ('status', 0, 'Timeout'), ('status', 1, 'Exact solution');"
+        "INSERT INTO runs VALUES (1, 1, 4, 0.25, 1, 1, 3), (2, 1, 4, 5, 0, 0, NULL);");
+  }
+  const StoredSession session = ImportResults(folder_ / "own.db", "mine", 60);
+  ASSERT_EQ(session.contestants.size(), 1u);
+  EXPECT_EQ(session.contestants[0].name, "mine");
+  ASSERT_EQ(session.runs.size(), 2u);
+  EXPECT_TRUE(session.runs[0].confirmed());
+  EXPECT_EQ(session.runs[0].time_s, 0.25);
+  EXPECT_EQ(session.runs[0].problem_set, "box");
+  EXPECT_EQ(session.runs[0].problem_index, 1);
+  EXPECT_EQ(session.runs[1].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(session.runs[1].trial, 2);
+  EXPECT_EQ(session.runs[1].time_limit_s, 5);
+  folder_.Write("other.db", std::string("SQLite format 3\0", 16) + std::string(600, 'x'));
+  ExpectInputError([&] { ImportResults(folder_ / "other.db", "x", 1); }, {"other.db"});
+}
+
+/// Two contestants with a failure, a refused path and a second trial.
+std::vector<MadeRun> SomeRuns() {
+  return {{.contestant = "A; \"one\"", .problem = 1, .time_s = 0.1},
+          {.contestant = "A; \"one\"", .problem = 1, .trial = 2, .time_s = 0.3},
+          {.contestant = "A; \"one\"", .problem = 2, .status = PlanStatus::kTimedOut},
+          {.contestant = "B", .problem = 1, .status = PlanStatus::kInvalidPath},
+          {.contestant = "B", .problem = 2, .direction = Direction::kBackward, .length = 7}};
+}
+
+TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
+  WriteSession(folder_ / "example", SomeRuns());
+  std::vector<StoredSession> own = ReadSessions(folder_ / "example").sessions;
+  folder_.Write("own.log", OmplLog(own.front(), "shelf"));
+  StoredSession imported = ImportResults(folder_ / "own.log", "again", 60);
+  ASSERT_EQ(imported.runs.size(), own.front().runs.size());
+  // By contestant, as a log has them, which is the order of the example too.
+  for (std::size_t i = 0; i < imported.runs.size(); ++i) {
+    const StoredRun& before = own.front().runs[i];
+    const StoredRun& after = imported.runs[i];
+    EXPECT_EQ(after.problem_set, before.problem_set);
+    EXPECT_EQ(after.problem_index, before.problem_index);
+    EXPECT_EQ(after.trial, before.trial);
+    EXPECT_EQ(after.direction, before.direction);
+    EXPECT_EQ(after.status, before.status);
+    EXPECT_EQ(after.claimed, before.claimed);
+    EXPECT_EQ(after.time_s, before.time_s);
+    EXPECT_EQ(after.measures, before.measures);
+    EXPECT_EQ(after.time_limit_s, before.time_limit_s);
+  }
+  EXPECT_EQ(imported.contestants[0].name, "again: A; \"one\"");
+  KeepProblemsOf(own, &imported);
+  EXPECT_EQ(imported.runs.size(), 5u);
+  std::erase_if(own.front().runs, [](const StoredRun& run) { return run.problem_index == 2; });
+  KeepProblemsOf(own, &imported);
+  EXPECT_EQ(imported.runs.size(), 3u);
+  own.front().runs[0].problem_set = "other";
+  own.front().runs.resize(1);
+  ExpectInputError([&] { KeepProblemsOf(own, &imported); }, {"own.log", "shelf", "other"});
+}
+
+TEST_F(OmplResultsTest, OmplsOwnReaderTakesALogOfOurs) {
+  if (std::system("command -v ompl_benchmark_statistics >/dev/null") != 0) {
+    GTEST_SKIP() << "no reader of OMPL's here: apt-get install ompl-demos";
+  }
+  WriteSession(folder_ / "example", SomeRuns());
+  const StoredSession own = ReadSessions(folder_ / "example").sessions.front();
+  folder_.Write("own.log", OmplLog(own, "shelf"));
+  // Into a database of its own, and appended to ours.
+  for (const char* database : {"fresh.db", "example/results.sqlite"}) {
+    const std::string path = (folder_ / database).string();
+    ASSERT_EQ(std::system(fmt::format("cd {} && ompl_benchmark_statistics -a -d {} {} >/dev/null",
+                                      folder_.path().string(), path, (folder_ / "own.log").string())
+                              .c_str()),
+              0);
+    SqliteConnection connection(path, SqliteConnection::Mode::kReadOnly);
+    const bool is_ours = std::string(database) != "fresh.db";
+    EXPECT_EQ(connection.QueryValue("SELECT count(*) FROM runs"),
+              SqliteValue(std::int64_t{is_ours ? 10 : 5}));
+    EXPECT_EQ(connection.QueryValue("SELECT sum(solved) FROM runs"),
+              SqliteValue(std::int64_t{is_ours ? 6 : 3}));
+    EXPECT_EQ(connection.QueryValue("SELECT max(solution_length) FROM runs"), SqliteValue(7.0));
+    EXPECT_EQ(ImportResults(path, "X", 1).runs.size(), 5u);
+  }
+}
+
+}  // namespace
+}  // namespace planbench
