@@ -2,7 +2,7 @@
 // where the time went, a table row for each set and direction. Every path is judged at half the
 // edge resolution, as the referee does it.
 //
-//   planner_benchmark --problems DIR [DIR ...] --planner ara|rrtc [--set KEY=VALUE ...]
+//   planner_benchmark --problems DIR [DIR ...] --planner ara|rrtc|trajopt [--set KEY=VALUE ...]
 //
 // Times are planning times in ms over the solved problems; "time to" is over all problems, those
 // that were not solved counting as infinite; counts are medians over all problems that were
@@ -27,6 +27,7 @@
 #include "common/error.h"
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
+#include "planner_trajopt/trajopt_planner.h"
 #include "planning/path_judge.h"
 #include "planning/path_measures.h"
 #include "planning/planner_settings.h"
@@ -94,7 +95,8 @@ std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
   const YamlNode settings =
       LoadPlannerSettings(robot, flags.planner, flags.config, flags.overrides);
   if (flags.planner == "ara") return MakeAraPlanner(robot, settings);
-  return MakeRrtcPlanner(robot, settings);
+  if (flags.planner == "rrtc") return MakeRrtcPlanner(robot, settings);
+  return MakeTrajoptPlanner(robot, settings);
 }
 
 bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene& scene,
@@ -247,7 +249,7 @@ int Main(int argc, char** argv) {
   app.add_option("--problems", flags.problems, "Folders of problem sets")->required();
   app.add_option("--robot", flags.robot, "Robot folder")->capture_default_str();
   app.add_option("--planner", flags.planner, "Which to run")
-      ->check(CLI::IsMember({"ara", "rrtc"}))
+      ->check(CLI::IsMember({"ara", "rrtc", "trajopt"}))
       ->capture_default_str();
   app.add_option("--config", flags.config, "Settings file; default: the robot folder's");
   app.add_option("--set", flags.overrides, "KEY=VALUE: overrides a setting; repeatable")

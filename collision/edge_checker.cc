@@ -122,6 +122,13 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
   check_run(count);
 }
 
+void EdgeChecker::FindDistances(std::span<const double> qs, int num, double at_most,
+                                std::span<double> distances) {
+  const ScopedTimer timer(&counters_.ticks);
+  counters_.configurations += num;
+  checker_->FindDistances(qs, num, at_most, distances);
+}
+
 bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const double> to,
                               bool from_is_free) {
   RequireSize(from);

@@ -43,10 +43,11 @@ class EdgeChecker {
   static constexpr double kCertifiedDepth = 0.0005;
 
   struct Counters {
-    std::int64_t states = 0;          ///< States checked by themselves.
-    std::int64_t edges = 0;           ///< Edges checked.
-    std::int64_t configurations = 0;  ///< Configurations (or stretches) checked for both.
-    std::uint64_t ticks = 0;          ///< Time spent in both (Ticks).
+    std::int64_t states = 0;  ///< States checked by themselves.
+    std::int64_t edges = 0;   ///< Edges checked.
+    /// Configurations (or stretches) checked for both, and those whose distances were found.
+    std::int64_t configurations = 0;
+    std::uint64_t ticks = 0;  ///< Time spent in all (Ticks).
   };
 
   /// The checker must outlive this and have its scene set. Throws InputError unless
@@ -73,6 +74,9 @@ class EdgeChecker {
   /// valid[i] = IsValidState(state i) for `num` states (row-major, num x n), at once where the
   /// engine can.
   void CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
+  /// CollisionChecker::FindDistances, counted. Limits are the caller's to check.
+  void FindDistances(std::span<const double> qs, int num, double at_most,
+                     std::span<double> distances);
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);

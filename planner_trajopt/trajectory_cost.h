@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "planner_trajopt/trajectory.h"
+
+namespace planbench {
+
+/// What the optimisers minimise: over the inner waypoints the cost of their distance from obstacles
+/// times their speed, and over the motions between rows half their squared length (joint distance),
+/// times a weight. Distances are the least of all pairs of bodies that are checked.
+class TrajectoryCost {
+ public:
+  /// `clearance`: m, > 0; `smoothness`: the weight. The checker must outlive it.
+  TrajectoryCost(EdgeChecker* edges, double clearance, double smoothness)
+      : edges_(edges), clearance_(clearance), smoothness_(smoothness) {}
+
+  double clearance() const { return clearance_; }
+  double smoothness() const { return smoothness_; }
+
+  /// m, of every row, handed to the collision engine at once; the clearance where they are larger.
+  void FindDistances(const Trajectory& rows, std::vector<double>* distances) const;
+  /// CHOMP's (Ratliff et al. 2009) of a distance: 0 from the clearance on, a parabola down to
+  /// contact, linear within obstacles. m
+  double OfDistance(double distance) const;
+  double OfTrajectory(const Trajectory& trajectory, const std::vector<double>& distances) const;
+
+ private:
+  EdgeChecker* edges_;
+  double clearance_;
+  double smoothness_;
+};
+
+}  // namespace planbench

@@ -1,0 +1,167 @@
+#include "planner_trajopt/trajopt_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planner_trajopt/chomp.h"
+#include "planner_trajopt/initial_guesses.h"
+#include "planner_trajopt/stomp.h"
+#include "planner_trajopt/trajectory.h"
+#include "planner_trajopt/trajectory_cost.h"
+#include "planner_trajopt/trajopt_settings.h"
+
+namespace planbench {
+namespace {
+
+/// What counts as a lower cost or a shorter path, relative.
+constexpr double kImprovement = 1e-3;
+
+double Length(const Trajectory& trajectory) {
+  const Eigen::Index moves = trajectory.rows() - 1;
+  return (trajectory.bottomRows(moves) - trajectory.topRows(moves)).rowwise().norm().sum();
+}
+
+/// One search: guess after guess is optimised until one is free, or, anytime, until the end.
+class TrajectorySearch {
+ public:
+  TrajectorySearch(const TrajoptSettings& settings, SearchQuery* query)
+      : settings_(settings),
+        query_(query),
+        cost_(&query->edges(), settings.clearance, settings.smoothness),
+        // Another seed than the optimiser's, lest guesses and noise be the same numbers.
+        guesses_(query->space(), query->start(), query->goal().nominal, settings, &cost_,
+                 ~query->seed()) {
+    if (settings.algorithm == TrajoptAlgorithm::kStomp) {
+      optimiser_ = std::make_unique<Stomp>(query->space(), settings, &cost_, query->seed());
+    } else {
+      optimiser_ = std::make_unique<Chomp>(query->space(), settings, &cost_);
+    }
+  }
+
+  SearchResult Run() {
+    while (MayGoOn() && !(settings_.guesses && guesses_.count() == *settings_.guesses)) {
+      Trajectory trajectory = guesses_.Next();
+      Optimise(&trajectory);
+    }
+    SearchResult result;
+    result.counters = {{"guesses", guesses_.count()},
+                       {"iterations", static_cast<double>(num_iterations_)}};
+    if (!path_.empty()) {
+      result.status = PlanStatus::kSolved;
+      result.path = std::move(path_);
+      result.cost = length_;
+    } else if (query_->Cancelled()) {
+      result.status = PlanStatus::kCancelled;
+      result.message = "cancelled";
+    } else {
+      result.status = query_->ShouldStop() ? PlanStatus::kTimedOut : PlanStatus::kExhausted;
+      result.message = fmt::format(
+          "in collision all the same: {} optimised from {}", EnumName(settings_.algorithm),
+          guesses_.count() == 1 ? "the straight motion"
+                                : fmt::format("{} guesses", guesses_.count()));
+    }
+    return result;
+  }
+
+ private:
+  bool MayGoOn() const { return !query_->ShouldStop() && (path_.empty() || query_->anytime()); }
+
+  void Optimise(Trajectory* trajectory) {
+    optimiser_->Restart();
+    double least = std::numeric_limits<double>::infinity();
+    int since_least = 0;
+    for (int i = 0; MayGoOn(); ++i) {
+      cost_.FindDistances(*trajectory, &distances_);
+      Keep(*trajectory);
+      const double cost = cost_.OfTrajectory(*trajectory, distances_);
+      since_least = cost < (1 - kImprovement) * least ? 0 : since_least + 1;
+      least = std::min(least, cost);
+      if (i == settings_.iterations || since_least == settings_.patience || !MayGoOn()) return;
+      optimiser_->Iterate(distances_, trajectory);
+      *trajectory = SpacedEvenly(*trajectory, settings_.waypoints);
+      ++num_iterations_;
+    }
+  }
+
+  /// Takes the trajectory for the path if it is free and shorter than what there is.
+  void Keep(const Trajectory& trajectory) {
+    const double length = Length(trajectory);
+    if (!path_.empty() && !(length < (1 - kImprovement) * length_)) return;
+    if (!IsFree(trajectory)) return;
+    path_ = PathOf(query_->space(), trajectory);
+    length_ = length;
+    if (query_->anytime()) query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+  }
+
+  /// The edges that are likeliest blocked are checked first.
+  bool IsFree(const Trajectory& trajectory) {
+    const std::size_t num_edges = distances_.size() - 1;
+    for (std::size_t i = 1; i < num_edges; ++i) {
+      if (!(distances_[i] > 0)) return false;
+    }
+    std::vector<int> order(num_edges);
+    std::iota(order.begin(), order.end(), 0);
+    const auto nearest = [this](int edge) {
+      const auto i = static_cast<std::size_t>(edge);
+      return std::min(distances_[i], distances_[i + 1]);
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&nearest](int a, int b) { return nearest(a) < nearest(b); });
+    return std::all_of(order.begin(), order.end(), [&](int edge) {
+      return query_->edges().IsValidEdge(Row(trajectory, edge), Row(trajectory, edge + 1),
+                                         /*from_is_free=*/true);
+    });
+  }
+
+  const TrajoptSettings& settings_;
+  SearchQuery* query_;
+  TrajectoryCost cost_;
+  InitialGuesses guesses_;
+  std::unique_ptr<Optimiser> optimiser_;
+  std::vector<double> distances_;  ///< Of the trajectory at hand.
+  std::int64_t num_iterations_ = 0;
+  Path path_;
+  double length_ = 0;
+};
+
+class TrajoptPlanner final : public Planner {
+ public:
+  TrajoptPlanner(const Robot& robot, const TrajoptSettings& settings)
+      : Planner(robot), settings_(settings) {}
+
+  PlannerDescription Describe() const override {
+    PlannerDescription description;
+    description.algorithm = settings_.VariantName();
+    description.planner_class = PlannerClass::kTrajectoryOptimisation;
+    description.anytime = true;
+    description.deterministic =
+        settings_.algorithm == TrajoptAlgorithm::kChomp && settings_.guesses == 1;
+    description.collision_models = EnumValues<CollisionModel>();
+    description.settings = DescribeSettings(settings_);
+    return description;
+  }
+
+ protected:
+  SearchResult Search(SearchQuery& query) override {
+    const TrajoptSettings settings = SettingsOfRequest(settings_, query.parameters());
+    return TrajectorySearch(settings, &query).Run();
+  }
+
+ private:
+  TrajoptSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Planner> MakeTrajoptPlanner(const Robot& robot, const YamlNode& settings) {
+  return std::make_unique<TrajoptPlanner>(robot, ReadTrajoptSettings(settings, TrajoptSettings{}));
+}
+
+}  // namespace planbench

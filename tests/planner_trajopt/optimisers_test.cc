@@ -1,0 +1,183 @@
+// The parts of the trajectory optimisers, each against what is known otherwise.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "planner_trajopt/chomp.h"
+#include "planner_trajopt/initial_guesses.h"
+#include "planner_trajopt/smoothness.h"
+#include "planner_trajopt/stomp.h"
+#include "planner_trajopt/trajectory.h"
+#include "planner_trajopt/trajectory_cost.h"
+#include "planner_trajopt/trajopt_settings.h"
+#include "planning/resolve.h"
+#include "tests/support/planning_problems.h"
+
+namespace planbench {
+namespace {
+
+TEST(SmoothnessTest, IsTheInverseOfTheSquaredDifferences) {
+  const Eigen::MatrixXd metric = InverseSmoothness(7).inverse();
+  Eigen::VectorXd inner(7);
+  inner << 0.3, -1, 2, 0.5, 0, 4, -0.2;
+  double squares = inner[0] * inner[0] + inner[6] * inner[6];
+  for (int i = 1; i < 7; ++i) squares += std::pow(inner[i] - inner[i - 1], 2);
+  EXPECT_NEAR(inner.dot(metric * inner), squares, 1e-8);
+}
+
+class TrajectoryTest : public testing::Test {
+ protected:
+  TrajectoryTest() {
+    checker_ = MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
+    SetScene(PostsScene());
+  }
+  void SetScene(const Scene& scene) {
+    checker_->SetScene(scene, robot_.model.DefaultPositions());
+    edges_ = std::make_unique<EdgeChecker>(checker_.get(), 0.02, EdgeCheck::kFixed);
+  }
+  double CostOf(const TrajectoryCost& cost, const Trajectory& trajectory) const {
+    std::vector<double> distances;
+    cost.FindDistances(trajectory, &distances);
+    return cost.OfTrajectory(trajectory, distances);
+  }
+
+  const Robot robot_ = LoadPlanarRobot();
+  const JointSpace& space_ = robot_.groups.front().space;
+  const Configuration left_ = {0.6, 0, 0};
+  const Configuration right_ = {-0.6, 0, 0};
+  std::unique_ptr<CollisionChecker> checker_;
+  std::unique_ptr<EdgeChecker> edges_;
+};
+
+TEST_F(TrajectoryTest, GoesThroughThePointsTheShortWayRound) {
+  const Trajectory trajectory = Through(space_, {{3, 0, 0}, {-3, 0, 0}, {-3, 1, 0}}, 63);
+  ASSERT_EQ(trajectory.rows(), 65);
+  const double turn = 2 * std::numbers::pi - 6;
+  EXPECT_NEAR(trajectory(64, 0), 3 + turn, 1e-12);
+  EXPECT_NEAR(trajectory(64, 1), 1, 1e-12);
+  const double spacing = (turn + 1) / 64;
+  for (int i = 1; i < 65; ++i) {
+    const double motion = (trajectory.row(i) - trajectory.row(i - 1)).norm();
+    EXPECT_LE(motion, spacing + 1e-12);
+    EXPECT_GE(motion, spacing / std::numbers::sqrt2 - 1e-12) << "across the corner";
+  }
+  for (const Configuration& q : PathOf(space_, trajectory)) {
+    EXPECT_LT(std::abs(q[0]), std::numbers::pi + 1e-12);
+  }
+}
+
+TEST_F(TrajectoryTest, PointsThatAreOneMakeATrajectoryThatRests) {
+  const Trajectory trajectory = Through(space_, {left_, left_}, 3);
+  EXPECT_EQ(trajectory.row(2), trajectory.row(0));
+  EXPECT_EQ(Speeds(trajectory).norm(), 0);
+}
+
+TEST_F(TrajectoryTest, TheCostOfDistanceIsSmoothAndFalls) {
+  const TrajectoryCost cost(edges_.get(), 0.05, 0);
+  EXPECT_EQ(cost.OfDistance(0.05), 0);
+  EXPECT_EQ(cost.OfDistance(1), 0);
+  EXPECT_NEAR(cost.OfDistance(0), 0.025, 1e-12);
+  EXPECT_NEAR(cost.OfDistance(-0.01), 0.035, 1e-12);
+  constexpr double kStep = 1e-6;
+  for (const double d : {-0.02, 0.0, 0.02, 0.05}) {
+    const double before = (cost.OfDistance(d) - cost.OfDistance(d - kStep)) / kStep;
+    const double after = (cost.OfDistance(d + kStep) - cost.OfDistance(d)) / kStep;
+    EXPECT_NEAR(before, after, 1e-4) << d;
+    EXPECT_LE(after, 0) << d;
+  }
+}
+
+TEST_F(TrajectoryTest, ACostIsThatOfItsDistancesAndItsLength) {
+  const TrajectoryCost cost(edges_.get(), 0.05, 0.5);
+  const Trajectory trajectory = Through(space_, {left_, right_}, 20);
+  std::vector<double> distances;
+  cost.FindDistances(trajectory, &distances);
+  double expected = 0.5 / 2 * 21 * std::pow(1.2 / 21, 2);
+  for (int i = 1; i <= 20; ++i) {
+    const double d = checker_->FindClosest(Row(trajectory, i)).distance_m;
+    // Of a ball whose centre is inside an obstacle the engine knows no more than that.
+    const double found = distances[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(std::max(found, -0.04), std::clamp(d, -0.04, 0.05), 1e-4);
+    expected += cost.OfDistance(found) * 1.2 / 21;
+  }
+  EXPECT_NEAR(cost.OfTrajectory(trajectory, distances), expected, 1e-9);
+}
+
+TEST_F(TrajectoryTest, GuessesBeginStraightAndKeepTheEnds) {
+  const TrajoptSettings settings;
+  const TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
+  InitialGuesses guesses(space_, left_, right_, settings, &cost, 1);
+  const Trajectory straight = guesses.Next();
+  EXPECT_EQ(straight, Through(space_, {left_, right_}, settings.waypoints));
+  const JointBounds bounds(space_);
+  for (int k = 0; k < 20; ++k) {
+    const Trajectory guess = guesses.Next();
+    EXPECT_EQ(guess.row(0), straight.row(0));
+    EXPECT_NE(guess, straight);
+    Trajectory clamped = guess;
+    bounds.Clamp(clamped);
+    EXPECT_EQ(clamped, guess);
+    for (int j = 0; j < space_.size(); ++j) {
+      EXPECT_NEAR(
+          space_.Difference(j, guess(guess.rows() - 1, j), right_[static_cast<std::size_t>(j)]), 0,
+          1e-12);
+    }
+  }
+  EXPECT_EQ(guesses.count(), 21);
+}
+
+TEST_F(TrajectoryTest, BothOptimisersLowerTheCostAndKeepTheEnds) {
+  TrajoptSettings settings;
+  const TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
+  // Folded enough to be half over the post.
+  const Trajectory guess = Through(space_, {left_, {0, 1.2, 0.3}, right_}, settings.waypoints);
+  Stomp stomp(space_, settings, &cost, 1);
+  Chomp chomp(space_, settings, &cost);
+  for (Optimiser* optimiser : std::vector<Optimiser*>{&stomp, &chomp}) {
+    Trajectory trajectory = guess;
+    optimiser->Restart();
+    std::vector<double> distances;
+    double least = CostOf(cost, guess);
+    for (int k = 0; k < 30; ++k) {
+      cost.FindDistances(trajectory, &distances);
+      optimiser->Iterate(distances, &trajectory);
+      least = std::min(least, CostOf(cost, trajectory));
+    }
+    EXPECT_LT(least, 0.8 * CostOf(cost, guess));
+    EXPECT_EQ(trajectory.row(0), guess.row(0));
+    EXPECT_EQ(trajectory.bottomRows(1), guess.bottomRows(1));
+    Trajectory clamped = trajectory;
+    JointBounds(space_).Clamp(clamped);
+    EXPECT_EQ(clamped, trajectory);
+  }
+}
+
+TEST_F(TrajectoryTest, WithoutObstaclesBothComeBackTowardsTheStraightLine) {
+  SetScene(EmptyPlanarScene());
+  TrajoptSettings settings;
+  settings.smoothness = 0.5;
+  settings.waypoints = 20;
+  const TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
+  const Trajectory guess = Through(space_, {left_, {0, 1, 0}, right_}, settings.waypoints);
+  Stomp stomp(space_, settings, &cost, 1);
+  Chomp chomp(space_, settings, &cost);
+  for (Optimiser* optimiser : std::vector<Optimiser*>{&stomp, &chomp}) {
+    Trajectory trajectory = guess;
+    optimiser->Restart();
+    std::vector<double> distances;
+    for (int k = 0; k < 100; ++k) {
+      cost.FindDistances(trajectory, &distances);
+      optimiser->Iterate(distances, &trajectory);
+    }
+    EXPECT_LT(trajectory.col(1).maxCoeff(), 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace planbench

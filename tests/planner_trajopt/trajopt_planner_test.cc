@@ -1,0 +1,155 @@
+#include "planner_trajopt/trajopt_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planner_trajopt/trajopt_settings.h"
+#include "tests/contract/planner_contract.h"
+#include "tests/contract/random_robots_contract.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+YamlNode Settings(const std::string& text) { return YamlNode::Parse(text, "trajopt.yaml"); }
+
+std::vector<PlannerFactory> AllPlanners() {
+  std::vector<PlannerFactory> factories;
+  for (const std::string name : {"STOMP", "CHOMP"}) {
+    factories.push_back({name, [name](const Robot& robot) {
+                           return MakeTrajoptPlanner(robot, Settings("algorithm: " + name));
+                         }});
+  }
+  return factories;
+}
+
+INSTANTIATE_TEST_SUITE_P(Trajopt, PlannerContract, testing::ValuesIn(AllPlanners()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(TrajoptPlanner, PlansForRandomRobots) {
+  for (const PlannerFactory& factory : AllPlanners()) {
+    SCOPED_TRACE(factory.name);
+    ExpectPlansForRandomRobots(factory.make);
+  }
+}
+
+class TrajoptPlannerTest : public testing::Test {
+ protected:
+  PlanResult Solve(const std::string& settings, const Scene& scene, std::uint64_t seed = 1) const {
+    PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+    request.seed = seed;
+    return MakeTrajoptPlanner(robot_, Settings(settings))->Plan(request, scene, nullptr);
+  }
+
+  const Robot robot_ = LoadPlanarRobot();
+};
+
+TEST_F(TrajoptPlannerTest, RefusesBadSettingsByFileLineAndKey) {
+  const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    SCOPED_TRACE(text);
+    ExpectInputError([&] { MakeTrajoptPlanner(robot_, Settings(text)); }, parts);
+  };
+  expect_refused("algorithm: TrajOpt",
+                 {"trajopt.yaml:1", "algorithm", "TrajOpt", "STOMP or CHOMP"});
+  expect_refused("clearance: 0.1\nclearence: 0.2", {"trajopt.yaml:2", "clearence"});
+  expect_refused("clearance: 0", {"trajopt.yaml:1", "clearance"});
+  expect_refused("waypoints: 0", {"trajopt.yaml:1", "waypoints", "1 to 1000", "0"});
+  expect_refused("rollouts: 1", {"trajopt.yaml:1", "rollouts", "1"});
+  expect_refused("guesses: some", {"trajopt.yaml:1", "guesses", "some"});
+  expect_refused("smoothness: -1", {"trajopt.yaml:1", "smoothness"});
+  expect_refused("\nstep: 0.1", {"trajopt.yaml:2", "step", "CHOMP only"});
+  expect_refused("algorithm: CHOMP\nnoise: 0.1", {"trajopt.yaml:2", "noise", "STOMP only"});
+}
+
+TEST_F(TrajoptPlannerTest, ARequestCannotChangeTheAlgorithm) {
+  const std::unique_ptr<Planner> planner = MakeTrajoptPlanner(robot_, Settings(""));
+  for (const auto& [key, value] : std::map<std::string, std::string>{
+           {"algorithm", "CHOMP"}, {"noise", "loud"}, {"step", "1"}}) {
+    PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+    request.parameters[key] = value;
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kInvalidRequest) << key;
+    EXPECT_NE(result.message.find(key), std::string::npos) << result.message;
+  }
+}
+
+TEST_F(TrajoptPlannerTest, Describes) {
+  const PlannerDescription stomp = MakeTrajoptPlanner(robot_, Settings(""))->Describe();
+  EXPECT_EQ(stomp.algorithm, "STOMP (restarted)");
+  EXPECT_EQ(stomp.planner_class, PlannerClass::kTrajectoryOptimisation);
+  EXPECT_TRUE(stomp.anytime);
+  EXPECT_FALSE(stomp.deterministic);
+  EXPECT_FALSE(stomp.bidirectional);
+  EXPECT_EQ(stomp.settings.at("guesses"), "unlimited");
+  EXPECT_TRUE(stomp.settings.contains("noise"));
+  EXPECT_FALSE(stomp.settings.contains("step"));
+  const PlannerDescription chomp =
+      MakeTrajoptPlanner(robot_, Settings("{algorithm: CHOMP, guesses: 1}"))->Describe();
+  EXPECT_EQ(chomp.algorithm, "CHOMP (straight guess)");
+  EXPECT_TRUE(chomp.deterministic) << "without guesses nothing is drawn";
+  EXPECT_FALSE(chomp.settings.contains("noise"));
+  EXPECT_EQ(MakeTrajoptPlanner(robot_, Settings("guesses: 5"))->Describe().algorithm,
+            "STOMP (5 guesses)");
+}
+
+TEST_F(TrajoptPlannerTest, EverySettingOfItsAlgorithmTakesEffect) {
+  const std::map<std::string, std::vector<std::string>> by_algorithm = {
+      {"STOMP",
+       {"waypoints: 20", "clearance: 0.1", "smoothness: 0.1", "rollouts: 8", "noise: 0.1",
+        "gain: 3"}},
+      {"CHOMP",
+       {"waypoints: 20", "clearance: 0.1", "smoothness: 0.1", "step: 0.05", "gradient_step: 0.1"}}};
+  for (const auto& [algorithm, settings] : by_algorithm) {
+    const std::string common = "{guesses: 3, algorithm: " + algorithm;
+    const PlanResult result = Solve(common + "}", PostsScene());
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << algorithm;
+    for (const std::string setting : {"iterations: 3", "patience: 1"}) {
+      EXPECT_NE(Solve(common + ", " + setting + "}", WallsScene()).counters,
+                Solve(common + "}", WallsScene()).counters)
+          << algorithm << ", " << setting;
+    }
+    for (const std::string& setting : settings) {
+      const PlanResult other = Solve(common + ", " + setting + "}", PostsScene());
+      EXPECT_TRUE(other.path != result.path || other.counters != result.counters)
+          << algorithm << ", " << setting;
+    }
+  }
+}
+
+TEST_F(TrajoptPlannerTest, WhatCollidesAfterTheLastGuessSaysSo) {
+  for (const std::string algorithm : {"STOMP", "CHOMP"}) {
+    const PlanResult result =
+        Solve("{guesses: 2, iterations: 5, algorithm: " + algorithm + "}", WallsScene());
+    EXPECT_EQ(result.status, PlanStatus::kExhausted);
+    EXPECT_EQ(result.message,
+              "in collision all the same: " + algorithm + " optimised from 2 guesses");
+    EXPECT_EQ(result.counters.at("guesses"), 2);
+    EXPECT_LE(result.counters.at("iterations"), 10);
+    EXPECT_GT(result.phases.collision_s, 0);
+  }
+}
+
+TEST_F(TrajoptPlannerTest, AStraightMotionThatIsFreeIsThePath) {
+  const PlanResult result = Solve("waypoints: 9", EmptyPlanarScene());
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(result.path.size(), 11u);
+  EXPECT_EQ(result.counters.at("iterations"), 0);
+  EXPECT_EQ(result.counters.at("guesses"), 1);
+  EXPECT_NEAR(result.cost, 1.2, 1e-9);
+  EXPECT_EQ(result.counters.at("edges_checked"), 10);
+}
+
+TEST_F(TrajoptPlannerTest, SeedsDecideThePath) {
+  for (const std::string settings : {"", "algorithm: CHOMP"}) {
+    const Path one = Solve(settings, PostsScene(), 1).path;
+    EXPECT_EQ(Solve(settings, PostsScene(), 1).path, one) << settings;
+    EXPECT_NE(Solve(settings, PostsScene(), 2).path, one) << settings;
+  }
+}
+
+}  // namespace
+}  // namespace planbench
