@@ -24,6 +24,7 @@ const std::map<std::string, std::vector<std::string>> kConfinedLibraries = {
     {"FCL", {"fcl/"}},
     {"Highway", {"hwy/"}},
     {"SQLite", {"sqlite3.h"}},
+    {"cpp-httplib", {"httplib.h"}},
     {"assimp", {"assimp/"}},
     {"urdfdom", {"urdf_parser/", "urdf_model/", "urdf_world/"}},
     {"tinyxml2", {"tinyxml2.h"}},

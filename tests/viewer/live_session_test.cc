@@ -1,0 +1,104 @@
+#include "viewer/live_session.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/viewer/planar_session.h"
+
+namespace planbench {
+namespace {
+
+class LiveSessionTest : public testing::Test {
+ protected:
+  template <typename Message>
+  void Hear(const std::string& channel, const Message& message) {
+    live_.Hear(PlanarSession::Received(channel, message));
+  }
+  Json State(std::int64_t now_utime = 1'000'000) const { return live_.State(now_utime, {}); }
+
+  PlanarSession bus_;
+  LiveSession live_{""};
+};
+
+TEST_F(LiveSessionTest, ShowsARequestThenItsPathThenTheVerdict) {
+  EXPECT_FALSE(live_.View());
+  Hear(channel::kSession, bus_.session);
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  EXPECT_EQ((*live_.View())["message"], "The scene has not been heard yet.");
+  Hear(channel::kScene, bus_.scene);
+  Json view = *live_.View();
+  EXPECT_FALSE(view["links"].empty());
+  EXPECT_TRUE(view["motions"].empty());
+  const std::int64_t before = live_.view_number();
+  Hear("PLAN_REQUEST_ARA", bus_.request);  // repeated
+  EXPECT_EQ(live_.view_number(), before);
+  Hear("PLAN_RESULT_ARA", bus_.result);
+  EXPECT_GT(live_.view_number(), before);
+  EXPECT_EQ((*live_.View())["motions"].size(), 1u);
+  bus_.record.status = PlanStatus::kInvalidPath;
+  bus_.record.path_check.verdict.emplace();
+  bus_.record.path_check.verdict->segment = 0;
+  bus_.record.path_check.verdict->fraction = 0.5;
+  bus_.record.path_check.verdict->reason = "hits itself";
+  Hear(channel::kRunRecord, bus_.record);
+  view = *live_.View();
+  EXPECT_EQ(view["title"], "shelf 1");
+  EXPECT_EQ(view["motions"][0]["contact"], "hits itself");
+}
+
+TEST_F(LiveSessionTest, CountsEveryRunOnce) {
+  Hear(channel::kSession, bus_.session);
+  Hear(channel::kRunRecord, bus_.record);
+  Hear(channel::kRunRecord, bus_.record);
+  bus_.record.request_id = "session/shelf/2";
+  bus_.record.status = PlanStatus::kNoAnswer;
+  Hear(channel::kRunRecord, bus_.record);
+  const Json state = State();
+  EXPECT_EQ(state["session"]["num_runs"], 4);
+  ASSERT_EQ(state["contestants"].size(), 1u);
+  EXPECT_EQ(state["contestants"][0]["runs"], 2);
+  EXPECT_EQ(state["contestants"][0]["solved"], 1);
+  ASSERT_EQ(state["runs"].size(), 2u);
+  EXPECT_EQ(state["runs"][0]["time_s"], nullptr);  // no answer, no time
+  EXPECT_EQ(state["runs"][1]["time_s"], 0.25);
+}
+
+TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
+  NodeStatusMessage node;
+  node.name = "ara";
+  node.busy = true;
+  node.request_id = "session/shelf/1@7";
+  Hear(channel::kNodeStatus, node);
+  EXPECT_EQ(State(3'900'000)["nodes"][0]["gone"], false);
+  EXPECT_EQ(State(3'900'000)["nodes"][0]["busy"], true);
+  EXPECT_EQ(State(4'100'000)["nodes"][0]["gone"], true);
+}
+
+TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  PlanProgressMessage progress;
+  progress.planner = "ara";
+  progress.request_id = bus_.request.request_id;
+  progress.progress = {0.5, 3, 20, 7};
+  Hear("PLAN_PROGRESS_ARA", progress);
+  progress.request_id = "another";
+  Hear("PLAN_PROGRESS_ARA", progress);
+  const Json state = State();
+  ASSERT_EQ(state["progress"].size(), 1u);
+  EXPECT_EQ(state["progress"][0]["cost"], 20);
+  EXPECT_EQ(state["progress"][0]["bound"], 3);
+}
+
+TEST_F(LiveSessionTest, WhatCannotBeReadIsCountedAndWhatCannotBeShownSaysWhy) {
+  live_.Hear({channel::kRunRecord, {1, 2, 3}, 1});
+  live_.Hear({"SOMETHING_ELSE", {1, 2, 3}, 1});
+  EXPECT_EQ(State()["undecodable"], 1);
+  Hear(channel::kScene, bus_.scene);
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  EXPECT_EQ((*live_.View())["message"], "name the robot's folder: --robot DIR");
+  bus_.session.settings["robot"] = "/none";
+  Hear(channel::kSession, bus_.session);
+  EXPECT_NE(std::string((*live_.View())["message"]).find("/none"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace planbench

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// Messages of a session with the planar arm, whose scene is empty.
+struct PlanarSession {
+  PlanarSession() {
+    session.run_id = "session";
+    session.robot_name = "planar3";
+    session.num_runs = 4;
+    session.settings["robot"] = std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3";
+    scene.scene_id = SceneId(scene.scene);
+    request.request_id = "session/shelf/1@7";
+    request.scene_id = scene.scene_id;
+    request.start = {{"shoulder", "elbow", "wrist"}, {0, 0, 0}};
+    request.goal = {{"shoulder", 0, 0, 0}, {"elbow", 1, 0, 0}, {"wrist", 0, 0, 0}};
+    result.planner = "ara";
+    result.request_id = request.request_id;
+    result.joint_names = {"shoulder", "elbow", "wrist"};
+    result.result.planning_time_s = 0.25;
+    result.result.path = {{0, 0, 0}, {0, 1, 0}};
+    record.run_id = request.run_id = result.run_id = "session";
+    record.planner = "ara";
+    record.request_id = "session/shelf/1";
+    record.contestant = "ARA*";
+    record.problem_set = "shelf";
+    record.problem_index = 1;
+    record.status = PlanStatus::kSolved;
+    record.request = request;
+    record.result = result;
+  }
+
+  template <typename Message>
+  static ReceivedMessage Received(const std::string& channel, const Message& message,
+                                  std::int64_t utime = 1'000'000) {
+    return {channel, Encode(message), utime};
+  }
+
+  SessionMessage session;
+  SceneMessage scene;
+  PlanRequest request;
+  PlanResultMessage result;
+  RunRecordMessage record;
+};
+
+}  // namespace planbench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "messaging/bus.h"
+#include "viewer/live_session.h"
+
+namespace planbench {
+
+/// Serves LivePage on this machine alone (127.0.0.1), and at /events what happens on a bus as
+/// server-sent events: `state` (LiveSession::State) twice a second, `view` (LiveSession::View) when
+/// it has changed.
+class LiveServer {
+ public:
+  /// `port` 0: any that is free. Throws InputError if it cannot be had.
+  LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port);
+  ~LiveServer();
+  LiveServer(const LiveServer&) = delete;
+  LiveServer& operator=(const LiveServer&) = delete;
+
+  /// "http://127.0.0.1:8080/"
+  std::string url() const;
+
+ private:
+  struct Http;
+  Bus* bus_;
+  std::mutex mutex_;
+  LiveSession session_;
+  std::unique_ptr<Http> http_;
+  Subscription everything_;
+};
+
+}  // namespace planbench

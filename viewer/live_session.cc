@@ -1,0 +1,173 @@
+#include "viewer/live_session.h"
+
+#include <fmt/format.h>
+
+#include "common/error.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/node_registry.h"
+#include "report/view_data.h"
+
+namespace planbench {
+namespace {
+
+constexpr std::size_t kRunsShown = 30;
+constexpr std::size_t kScenesKept = 200;
+constexpr int kFrames = 60;
+
+/// A number, or null where 0 means that there is none.
+Json UnlessZero(double value) { return value == 0 ? Json() : Json(value); }
+
+}  // namespace
+
+LiveSession::LiveSession(std::filesystem::path robot_folder)
+    : robot_folder_(std::move(robot_folder)) {}
+
+void LiveSession::Hear(const ReceivedMessage& message) {
+  const std::string& name = message.channel;
+  try {
+    if (name == channel::kNodeStatus) {
+      HearStatus(Decode<NodeStatusMessage>(message.bytes, name), message.utime);
+    } else if (name == channel::kSession) {
+      auto session = Decode<SessionMessage>(message.bytes, name);
+      if (!session_ || session_->run_id != session.run_id) {
+        tallies_.clear();
+        records_.clear();
+        robot_.reset();
+      }
+      session_ = std::move(session);
+    } else if (name == channel::kScene) {
+      auto answer = Decode<SceneMessage>(message.bytes, name);
+      if (!answer.ok) return;
+      if (scenes_.size() >= kScenesKept) scenes_.clear();  // planners ask anew for what they lack
+      scenes_.insert_or_assign(answer.scene_id, std::move(answer.scene));
+      ++view_number_;
+    } else if (name.starts_with("PLAN_REQUEST_")) {
+      HearRequest(Decode<PlanRequest>(message.bytes, name));
+    } else if (name.starts_with("PLAN_PROGRESS_")) {
+      const auto progress = Decode<PlanProgressMessage>(message.bytes, name);
+      if (shown_ && shown_->request_id == progress.request_id) {
+        progress_.push_back(progress.progress);
+      }
+    } else if (name.starts_with("PLAN_RESULT_")) {
+      HearResult(Decode<PlanResultMessage>(message.bytes, name));
+    } else if (name == channel::kRunRecord) {
+      HearRecord(Decode<RunRecordMessage>(message.bytes, name));
+    }
+  } catch (const MessageError&) {
+    ++num_undecodable_;
+  }
+}
+
+void LiveSession::HearStatus(const NodeStatusMessage& status, std::int64_t utime) {
+  nodes_.insert_or_assign({status.kind, status.name}, Node{status, utime});
+}
+
+void LiveSession::HearRequest(const PlanRequest& request) {
+  if (shown_ && shown_->request_id == request.request_id) return;  // repeated
+  RunRecordMessage run;
+  run.request_id = request.request_id;
+  run.request = request;
+  run.message = "is being planned";
+  if (session_) run.run_id = session_->run_id;
+  shown_ = std::move(run);
+  progress_.clear();
+  ++view_number_;
+}
+
+void LiveSession::HearResult(const PlanResultMessage& result) {
+  if (!shown_ || shown_->request_id != result.request_id || !shown_->result.planner.empty()) return;
+  shown_->result = result;
+  shown_->planner = shown_->contestant = result.planner;
+  shown_->status = result.result.status;
+  shown_->message = result.result.message;
+  progress_ = result.result.progress;
+  ++view_number_;
+}
+
+void LiveSession::HearRecord(const RunRecordMessage& record) {
+  // Recorded runs are repeated until they are acknowledged; a request's messages carry the process
+  // of the driver behind the run's id.
+  if (!seen_.insert(record.request_id).second) return;
+  auto& [num_runs, num_solved] = tallies_[record.contestant];
+  ++num_runs;
+  num_solved += record.status == PlanStatus::kSolved;
+  records_.push_front(record);
+  if (records_.size() > kRunsShown) records_.pop_back();
+  shown_ = record;
+  shown_->request_id =
+      record.result.request_id.empty() ? record.request_id : record.result.request_id;
+  ++view_number_;
+}
+
+Json LiveSession::State(std::int64_t now_utime, const Bus::Counters& counters) const {
+  Json json;
+  if (session_) {
+    json["session"] = {{"run_id", session_->run_id},
+                       {"robot", session_->robot_name},
+                       {"num_runs", session_->num_runs},
+                       {"finished", session_->finished}};
+  }
+  json["contestants"] = Json::array();
+  for (const auto& [name, tally] : tallies_) {
+    json["contestants"].push_back(
+        {{"name", name}, {"runs", tally.first}, {"solved", tally.second}});
+  }
+  json["nodes"] = Json::array();
+  const std::int64_t lost_after_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(NodeRegistry::kLostAfter).count();
+  for (const auto& [key, node] : nodes_) {
+    json["nodes"].push_back({{"name", node.status.name},
+                             {"kind", EnumName(node.status.kind)},
+                             {"busy", node.status.busy},
+                             {"request", node.status.request_id},
+                             {"host", node.status.host},
+                             {"gone", now_utime - node.heard_utime > lost_after_us}});
+  }
+  json["progress"] = Json::array();
+  for (const PlanProgress& one : progress_) {
+    json["progress"].push_back({{"time_s", one.elapsed_s},
+                                {"cost", UnlessZero(one.cost)},
+                                {"bound", UnlessZero(one.epsilon)}});
+  }
+  json["runs"] = Json::array();
+  for (const RunRecordMessage& record : records_) {
+    const bool answered = record.status != PlanStatus::kNoAnswer;
+    json["runs"].push_back(
+        {{"contestant", record.contestant},
+         {"problem", fmt::format("{} {}", record.problem_set, record.problem_index)},
+         {"status", EnumName(record.status)},
+         {"reason", record.message},
+         {"time_s", answered ? Json(record.result.result.planning_time_s) : Json()}});
+  }
+  json["lost"] = counters.lost;
+  json["dropped"] = counters.dropped;
+  json["malformed"] = counters.malformed;
+  json["undecodable"] = num_undecodable_;
+  return json;
+}
+
+const Robot& LiveSession::LoadedRobot() const {
+  if (robot_) return *robot_;
+  std::filesystem::path folder = robot_folder_;
+  if (folder.empty() && session_) {
+    const auto flag = session_->settings.find("robot");
+    if (flag != session_->settings.end()) folder = flag->second;
+  }
+  if (folder.empty()) throw InputError("name the robot's folder: --robot DIR");
+  robot_ = std::make_unique<const Robot>(LoadRobot(folder));
+  return *robot_;
+}
+
+std::optional<Json> LiveSession::View() const {
+  if (!shown_) return std::nullopt;
+  const auto scene = scenes_.find(shown_->request.scene_id);
+  if (scene == scenes_.end()) return Json{{"message", "The scene has not been heard yet."}};
+  try {
+    return RunView(LoadedRobot(), scene->second, *shown_, kFrames);
+  } catch (const InputError& error) {
+    return Json{{"message", error.what()}};
+  }
+}
+
+}  // namespace planbench

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "messaging/bus.h"
+#include "messaging/messages.h"
+#include "report/table.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// What goes on on a bus, as its messages tell: the nodes, the session, what is being planned and
+/// what came of it. Messages of a bus, or of an event log. Not thread-safe.
+class LiveSession {
+ public:
+  /// `robot_folder`: empty: the one that the session's flags name.
+  explicit LiveSession(std::filesystem::path robot_folder);
+
+  /// Takes a message; one that cannot be decoded is counted.
+  void Hear(const ReceivedMessage& message);
+
+  /// {session: {run_id, robot, num_runs, finished}, contestants: [{name, runs, solved}],
+  ///  nodes: [{name, kind, busy, request, host, gone}],
+  ///  progress: [{time_s, cost, bound}] of the last request,
+  ///  runs: [{contestant, problem, status, reason, time_s}], the newest first,
+  ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now_utime` (us) is
+  /// gone.
+  Json State(std::int64_t now_utime, const Bus::Counters& counters) const;
+
+  /// Grows with every message that changes View.
+  std::int64_t view_number() const { return view_number_; }
+  /// The last request in 3D (report/view_data.h), with its paths once there are any; nothing before
+  /// the first, or {message} that says why it cannot be shown.
+  std::optional<Json> View() const;
+
+ private:
+  void HearStatus(const NodeStatusMessage& status, std::int64_t utime);
+  void HearRequest(const PlanRequest& request);
+  void HearResult(const PlanResultMessage& result);
+  void HearRecord(const RunRecordMessage& record);
+  const Robot& LoadedRobot() const;
+
+  std::filesystem::path robot_folder_;
+  mutable std::unique_ptr<const Robot> robot_;
+  std::optional<SessionMessage> session_;
+  struct Node {
+    NodeStatusMessage status;
+    std::int64_t heard_utime = 0;
+  };
+  std::map<std::pair<NodeKind, std::string>, Node> nodes_;
+  std::map<std::string, Scene> scenes_;  ///< By content id.
+  /// The last request and what is known of it.
+  std::optional<RunRecordMessage> shown_;
+  std::vector<PlanProgress> progress_;
+  std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
+  std::deque<RunRecordMessage> records_;                ///< The newest first.
+  std::set<std::string> seen_;                          ///< Request ids of records.
+  std::int64_t view_number_ = 0;
+  std::int64_t num_undecodable_ = 0;
+};
+
+}  // namespace planbench
