@@ -176,6 +176,27 @@ std::vector<Vector3d> CoverProof::VoidCorners(std::span<const Ball> balls) const
   return corners;
 }
 
+// From a corner of a void, which balls touch, to a point that they are as far from as any near it.
+Vector3d CoverProof::InVoid(std::span<const Ball> balls, const Vector3d& corner) const {
+  Vector3d p = corner;
+  double clearance = NearestBall(balls, {&p, 1}).lacking;
+  for (double step = 100 * resolution_m_; step > kVoidMargin;) {
+    bool farther = false;
+    for (int direction = 0; direction < 26 && !farther; ++direction) {
+      const int code = direction < 13 ? direction : direction + 1;  // 13 is no direction.
+      const Vector3d to =
+          p + step * Vector3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
+      const double clearance_there = NearestBall(balls, {&to, 1}).lacking;
+      if (clearance_there <= clearance || body_.HullDepth(to) <= -kVoidMargin) continue;
+      p = to;
+      clearance = clearance_there;
+      farther = true;
+    }
+    if (!farther) step /= 2;
+  }
+  return p;
+}
+
 std::vector<Vector3d> CoverProof::FindBarePoints(const std::vector<Ball>& balls,
                                                  double resolution_m, double apart_m) const {
   ThinnedPoints bare(apart_m);
@@ -185,7 +206,7 @@ std::vector<Vector3d> CoverProof::FindBarePoints(const std::vector<Ball>& balls,
     }
     return true;
   });
-  for (const Vector3d& corner : VoidCorners(balls)) bare.Add(corner);
+  for (const Vector3d& corner : VoidCorners(balls)) bare.Add(InVoid(balls, corner));
   return bare.points();
 }
 
@@ -200,7 +221,9 @@ void CoverProof::Close(std::vector<Ball>* balls) const {
     if (corners.empty()) return;
     const double force = std::max(0, round - kPatientRounds) * 0.01;
     for (const Vector3d& corner : corners) {
-      const Nearest nearest = NearestBall(*balls, {&corner, 1});
+      const Vector3d bare = InVoid(*balls, corner);
+      const Nearest nearest = NearestBall(*balls, {&bare, 1});
+      if (nearest.lacking <= -kVoidMargin) continue;  // What grew for another corner holds it.
       Ball& ball = (*balls)[nearest.ball];
       const double lacking = std::max(0.0, nearest.lacking) + 2 * kVoidMargin;
       ball.radius = RoundUp(ball.radius + lacking + force * ball.radius);

@@ -36,6 +36,7 @@ class CoverProof {
 
  private:
   std::vector<Eigen::Vector3d> VoidCorners(std::span<const Ball> balls) const;
+  Eigen::Vector3d InVoid(std::span<const Ball> balls, const Eigen::Vector3d& corner) const;
 
   const LinkBody& body_;
   double resolution_m_;

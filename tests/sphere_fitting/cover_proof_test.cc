@@ -108,5 +108,32 @@ TEST(CoverProof, FindsTheSmallestVoids) {
   EXPECT_TRUE(proof.Holds(balls));
 }
 
+TEST(CoverProof, VoidsAreClosedFromTheirMiddle) {
+  const LinkBody body = BodyOf(SphereMesh(0.5, 30, 20));
+  const CoverProof proof(body);
+  std::vector<Ball> balls;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d direction =
+        Vector3d((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1)
+            .normalized();
+    balls.push_back({0.5 * direction, 0.47});
+  }
+  const auto bare = proof.FindBarePoints(balls, 0.01, 0.5);
+  EXPECT_TRUE(std::any_of(bare.begin(), bare.end(), [](const Vector3d& p) {
+    return p.norm() < 1e-3;
+  })) << "none of the points is in the middle, where balls are farthest";
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-0.45, 0.45}) balls.push_back({side * Vector3d::Unit(axis), 0.42});
+  }
+  std::vector<Ball> closed = balls;
+  proof.Close(&closed);
+  EXPECT_TRUE(proof.Holds(closed));
+  double grown = 0;
+  for (std::size_t k = 0; k < balls.size(); ++k) {
+    grown = std::max(grown, closed[k].radius - balls[k].radius);
+  }
+  EXPECT_LT(grown, 0.05) << "the void is 3 cm to each side";
+}
+
 }  // namespace
 }  // namespace planbench
