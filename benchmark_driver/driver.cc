@@ -9,11 +9,11 @@
 #include <atomic>
 #include <exception>
 #include <fstream>
-#include <random>
 #include <set>
 #include <thread>
 
 #include "common/error.h"
+#include "common/random_id.h"
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
 
@@ -37,9 +37,7 @@ std::string CpuName() {
 }  // namespace
 
 std::string NewRunId() {
-  std::random_device random;
-  return fmt::format("{:%Y%m%dT%H%M%SZ}-{:04x}", fmt::gmtime(std::time(nullptr)),
-                     random() & 0xffffU);
+  return fmt::format("{:%Y%m%dT%H%M%SZ}-{}", fmt::gmtime(std::time(nullptr)), RandomId());
 }
 
 Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up,
@@ -88,10 +86,6 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
     registry_.WaitUntil([] { return false; }, std::chrono::milliseconds(200));
   }
   served_ = *registry_.ProblemSets();
-  if (!need_logger && registry_.Live(NodeKind::kLogger).empty()) {
-    spdlog::error("no logger is live: NOTHING WILL BE RECORDED");
-  }
-
   CompleteConditions();
   schedule_ = MakeSchedule(options_, Entrants(), served_);
   std::set<std::string> sets;
@@ -330,9 +324,11 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   }
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
-  recorder_.Record(Session(!stop));
+  const bool complete = recorder_.Complete() && !stop;
+  recorder_.Record(Session(complete));
+  const bool recorded = recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
-  return !stop && recorder_.num_unrecorded() == 0;
+  return complete && recorded;
 }
 
 }  // namespace planbench

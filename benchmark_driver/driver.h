@@ -38,6 +38,10 @@ class Driver {
 
   /// All records so far, those of the resumed session included.
   const std::vector<RunRecordMessage>& records() const { return records_; }
+  /// Of the session, those not made included.
+  int num_runs() const { return num_runs_; }
+  /// What is not recorded and why, in lines.
+  std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Complete once the processes are found.
   const SessionConditions& conditions() const { return options_.conditions; }
 
@@ -73,7 +77,7 @@ class Driver {
   std::unique_ptr<ProgressBar> progress_;
 };
 
-/// A new run id: UTC date and time and a random suffix, e.g. "20261122T153000Z-4f2a".
+/// A new run id: UTC date and time and 64 random bits, e.g. "20261122T153000Z-4f2a0c93b1d85e67".
 std::string NewRunId();
 
 }  // namespace planbench

@@ -61,13 +61,13 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor) {
   const std::filesystem::path logs = session_folder / "logs";
-  std::error_code error;
-  std::filesystem::create_directories(logs, error);
-  if (error) throw InputError(logs.string() + ": cannot be created: " + error.message());
-
-  const auto start = [&](const std::string& name, std::vector<std::string> arguments) {
-    supervisor->Start(
-        {name, std::move(arguments), {{"LCM_DEFAULT_URL", lcm_url}}, logs / (name + ".log")});
+  const auto start = [&](const std::string& name, std::vector<std::string> arguments,
+                         const std::vector<std::string>& when_again = {}) {
+    supervisor->Start({name,
+                       std::move(arguments),
+                       {{"LCM_DEFAULT_URL", lcm_url}},
+                       logs / (name + ".log"),
+                       when_again});
   };
   const auto with_packages = [&](std::vector<std::string> arguments) {
     for (const std::string& package : options.package_paths) {
@@ -77,8 +77,8 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   };
 
   std::vector<std::string> logger = {Program("logger"), "--out", session_folder.string()};
-  if (options.resume) logger.push_back("--resume");
-  start(kLogger, std::move(logger));
+  if (options.resume) logger.emplace_back("--resume");
+  start(kLogger, std::move(logger), {"--resume"});
 
   std::vector<std::string> server =
       with_packages({Program("scene_server"), "--robot", options.robot.string()});

@@ -14,7 +14,7 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& program_folder);
 
 /// Starts scene server, planners and logger as children on the bus `lcm_url`, with their output in
-/// <session>/logs/. The programs are those beside this one.
+/// <session>/logs/, which exists. The programs are those beside this one.
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor);

@@ -1,5 +1,6 @@
 #include "benchmark_driver/planner_client.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -18,21 +19,48 @@ PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string
       registry_(registry),
       planner_(planner),
       channels_(planner),
-      acks_(bus->Subscribe<PlanAckMessage>(channels_.ack,
-                                           [this](const PlanAckMessage& ack) { Add(ack); })),
-      results_(bus->SubscribeTimed<PlanResultMessage>(
+      acks_(bus->SubscribeFrom<PlanAckMessage>(
+          channels_.ack, [this](const PlanAckMessage& ack,
+                                const Origin& origin) { Add(ack, origin.sender, channels_.ack); })),
+      results_(bus->SubscribeFrom<PlanResultMessage>(
           channels_.result,
-          [this](const PlanResultMessage& result, TimePoint arrival) {
-            Add(RequestExchange::ArrivedResult{result, arrival});
+          [this](const PlanResultMessage& result, const Origin& origin) {
+            OnResult(result, origin);
           },
-          [this](const MessageError& error) {
-            Add(RequestExchange::UnusableResult{error.request_id(), error.what()});
-            throw error;  // for the bus to log
+          [this](const MessageError& error, const Origin& origin) {
+            OnBadResult(error, origin);
           })) {}
 
-void PlannerClient::Add(RequestExchange::Event event) {
+void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& origin) {
+  RequestExchange::Event event = RequestExchange::ArrivedResult{result, origin.arrival};
+  {
+    const std::scoped_lock lock(mutex_);
+    if (last_result_ && last_result_->request_id == result.request_id) {
+      if (*last_result_ == result) return;
+      bus_->contradictions().Note(origin.sender, channels_.result,
+                                  "another result of " + result.request_id + " than before");
+      return;
+    }
+    if (result.planner != planner_ || result.run_id != run_id_) {
+      event = RequestExchange::UnusableResult{
+          result.request_id,
+          fmt::format("it is of planner '{}' in session '{}'", result.planner, result.run_id)};
+    }
+  }
+  Add(std::move(event), origin.sender, channels_.result);
+}
+
+void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin) {
+  Add(RequestExchange::UnusableResult{error.request_id(), error.what()}, origin.sender,
+      channels_.result);
+  throw error;  // for the bus to log
+}
+
+void PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
+                        const std::string& channel) {
+  if (!registry_->Believes(sender, NodeKind::kPlanner, planner_, channel)) return;
   const std::scoped_lock lock(mutex_);
-  if (!asking_) return;
+  if (!asked_ || !(*asked_ == sender)) return;
   messages_.push_back(std::move(event));
   changed_.notify_all();
 }
@@ -46,45 +74,57 @@ std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until
   return message;
 }
 
-std::optional<NodeStatusMessage> PlannerClient::WaitUntilLive(
+std::optional<NodeRegistry::Node> PlannerClient::Live() const {
+  for (NodeRegistry::Node& node : registry_->LiveNodes(NodeKind::kPlanner)) {
+    if (node.status.name == planner_) return std::move(node);
+  }
+  return std::nullopt;
+}
+
+std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
     const std::function<bool()>& interrupted) {
   bool told = false;
   while (!interrupted()) {
-    if (auto status = registry_->Find(planner_, NodeKind::kPlanner)) return status;
+    if (auto node = Live()) return node;
     if (!told) spdlog::warn("waiting for the planner '{}' to come (back) to the bus", planner_);
     told = true;
-    registry_->WaitUntil(
-        [&] { return interrupted() || registry_->Find(planner_, NodeKind::kPlanner).has_value(); },
-        std::chrono::seconds(1));
+    registry_->WaitUntil([&] { return interrupted() || Live().has_value(); },
+                         std::chrono::seconds(1));
   }
   return std::nullopt;
 }
 
 PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
                                            const std::function<bool()>& interrupted) {
-  const std::optional<NodeStatusMessage> incarnation = WaitUntilLive(interrupted);
-  if (!incarnation) return {.outcome = Outcome::kInterrupted};
-  const auto listen = [this](bool asking) {
-    const std::scoped_lock lock(mutex_);
-    asking_ = asking;
-    messages_.clear();
-  };
+  const std::optional<NodeRegistry::Node> process = WaitUntilLive(interrupted);
+  if (!process) return {.outcome = Outcome::kInterrupted};
   const auto look_around = [&]() -> RequestExchange::Event {
     if (interrupted()) return RequestExchange::Interruption{};
-    const auto status = registry_->Find(planner_, NodeKind::kPlanner);
-    if (!status) return RequestExchange::PlannerLost{"the process died or fell silent"};
-    if (status->start_utime != incarnation->start_utime) {
+    const auto now = Live();
+    if (!now) return RequestExchange::PlannerLost{"the process died or fell silent"};
+    if (now->status.instance != process->status.instance) {
       return RequestExchange::PlannerLost{"the process was restarted"};
     }
     return RequestExchange::Tick{};
   };
-  listen(true);
+  {
+    const std::scoped_lock lock(mutex_);
+    asked_ = process->sender;
+    run_id_ = request.run_id;
+    messages_.clear();
+  }
   RequestExchange exchange(request.request_id, request.time_limit_s, Clock::now());
   RequestExchange::Event event = RequestExchange::Tick{};
   while (true) {
     RequestExchange::Step step = exchange.Take(Clock::now(), event);
     if (step.answer) {
-      listen(false);
+      // Whoever may still come to it, one that was started again perhaps, need not.
+      if (step.answer->outcome == Outcome::kNoAnswer) {
+        bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
+      }
+      const std::scoped_lock lock(mutex_);
+      asked_.reset();
+      if (step.answer->outcome == Outcome::kResult) last_result_ = step.answer->result;
       return *std::move(step.answer);
     }
     if (step.send_request) bus_->Publish(channels_.request, request);

@@ -25,16 +25,20 @@ class PlannerClient {
 
   const std::string& planner() const { return planner_; }
 
-  /// Waits until the planner is live and asks it until the request has come to its end. A planner
-  /// that dies or restarts meanwhile gives no answer; `interrupted` (asked every 50 ms) cancels the
-  /// request.
+  /// Waits until the planner is live and asks it until the request has come to its end. Only what
+  /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
+  /// restarts meanwhile gives none; `interrupted` (asked every 50 ms) cancels the request.
   Answer Solve(const PlanRequest& request, const std::function<bool()>& interrupted);
 
  private:
   using TimePoint = RequestExchange::TimePoint;
 
-  std::optional<NodeStatusMessage> WaitUntilLive(const std::function<bool()>& interrupted);
-  void Add(RequestExchange::Event event);
+  std::optional<NodeRegistry::Node> WaitUntilLive(const std::function<bool()>& interrupted);
+  std::optional<NodeRegistry::Node> Live() const;
+  void OnResult(const PlanResultMessage& result, const Origin& origin);
+  void OnBadResult(const MessageError& error, const Origin& origin);
+  /// For the request under way, if it is from the process asked.
+  void Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel);
   /// The next message; nothing if none has come by then.
   std::optional<RequestExchange::Event> NextMessage(TimePoint until);
 
@@ -45,7 +49,9 @@ class PlannerClient {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool asking_ = false;
+  std::optional<PacketSender> asked_;  // while a request is under way
+  std::string run_id_;                 // its
+  std::optional<PlanResultMessage> last_result_;
   std::deque<RequestExchange::Event> messages_;  // since the request under way began
   Subscription acks_;
   Subscription results_;

@@ -1,6 +1,10 @@
 #include "benchmark_driver/recorder.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "messaging/channels.h"
 
@@ -9,64 +13,201 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kRetry{500};
+constexpr std::chrono::milliseconds kPoll{100};
+/// Records under way at once.
+constexpr std::size_t kWindow = 16;
 
 }  // namespace
 
 Recorder::Recorder(Bus* bus, NodeRegistry* registry)
     : bus_(bus),
       registry_(registry),
-      record_acks_(bus->Subscribe<AckMessage>(channel::kRunRecordAck,
-                                              [this](const AckMessage& ack) { OnAck(ack); })),
-      session_acks_(bus->Subscribe<AckMessage>(channel::kSessionAck,
-                                               [this](const AckMessage& ack) { OnAck(ack); })) {}
+      record_acks_(bus->SubscribeFrom<AckMessage>(
+          channel::kRunRecordAck,
+          [this](const AckMessage& ack, const Origin& origin) { OnAck(ack, origin); })),
+      session_acks_(bus->SubscribeFrom<AckMessage>(
+          channel::kSessionAck,
+          [this](const AckMessage& ack, const Origin& origin) { OnAck(ack, origin); })) {}
 
-void Recorder::OnAck(const AckMessage& ack) {
+void Recorder::OnAck(const AckMessage& ack, const Origin& origin) {
   const std::scoped_lock lock(mutex_);
-  const auto found = pending_.find(ack.id);
-  if (found == pending_.end()) return;
-  found->second = ack;
+  LookAround();
+  const auto of_sender = [&](const auto& entry) {
+    return entry.second.sender == origin.sender && entry.second.name == ack.sender;
+  };
+  const auto found = std::find_if(loggers_.begin(), loggers_.end(), of_sender);
+  if (found == loggers_.end()) {
+    bus_->contradictions().Note(
+        origin.sender, channel::kRunRecordAck,
+        "acknowledges as '" + ack.sender + "', which is no logger at that address");
+    return;
+  }
+  Logger& logger = found->second;
+  logger.silent = false;
+  ++num_acks_;
+  if (session_ && ack.id == SessionAckId(*session_)) {
+    if (!ack.ok && logger.session != ack.id) {
+      spdlog::error("the logger '{}' refuses the session: {}", logger.name, ack.message);
+    }
+    logger.session = ack.id;
+  } else if (const auto record = awaited_.find(ack.id);
+             record != awaited_.end() && !logger.Has(record->second)) {
+    logger.beyond.insert(record->second);
+    if (!ack.ok) logger.refused[record->second] = ack.message;
+    while (logger.beyond.erase(logger.next) > 0) ++logger.next;
+  }
   changed_.notify_all();
 }
 
 void Recorder::Record(const RunRecordMessage& record) {
-  Deliver(record.request_id, [&] { bus_->Publish(channel::kRunRecord, record); });
+  std::unique_lock lock(mutex_);
+  spool_.Add({record.request_id, Encode(record)});
+  LookAround();
+  if (nobody_) bus_->Publish(channel::kRunRecord, record);  // others may watch
+  Deliver(&lock, false);
 }
 
 void Recorder::Record(const SessionMessage& session) {
-  Deliver(session.run_id, [&] { bus_->Publish(channel::kSession, session); });
+  std::unique_lock lock(mutex_);
+  session_ = session;
+  session_sent_ = Clock::now();
+  bus_->Publish(channel::kSession, session);
+  Deliver(&lock, false);
 }
 
-void Recorder::Deliver(const std::string& id, const std::function<void()>& send) {
-  const Clock::time_point begin = Clock::now();
+bool Recorder::Complete() {
   std::unique_lock lock(mutex_);
-  pending_[id].reset();
-  std::string failure;
+  Deliver(&lock, true);
+  const Logger* best = Best();
+  return best != nullptr && best->Count() == spool_.size() && !Lacks(*best);
+}
+
+bool Recorder::Lacks(const Logger& logger) const {
+  return logger.next < spool_.size() || (session_ && logger.session != SessionAckId(*session_));
+}
+
+void Recorder::LookAround() {
+  for (auto& [place, logger] : loggers_) logger.live = false;
+  for (const NodeRegistry::Node& node : registry_->LiveNodes(NodeKind::kLogger)) {
+    const NodeStatusMessage& status = node.status;
+    const auto out = status.settings.find("out");
+    const std::string place =
+        fmt::format("{}:{}", status.host, out == status.settings.end() ? status.name : out->second);
+    Logger& logger = loggers_[place];
+    // Of two that write to one folder the earlier is dead, though not yet given up.
+    if (logger.live && status.start_utime < logger.start_utime) continue;
+    logger.start_utime = status.start_utime;
+    logger.name = status.name;
+    logger.place = place;
+    if (!(logger.sender == node.sender)) logger.silent = false;  // it was started again
+    logger.sender = node.sender;
+    logger.live = true;
+    logger.trouble = status.trouble;
+  }
+  const bool somebody = std::any_of(loggers_.begin(), loggers_.end(), [](const auto& entry) {
+    return entry.second.Takes() && !entry.second.silent;
+  });
+  if (somebody == !nobody_) return;
+  nobody_ = !somebody;
+  if (somebody) {
+    spdlog::info("a logger records again");
+    return;
+  }
+  std::string why = "no logger is live";
+  for (const auto& [place, logger] : loggers_) {
+    if (!logger.live) continue;
+    why = fmt::format("the logger '{}' {}", logger.name,
+                      logger.trouble.empty() ? "does not answer" : "cannot: " + logger.trouble);
+  }
+  spdlog::error("NOBODY RECORDS: {}; runs are kept for a logger that comes (back)", why);
+}
+
+bool Recorder::SendDue(TimePoint now) {
+  bool lacking = false;
+  std::size_t first = spool_.size();
+  std::set<std::size_t> wanted;
+  for (const auto& [place, logger] : loggers_) {
+    if (!logger.Takes() || !Lacks(logger)) continue;
+    lacking = lacking || !logger.silent;
+    first = std::min(first, logger.next);
+    if (session_ && logger.session != SessionAckId(*session_) && now - session_sent_ >= kRetry) {
+      session_sent_ = now;
+      bus_->Publish(channel::kSession, *session_);
+    }
+    std::size_t left = logger.silent ? 1 : kWindow;
+    for (std::size_t i = logger.next; i < spool_.size() && left > 0; ++i) {
+      if (logger.Has(i)) continue;
+      wanted.insert(i);
+      --left;
+    }
+  }
+  std::erase_if(awaited_, [&](const auto& entry) { return entry.second < first; });
+  std::erase_if(sent_, [&](const auto& entry) { return entry.first < first; });
+  for (const std::size_t i : wanted) {
+    const auto [sent, is_new] = sent_.try_emplace(i, now);
+    if (!is_new && now - sent->second < kRetry) continue;
+    sent->second = now;
+    const RecordSpool::Record record = spool_.At(i);
+    awaited_[record.id] = i;
+    bus_->PublishBytes(channel::kRunRecord, record.bytes);
+  }
+  return lacking;
+}
+
+void Recorder::Deliver(std::unique_lock<std::mutex>* lock, bool wait_for_return) {
+  TimePoint progress = Clock::now();
+  std::uint64_t acks = num_acks_;
   while (true) {
-    lock.unlock();
-    // Published even when no logger is live: others may watch.
-    send();
-    const bool anybody = !registry_->Live(NodeKind::kLogger).empty();
-    lock.lock();
-    changed_.wait_for(lock, kRetry, [&] { return !anybody || pending_[id].has_value(); });
-    if (const auto& ack = pending_[id]) {
-      if (!ack->ok) failure = "the logger refused it: " + ack->message;
-      break;
+    LookAround();
+    const TimePoint now = Clock::now();
+    if (std::exchange(acks, num_acks_) != num_acks_) progress = now;
+    if (SendDue(now)) {
+      if (now - progress >= silence_patience) {
+        for (auto& [place, logger] : loggers_) {
+          if (logger.Takes() && Lacks(logger)) logger.silent = true;
+        }
+        continue;
+      }
+    } else {
+      const Logger* best = Best();
+      const bool lost = best != nullptr && Lacks(*best);
+      if (!wait_for_return || !lost || now - progress >= return_patience) return;
     }
-    if (!anybody) {
-      failure = "NO LOGGER IS LIVE";
-      break;
-    }
-    if (Clock::now() - begin > kPatience) {
-      failure = "the logger is live but did not acknowledge it";
-      break;
-    }
+    changed_.wait_for(*lock, kPoll);
   }
-  pending_.erase(id);
-  lock.unlock();
-  if (!failure.empty()) {
-    ++num_unrecorded_;
-    spdlog::error("{} IS NOT RECORDED: {}", id, failure);
+}
+
+const Recorder::Logger* Recorder::Best() const {
+  const Logger* best = nullptr;
+  for (const auto& [place, logger] : loggers_) {
+    if (best == nullptr || logger.Count() > best->Count()) best = &logger;
   }
+  return best;
+}
+
+std::size_t Recorder::num_unrecorded() const {
+  const std::scoped_lock lock(mutex_);
+  const Logger* best = Best();
+  return spool_.size() - (best == nullptr ? 0 : best->Count());
+}
+
+std::vector<std::string> Recorder::Shortcomings() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<std::string> lines;
+  if (loggers_.empty() && spool_.size() > 0) {
+    lines.push_back(fmt::format("none of {} runs is recorded: no logger was live", spool_.size()));
+  }
+  for (const auto& [place, logger] : loggers_) {
+    const std::size_t missing = spool_.size() - logger.Count();
+    if (missing == 0) continue;
+    const std::string why = !logger.refused.empty()   ? logger.refused.begin()->second
+                            : !logger.trouble.empty() ? logger.trouble
+                            : !logger.live            ? "it has left the bus"
+                                                      : "it does not answer";
+    lines.push_back(fmt::format("{} of {} runs are not recorded by the logger '{}' ({}): {}",
+                                missing, spool_.size(), logger.name, logger.place, why));
+  }
+  return lines;
 }
 
 }  // namespace planbench

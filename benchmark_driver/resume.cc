@@ -1,8 +1,14 @@
 #include "benchmark_driver/resume.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <fstream>
 #include <string>
+#include <thread>
 
 #include "common/error.h"
 #include "messaging/record_log.h"
@@ -19,10 +25,39 @@ std::filesystem::path EventLogOf(const std::filesystem::path& session_folder) {
   }
 }
 
+/// Whether it is a launched session's folder in which the logger has not begun.
+bool HoldsNoLogYet(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder / "logs")) return false;
+  const std::filesystem::directory_iterator entries(folder);
+  return std::none_of(begin(entries), end(entries),
+                      [](const auto& entry) { return entry.path().extension() == ".lcmlog"; });
+}
+
 }  // namespace
 
+void AwaitLoggersEnd(const std::filesystem::path& session_folder,
+                     std::chrono::milliseconds patience) {
+  const std::string file = (session_folder / "logger.lock").string();
+  const int lock = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (lock < 0) return;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  bool free = flock(lock, LOCK_EX | LOCK_NB) == 0;
+  while (!free && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    free = flock(lock, LOCK_EX | LOCK_NB) == 0;
+  }
+  close(lock);
+  if (free) return;
+  std::string pid = "unknown";
+  std::ifstream(file) >> pid;
+  throw InputError("--resume: " + session_folder.string() + " is in use by the logger with pid " +
+                   pid);
+}
+
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
+  if (HoldsNoLogYet(session_folder)) return {};
   RecordedSession recorded = ReadRecords(EventLogOf(session_folder));
+  if (recorded.sessions.empty() && recorded.runs.empty()) return {};
   if (recorded.sessions.empty()) {
     throw InputError("--resume: " + session_folder.string() + " holds no session");
   }

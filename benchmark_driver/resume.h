@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <vector>
 
@@ -9,12 +10,18 @@ namespace planbench {
 
 /// What a session folder holds of the session to go on with.
 struct EarlierSession {
-  std::vector<SessionMessage> sessions;  ///< Of each time it was begun or resumed; one at least.
+  std::vector<SessionMessage> sessions;  ///< Of each time it was begun or resumed.
   std::vector<RunRecordMessage> runs;
 };
 
-/// Reads the last session of a folder's only .lcmlog. Throws InputError if there is none, or
-/// several, or no session in it.
+/// Waits for the logger that still writes to the folder to end: that of a driver that was killed
+/// stores what it has received. Throws InputError if it does not within `patience`.
+void AwaitLoggersEnd(const std::filesystem::path& session_folder,
+                     std::chrono::milliseconds patience = std::chrono::seconds(5));
+
+/// Reads the last session of a folder's only .lcmlog; nothing if the folder is a session's whose
+/// driver was killed before it had told of the session. Throws InputError if it is none, or if
+/// there are several logs.
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder);
 
 /// A session can be given more sets, problems, planners, directions or trials when it is resumed,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/random_id.h"
 #include "common/utime.h"
 
 namespace planbench {
@@ -16,19 +17,29 @@ constexpr std::chrono::milliseconds kProblemRetry{500};
 // A check with clearance takes tens of milliseconds; a repeated request is not judged twice.
 constexpr std::chrono::milliseconds kPathCheckRetry{1000};
 constexpr std::chrono::seconds kServerPatience{10};
+/// How often a problem is asked for that the server had before the first run and now denies.
+constexpr int kProblemAttempts = 3;
+
+/// An id that nobody can tell before it is used, so that no answer can be prepared for it; also, a
+/// planner or scene server that outlives a driver remembers the answers of attempts that are over.
+std::string UniqueId(const std::string& what) { return what + "@" + RandomId(); }
+
+std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
+                                                     const std::string& channel) {
+  return [=](const PacketSender& sender) {
+    return registry->Believes(sender, NodeKind::kSceneServer, "", channel);
+  };
+}
 
 }  // namespace
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions)
-    : process_id_(fmt::format("{:x}", NowUtime())),
-      registry_(registry),
+    : registry_(registry),
       conditions_(std::move(conditions)),
-      problems_(bus, channel::kProblemRequest, channel::kProblem),
-      path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply) {}
-
-std::string RunExecutor::AttemptId(const ScheduledRun& run) const {
-  return run.request_id + "@" + process_id_;
-}
+      problems_(bus, channel::kProblemRequest, channel::kProblem,
+                ServersOnly(registry, channel::kProblem)),
+      path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
+                   ServersOnly(registry, channel::kPathCheckReply)) {}
 
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
@@ -50,11 +61,17 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
 std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set, int index,
                                                          const std::function<bool()>& interrupted) {
   ProblemRequestMessage request;
-  // An id of its own: the answer to a run's request goes with the scene, this one's is forgotten.
-  request.request_id = fmt::format("{}/{}/{}", conditions_.request.run_id, set, index);
+  request.request_id = UniqueId(fmt::format("{}/{}/{}", conditions_.request.run_id, set, index));
   request.problem_set = set;
   request.problem_index = index;
-  return AskServer(&problems_, request, kProblemRetry, interrupted);
+  std::optional<ProblemMessage> problem =
+      AskServer(&problems_, request, kProblemRetry, interrupted);
+  if (problem && problem->ok && (problem->problem_set != set || problem->problem_index != index)) {
+    problem->ok = false;
+    problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
+                                   problem->problem_set, problem->problem_index, set, index);
+  }
+  return problem;
 }
 
 std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
@@ -65,21 +82,13 @@ std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
     const auto known = problems_known_.find(key);
     if (known != problems_known_.end()) return known->second;
   }
-  std::optional<ProblemMessage> problem = FetchProblem(run, interrupted);
+  std::optional<ProblemMessage> problem;
+  for (int attempt = 0; attempt < kProblemAttempts; ++attempt) {
+    problem = AskForProblem(run.problem_set, run.problem_index, interrupted);
+    if (!problem || problem->ok) break;
+  }
   const std::scoped_lock lock(mutex_);
-  if (problem) problems_known_.emplace(key, *problem);
-  return problem;
-}
-
-std::optional<ProblemMessage> RunExecutor::FetchProblem(const ScheduledRun& run,
-                                                        const std::function<bool()>& interrupted) {
-  ProblemRequestMessage request;
-  request.request_id = AttemptId(run);
-  request.problem_set = run.problem_set;
-  request.problem_index = run.problem_index;
-  std::optional<ProblemMessage> problem =
-      AskServer(&problems_, request, kProblemRetry, interrupted);
-  if (problem && !problem->ok) throw InputError(problem->message);
+  if (problem && problem->ok) problems_known_.emplace(key, *problem);
   return problem;
 }
 
@@ -89,7 +98,7 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
                                                         const ScheduledRun& run,
                                                         const std::function<bool()>& interrupted) {
   PathCheckRequestMessage request;
-  request.request_id = check_id;
+  request.request_id = UniqueId(check_id);
   request.scene_id = record.request.scene_id;
   request.group = record.request.group;
   request.start = record.request.start;
@@ -104,8 +113,8 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   if (!reply || reply->ok) return reply;
   // A scene server that was restarted meanwhile does not know the scene: asking for the problem
   // loads it again.
-  if (!FetchProblem(run, interrupted)) return std::nullopt;
-  request.request_id += "/again";
+  if (!AskForProblem(run.problem_set, run.problem_index, interrupted)) return std::nullopt;
+  request.request_id = UniqueId(check_id);
   return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
 }
 
@@ -122,7 +131,7 @@ const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
 PlanRequest RunExecutor::RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const {
   const Contestant& contestant = ContestantOf(run);
   PlanRequest request = conditions_.request;
-  request.request_id = AttemptId(run);
+  request.request_id = UniqueId(run.request_id);
   request.scene_id = problem.scene_id;
   request.group = problem.group;
   request.start = problem.start;
@@ -139,6 +148,7 @@ bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerCl
                          const std::function<bool()>& interrupted) {
   const std::optional<ProblemMessage> problem = ProblemOf(run, interrupted);
   if (!problem) return false;
+  if (!problem->ok) return true;  // the run will say so
   PlanRequest request = RequestOf(run, *problem);
   request.request_id += "/warm-up";
   request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
@@ -163,6 +173,12 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.contestant = ContestantOf(run).name;
   record.request = RequestOf(run, *problem);
   record.start_utime = NowUtime();
+  if (!problem->ok) {
+    record.status = PlanStatus::kInvalidRequest;
+    record.message = "no problem: " + problem->message;
+    spdlog::error("{}: {}", run.request_id, record.message);
+    return record;
+  }
 
   const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);
   switch (answer.outcome) {
@@ -188,7 +204,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   if (record.status != PlanStatus::kSolved) return record;
 
   const auto check =
-      Judge(record.request.request_id, record.result.result.path, record, run, interrupted);
+      Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
   record.path_check = *check;
   if (!check->ok || !check->verdict || !check->verdict->valid) {
@@ -200,8 +216,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   }
   if (!record.result.result.simplified_path.empty()) {
     const auto simplified_check =
-        Judge(record.request.request_id + "/simplified", record.result.result.simplified_path,
-              record, run, interrupted);
+        Judge(run.request_id + "/simplified", record.result.result.simplified_path, record, run,
+              interrupted);
     if (!simplified_check) return std::nullopt;
     record.simplified_check = *simplified_check;
   }

@@ -16,15 +16,16 @@ namespace planbench {
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
-  /// `conditions`: complete, the referee's step and the contestants' included.
+  /// `conditions`: complete, the referee's step and the contestants' included. Answers of others
+  /// than the scene server that `registry` knows are none.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions);
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
-  /// `interrupted`.
+  /// `interrupted`. The server also hands out the scene.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
-  /// The finished record, nothing if `interrupted`. Throws InputError if the scene server has no
-  /// such problem.
+  /// The finished record, nothing if `interrupted`. Where the scene server denies the problem,
+  /// which it had when the session began, the record says so.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
                                           const std::function<bool()>& interrupted);
   /// Has a planner answer a first request, within `time_limit_s`, that is neither judged nor
@@ -35,8 +36,6 @@ class RunExecutor {
  private:
   std::optional<ProblemMessage> ProblemOf(const ScheduledRun& run,
                                           const std::function<bool()>& interrupted);
-  std::optional<ProblemMessage> FetchProblem(const ScheduledRun& run,
-                                             const std::function<bool()>& interrupted);
   std::optional<PathCheckReplyMessage> Judge(const std::string& check_id, const Path& path,
                                              const RunRecordMessage& record,
                                              const ScheduledRun& run,
@@ -49,11 +48,6 @@ class RunExecutor {
   const Contestant& ContestantOf(const ScheduledRun& run) const;
   PlanRequest RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const;
 
-  /// The id of this process's attempt at a run. A planner or scene server that outlives a driver
-  /// remembers the answers of attempts that are over.
-  std::string AttemptId(const ScheduledRun& run) const;
-
-  std::string process_id_;
   NodeRegistry* registry_;
   SessionConditions conditions_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
+#include "benchmark_driver/new_session_folder.h"
 #include "benchmark_driver/resume.h"
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
@@ -74,6 +78,13 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   }
 }
 
+void WriteTables(const std::filesystem::path& file, const std::string& tables) {
+  std::ofstream stream(file);
+  stream << tables;
+  stream.close();
+  if (!stream) spdlog::error("cannot write {}: {}", file.string(), std::strerror(errno));
+}
+
 }  // namespace
 
 int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> flags,
@@ -84,8 +95,9 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   run_id = NewRunId();
   EarlierSession earlier;
   if (options.resume) {
+    if (options.launch) AwaitLoggersEnd(*options.resume);
     earlier = ReadEarlierSession(*options.resume);
-    run_id = earlier.sessions.back().run_id;
+    if (!earlier.sessions.empty()) run_id = earlier.sessions.back().run_id;
   }
 
   std::vector<Attempt> references;
@@ -112,6 +124,9 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   }
 
   Bus bus(url);
+  // Goes, if it has to, when nobody writes there any more.
+  std::optional<NewSessionFolder> new_folder;
+  if (options.launch && !options.resume) new_folder.emplace(session_folder);
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::unique_ptr<Supervisor> supervisor;
   bus.Start();
@@ -132,21 +147,25 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
   };
   Driver driver(&bus, options, line_up, std::move(flags), std::move(earlier));
   driver.Discover(options.launch, watch);
+  if (new_folder) new_folder->Keep();
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {
     announcer.ThrowIfDisplaced();
     if (supervisor) supervisor->ThrowIfHopeless();
   });
 
-  const SessionTables tables = MakeTables(driver.conditions(), driver.records(), references);
+  const int num_missing = driver.num_runs() - static_cast<int>(driver.records().size());
+  const SessionTables tables =
+      MakeTables(driver.conditions(), driver.records(), references, num_missing);
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
-    std::ofstream(session_folder / "tables.txt") << tables.full;
+    WriteTables(session_folder / "tables.txt", tables.full);
     fmt::print("Session folder: {}\n", session_folder.string());
   }
   if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
   fmt::print("\n{}", tables.brief);
   std::fflush(stdout);
+  for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
   return complete ? kExitOk : kExitFailed;
 }
 

@@ -121,6 +121,9 @@ void Supervisor::Reap(Child* child) {
 void Supervisor::Spawn(Child* child) {
   std::vector<char*> arguments;
   for (std::string& argument : child->spec.arguments) arguments.push_back(argument.data());
+  if (child->was_started) {
+    for (std::string& argument : child->spec.when_again) arguments.push_back(argument.data());
+  }
   arguments.push_back(nullptr);
   // All that allocates is done before fork: other threads may hold the allocator's lock.
   std::vector<std::string> environment_text;
@@ -148,7 +151,7 @@ void Supervisor::Spawn(Child* child) {
   const pid_t pid = fork();
   if (pid == 0) {
     setpgid(0, 0);
-    for (const int handled : {SIGINT, SIGTERM, SIGPIPE}) signal(handled, SIG_DFL);
+    for (const int handled : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) signal(handled, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     sigprocmask(SIG_SETMASK, &before, nullptr);
     if (getppid() != parent) _exit(1);  // the parent died before the death signal was set
@@ -173,6 +176,7 @@ void Supervisor::Spawn(Child* child) {
   }
   setpgid(pid, pid);  // here too: it must be done before anybody signals the group
   child->pid = pid;
+  child->was_started = true;
   child->started = Clock::now();
 }
 

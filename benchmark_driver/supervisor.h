@@ -18,6 +18,7 @@ struct ChildSpec {
   std::vector<std::string> arguments;              ///< arguments[0]: the program's path.
   std::map<std::string, std::string> environment;  ///< Added to ours.
   std::filesystem::path log;                       ///< Takes its stdout and stderr, appended.
+  std::vector<std::string> when_again = {};        ///< Added when it is started again.
 };
 
 /// Starts child processes, restarts those that die, and stops all in the end. Children do not get
@@ -51,6 +52,7 @@ class Supervisor {
     ChildSpec spec;
     pid_t pid = -1;  // -1: not running
     bool wanted = true;
+    bool was_started = false;
     int quick_deaths = 0;
     std::chrono::steady_clock::time_point started;
     std::chrono::steady_clock::time_point restart_at;

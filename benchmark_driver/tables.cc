@@ -222,12 +222,18 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
 
 SessionTables MakeTables(const SessionConditions& conditions,
                          const std::vector<RunRecordMessage>& records,
-                         const std::vector<Attempt>& references) {
-  if (records.empty()) return {"No runs.\n", "No runs.\n"};
+                         const std::vector<Attempt>& references, int num_missing) {
+  const std::string missing =
+      num_missing == 0
+          ? ""
+          : fmt::format(
+                "{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.\n\n",
+                num_missing, static_cast<int>(records.size()) + num_missing);
+  if (records.empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const SessionResults results(conditions, records, references);
   const std::uint64_t seed = conditions.request.seed;
   const std::string begin =
-      Preface(conditions, results) + SuccessTable(results) + TimeTable(results);
+      missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results);
   return {begin + PairTable(results, seed, false) + meshes + FailureSummary(results),
           begin + DirectionTable(results) + PairTable(results, seed, true) + EffortTable(results) +

@@ -19,9 +19,10 @@ struct SessionTables {
 
 /// Tables of the records, which may come in any order; contestants in that of the conditions.
 /// Beside a contestant that asks for it stand the figures that the study published
-/// (published_study.h). Definitions stand below each table and in docs/tables.md.
+/// (published_study.h). Runs that were to be made and were not (`num_missing`) are told of before
+/// everything else. Definitions stand below each table and in docs/tables.md.
 SessionTables MakeTables(const SessionConditions& conditions,
                          const std::vector<RunRecordMessage>& records,
-                         const std::vector<Attempt>& references = {});
+                         const std::vector<Attempt>& references = {}, int num_missing = 0);
 
 }  // namespace planbench

@@ -2,6 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "logger/session_json.h"
+#include "messaging/channels.h"
+
 namespace planbench {
 namespace {
 
@@ -15,22 +21,22 @@ NodeStatusMessage Describe(const LoggerOptions& options) {
 
 LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
     : bus_(bus),
+      registry_(bus),
       status_(Describe(options)),
       queue_(options.queue_bytes),
-      recorder_(options.out, options.resume, options.name,
-                [bus](const std::string& channel, const AckMessage& ack) {
-                  bus->Publish(channel, ack);
-                }) {
-  writer_ = std::thread([this] { Write(); });
+      recorder_(
+          options.out, options.resume, options.name,
+          [bus](const std::string& channel, const AckMessage& ack) { bus->Publish(channel, ack); },
+          &bus->contradictions()) {
   constexpr int kUnbounded = 0;
-  try {
-    everything_ = bus->SubscribeToAll(
-        [this](const ReceivedMessage& message) { OnMessage(message); }, kUnbounded);
-    announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return status_; });
-  } catch (...) {
-    Stop();
-    throw;
-  }
+  everything_ = bus->SubscribeToAll([this](const ReceivedMessage& message) { OnMessage(message); },
+                                    kUnbounded);
+  announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] {
+    const std::scoped_lock lock(status_mutex_);
+    return status_;
+  });
+  // Last: it may not be left running if the rest cannot be made.
+  writer_ = std::thread([this] { Write(); });
   spdlog::info("recording to {}", recorder_.folder().path().string());
 }
 
@@ -39,14 +45,17 @@ LoggerNode::~LoggerNode() { Stop(); }
 bool LoggerNode::Run(const std::function<bool()>& stop) {
   // Another logger of this name is no reason to leave: it writes elsewhere (the folder is locked),
   // and in the replay of a recording just made it is the one that made it.
-  while (!stop() && !failed_) {
+  while (!stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   Stop();
   if (failure_) std::rethrow_exception(failure_);
-  const bool complete = recorder_.Report();
-  if (const std::int64_t lost = bus_->counters().lost; lost > 0) {
-    spdlog::warn("{} messages that others sent did not come: the event log is incomplete", lost);
+  Bus::Counters counters = bus_->counters();
+  counters.dropped += num_dropped();
+  const bool complete = recorder_.Report(BusJson(counters, bus_->contradictions().entries()));
+  if (counters.lost > 0) {
+    spdlog::warn("{} messages that others sent did not come: the event log is incomplete",
+                 counters.lost);
   }
   if (num_dropped() > 0) {
     spdlog::error("{} messages were dropped: the event log is incomplete", num_dropped());
@@ -54,8 +63,27 @@ bool LoggerNode::Run(const std::function<bool()>& stop) {
   return complete && num_dropped() == 0;
 }
 
+bool LoggerNode::IsForged(const ReceivedMessage& message) const {
+  if (message.channel != channel::kRunRecord && message.channel != channel::kSession) return false;
+  const std::vector<NodeRegistry::Node> drivers = registry_.LiveNodes(NodeKind::kDriver);
+  const bool is_drivers = std::any_of(drivers.begin(), drivers.end(), [&](const auto& driver) {
+    return driver.sender == message.sender;
+  });
+  return !drivers.empty() && !is_drivers &&
+         !registry_.Believes(message.sender, NodeKind::kDriver, drivers.front().status.name,
+                             message.channel);
+}
+
 void LoggerNode::OnMessage(const ReceivedMessage& message) {
-  if (queue_.Push(message)) return;
+  bool taken = false;
+  if (IsForged(message)) {
+    ReceivedMessage refused = message;
+    refused.channel = "REFUSED_" + message.channel;
+    taken = queue_.Push(refused);
+  } else {
+    taken = queue_.Push(message);
+  }
+  if (taken) return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_complaint_ < std::chrono::seconds(1)) return;
   last_complaint_ = now;
@@ -68,23 +96,53 @@ void LoggerNode::Write() {
   try {
     while (true) {
       const std::optional<ReceivedMessage> message = queue_.Pop(kPatience);
-      if (message) recorder_.Record(*message);
+      if (message) Persist([&] { recorder_.Record(*message); });
       if (!queue_.empty()) continue;
-      recorder_.Flush();
+      Persist([&] { recorder_.Flush(); });
       if (queue_.closed()) return;
     }
-  } catch (const std::exception& error) {
-    spdlog::critical("cannot record any more: {}", error.what());
+  } catch (const std::exception&) {
     failure_ = std::current_exception();
-    failed_ = true;
   }
 }
 
+void LoggerNode::Persist(const std::function<void()>& work) {
+  constexpr int kRetryAfter = 20;  // times kPause
+  constexpr std::chrono::milliseconds kPause{50};
+  bool failed = false;
+  while (true) {
+    try {
+      if (failed) recorder_.Recover();
+      work();
+      if (failed) {
+        spdlog::info("recording again");
+        SetTrouble("");
+      }
+      return;
+    } catch (const std::exception& error) {
+      if (queue_.closed()) throw;
+      if (!failed) spdlog::critical("cannot record: {}; trying again", error.what());
+      failed = true;
+      SetTrouble(error.what());
+    }
+    for (int i = 0; i < kRetryAfter && !queue_.closed(); ++i) std::this_thread::sleep_for(kPause);
+  }
+}
+
+void LoggerNode::SetTrouble(const std::string& trouble) {
+  {
+    const std::scoped_lock lock(status_mutex_);
+    if (status_.trouble == trouble) return;
+    status_.trouble = trouble;
+  }
+  announcer_->Announce();
+}
+
 void LoggerNode::Stop() {
-  announcer_.reset();
   everything_ = Subscription();
   queue_.Close();
   if (writer_.joinable()) writer_.join();
+  announcer_.reset();
 }
 
 }  // namespace planbench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -15,6 +15,7 @@
 #include "logger/session_recorder.h"
 #include "messaging/bus.h"
 #include "messaging/node_announcer.h"
+#include "messaging/node_registry.h"
 
 namespace planbench {
 
@@ -27,7 +28,11 @@ struct LoggerOptions {
 };
 
 /// The logger as a process on the bus: the bus thread copies every message into a bounded queue, a
-/// thread of its own records them.
+/// thread of its own records them. While that fails (disk full) its status tells the trouble, and
+/// it is tried again; nothing is acknowledged meanwhile.
+///
+/// Sessions and run records are taken from the driver that is live, if one is. Those of others go
+/// into the event log under another channel, where no reader takes them for what they claim to be.
 class LoggerNode {
  public:
   /// Goes live. Throws InputError if the name is none or the folder cannot be used.
@@ -39,26 +44,31 @@ class LoggerNode {
 
   /// Runs until `stop` (asked every 50 ms) says so, then records what was received so far. True if
   /// everything that came was recorded: nothing dropped, no run record refused. Throws
-  /// std::runtime_error if the folder cannot be written.
+  /// std::runtime_error if the folder cannot be written in the end.
   bool Run(const std::function<bool()>& stop);
 
   std::int64_t num_dropped() const { return queue_.num_dropped(); }
 
  private:
   void OnMessage(const ReceivedMessage& message);
+  bool IsForged(const ReceivedMessage& message) const;
   void Write();
+  /// Does it until it succeeds; throws what it threw last once there is to be an end.
+  void Persist(const std::function<void()>& work);
+  void SetTrouble(const std::string& trouble);
   void Stop();
 
   Bus* bus_;
-  const NodeStatusMessage status_;
+  NodeRegistry registry_;
+  std::mutex status_mutex_;
+  NodeStatusMessage status_;
   MessageQueue queue_;
   SessionRecorder recorder_;
   std::chrono::steady_clock::time_point last_complaint_;  // bus thread only
-  std::atomic<bool> failed_ = false;
-  std::exception_ptr failure_;  // the writer's; to be read after failed_ or the join
+  std::exception_ptr failure_;                            // the writer's; to be read after the join
   std::thread writer_;
-  Subscription everything_;
   std::unique_ptr<NodeAnnouncer> announcer_;
+  Subscription everything_;
 };
 
 }  // namespace planbench

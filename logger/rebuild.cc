@@ -10,8 +10,10 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   if (!IsFile(event_log)) {
     throw InputError(event_log.string() + ": there is no such event log");
   }
-  SessionRecorder recorder(options.out, options.resume, options.name,
-                           [](const std::string&, const AckMessage&) {});
+  Contradictions contradictions;
+  SessionRecorder recorder(
+      options.out, options.resume, options.name, [](const std::string&, const AckMessage&) {},
+      &contradictions);
   ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
   recorder.Flush();
   return recorder.Report();

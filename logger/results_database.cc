@@ -56,6 +56,12 @@ std::string InsertRunSql() {
   return fmt::format("INSERT INTO runs ({}) VALUES ({})", names, values);
 }
 
+std::string FindEqualRunSql() {
+  std::string sql = "SELECT id FROM runs WHERE id = ?";
+  for (const RunColumn& column : RunColumns()) sql += fmt::format(" AND {} IS ?", column.name);
+  return sql;
+}
+
 std::string AsLines(const std::map<std::string, std::string>& settings) {
   std::string text;
   for (const auto& [key, value] : settings) text += fmt::format("{} = {}\n", key, value);
@@ -117,6 +123,7 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
       insert_planner_(
           connection_.Prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")),
       find_run_(connection_.Prepare("SELECT id FROM runs WHERE run_id = ? AND request_id = ?")),
+      find_equal_run_(connection_.Prepare(FindEqualRunSql())),
       insert_run_(connection_.Prepare(InsertRunSql())),
       // Two improvements at one reading of the clock: the later one stands.
       insert_progress_(connection_.Prepare(
@@ -165,18 +172,18 @@ void ResultsDatabase::Store(const SessionMessage& session) {
 
 ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) {
   SqliteTransaction transaction(&connection_);
-  if (find_run_.BindAll(record.run_id, record.request_id).First()) return Outcome::kAlreadyStored;
+  std::vector<SqliteValue> values;  // until the statement has run
+  for (const RunColumn& column : RunColumns()) values.push_back(column.value(record));
+  const auto bind_columns = [&](SqliteStatement* statement, int parameter) {
+    for (const SqliteValue& value : values) statement->Bind(++parameter, value);
+  };
+  if (const auto id = find_run_.BindAll(record.run_id, record.request_id).First()) {
+    bind_columns(&find_equal_run_.BindAll(*id), 1);
+    return find_equal_run_.First() ? Outcome::kAlreadyStored : Outcome::kContradicts;
+  }
   const std::int64_t experiment = ExperimentId(record);
   const std::int64_t planner = PlannerId(record);
-  std::vector<SqliteValue> values;
-  values.reserve(RunColumns().size());
-  int parameter = 0;
-  insert_run_.Bind(++parameter, experiment);
-  insert_run_.Bind(++parameter, planner);
-  for (const RunColumn& column : RunColumns()) {
-    values.push_back(column.value(record));
-    insert_run_.Bind(++parameter, values.back());
-  }
+  bind_columns(&insert_run_.BindAll(experiment, planner), 2);
   insert_run_.Run();
   const std::int64_t run = connection_.LastInsertId();
   count_run_.BindAll(experiment, planner).Run();

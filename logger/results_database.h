@@ -36,9 +36,9 @@ class ResultsDatabase {
   /// repetition changes nothing.
   void Store(const SessionMessage& session);
 
-  enum class Outcome { kStored, kAlreadyStored };
-  /// Stores a run. Of records with the same run_id and request_id the first counts. Throws
-  /// InputError for a record that contradicts itself.
+  enum class Outcome { kStored, kAlreadyStored, kContradicts };
+  /// Stores a run. Of records with the same run_id and request_id the first counts; a later one
+  /// repeats or contradicts it. Throws InputError for a record that contradicts itself.
   Outcome Store(const RunRecordMessage& record);
 
   /// SessionJson of every session, oldest first.
@@ -64,6 +64,7 @@ class ResultsDatabase {
   SqliteStatement find_planner_;
   SqliteStatement insert_planner_;
   SqliteStatement find_run_;
+  SqliteStatement find_equal_run_;
   SqliteStatement insert_run_;
   SqliteStatement insert_progress_;
   SqliteStatement insert_counter_;

@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "common/error.h"
@@ -15,6 +17,12 @@
 namespace planbench {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char kLockFile[] = "logger.lock";
+
+}  // namespace
 
 fs::path SessionFolder::AbsolutePath(const fs::path& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
@@ -48,8 +56,19 @@ fs::path SessionFolder::event_log() const {
   return path_ / ((session.empty() ? "session" : session) + ".lcmlog");
 }
 
+void SessionFolder::RequireThere() const {
+  struct stat locked = {};
+  struct stat there = {};
+  if (fstat(lock_, &locked) == 0 && stat((path_ / kLockFile).c_str(), &there) == 0 &&
+      locked.st_ino == there.st_ino && locked.st_dev == there.st_dev) {
+    return;
+  }
+  throw std::runtime_error("session folder " + path_.string() +
+                           " was removed or moved while it was written");
+}
+
 void SessionFolder::Lock() {
-  const fs::path file = path_ / "logger.lock";
+  const fs::path file = path_ / kLockFile;
   lock_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (lock_ < 0) {
     throw InputError("cannot write to session folder " + path_.string() + ": " +

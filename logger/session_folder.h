@@ -19,6 +19,10 @@ class SessionFolder {
   /// `folder` from the root on, without a slash at its end.
   static std::filesystem::path AbsolutePath(const std::filesystem::path& folder);
 
+  /// Throws std::runtime_error if the folder is no longer where it was: what is written to files
+  /// that are open would be lost.
+  void RequireThere() const;
+
   /// Absolute.
   const std::filesystem::path& path() const { return path_; }
   /// <session>.lcmlog, the session being the folder's name.

@@ -28,6 +28,7 @@ Json NodeJson(const NodeStatusMessage& node) {
   json["commit"] = node.commit;
   json["host"] = node.host;
   json["pid"] = node.pid;
+  json["instance"] = node.instance;
   json["start_time"] = IsoTime(node.start_utime);
   if (!node.robot_name.empty()) {
     json["robot"] = {{"name", node.robot_name}, {"id", node.robot_id}};
@@ -68,10 +69,31 @@ std::string SessionJson(const SessionMessage& session) {
   return Dump(json, -1);
 }
 
-void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions) {
+std::string BusJson(const Bus::Counters& counters,
+                    const std::vector<Contradictions::Entry>& contradictions) {
+  if (counters.malformed + counters.lost + counters.dropped == 0 && contradictions.empty()) {
+    return "";
+  }
+  Json json;
+  json["malformed_packets"] = counters.malformed;
+  json["lost_messages"] = counters.lost;
+  json["dropped_messages"] = counters.dropped;
+  json["contradictions"] = Json::array();
+  for (const Contradictions::Entry& entry : contradictions) {
+    json["contradictions"].push_back({{"sender", entry.sender},
+                                      {"channel", entry.channel},
+                                      {"count", entry.count},
+                                      {"first", entry.what}});
+  }
+  return Dump(json, -1);
+}
+
+void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions,
+                  const std::string& bus) {
   Json json;
   json["sessions"] = Json::array();
   for (const std::string& session : sessions) json["sessions"].push_back(Json::parse(session));
+  if (!bus.empty()) json["bus"] = Json::parse(bus);
   const std::filesystem::path unfinished = file.string() + ".part";
   std::ofstream stream(unfinished, std::ios::trunc);
   stream << Dump(json, 2) << '\n';

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "messaging/bus.h"
 #include "messaging/messages.h"
 
 namespace planbench {
@@ -13,8 +14,13 @@ namespace planbench {
 /// message was sent.
 std::string SessionJson(const SessionMessage& session);
 
-/// Writes {"sessions": [...]} of such objects, so that a reader sees the old file or the new one
-/// but never half of one. Throws std::runtime_error naming the file.
-void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions);
+/// What was odd on the bus as a JSON object; empty if nothing was.
+std::string BusJson(const Bus::Counters& counters,
+                    const std::vector<Contradictions::Entry>& contradictions);
+
+/// Writes {"sessions": [...], "bus": ...} of such objects, so that a reader sees the old file or
+/// the new one but never half of one. Throws std::runtime_error naming the file.
+void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions,
+                  const std::string& bus = "");
 
 }  // namespace planbench

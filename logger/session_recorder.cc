@@ -11,10 +11,12 @@
 namespace planbench {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resume,
-                                 std::string sender, Acknowledge acknowledge)
+                                 std::string sender, Acknowledge acknowledge,
+                                 Contradictions* contradictions)
     : folder_(folder, resume),
       sender_(std::move(sender)),
       acknowledge_(std::move(acknowledge)),
+      contradictions_(contradictions),
       event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew),
       database_(folder_.results()) {}
 
@@ -25,20 +27,41 @@ void SessionRecorder::Record(const ReceivedMessage& message) {
     StoreAndAcknowledge(channel::kRunRecordAck, message, [&](std::string* id) {
       const auto record = Decode<RunRecordMessage>(message.bytes, message.channel);
       *id = record.request_id;
-      const auto outcome = database_.Store(record);
-      ++(outcome == ResultsDatabase::Outcome::kStored ? tally_.runs : tally_.repetitions);
+      switch (database_.Store(record)) {
+        case ResultsDatabase::Outcome::kStored:
+          ++tally_.runs;
+          break;
+        case ResultsDatabase::Outcome::kAlreadyStored:
+          ++tally_.repetitions;
+          break;
+        case ResultsDatabase::Outcome::kContradicts:
+          contradictions_->Note(message.sender, message.channel,
+                                "another record of " + record.request_id + " than is stored");
+          throw InputError("it contradicts the record that is stored of this run");
+      }
     });
   } else if (message.channel == channel::kSession) {
     StoreAndAcknowledge(channel::kSessionAck, message, [&](std::string* id) {
       const auto session = Decode<SessionMessage>(message.bytes, message.channel);
-      *id = session.run_id;
+      *id = SessionAckId(session);
       database_.Store(session);
       WriteRunJson(folder_.run_json(), database_.Sessions());
     });
   }
 }
 
-bool SessionRecorder::Report() {
+void SessionRecorder::Flush() {
+  event_log_.Flush();
+  folder_.RequireThere();
+}
+
+void SessionRecorder::Recover() {
+  folder_.RequireThere();
+  event_log_.Reopen();
+}
+
+bool SessionRecorder::Report(const std::string& bus) {
+  if (!bus.empty()) WriteRunJson(folder_.run_json(), database_.Sessions(), bus);
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
@@ -72,7 +95,7 @@ void SessionRecorder::StoreAndAcknowledge(const char* ack_channel, const Receive
     }
     refusal = error.what();
   }
-  event_log_.Flush();
+  Flush();
   if (refusal.empty()) {
     acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});
     return;

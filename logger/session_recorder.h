@@ -7,6 +7,7 @@
 #include "logger/message_queue.h"
 #include "logger/results_database.h"
 #include "logger/session_folder.h"
+#include "messaging/contradictions.h"
 #include "messaging/event_log.h"
 
 namespace planbench {
@@ -27,20 +28,24 @@ class SessionRecorder {
   /// Publishes an acknowledgement on a channel.
   using Acknowledge = std::function<void(const std::string& channel, const AckMessage& ack)>;
 
-  /// `sender`: name in the acknowledgements. Throws InputError if the folder cannot be used.
+  /// `sender`: name in the acknowledgements. `contradictions` is told of records that contradict
+  /// what is stored. Throws InputError if the folder cannot be used.
   SessionRecorder(const std::filesystem::path& folder, bool resume, std::string sender,
-                  Acknowledge acknowledge);
+                  Acknowledge acknowledge, Contradictions* contradictions);
 
   /// Records one message. Acknowledges a run record or session once the event log is flushed and
   /// the database committed, or with ok = false if it can never be stored. Throws
-  /// std::runtime_error if the folder cannot be written (disk full); then nothing is acknowledged.
+  /// std::runtime_error if the folder cannot be written (disk full, removed); then nothing is
+  /// acknowledged.
   void Record(const ReceivedMessage& message);
   /// Hands what was written to the operating system. Throws like Record.
-  void Flush() { event_log_.Flush(); }
+  void Flush();
+  /// To be called after a failure, before the next message. Throws like Record.
+  void Recover();
 
-  /// Logs what was recorded, and which finished sessions have fewer runs here than they made. True
-  /// if every run record and session that came could be stored.
-  bool Report();
+  /// Logs what was recorded, and which finished sessions have fewer runs here than they made. `bus`
+  /// is BusJson's. True if every run record and session that came could be stored.
+  bool Report(const std::string& bus = "");
 
   const SessionFolder& folder() const { return folder_; }
   const RecorderTally& tally() const { return tally_; }
@@ -53,6 +58,7 @@ class SessionRecorder {
   SessionFolder folder_;
   std::string sender_;
   Acknowledge acknowledge_;
+  Contradictions* contradictions_;
   EventLog event_log_;
   ResultsDatabase database_;
   RecorderTally tally_;

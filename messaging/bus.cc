@@ -160,7 +160,12 @@ Bus::Bus(const std::string& url) : url_(url), impl_(std::make_unique<Impl>()) {
   if (url != "memq://") impl_->Connect(url);
 }
 
-Bus::~Bus() = default;
+Bus::~Bus() {
+  if (const std::int64_t count = contradictions_.count(); count > 0) {
+    spdlog::warn("{} messages on the bus contradicted what was known of it and were refused",
+                 count);
+  }
+}
 
 void Bus::Start() {
   const SignalsBlocked blocked;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "messaging/codec.h"
+#include "messaging/contradictions.h"
 #include "messaging/inbox.h"
 
 namespace planbench {
@@ -29,6 +30,12 @@ class Subscription {
   void Release();
   Inbox* inbox_ = nullptr;
   std::shared_ptr<Subscriber> subscriber_;
+};
+
+/// Where a message came from, and when: before it was decoded.
+struct Origin {
+  PacketSender sender;
+  std::chrono::steady_clock::time_point arrival;
 };
 
 /// The only owner of an LCM connection. Messages are sent by LCM, but received by this project's
@@ -64,29 +71,32 @@ class Bus {
       const std::string& channel, std::function<void(const Message&)> handler,
       std::function<void(const MessageError&)> on_bad_message = nullptr,
       int queue_capacity = kDefaultQueueCapacity) {
-    return SubscribeTimed<Message>(
+    std::function<void(const MessageError&, const Origin&)> on_bad;
+    if (on_bad_message) {
+      on_bad = [on_bad_message = std::move(on_bad_message)](
+                   const MessageError& error, const Origin&) { on_bad_message(error); };
+    }
+    return SubscribeFrom<Message>(
         channel,
-        [handler = std::move(handler)](const Message& message,
-                                       std::chrono::steady_clock::time_point) { handler(message); },
-        std::move(on_bad_message), queue_capacity);
+        [handler = std::move(handler)](const Message& message, const Origin&) { handler(message); },
+        std::move(on_bad), queue_capacity);
   }
-  /// The same for a handler that is also told when the message arrived, before it was decoded.
+  /// The same for handlers that are also told where the message came from.
   template <typename Message>
-  [[nodiscard]] Subscription SubscribeTimed(
-      const std::string& channel,
-      std::function<void(const Message&, std::chrono::steady_clock::time_point arrival)> handler,
-      std::function<void(const MessageError&)> on_bad_message = nullptr,
+  [[nodiscard]] Subscription SubscribeFrom(
+      const std::string& channel, std::function<void(const Message&, const Origin&)> handler,
+      std::function<void(const MessageError&, const Origin&)> on_bad_message = nullptr,
       int queue_capacity = kDefaultQueueCapacity) {
     return SubscribeBytes(
         channel,
         [handler = std::move(handler),
          on_bad_message = std::move(on_bad_message)](const ReceivedMessage& received) {
-          const auto arrival = std::chrono::steady_clock::now();
+          const Origin origin{received.sender, std::chrono::steady_clock::now()};
           try {
-            handler(Decode<Message>(received.bytes, received.channel), arrival);
+            handler(Decode<Message>(received.bytes, received.channel), origin);
           } catch (const MessageError& error) {
             if (!on_bad_message) throw;
-            on_bad_message(error);
+            on_bad_message(error, origin);
           }
         },
         queue_capacity);
@@ -106,10 +116,14 @@ class Bus {
     std::int64_t dropped = 0;    ///< Messages that came faster than they were handled.
   };
   Counters counters() const;
+  /// Messages that claimed to be from another sender than theirs, as those who took or refused them
+  /// noted.
+  Contradictions& contradictions() { return contradictions_; }
 
  private:
   struct Impl;
   std::string url_;
+  Contradictions contradictions_;
   std::unique_ptr<Impl> impl_;
 };
 

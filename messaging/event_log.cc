@@ -67,7 +67,7 @@ EventLog::EventLog(const fs::path& file, Mode mode) : file_(file) {
 }
 
 EventLog::~EventLog() {
-  if (std::fflush(log_->f) != 0) {
+  if (log_ && std::fflush(log_->f) != 0) {
     spdlog::error("cannot write {}: {}", file_.string(), std::strerror(errno));
   }
 }
@@ -75,6 +75,7 @@ EventLog::~EventLog() {
 void EventLog::Close::operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
 
 void EventLog::Write(const ReceivedMessage& message) {
+  if (!log_) throw std::runtime_error("event log " + file_.string() + " is not open");
   // LCM only reads what these pointers point to.
   lcm_eventlog_event_t event = {};
   event.timestamp = message.utime;
@@ -86,7 +87,17 @@ void EventLog::Write(const ReceivedMessage& message) {
 }
 
 void EventLog::Flush() {
+  if (!log_) return;
   if (std::fflush(log_->f) != 0) Fail();
+}
+
+void EventLog::Reopen() {
+  // First closed: what it still holds is torn.
+  log_.reset();
+  const std::int64_t next_number = PrepareToAppend(file_);
+  log_.reset(lcm_eventlog_create(file_.c_str(), "a"));
+  if (!log_) throw CannotOpen(file_);
+  log_->eventcount = next_number;
 }
 
 void EventLog::Fail() const {

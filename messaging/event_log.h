@@ -30,6 +30,9 @@ class EventLog {
   void Write(const ReceivedMessage& message);
   /// Hands everything written to the operating system. Throws like Write.
   void Flush();
+  /// After a failure: opens the file again after its last whole event, as kAppend does. Throws
+  /// InputError.
+  void Reopen();
 
  private:
   [[noreturn]] void Fail() const;

@@ -100,10 +100,12 @@ struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("utime", v.utime, w.utime);
     io.Field("start_utime", v.start_utime, w.start_utime);
+    io.Field("instance", v.instance, w.instance, kId);
     io.Field("name", v.name, w.name, kNodeName);
     io.Field("kind", v.kind, w.kind);
     io.Field("state", v.busy, w.state);
     io.Field("request_id", v.request_id, w.request_id);
+    io.Field("trouble", v.trouble, w.trouble);
     io.Field("host", v.host, w.host);
     io.Field("pid", v.pid, w.pid);
     io.Field("version", v.version, w.version);

@@ -31,10 +31,12 @@ struct EnumNames<NodeKind> {
 struct NodeStatusMessage {
   std::int64_t utime = 0;        ///< us since the Unix epoch.
   std::int64_t start_utime = 0;  ///< us since the Unix epoch.
+  std::string instance;          ///< 64 random bits, of the process.
   std::string name;
   NodeKind kind = NodeKind::kPlanner;
   bool busy = false;
   std::string request_id;
+  std::string trouble;  ///< Why it cannot do its work at the moment; empty: it can.
   std::string host;
   std::int32_t pid = 0;
   std::string version;
@@ -264,6 +266,11 @@ struct SessionMessage {
   std::vector<NodeStatusMessage> nodes;
   bool operator==(const SessionMessage&) const = default;
 };
+
+/// What a session's acknowledgement names it by: one of its beginning is none of its end.
+inline std::string SessionAckId(const SessionMessage& session) {
+  return session.run_id + (session.finished ? "/finished" : "");
+}
 
 struct RunRecordMessage {
   std::string run_id;

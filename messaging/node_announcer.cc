@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/error.h"
+#include "common/random_id.h"
 #include "common/utime.h"
 #include "common/version.h"
 #include "messaging/channels.h"
@@ -21,8 +22,22 @@ std::string HostName() {
   return gethostname(host, HOST_NAME_MAX) == 0 ? host : "unknown";
 }
 
-bool SameProcess(const NodeStatusMessage& a, const NodeStatusMessage& b) {
-  return a.pid == b.pid && a.host == b.host && a.start_utime == b.start_utime;
+/// Whether only one of them can be on a bus.
+bool AreRivals(const NodeStatusMessage& a, const NodeStatusMessage& b) {
+  if (a.kind == b.kind && a.kind == NodeKind::kLogger) return false;
+  return a.name == b.name || (a.kind == b.kind && a.kind == NodeKind::kSceneServer);
+}
+
+/// How one that has to go is told so.
+std::string Displaced(const NodeStatusMessage& self, const NodeStatusMessage& older) {
+  if (older.name != self.name) {
+    return "another scene server, '" + older.name +
+           "', is live on this bus; give it all folders of problems, or choose another port with "
+           "--lcm-url";
+  }
+  return "another session is on this LCM port: the " + std::string(EnumName(older.kind)) + " '" +
+         older.name + "' is live already (host " + older.host + ", pid " +
+         std::to_string(older.pid) + "); choose another --name, or another port with --lcm-url";
 }
 
 }  // namespace
@@ -31,6 +46,7 @@ NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind) {
   RequireNodeName(name);
   NodeStatusMessage status;
   status.start_utime = NowUtime();
+  status.instance = RandomId();
   status.name = name;
   status.kind = kind;
   status.host = HostName();
@@ -41,28 +57,33 @@ NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind) {
 }
 
 NodeAnnouncer::NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status,
-                             std::function<void()> also)
+                             std::function<void()> also, std::chrono::milliseconds newcomer)
     : bus_(bus),
       status_(std::move(status)),
       also_(std::move(also)),
       self_(status_()),
+      established_(std::chrono::steady_clock::now() + newcomer),
       discover_(bus->Subscribe<DiscoverMessage>(channel::kDiscover,
                                                 [this](const DiscoverMessage&) {
                                                   Announce();
                                                   if (also_) also_();
                                                 })),
-      statuses_(bus->Subscribe<NodeStatusMessage>(
-          channel::kNodeStatus, [this](const NodeStatusMessage& other) { OnStatus(other); })),
+      statuses_(bus->SubscribeFrom<NodeStatusMessage>(
+          channel::kNodeStatus, [this](const NodeStatusMessage& other,
+                                       const Origin& origin) { OnStatus(other, origin.sender); })),
       beat_([this] {
         std::unique_lock lock(mutex_);
         while (!stopping_) {
+          changed_.wait_for(lock, kPeriod, [this] { return stopping_; });
+          if (stopping_) return;
           lock.unlock();
           Announce();
           lock.lock();
-          changed_.wait_for(lock, kPeriod, [this] { return stopping_; });
         }
       }) {
-  // Brings an older process of this name to light at once.
+  // Whatever else this process says comes after it has said who it is.
+  Announce();
+  // Brings an older rival to light at once.
   bus_->Publish(channel::kDiscover, DiscoverMessage{self_.name});
 }
 
@@ -81,19 +102,29 @@ void NodeAnnouncer::Announce() {
   bus_->Publish(channel::kNodeStatus, status);
 }
 
-void NodeAnnouncer::OnStatus(const NodeStatusMessage& other) {
-  if (other.name != self_.name || SameProcess(other, self_)) return;
+void NodeAnnouncer::OnStatus(const NodeStatusMessage& other, const PacketSender& sender) {
+  if (!AreRivals(other, self_) || other.instance == self_.instance) return;
   const auto age_key = [](const NodeStatusMessage& s) {
-    return std::tie(s.start_utime, s.host, s.pid);
+    return std::tie(s.start_utime, s.instance);
   };
   // A recording played back on this bus shows processes of the past: they do not displace anybody.
   constexpr std::int64_t kStaleAfterUs = 10'000'000;
-  if (NowUtime() - other.utime > kStaleAfterUs || age_key(self_) < age_key(other)) return;
+  const bool is_established = std::chrono::steady_clock::now() >= established_;
+  if (is_established || NowUtime() - other.utime > kStaleAfterUs) {
+    bus_->contradictions().Note(sender, channel::kNodeStatus,
+                                "claims to be the " + std::string(EnumName(other.kind)) + " '" +
+                                    other.name + "', which this process is");
+    return;
+  }
+  if (age_key(self_) < age_key(other)) return;  // it will go
+  if (!rival_ || rival_->instance != other.instance) {
+    rival_ = other;
+    bus_->Publish(channel::kDiscover, DiscoverMessage{self_.name});
+    return;
+  }
+  if (other.utime <= rival_->utime) return;
   const std::scoped_lock lock(mutex_);
-  displaced_by_ = "another session is on this LCM port: the " + std::string(EnumName(other.kind)) +
-                  " '" + other.name + "' is live already (host " + other.host + ", pid " +
-                  std::to_string(other.pid) +
-                  "); choose another --name, or another port with --lcm-url";
+  displaced_by_ = Displaced(self_, other);
 }
 
 void NodeAnnouncer::ThrowIfDisplaced() const {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -11,31 +13,40 @@
 
 namespace planbench {
 
-/// Who this process is: host, pid, version, commit and start time filled in, the rest as given.
+/// Who this process is: host, pid, version, commit, start time and a new instance id filled in, the
+/// rest as given.
 NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind);
 
 /// Announces this process on NODE_STATUS at 2 Hz and whenever asked on DISCOVER, and watches for
-/// another process of the same name: of two, the older stays.
+/// rivals: other processes of the same name, or other scene servers. Of two, the older stays: only
+/// who has just come may be displaced, and only by one that answers when asked, so that no forged
+/// or replayed status ends a process at work.
 class NodeAnnouncer {
  public:
-  /// `status` is called on the announcer's threads; it must be thread-safe. `also`, if given, is
-  /// called after every DISCOVER (to announce more).
+  /// How long after it has come a process may be displaced.
+  static constexpr std::chrono::seconds kNewcomer{3};
+
+  /// Announces at once. `status` is called on the announcer's threads; it must be thread-safe.
+  /// `also`, if given, is called after every DISCOVER (to announce more).
   NodeAnnouncer(Bus* bus, std::function<NodeStatusMessage()> status,
-                std::function<void()> also = nullptr);
+                std::function<void()> also = nullptr,
+                std::chrono::milliseconds newcomer = kNewcomer);
   ~NodeAnnouncer();
 
   /// Announces now (on a change of state).
   void Announce();
-  /// Throws InputError once an older process of the same name has been heard.
+  /// Throws InputError once an older rival has been heard.
   void ThrowIfDisplaced() const;
 
  private:
-  void OnStatus(const NodeStatusMessage& other);
+  void OnStatus(const NodeStatusMessage& other, const PacketSender& sender);
 
   Bus* bus_;
   std::function<NodeStatusMessage()> status_;
   std::function<void()> also_;
   NodeStatusMessage self_;
+  const std::chrono::steady_clock::time_point established_;
+  std::optional<NodeStatusMessage> rival_;  // heard once; bus thread only
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "messaging/bus.h"
@@ -15,10 +16,22 @@
 namespace planbench {
 
 /// Which nodes are live, by what they announce. A node unheard of for kLostAfter is gone.
-/// Thread-safe.
+///
+/// A node is the process that sends its announcements, whatever these say: while it is live nobody
+/// else takes its name (for the scene server, of which there is one: its place). One who announces
+/// himself under it is a rival, who takes it once the other has been silent for kRivalPatience
+/// though everybody was asked: a process that was started again. Loggers do not stand in each
+/// other's way. Thread-safe.
 class NodeRegistry {
  public:
   static constexpr std::chrono::milliseconds kLostAfter{3000};
+  static constexpr std::chrono::milliseconds kRivalPatience{750};
+
+  /// A live node and whom it sends from.
+  struct Node {
+    NodeStatusMessage status;
+    PacketSender sender;
+  };
 
   explicit NodeRegistry(Bus* bus);
 
@@ -26,8 +39,14 @@ class NodeRegistry {
   std::optional<NodeStatusMessage> Find(const std::string& name, NodeKind kind) const;
   std::vector<NodeStatusMessage> Live() const;
   std::vector<NodeStatusMessage> Live(NodeKind kind) const;
+  std::vector<Node> LiveNodes(NodeKind kind) const;
   /// What the scene server announced last.
   std::optional<ProblemSetsMessage> ProblemSets() const;
+
+  /// Whether `sender` is the node of that kind and name, so that what it sent on `channel` is to be
+  /// believed. Where it is neither that node nor its rival, that is noted as a contradiction.
+  bool Believes(const PacketSender& sender, NodeKind kind, const std::string& name,
+                const std::string& channel) const;
 
   /// Asks every node to announce itself.
   void Discover(const std::string& sender);
@@ -36,15 +55,30 @@ class NodeRegistry {
   bool WaitUntil(const std::function<bool()>& condition, std::chrono::milliseconds timeout);
 
  private:
-  struct Entry {
-    NodeStatusMessage status;
-    std::chrono::steady_clock::time_point heard;
+  using TimePoint = std::chrono::steady_clock::time_point;
+  using Key = std::pair<NodeKind, std::string>;
+  struct Heard {
+    Node node;
+    TimePoint last;
+    TimePoint first;
   };
+  struct Entry {
+    Heard holder;
+    std::optional<Heard> rival;
+  };
+  static Key KeyOf(NodeKind kind, const std::string& name, const std::string& instance);
+  void OnStatus(const NodeStatusMessage& status, const PacketSender& sender);
+  void OnProblemSets(const ProblemSetsMessage& sets, const PacketSender& sender);
+  void ForgetTheDead(TimePoint now);
+  /// The entry, in which the rival has taken the name if it is his by now; null if there is none.
+  Entry* Settle(const Key& key, TimePoint now) const;
+
   Bus* bus_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::string, Entry> nodes_;  // by name
+  mutable std::map<Key, Entry> nodes_;
   std::optional<ProblemSetsMessage> problem_sets_;
+  TimePoint asked_;  // when a rival last made us ask everybody
   Subscription statuses_;
   Subscription sets_;
 };

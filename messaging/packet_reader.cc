@@ -60,7 +60,10 @@ std::optional<ReceivedMessage> PacketReader::Read(const PacketSender& sender,
     default:
       return Malformed();
   }
-  if (message) message->utime = utime;
+  if (message) {
+    message->utime = utime;
+    message->sender = sender;
+  }
   return message;
 }
 
@@ -70,7 +73,7 @@ std::optional<ReceivedMessage> PacketReader::ReadSmall(const PacketSender& sende
   std::optional<std::string> channel = TakeChannel(&rest);
   if (!channel) return Malformed();
   Hear(sender, Number(packet, 4, 4));
-  return ReceivedMessage{*std::move(channel), {rest.begin(), rest.end()}, 0};
+  return ReceivedMessage{*std::move(channel), {rest.begin(), rest.end()}};
 }
 
 std::optional<ReceivedMessage> PacketReader::ReadFragment(const PacketSender& sender,
@@ -122,7 +125,7 @@ std::optional<ReceivedMessage> PacketReader::Complete(Known* known) {
   pending_bytes_ -= pending.footprint;
   pending_.erase(known->pending);
   known->pending = pending_.end();
-  ReceivedMessage message{pending.channel, {}, 0};
+  ReceivedMessage message{pending.channel, {}};
   for (const auto& [number, fragment] : pending.fragments) {
     if (fragment.offset != message.bytes.size()) return Malformed();
     message.bytes.insert(message.bytes.end(), fragment.bytes.begin(), fragment.bytes.end());

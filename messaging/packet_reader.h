@@ -20,6 +20,7 @@ struct PacketSender {
   bool operator<(const PacketSender& other) const {
     return std::pair(address, port) < std::pair(other.address, other.port);
   }
+  bool operator==(const PacketSender&) const = default;
   std::string Text() const;  ///< "127.0.0.1:40123"
 };
 
@@ -27,7 +28,8 @@ struct PacketSender {
 struct ReceivedMessage {
   std::string channel;
   std::vector<std::uint8_t> bytes;
-  std::int64_t utime = 0;  ///< Time of receipt, us since the Unix epoch.
+  std::int64_t utime = 0;    ///< Time of receipt, us since the Unix epoch.
+  PacketSender sender = {};  ///< 0:0 if it came off no network.
 };
 
 /// Makes messages of the packets of LCM's multicast protocol

@@ -41,13 +41,18 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   }
   status_.settings = description_.settings;
 
-  requests_ = bus->Subscribe<PlanRequest>(
-      channels_.request, [this](const PlanRequest& request) { OnRequest(request); },
-      [this](const MessageError& error) { OnBadRequest(error); });
+  requests_ = bus->SubscribeFrom<PlanRequest>(
+      channels_.request,
+      [this](const PlanRequest& request, const Origin& origin) {
+        OnRequest(request, origin.sender);
+      },
+      [this](const MessageError& error, const Origin&) { OnBadRequest(error); });
   scene_messages_ = bus->Subscribe<SceneMessage>(
       channel::kScene, [this](const SceneMessage& message) { OnScene(message); });
-  cancels_ = bus->Subscribe<PlanCancelMessage>(
-      channels_.cancel, [this](const PlanCancelMessage& message) { OnCancel(message); });
+  cancels_ = bus->SubscribeFrom<PlanCancelMessage>(
+      channels_.cancel, [this](const PlanCancelMessage& message, const Origin& origin) {
+        OnCancel(message, origin.sender);
+      });
   announcer_ = std::make_unique<NodeAnnouncer>(bus, [this] { return Status(); });
   // Last: it may not be left running if the rest cannot be made.
   solver_ = std::thread([this] { Solve(); });
@@ -116,7 +121,7 @@ bool PlannerNode::SendResultOf(const std::string& request_id) {
   return result != nullptr;
 }
 
-void PlannerNode::OnRequest(const PlanRequest& request) {
+void PlannerNode::OnRequest(const PlanRequest& request, const PacketSender& sender) {
   std::unique_lock lock(mutex_);
   if (SendResultOf(request.request_id)) return;
   if (job_ && job_->request.request_id == request.request_id) {
@@ -134,6 +139,7 @@ void PlannerNode::OnRequest(const PlanRequest& request) {
   }
   auto job = std::make_unique<Job>();
   job->request = request;
+  job->sender = sender;
   job->accepted = Clock::now();
   job->next_scene_request = job->accepted;
   for (const auto& [id, scene] : scenes_) {
@@ -173,9 +179,14 @@ void PlannerNode::OnScene(const SceneMessage& message) {
   }
 }
 
-void PlannerNode::OnCancel(const PlanCancelMessage& message) {
+void PlannerNode::OnCancel(const PlanCancelMessage& message, const PacketSender& sender) {
   const std::scoped_lock lock(mutex_);
   if (job_ && job_->request.request_id == message.request_id) {
+    if (!(job_->sender == sender)) {
+      bus_->contradictions().Note(sender, channels_.cancel,
+                                  "cancels a request that is " + job_->sender.Text() + "'s");
+      return;
+    }
     job_->control.cancelled = true;
     changed_.notify_all();
   } else {

@@ -44,15 +44,16 @@ class PlannerNode {
  private:
   struct Job {
     PlanRequest request;
+    PacketSender sender;                 // of the request
     std::shared_ptr<const Scene> scene;  // null until it has arrived
     std::chrono::steady_clock::time_point accepted;
     std::chrono::steady_clock::time_point next_scene_request;
     PlanControl control;
   };
-  void OnRequest(const PlanRequest& request);
+  void OnRequest(const PlanRequest& request, const PacketSender& sender);
   void OnBadRequest(const MessageError& error);
   void OnScene(const SceneMessage& message);
-  void OnCancel(const PlanCancelMessage& message);
+  void OnCancel(const PlanCancelMessage& message, const PacketSender& sender);
   NodeStatusMessage Status() const;
   std::string ReasonToRefuse(const PlanRequest& request) const;
   void Solve();

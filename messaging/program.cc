@@ -26,6 +26,8 @@ void InstallSignalHandlers() {
   sigaction(SIGTERM, &action, nullptr);
   // A reader of our output that has gone must not kill a benchmark.
   std::signal(SIGPIPE, SIG_IGN);
+  // Nor a file that may not grow any more: writing it fails, and that is told.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace

@@ -26,11 +26,16 @@ namespace planbench {
 template <typename Request, typename Reply>
 class RpcClient {
  public:
-  RpcClient(Bus* bus, std::string request_channel, const std::string& reply_channel)
+  /// `believes`, if given, tells of a reply's sender whether it is the server: replies of others
+  /// are none.
+  RpcClient(Bus* bus, std::string request_channel, const std::string& reply_channel,
+            std::function<bool(const PacketSender&)> believes = nullptr)
       : bus_(bus),
         request_channel_(std::move(request_channel)),
-        subscription_(
-            bus->Subscribe<Reply>(reply_channel, [this](const Reply& reply) { OnReply(reply); })) {}
+        believes_(std::move(believes)),
+        subscription_(bus->SubscribeFrom<Reply>(
+            reply_channel,
+            [this](const Reply& reply, const Origin& origin) { OnReply(reply, origin.sender); })) {}
 
   /// Publishes the request every `retry_period` until the reply with its request_id arrives.
   /// Nothing if `timeout` passes, or `give_up` (asked every 50 ms) says so.
@@ -73,15 +78,17 @@ class RpcClient {
   }
 
  private:
-  void OnReply(const Reply& reply) {
+  void OnReply(const Reply& reply, const PacketSender& sender) {
     const std::scoped_lock lock(mutex_);
     if (waiting_.count(reply.request_id) == 0) return;
+    if (believes_ && !believes_(sender)) return;
     replies_.emplace(reply.request_id, reply);
     changed_.notify_all();
   }
 
   Bus* bus_;
   std::string request_channel_;
+  std::function<bool(const PacketSender&)> believes_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::set<std::string> waiting_;

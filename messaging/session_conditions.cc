@@ -46,7 +46,7 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   for (NodeStatusMessage& node : session.nodes) {
     node.utime = node.start_utime = 0;
     node.busy = false;
-    node.request_id = node.host = "";
+    node.request_id = node.host = node.instance = node.trouble = "";
     node.pid = 0;
     if (node.kind == NodeKind::kSceneServer) {
       node.name = "scene server";  // there is one

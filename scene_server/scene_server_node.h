@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <mutex>
 #include <string>
 
 #include "messaging/bus.h"
@@ -28,8 +27,6 @@ class SceneServerNode {
 
  private:
   void PublishProblemSets();
-  void OnStatus(const NodeStatusMessage& other);
-  void ThrowIfNotAlone() const;
 
   Bus* bus_;
   NodeStatusMessage status_;
@@ -38,9 +35,6 @@ class SceneServerNode {
   RpcServer<SceneRequestMessage, SceneMessage> scenes_;
   RpcServer<CollisionRequestMessage, CollisionReplyMessage> collisions_;
   RpcServer<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
-  mutable std::mutex mutex_;
-  std::string older_server_;  // name of another scene server, empty if none was heard
-  Subscription statuses_;
   NodeAnnouncer announcer_;  // last: announced once everything answers
 };
 

@@ -9,6 +9,7 @@ public class StraightLine implements LCMSubscriber {
   final String name, channel;
   final LCM lcm = new LCM(System.getenv("LCM_DEFAULT_URL"));
   final long start = utime();
+  final String instance = UUID.randomUUID().toString().replace("-", "").substring(0, 16);
   final Map<String, lcmt_plan_result> results = new LinkedHashMap<>() {
     protected boolean removeEldestEntry(Map.Entry<String, lcmt_plan_result> eldest) { return size() > 64; }
   };
@@ -54,7 +55,7 @@ public class StraightLine implements LCMSubscriber {
     s.utime = utime(); s.start_utime = start; s.kind = lcmt_node_status.KIND_PLANNER;
     s.state = current == null ? lcmt_node_status.STATE_IDLE : lcmt_node_status.STATE_BUSY;
     s.request_id = current == null ? "" : current.request_id;
-    s.name = name; s.host = "localhost"; s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
+    s.name = name; s.instance = instance; s.trouble = ""; s.host = "localhost"; s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
     s.robot_name = sets.robot_name; s.robot_id = sets.robot_id;
     s.algorithm = "Straight line (Java)"; s.planner_class = "search-and-sample"; s.deterministic = true;
     s.num_collision_models = 1; s.collision_model = new String[] {"spheres"}; s.setting = new lcmt_key_value[0];

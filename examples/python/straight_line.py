@@ -19,6 +19,7 @@ class StraightLine:
         self.name, self.channel = name, name.upper().replace("-", "_")
         self.lcm = lcm.LCM()  # $LCM_DEFAULT_URL
         self.start, self.current, self.sets = self.utime(), None, None
+        self.instance = uuid.uuid4().hex[:16]
         self.results = collections.OrderedDict()
         self.reply, self.replied = None, threading.Condition()
         for channel, handler in (("PROBLEM_SETS", self.on_sets), ("DISCOVER", lambda *_: self.announce()),
@@ -62,6 +63,7 @@ class StraightLine:
             return  # the robot's id is the scene server's
         current, status = self.current, pb.lcmt_node_status()
         status.utime, status.start_utime, status.name = self.utime(), self.start, self.name
+        status.instance = self.instance
         status.kind, status.state = status.KIND_PLANNER, status.STATE_BUSY if current else status.STATE_IDLE
         status.request_id = current.request_id if current else ""
         status.host, status.pid, status.version, status.commit = "localhost", os.getpid(), "example", "example"

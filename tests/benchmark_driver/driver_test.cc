@@ -54,7 +54,7 @@ class DriverTest : public testing::Test {
     ASSERT_TRUE(registry.WaitUntil(
         [&] {
           const auto heard = registry.Find("arm", NodeKind::kPlanner);
-          return heard && heard->start_utime == planner->status.start_utime;
+          return heard && heard->instance == planner->status.instance;
         },
         kTestPatience));
   }
@@ -354,7 +354,7 @@ TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
 
 TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {
   const std::string id = NewRunId();
-  EXPECT_TRUE(std::regex_match(id, std::regex("[0-9]{8}T[0-9]{6}Z-[0-9a-f]{4}"))) << id;
+  EXPECT_TRUE(std::regex_match(id, std::regex("[0-9]{8}T[0-9]{6}Z-[0-9a-f]{16}"))) << id;
 }
 
 }  // namespace

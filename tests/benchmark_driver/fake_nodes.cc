@@ -63,6 +63,7 @@ PlanResult FakePlanner::SolvedResult() {
 void FakePlanner::Restart() {
   announcer_.reset();
   ++status.start_utime;
+  status.instance += "+";
   announcer_ = std::make_unique<NodeAnnouncer>(bus_, [now = status] { return now; });
 }
 
@@ -124,8 +125,9 @@ PathCheckReplyMessage FakeSceneServer::Verdict(bool valid, const std::string& re
   return reply;
 }
 
-FakeLogger::FakeLogger(Bus* bus)
+FakeLogger::FakeLogger(Bus* bus, const std::string& name)
     : bus_(bus),
+      name_(name),
       records_(bus, channel::kRunRecord),
       sessions_(bus, channel::kSession),
       record_subscription_(bus->Subscribe<RunRecordMessage>(channel::kRunRecord,
@@ -133,17 +135,25 @@ FakeLogger::FakeLogger(Bus* bus)
                                                               Answer(channel::kRunRecordAck,
                                                                      record.request_id);
                                                             })),
-      session_subscription_(bus->Subscribe<SessionMessage>(
-          channel::kSession,
-          [this](const SessionMessage& session) { Answer(channel::kSessionAck, session.run_id); })),
-      announcer_(bus, [status = MakeNodeStatus("logger", NodeKind::kLogger)] { return status; }) {}
+      session_subscription_(bus->Subscribe<SessionMessage>(channel::kSession,
+                                                           [this](const SessionMessage& session) {
+                                                             Answer(channel::kSessionAck,
+                                                                    SessionAckId(session));
+                                                           })),
+      announcer_(std::make_unique<NodeAnnouncer>(
+          bus, [this, status = MakeNodeStatus(name, NodeKind::kLogger)] {
+            NodeStatusMessage now = status;
+            if (troubled) now.trouble = "disk full";
+            return now;
+          })) {}
 
 void FakeLogger::Answer(const std::string& channel, const std::string& id) {
+  if (troubled) return;
   if (num_to_ignore > 0) {
     --num_to_ignore;
     return;
   }
-  bus_->Publish(channel, AckMessage{id, "logger", !refuse, refuse ? "disk full" : ""});
+  bus_->Publish(channel, AckMessage{id, name_, !refuse, refuse ? "it is odd" : ""});
 }
 
 }  // namespace planbench

@@ -84,11 +84,15 @@ class FakeSceneServer {
 /// A logger that stores everything it is sent, or does what the test says.
 class FakeLogger {
  public:
-  explicit FakeLogger(Bus* bus);
+  explicit FakeLogger(Bus* bus, const std::string& name = "logger");
 
   /// Copies of a message that it does not answer, as if they or the answers had been lost.
   std::atomic<int> num_to_ignore = 0;
   std::atomic<bool> refuse = false;
+  /// Says that it cannot record, and acknowledges nothing.
+  std::atomic<bool> troubled = false;
+
+  void Announce() { announcer_->Announce(); }
 
   MessageCollector<RunRecordMessage>& records() { return records_; }
   MessageCollector<SessionMessage>& sessions() { return sessions_; }
@@ -97,11 +101,12 @@ class FakeLogger {
   void Answer(const std::string& channel, const std::string& id);
 
   Bus* bus_;
+  std::string name_;
   MessageCollector<RunRecordMessage> records_;
   MessageCollector<SessionMessage> sessions_;
   Subscription record_subscription_;
   Subscription session_subscription_;
-  NodeAnnouncer announcer_;
+  std::unique_ptr<NodeAnnouncer> announcer_;
 };
 
 }  // namespace planbench

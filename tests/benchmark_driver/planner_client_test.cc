@@ -7,6 +7,8 @@
 #include <future>
 
 #include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/support/private_bus.h"
+#include "tests/support/wait_until.h"
 
 namespace planbench {
 namespace {
@@ -105,6 +107,68 @@ TEST_F(PlannerClientTest, ResultThatCannotBeReadEndsTheRequest) {
   const PlannerClient::Answer answer = Solve("a");
   EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("planning_time_s"));
+}
+
+TEST_F(PlannerClientTest, ResultOfAnotherSessionOrPlannerIsNoAnswer) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    PlanResultMessage result;
+    result.planner = "arm";
+    result.run_id = "another";
+    result.request_id = request.request_id;
+    bus_.Publish(PlannerChannels("arm").result, result);
+  });
+  const PlannerClient::Answer answer = Solve("a");
+  EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
+  EXPECT_THAT(answer.message, HasSubstr("session 'another'"));
+}
+
+TEST_F(PlannerClientTest, AnotherResultThanBeforeIsNoted) {
+  FakePlanner planner(&bus_);
+  EXPECT_EQ(Solve("a").outcome, Outcome::kResult);
+  planner.SendResult("a", FakePlanner::SolvedResult());  // the same, again
+  PlanResult other = FakePlanner::SolvedResult();
+  other.planning_time_s = 1e-6;
+  planner.SendResult("a", other);
+  EXPECT_TRUE(WaitUntil([&] { return bus_.contradictions().count() == 1; }));
+  EXPECT_EQ(Solve("b").outcome, Outcome::kResult);
+}
+
+TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
+  const std::string url = PrivateUdpUrl();
+  Bus bus(url), planner_bus(url), forger_bus(url);
+  for (Bus* one : {&bus, &planner_bus, &forger_bus}) one->Start();
+  NodeRegistry registry(&bus);
+  PlannerClient client(&bus, &registry, "arm");
+  FakePlanner planner(&planner_bus);
+  std::atomic<int> num_requests = 0;
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (++num_requests >= 3) planner.Solve(request);
+  });
+  const PlannerChannels channels("arm");
+  // Everything right but for the sender: a refusal, a result, a result that cannot be read.
+  const Subscription forger =
+      forger_bus.Subscribe<PlanRequest>(channels.request, [&](const PlanRequest& request) {
+        forger_bus.Publish(channels.ack,
+                           PlanAckMessage{"arm", request.request_id, Verdict::kRefused, "forged"});
+        PlanResultMessage result;
+        result.planner = "arm";
+        result.run_id = request.run_id;
+        result.request_id = request.request_id;
+        result.result.status = PlanStatus::kExhausted;
+        forger_bus.Publish(channels.result, result);
+        result.result.planning_time_s = -1;
+        forger_bus.Publish(channels.result, result);
+      });
+  PlanRequest request;
+  request.run_id = "run";
+  request.request_id = "a";
+  request.scene_id = "scene";
+  request.time_limit_s = 60;
+  const PlannerClient::Answer answer = client.Solve(request, [] { return false; });
+  EXPECT_EQ(answer.outcome, Outcome::kResult) << answer.message;
+  EXPECT_EQ(answer.result.result.path, FakePath());
+  EXPECT_GE(bus.contradictions().count(), 3);
 }
 
 TEST_F(PlannerClientTest, PlannerThatDiesGivesNoAnswer) {

@@ -1,11 +1,18 @@
 #include "benchmark_driver/recorder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <set>
 
 #include "tests/benchmark_driver/fake_nodes.h"
 
 namespace planbench {
 namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 class RecorderTest : public testing::Test {
  protected:
@@ -38,7 +45,9 @@ TEST_F(RecorderTest, RecordsRunsAndSessions) {
   AwaitLogger();
   recorder_.Record(Session());
   recorder_.Record(RunOf("a"));
-  EXPECT_EQ(recorder_.num_unrecorded(), 0);
+  EXPECT_EQ(recorder_.num_unrecorded(), 0u);
+  EXPECT_TRUE(recorder_.Complete());
+  EXPECT_TRUE(recorder_.Shortcomings().empty());
   EXPECT_GE(logger.sessions().messages().size(), 1u);
   EXPECT_GE(logger.records().messages().size(), 1u);
 }
@@ -48,7 +57,7 @@ TEST_F(RecorderTest, RepeatsUntilAcknowledged) {
   logger.num_to_ignore = 2;
   AwaitLogger();
   recorder_.Record(RunOf("a"));
-  EXPECT_EQ(recorder_.num_unrecorded(), 0);
+  EXPECT_EQ(recorder_.num_unrecorded(), 0u);
   EXPECT_GE(logger.records().messages().size(), 3u);
 }
 
@@ -57,27 +66,122 @@ TEST_F(RecorderTest, RefusalCountsAsNotRecorded) {
   logger.refuse = true;
   AwaitLogger();
   recorder_.Record(RunOf("a"));
-  EXPECT_EQ(recorder_.num_unrecorded(), 1);
+  EXPECT_EQ(recorder_.num_unrecorded(), 1u);
   logger.refuse = false;
   recorder_.Record(RunOf("b"));
-  EXPECT_EQ(recorder_.num_unrecorded(), 1);
+  EXPECT_EQ(recorder_.num_unrecorded(), 1u);
+  EXPECT_FALSE(recorder_.Complete());
+  EXPECT_THAT(recorder_.Shortcomings(),
+              ElementsAre(AllOf(HasSubstr("1 of 2"), HasSubstr("'logger'"), HasSubstr("odd"))));
 }
 
-TEST_F(RecorderTest, WithoutLoggerIsPublishedAndCounted) {
+TEST_F(RecorderTest, WithoutLoggerIsPublishedAndSaidOnce) {
   MessageCollector<RunRecordMessage> watched(&bus_, channel::kRunRecord);
+  testing::internal::CaptureStdout();  // Where messages go.
+  recorder_.Record(Session());
   recorder_.Record(RunOf("a"));
   recorder_.Record(RunOf("b"));
-  EXPECT_EQ(recorder_.num_unrecorded(), 2);
+  EXPECT_EQ(recorder_.num_unrecorded(), 2u);
   EXPECT_EQ(watched.WaitFor(2).size(), 2u);
+  EXPECT_FALSE(recorder_.Complete());
+  EXPECT_THAT(recorder_.Shortcomings(), ElementsAre(HasSubstr("none of 2 runs is recorded")));
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(said.find("NOBODY RECORDS"), said.rfind("NOBODY RECORDS")) << said;
+  EXPECT_THAT(said, HasSubstr("NOBODY RECORDS"));
 }
 
-TEST_F(RecorderTest, AcknowledgementOfAnotherRecordIsNone) {
+TEST_F(RecorderTest, ALoggerThatComesLaterIsBroughtUpToDate) {
+  recorder_.Record(Session());
+  for (int i = 0; i < 40; ++i) recorder_.Record(RunOf(std::to_string(i)));  // more than a window
+  FakeLogger logger(&bus_);
+  AwaitLogger();
+  testing::internal::CaptureStdout();
+  recorder_.Record(RunOf("last"));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("records again"));
+  EXPECT_EQ(recorder_.num_unrecorded(), 0u);
+  EXPECT_TRUE(recorder_.Complete());
+  std::set<std::string> ids;
+  for (const auto& record : logger.records().messages()) ids.insert(record.request_id);
+  EXPECT_EQ(ids.size(), 41u);
+  EXPECT_GE(logger.sessions().messages().size(), 1u);
+}
+
+TEST_F(RecorderTest, ASecondLoggersLossIsTold) {
+  FakeLogger first(&bus_);
+  FakeLogger second(&bus_, "second");
+  second.num_to_ignore = 1'000'000;
+  ASSERT_TRUE(registry_.WaitUntil([&] { return registry_.Live(NodeKind::kLogger).size() == 2; },
+                                  kTestPatience));
+  recorder_.silence_patience = std::chrono::milliseconds(100);
+  recorder_.Record(Session());
+  recorder_.Record(RunOf("a"));
+  EXPECT_TRUE(recorder_.Complete());
+  EXPECT_EQ(recorder_.num_unrecorded(), 0u);
+  EXPECT_THAT(recorder_.Shortcomings(),
+              ElementsAre(AllOf(HasSubstr("1 of 1"), HasSubstr("'second'"))));
+}
+
+TEST_F(RecorderTest, ALoggerInTroubleIsNotWaitedForAndGetsEverythingAfterwards) {
+  FakeLogger logger(&bus_);
+  logger.troubled = true;
+  logger.Announce();
+  ASSERT_TRUE(registry_.WaitUntil(
+      [&] {
+        const auto live = registry_.Live(NodeKind::kLogger);
+        return !live.empty() && !live[0].trouble.empty();
+      },
+      kTestPatience));
+  recorder_.return_patience = std::chrono::milliseconds(0);
+  testing::internal::CaptureStdout();
+  recorder_.Record(Session());
+  recorder_.Record(RunOf("a"));
+  EXPECT_FALSE(recorder_.Complete());
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("NOBODY RECORDS: the logger 'logger' cannot: disk full"));
+  EXPECT_THAT(recorder_.Shortcomings(), ElementsAre(HasSubstr("disk full")));
+  logger.troubled = false;
+  logger.Announce();
+  ASSERT_TRUE(registry_.WaitUntil(
+      [&] { return registry_.Live(NodeKind::kLogger)[0].trouble.empty(); }, kTestPatience));
+  EXPECT_TRUE(recorder_.Complete());
+}
+
+TEST_F(RecorderTest, AcknowledgementOfTheBeginningIsNoneOfTheEnd) {
+  FakeLogger logger(&bus_);
+  AwaitLogger();
+  recorder_.Record(Session());
+  logger.num_to_ignore = 1;
+  SessionMessage end = Session();
+  end.finished = true;
+  bus_.Publish(channel::kSessionAck, AckMessage{"run", "logger", true, ""});  // late
+  recorder_.Record(end);
+  EXPECT_GE(logger.sessions().Count([](const SessionMessage& s) { return s.finished; }), 2u);
+}
+
+TEST_F(RecorderTest, AcknowledgementOfAnotherRecordOrByAStrangerIsNone) {
   FakeLogger logger(&bus_);
   logger.num_to_ignore = 1;
   AwaitLogger();
   bus_.Publish(channel::kRunRecordAck, AckMessage{"another", "logger", true, ""});
+  bus_.Publish(channel::kRunRecordAck, AckMessage{"a", "stranger", true, ""});
   recorder_.Record(RunOf("a"));
   EXPECT_GE(logger.records().messages().size(), 2u);
+  EXPECT_EQ(bus_.contradictions().count(), 1);
+}
+
+TEST(RecordSpoolTest, GivesBackWhatItWasGivenInMemoryAndBeyond) {
+  RecordSpool spool(100);
+  for (int i = 0; i < 50; ++i) {
+    spool.Add({std::to_string(i),
+               std::vector<std::uint8_t>(static_cast<std::size_t>(i), std::uint8_t(i))});
+  }
+  ASSERT_EQ(spool.size(), 50u);
+  for (const int i : {0, 49, 7, 14, 13, 30}) {
+    const RecordSpool::Record record = spool.At(static_cast<std::size_t>(i));
+    EXPECT_EQ(record.id, std::to_string(i));
+    EXPECT_EQ(record.bytes,
+              std::vector<std::uint8_t>(static_cast<std::size_t>(i), std::uint8_t(i)));
+  }
 }
 
 }  // namespace

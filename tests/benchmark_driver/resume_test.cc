@@ -1,7 +1,10 @@
 #include "benchmark_driver/resume.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <functional>
 #include <set>
@@ -149,7 +152,7 @@ TEST(RequireSameConditionsTest, EverythingThatAPlannerOrServerSaysOfItselfCounts
       const std::string name = changer.changed();
       if (name.empty()) break;
       std::set<std::string> free = {"utime", "start_utime", "state", "request_id", "host", "pid"};
-      free.insert("name");
+      free.insert({"name", "instance", "trouble"});
       if (node == 2) free.insert("setting");
       if (name == "kind") continue;  // another node
       if (free.contains(name)) {
@@ -197,12 +200,30 @@ TEST(ReadEarlierSessionTest, MissingFolderLogOrChoiceIsNamed) {
   const TemporaryFolder folder;
   const std::string path = folder.path().string();
   ExpectInputError([&] { ReadEarlierSession(path + "/missing"); }, {"--resume", path + "/missing"});
-  folder.Write("logs/other.lcmlog", "");
   ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "no .lcmlog"});
   folder.Write("a.lcmlog", "");
-  ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "no session"});
   folder.Write("b.lcmlog", "");
   ExpectInputError([&] { ReadEarlierSession(path); }, {"--resume", path, "several"});
+}
+
+TEST(ReadEarlierSessionTest, ASessionKilledAtOnceHoldsNothing) {
+  const TemporaryFolder folder;
+  folder.Write("logs/other.lcmlog", "");
+  EXPECT_TRUE(ReadEarlierSession(folder.path()).sessions.empty());
+  folder.Write("a.lcmlog", "");
+  EXPECT_TRUE(ReadEarlierSession(folder.path()).sessions.empty());
+}
+
+TEST(AwaitLoggersEndTest, NamesTheOneThatDoesNotEnd) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(AwaitLoggersEnd(folder.path(), std::chrono::milliseconds(0)));
+  const auto file = folder.Write("logger.lock", "4711");
+  EXPECT_NO_THROW(AwaitLoggersEnd(folder.path(), std::chrono::milliseconds(0)));
+  const int lock = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  ExpectInputError([&] { AwaitLoggersEnd(folder.path(), std::chrono::milliseconds(0)); },
+                   {"--resume", folder.path().string(), "pid 4711"});
+  close(lock);
 }
 
 }  // namespace

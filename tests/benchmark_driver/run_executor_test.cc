@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <set>
 #include <thread>
 
 #include "tests/benchmark_driver/fake_nodes.h"
@@ -192,9 +193,15 @@ TEST_F(RunExecutorTest, PlannerThatIsRestartedGivesNoAnswer) {
   EXPECT_GT(record->roundtrip_time_s, 0);
 }
 
-TEST_F(RunExecutorTest, ProblemThatIsNotServedIsAnInputError) {
-  const FakeSceneServer server(&bus_);
-  ExpectInputError([&] { Execute(Scheduled(4)); }, {"no such problem"});
+TEST_F(RunExecutorTest, AProblemThatTheServerNoLongerHasIsAnInvalidRequest) {
+  FakeSceneServer server(&bus_);
+  const auto record = Execute(Scheduled(4));
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidRequest);
+  EXPECT_THAT(record->message, HasSubstr("no such problem"));
+  std::set<std::string> ids;
+  for (const auto& request : server.problem_requests().messages()) ids.insert(request.request_id);
+  EXPECT_EQ(ids.size(), 3u);  // it was asked anew
 }
 
 TEST_F(RunExecutorTest, RefereeThatHasForgottenTheSceneIsToldAgain) {

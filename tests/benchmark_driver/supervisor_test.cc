@@ -64,6 +64,17 @@ class SupervisorTest : public testing::Test {
   const std::filesystem::path out_ = folder_.path() / "out";
 };
 
+TEST_F(SupervisorTest, WhatIsStartedAgainIsToldSo) {
+  ChildSpec child = Script("child", "echo \"$0\" >> $OUT; exit 3");
+  child.when_again = {"again"};
+  Supervisor supervisor;
+  supervisor.Start(child);
+  const std::vector<std::string> lines = AwaitOutput(3);
+  EXPECT_EQ(lines[0], "/bin/sh");
+  EXPECT_EQ(lines[1], "again");
+  EXPECT_EQ(lines[2], "again");
+}
+
 TEST_F(SupervisorTest, GivesChildrenTheirEnvironmentAndLog) {
   folder_.Write("child.log", "of an earlier time\n");
   setenv("PLANBENCH_TEST_OURS", "ours", 1);

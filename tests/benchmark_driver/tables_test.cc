@@ -384,5 +384,13 @@ TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
 
 TEST(TablesTest, NoRuns) { EXPECT_EQ(Brief({}), "No runs.\n"); }
 
+TEST(TablesTest, SayHowManyRunsAreMissing) {
+  const SessionTables tables = MakeTables(Conditions(), Session(), {}, 3);
+  EXPECT_THAT(tables.brief, testing::StartsWith("3 OF "));
+  EXPECT_THAT(tables.full, testing::StartsWith("3 OF "));
+  EXPECT_THAT(MakeTables(Conditions(), {}, {}, 3).brief, HasSubstr("3 OF 3 RUNS ARE MISSING"));
+  EXPECT_THAT(MakeTables(Conditions(), Session()).brief, testing::Not(HasSubstr("MISSING")));
+}
+
 }  // namespace
 }  // namespace planbench

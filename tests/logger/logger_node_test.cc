@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <condition_variable>
+#include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <mutex>
 #include <set>
@@ -13,6 +14,7 @@
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/message_collector.h"
+#include "tests/support/private_bus.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -193,7 +195,7 @@ TEST(LoggerNode, ARefusedRecordIsNoCleanEnd) {
   EXPECT_FALSE(logger.Run(Now));
 }
 
-TEST(LoggerNode, AFolderThatCannotBeWrittenEndsTheRun) {
+TEST(LoggerNode, AFolderThatCannotBeWrittenIsTold) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   const TemporaryFolder temporary;
   std::filesystem::create_directories(temporary / "s");
@@ -203,10 +205,63 @@ TEST(LoggerNode, AFolderThatCannotBeWrittenEndsTheRun) {
   std::atomic<int> acks = 0;
   const Subscription subscription =
       bus.Subscribe<AckMessage>(channel::kRunRecordAck, [&](const AckMessage&) { ++acks; });
+  MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
   bus.Start();
   bus.Publish(channel::kRunRecord, SampleRecord());
-  EXPECT_THROW(logger.Run([] { return false; }), std::runtime_error);
+  EXPECT_TRUE(statuses.WaitForOne([](const NodeStatusMessage& status) {
+    return status.trouble.find("No space left") != std::string::npos;
+  }));
+  EXPECT_THROW(logger.Run(Now), std::runtime_error);
   EXPECT_EQ(acks, 0);
+}
+
+TEST(LoggerNode, GoesOnWhenTheFolderCanBeWrittenAgain) {
+  const TemporaryFolder temporary;
+  Bus bus("memq://");
+  LoggerNode logger(&bus, {.out = temporary / "s"});
+  MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
+  MessageCollector<AckMessage> acks(&bus, channel::kRunRecordAck);
+  bus.Start();
+  std::filesystem::rename(temporary / "s", temporary / "elsewhere");
+  bus.Publish(channel::kRunRecord, SampleRecord());
+  EXPECT_TRUE(statuses.WaitForOne([](const NodeStatusMessage& status) {
+    return status.trouble.find("was removed or moved") != std::string::npos;
+  }));
+  EXPECT_TRUE(acks.messages().empty());
+  std::filesystem::rename(temporary / "elsewhere", temporary / "s");
+  EXPECT_EQ(acks.WaitFor(1).size(), 1);
+  EXPECT_TRUE(logger.Run(Now));
+  EXPECT_EQ(CountRuns(temporary / "s" / "results.sqlite"), 1);
+}
+
+TEST(LoggerNode, TakesRecordsFromTheDriverAlone) {
+  const TemporaryFolder temporary;
+  const std::string url = PrivateUdpUrl();
+  Bus logger_bus(url);
+  LoggerNode logger(&logger_bus, {.out = temporary / "s"});
+  logger_bus.Start();
+  Bus driver_bus(url);
+  Bus forger_bus(url);
+  MessageCollector<AckMessage> acks(&driver_bus, channel::kRunRecordAck);
+  driver_bus.Start();
+  const NodeStatusMessage status = MakeNodeStatus("driver", NodeKind::kDriver);
+  driver_bus.Publish(channel::kNodeStatus, status);
+  RunRecordMessage forged = SampleRecord("a");
+  forged.status = PlanStatus::kTimedOut;
+  ASSERT_TRUE(WaitUntil([&] {
+    forger_bus.Publish(channel::kRunRecord, forged);
+    return logger_bus.contradictions().count() > 0;
+  }));
+  ASSERT_TRUE(WaitUntil([&] {
+    driver_bus.Publish(channel::kNodeStatus, status);
+    driver_bus.Publish(channel::kRunRecord, SampleRecord("b"));
+    return !acks.messages().empty();
+  }));
+  logger.Run(Now);
+  EXPECT_GE(LoggedChannels(temporary / "s" / "s.lcmlog").count("REFUSED_RUN_RECORD"), 1);
+  std::ifstream file(temporary / "s" / "run.json");
+  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(json.find("\"contradictions\""), std::string::npos) << json;
 }
 
 TEST(LoggerNode, RefusesABadNameOrFolder) {

@@ -18,8 +18,9 @@ class RebuildTest : public testing::Test {
  protected:
   /// Records messages as they come from a bus; returns the event log.
   std::filesystem::path Live(const std::vector<ReceivedMessage>& messages) {
-    SessionRecorder recorder(temporary_ / "live", false, "logger",
-                             [](const std::string&, const AckMessage&) {});
+    SessionRecorder recorder(
+        temporary_ / "live", false, "logger", [](const std::string&, const AckMessage&) {},
+        &contradictions_);
     for (const ReceivedMessage& message : messages) recorder.Record(message);
     recorder.Flush();
     return recorder.folder().event_log();
@@ -31,6 +32,7 @@ class RebuildTest : public testing::Test {
   }
 
   TemporaryFolder temporary_;
+  Contradictions contradictions_;
 };
 
 TEST_F(RebuildTest, TheSameMessagesMakeTheSameDatabase) {

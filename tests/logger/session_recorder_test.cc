@@ -29,9 +29,11 @@ class SessionRecorderTest : public testing::Test {
 
   std::unique_ptr<SessionRecorder> Open(bool resume = false) {
     return std::make_unique<SessionRecorder>(
-        Folder(), resume, "scribe", [this](const std::string& channel, const AckMessage& ack) {
+        Folder(), resume, "scribe",
+        [this](const std::string& channel, const AckMessage& ack) {
           acks_.push_back({channel, ack});
-        });
+        },
+        &contradictions_);
   }
 
   std::int64_t Count(const std::string& table) {
@@ -47,6 +49,7 @@ class SessionRecorderTest : public testing::Test {
   }
 
   TemporaryFolder temporary_;
+  Contradictions contradictions_;
   std::vector<Acknowledged> acks_;
 };
 
@@ -81,6 +84,35 @@ TEST_F(SessionRecorderTest, AcknowledgesARepetitionAgain) {
   EXPECT_EQ(recorder->tally().runs, 1);
   EXPECT_EQ(recorder->tally().repetitions, 1);
   EXPECT_EQ(recorder->tally().failures, 0);
+}
+
+TEST_F(SessionRecorderTest, TheFirstRecordOfARunStandsAndTheOtherIsRefused) {
+  const auto recorder = Open();
+  recorder->Record(Received(channel::kRunRecord, SampleRecord()));
+  RunRecordMessage other = SampleRecord();
+  other.result.result.planning_time_s = 1e-6;
+  recorder->Record(Received(channel::kRunRecord, other));
+  ASSERT_EQ(acks_.size(), 2);
+  EXPECT_FALSE(acks_[1].ack.ok);
+  EXPECT_NE(acks_[1].ack.message.find("contradicts"), std::string::npos);
+  EXPECT_EQ(Count("runs"), 1);
+  EXPECT_EQ(Count("runs WHERE time = 0.25"), 1);
+  EXPECT_EQ(contradictions_.count(), 1);
+}
+
+TEST_F(SessionRecorderTest, NothingIsAcknowledgedIntoAFolderThatWasRemoved) {
+  const auto recorder = Open();
+  recorder->Record(Received(channel::kRunRecord, SampleRecord("a")));
+  std::filesystem::rename(Folder(), temporary_ / "elsewhere");
+  EXPECT_THROW(recorder->Record(Received(channel::kRunRecord, SampleRecord("b"))),
+               std::runtime_error);
+  EXPECT_THROW(recorder->Recover(), std::runtime_error);
+  EXPECT_EQ(acks_.size(), 1);
+  std::filesystem::rename(temporary_ / "elsewhere", Folder());
+  recorder->Recover();
+  recorder->Record(Received(channel::kRunRecord, SampleRecord("b")));
+  EXPECT_EQ(acks_.size(), 2);
+  EXPECT_EQ(Count("runs"), 2);
 }
 
 TEST_F(SessionRecorderTest, RefusesWhatItCannotDecode) {
@@ -157,8 +189,9 @@ TEST_F(SessionRecorderTest, AReplayBuildsAnEqualDatabase) {
     recorder->Record(Received(channel::kSession, FinishedSession()));
   }
   {
-    SessionRecorder replay(temporary_ / "replay", false, "other",
-                           [](const std::string&, const AckMessage&) {});
+    SessionRecorder replay(
+        temporary_ / "replay", false, "other", [](const std::string&, const AckMessage&) {},
+        &contradictions_);
     for (ReceivedMessage event : Events()) {
       event.utime += 1'000'000'000;  // received at another time
       replay.Record(event);
@@ -175,11 +208,13 @@ TEST_F(SessionRecorderTest, WhatWasAcknowledgedSurvivesAKill) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    SessionRecorder recorder(Folder(), false, "scribe",
-                             [&](const std::string&, const AckMessage& ack) {
-                               const char byte = ack.ok ? 'y' : 'n';
-                               if (write(acks[1], &byte, 1) != 1) _exit(1);
-                             });
+    SessionRecorder recorder(
+        Folder(), false, "scribe",
+        [&](const std::string&, const AckMessage& ack) {
+          const char byte = ack.ok ? 'y' : 'n';
+          if (write(acks[1], &byte, 1) != 1) _exit(1);
+        },
+        &contradictions_);
     for (int i = 0;; ++i) {
       recorder.Record(Received(channel::kRunRecord, SampleRecord(std::to_string(i))));
     }
@@ -220,10 +255,12 @@ TEST_F(SessionRecorderTest, AFullDiskIsAFailureAndNothingIsAcknowledged) {
     int recorded = 0;
     int acknowledged = 0;
     try {
-      SessionRecorder recorder(Folder(), false, "scribe",
-                               [&](const std::string&, const AckMessage& ack) {
-                                 if (ack.ok) ++acknowledged;
-                               });
+      SessionRecorder recorder(
+          Folder(), false, "scribe",
+          [&](const std::string&, const AckMessage& ack) {
+            if (ack.ok) ++acknowledged;
+          },
+          &contradictions_);
       for (; recorded < 10'000; ++recorded) {
         recorder.Record(Received(channel::kRunRecord, SampleRecord(std::to_string(recorded))));
       }

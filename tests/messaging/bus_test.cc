@@ -52,9 +52,9 @@ TEST(BusTest, ArrivalIsToldOnTheSteadyClock) {
   using Clock = std::chrono::steady_clock;
   Bus bus("memq://");
   std::promise<std::pair<Clock::time_point, Clock::time_point>> arrival_and_now;
-  const Subscription subscription = bus.SubscribeTimed<DiscoverMessage>(
-      "CHANNEL", [&](const DiscoverMessage&, Clock::time_point at) {
-        arrival_and_now.set_value({at, Clock::now()});
+  const Subscription subscription = bus.SubscribeFrom<DiscoverMessage>(
+      "CHANNEL", [&](const DiscoverMessage&, const Origin& origin) {
+        arrival_and_now.set_value({origin.arrival, Clock::now()});
       });
   const Clock::time_point before = Clock::now();
   PublishNumber(&bus, "CHANNEL", 1);

@@ -29,9 +29,16 @@ class NodeAnnouncerTest : public testing::Test {
     bus_.Publish(channel::kNodeStatus, status);
     Settle();
   }
+  /// Hears it twice, as one that lives and is asked.
+  void HearLiving(NodeStatusMessage status) {
+    Hear(status);
+    ++status.utime;
+    Hear(status);
+  }
   /// Another process of the node's name, begun `age_us` before it.
   NodeStatusMessage Other(std::int64_t age_us) const {
     NodeStatusMessage other = self_;
+    other.instance = "other";
     other.pid = self_.pid + 1;
     other.start_utime = self_.start_utime - age_us;
     other.utime = NowUtime();
@@ -92,7 +99,8 @@ TEST_F(NodeAnnouncerTest, AnnouncesTheStatusOfTheMoment) {
 TEST_F(NodeAnnouncerTest, OfTwoOfANameTheOlderStays) {
   NodeStatusMessage newer = self_;
   newer.start_utime = self_.start_utime + 1;
-  const NodeAnnouncer old_one(&bus_, [&] { return self_; });
+  newer.instance = "newer";
+  NodeAnnouncer old_one(&bus_, [&] { return self_; });
   const NodeAnnouncer new_one(&bus_, [&] { return newer; });
   ASSERT_TRUE(WaitUntil([&] {
     try {
@@ -113,7 +121,7 @@ TEST_F(NodeAnnouncerTest, NamesCountWhateverTheKind) {
   const NodeAnnouncer announcer(&bus_, [&] { return self_; });
   NodeStatusMessage other = Other(kMinuteUs);
   other.kind = NodeKind::kLogger;
-  Hear(other);
+  HearLiving(other);
   ExpectInputError([&] { announcer.ThrowIfDisplaced(); }, {"the logger 'ara'"});
 }
 
@@ -121,31 +129,51 @@ TEST_F(NodeAnnouncerTest, OthersDisplaceNobody) {
   const NodeAnnouncer announcer(&bus_, [&] { return self_; });
   NodeStatusMessage namesake = Other(kMinuteUs);
   namesake.name = "rrtc";
-  Hear(namesake);
-  Hear(Other(-1));  // newer
-  Hear(self_);      // itself
+  HearLiving(namesake);
+  HearLiving(Other(-1));  // newer
+  HearLiving(self_);      // itself
   EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
 }
 
 TEST_F(NodeAnnouncerTest, ProcessesOfTheSameMomentAgreeOnWhoStays) {
   const NodeAnnouncer announcer(&bus_, [&] { return self_; });
   NodeStatusMessage other = Other(0);
-  Hear(other);  // pid above ours
+  other.instance = "x";  // after any of ours
+  HearLiving(other);
   EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
-  other.pid = self_.pid - 1;
-  Hear(other);
+  other.instance = "!";
+  HearLiving(other);
   EXPECT_THROW(announcer.ThrowIfDisplaced(), InputError);
+}
+
+TEST_F(NodeAnnouncerTest, OneStatusThatNothingFollowsDisplacesNobody) {
+  const NodeAnnouncer announcer(&bus_, [&] { return self_; });
+  MessageCollector<DiscoverMessage> questions(&bus_, channel::kDiscover);
+  const NodeStatusMessage forged = Other(kMinuteUs);
+  Hear(forged);
+  EXPECT_GE(questions.WaitFor(1).size(), 1u);  // it is asked for
+  Hear(forged);                                // the same datagram again
+  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
 }
 
 TEST_F(NodeAnnouncerTest, AReplayDisplacesNobody) {
   const NodeAnnouncer announcer(&bus_, [&] { return self_; });
   NodeStatusMessage recorded = Other(kMinuteUs);
   recorded.utime = NowUtime() - kMinuteUs;
-  Hear(recorded);
+  HearLiving(recorded);
   EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
+  EXPECT_EQ(bus_.contradictions().count(), 2);
   recorded.utime = NowUtime();
-  Hear(recorded);
+  HearLiving(recorded);
   EXPECT_THROW(announcer.ThrowIfDisplaced(), InputError);
+}
+
+TEST_F(NodeAnnouncerTest, WhoIsAtWorkIsDisplacedByNobody) {
+  const NodeAnnouncer announcer(
+      &bus_, [&] { return self_; }, nullptr, std::chrono::milliseconds(0));
+  HearLiving(Other(kMinuteUs));
+  EXPECT_NO_THROW(announcer.ThrowIfDisplaced());
+  EXPECT_EQ(bus_.contradictions().count(), 2);
 }
 
 }  // namespace

@@ -393,10 +393,13 @@ TEST_F(PlannerNodeTest, EndsWhileWaitingForTheScene) {
 TEST_F(PlannerNodeTest, GivesWayToAnOlderProcessOfItsName) {
   NodeStatusMessage older = MakeNodeStatus("arm", NodeKind::kPlanner);
   older.utime = older.start_utime;
+  older.instance = "older";
   older.start_utime -= 1'000'000;
   PlannerNode node(&bus_, "arm",
                    std::make_unique<ScriptedPlanner>(
                        PlanarRobot(), [](SearchQuery& query) { return StraightLine(query); }));
+  bus_.Publish(channel::kNodeStatus, older);
+  ++older.utime;
   bus_.Publish(channel::kNodeStatus, older);
   const auto deadline = std::chrono::steady_clock::now() + kTestPatience;
   ExpectInputError([&] { node.Run([&] { return std::chrono::steady_clock::now() >= deadline; }); },
