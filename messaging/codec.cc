@@ -1,5 +1,7 @@
 #include "messaging/codec.h"
 
+#include <algorithm>
+
 #include "messaging/decoder.h"
 #include "messaging/encoder.h"
 #include "messaging/message_fields.h"
@@ -20,6 +22,21 @@ void Decoder::Fail(const char* name, std::initializer_list<std::size_t> indices,
   std::string path = Path() + name;
   for (const std::size_t index : indices) path += fmt::format("[{}]", index);
   throw MessageError(fmt::format("{}: {}: {}", channel_, path, what), request_id_);
+}
+
+void Decoder::Escape(std::string* text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  std::size_t bad = FindInvalidUtf8(*text).value_or(text->size());
+  if (bad == text->size() && std::none_of(text->begin(), text->end(), is_control)) return;
+  std::string escaped;
+  for (std::size_t i = 0; i < text->size(); ++i) {
+    const std::string_view one = std::string_view(*text).substr(i, 1);
+    escaped += i == bad || is_control(one[0]) ? Printable(one) : std::string(one);
+    if (i < bad) continue;
+    const auto next = FindInvalidUtf8(std::string_view(*text).substr(i + 1));
+    bad = next ? i + 1 + *next : text->size();
+  }
+  *text = std::move(escaped);
 }
 
 std::string Printer::TextOf(const std::string& text) {
@@ -45,6 +62,7 @@ Message Codec<Message>::Decode(std::span<const std::uint8_t> bytes, const std::s
   auto wire = wire::Unpack<typename Fields<Message>::Wire>(bytes, channel);
   std::string request_id;
   if constexpr (requires { wire.request_id; }) request_id = wire.request_id;
+  Decoder::Escape(&request_id);
   Decoder decoder(channel, request_id);
   Message message;
   Fields<Message>::List(decoder, message, wire);

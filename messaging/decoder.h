@@ -19,6 +19,7 @@ namespace planbench {
 
 /// The archive (fields.h) that checks an lcmt_ struct and fills a value from it; it moves lists and
 /// texts out of the struct. Throws MessageError (codec.h) for the first field that breaks a rule.
+/// In texts, which get printed and stored, control characters and what is no UTF-8 are escaped.
 ///
 /// One Decoder stands for a message or for a struct inside it; a chain on the stack, from which the
 /// place is read when something is wrong.
@@ -41,6 +42,7 @@ class Decoder {
       Check<Rule>(name, wire);
       std::copy(std::begin(wire), std::end(wire), value.begin());
     } else {
+      if constexpr (std::is_same_v<Wire, std::string>) Escape(&wire);
       const bool waived = std::is_same_v<Rule, rules::Id> && parent_ != nullptr;
       if (!waived && !Rule::Ok(wire)) Fail(name, {}, Rule::What(wire));
       Read(name, value, wire);
@@ -51,6 +53,9 @@ class Decoder {
   void List(const char* name, Values& values, std::vector<Wire>& wires,
             const std::int32_t& /*count*/, Rule = {}) {
     if constexpr (std::is_same_v<Values, std::vector<Wire>>) {
+      if constexpr (std::is_same_v<Wire, std::string>) {
+        for (std::string& text : wires) Escape(&text);
+      }
       Check<Rule>(name, wires);
       values = std::move(wires);
     } else {
@@ -89,6 +94,9 @@ class Decoder {
   void Require(bool ok, const char* name, fmt::format_string<Args...> what, Args&&... args) {
     if (!ok) Fail(name, {}, fmt::format(what, std::forward<Args>(args)...));
   }
+
+  /// Escapes control characters and bytes that are no UTF-8, as Printable does.
+  static void Escape(std::string* text);
 
   /// Throws MessageError "<channel>: path.to.name[3]: what".
   [[noreturn]] void Fail(const char* name, std::initializer_list<std::size_t> indices,

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "common/text.h"
+
 namespace planbench {
 namespace {
 
@@ -15,9 +17,9 @@ void Handle(Subscriber* subscriber, const ReceivedMessage& message) {
   try {
     subscriber->handler(message);
   } catch (const std::exception& error) {
-    spdlog::error("message on {} dropped: {}", message.channel, error.what());
+    spdlog::error("message on {} dropped: {}", Printable(message.channel), error.what());
   } catch (...) {
-    spdlog::error("message on {} dropped: its handler threw something", message.channel);
+    spdlog::error("message on {} dropped: its handler threw something", Printable(message.channel));
   }
 }
 

@@ -13,6 +13,7 @@
 namespace planbench {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -82,6 +83,15 @@ TEST(YamlNode, ErrorsNameFileLineAndField) {
             "file.yaml:3: a.b: expected text, found a sequence");
   EXPECT_EQ(ErrorOf([&] { node.At("a").At("b").Doubles(3); }),
             "file.yaml:3: a.b: expected 3 numbers, found 2");
+}
+
+TEST(YamlNode, ControlCharactersAreRefused) {
+  const YamlNode node = Parse("a: \"x\\e[2Jy\"\nb: \"\\x7f\"\nc: \"one\\ttwo\\nthree\"\n");
+  EXPECT_THAT(ErrorOf([&] { node.At("a").String(); }),
+              AllOf(StartsWith("file.yaml:1: a: a control character"), HasSubstr("\\x1b[2J")));
+  EXPECT_THAT(ErrorOf([&] { node.At("b").String(); }), HasSubstr("file.yaml:2: b:"));
+  EXPECT_EQ(node.At("c").String(), "one\ttwo\nthree");
+  EXPECT_THAT(ErrorOf([] { Parse("\"k\\x01\": 1").At("a"); }), HasSubstr("control character"));
 }
 
 TEST(YamlNode, SyntaxErrorsNameTheLine) {

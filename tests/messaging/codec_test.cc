@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "messaging/any_message.h"
+#include "messaging/node_announcer.h"
 #include "messaging/wire.h"
 #include "scene/moveit_yaml.h"
 #include "tests/messaging/codec_fixture.h"
@@ -232,6 +233,23 @@ TEST_P(PublishedScenes, KeepTheirIds) {
 INSTANTIATE_TEST_SUITE_P(Shared, PublishedScenes,
                          testing::Values("bookshelf_small_fetch", "box_fetch", "table_pick_fetch"),
                          [](const auto& test) { return test.param; });
+
+TEST(CodecTest, TextsAreDecodedPrintable) {
+  PlanAckMessage ack;
+  ack.planner = "r\x1b[2Jrtc";
+  ack.request_id = "a\nb";
+  ack.message = "caf\xc3\xa9 caf\xe9 \xff\x7f end";
+  const auto decoded = Decode<PlanAckMessage>(Encode(ack), "C");
+  EXPECT_EQ(decoded.planner, "r\\x1b[2Jrtc");
+  EXPECT_EQ(decoded.request_id, "a\\nb");
+  EXPECT_EQ(decoded.message, "caf\xc3\xa9 caf\\xe9 \\xff\\x7f end");
+  NodeStatusMessage status = MakeNodeStatus("arm", NodeKind::kPlanner);
+  status.collision_models = {"sph\teres"};
+  status.settings = {{"k\r", std::string(3000, 'x') + "\n"}};
+  const auto heard = Decode<NodeStatusMessage>(Encode(status), "C");
+  EXPECT_EQ(heard.collision_models[0], "sph\\teres");
+  EXPECT_EQ(heard.settings.at("k\\r"), std::string(3000, 'x') + "\\n");  // as long as it was
+}
 
 }  // namespace
 }  // namespace planbench
