@@ -326,9 +326,9 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
   recorder_.Record(Session(complete));
-  const bool recorded = recorder_.Complete();
+  const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
-  return complete && recorded;
+  return recorded;
 }
 
 }  // namespace planbench
