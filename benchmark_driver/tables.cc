@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "benchmark_driver/effort_table.h"
 #include "benchmark_driver/failure_list.h"
@@ -195,11 +197,31 @@ std::string DirectionTable(const SessionResults& results) {
   return table.Format("Every attempt counts, each trial for itself.\n") + "\n";
 }
 
+/// Class of planner by contestant's name, of those that made runs; empty if all are of one.
+std::map<std::string, std::string> ClassesIfSeveral(const SessionResults& results) {
+  std::map<std::string, std::string> classes;
+  std::set<std::string> distinct;
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& one : set.contestants) {
+      if (one.records.empty()) continue;
+      const std::string& planner_class = one.records.front()->planner_class;
+      classes[one.contestant->name] = planner_class;
+      distinct.insert(planner_class);
+    }
+  }
+  if (distinct.size() < 2) classes.clear();
+  return classes;
+}
+
 /// What the contestants are, and what holds of all the figures.
 std::string Preface(const SessionConditions& conditions, const SessionResults& results) {
   std::string text = "Contestants\n";
+  const std::map<std::string, std::string> classes = ClassesIfSeveral(results);
   for (const Contestant& one : results.contestants()) {
     std::string line = one.name;
+    if (const auto found = classes.find(one.name); found != classes.end()) {
+      line += ", " + found->second;
+    }
     if (!one.about.empty()) line += ": " + one.about;
     if (one.collision_model) {
       line += fmt::format(" [{}, edges {}", EnumName(*one.collision_model),

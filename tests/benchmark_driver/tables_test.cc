@@ -339,6 +339,18 @@ TEST(TablesTest, ContestantsAreExplained) {
   EXPECT_THAT(MakeTables(conditions, Session()).brief, HasSubstr("UNDER LOAD"));
 }
 
+TEST(TablesTest, ContestantsOfSeveralClassesHaveTheirs) {
+  auto records = Session();
+  for (RunRecordMessage& record : records) record.planner_class = "sampling-guided";
+  EXPECT_THAT(Brief(records), Not(HasSubstr("sampling-guided")));
+  for (RunRecordMessage& record : records) {
+    if (record.contestant == "ARA*") record.planner_class = "search-and-sample";
+  }
+  const std::string text = Brief(records);
+  EXPECT_THAT(text, HasSubstr("  RRT-Connect, sampling-guided: what RRT-Connect is"));
+  EXPECT_THAT(text, HasSubstr("  ARA*, search-and-sample: what ARA* is"));
+}
+
 TEST(TablesTest, BriefOnesFitATerminal) {
   auto records = Session();
   for (int i = 10; i < 400; ++i)
