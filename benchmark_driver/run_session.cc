@@ -26,6 +26,7 @@
 #include "messaging/program.h"
 #include "results/compared_sessions.h"
 #include "results/imported_results.h"
+#include "results/reproduce.h"
 #include "robot_model/robot_folder.h"
 #include "robot_model/shipped_robots.h"
 
@@ -87,7 +88,7 @@ void WriteTables(const std::filesystem::path& file, const std::string& tables) {
 
 }  // namespace
 
-int RunSession(const DriverOptions& given_options, std::map<std::string, std::string> flags,
+int RunSession(const DriverOptions& given_options, const std::map<std::string, std::string>& flags,
                const std::string& lcm_url, bool lcm_url_given,
                const std::function<bool()>& interrupted) {
   DriverOptions options = given_options;
@@ -145,7 +146,7 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     if (supervisor) supervisor->ThrowIfHopeless();
     if (interrupted()) throw std::runtime_error("interrupted");
   };
-  Driver driver(&bus, options, line_up, std::move(flags), std::move(earlier));
+  Driver driver(&bus, options, line_up, flags, std::move(earlier));
   driver.Discover(options.launch, watch);
   if (new_folder) new_folder->Keep();
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
@@ -162,7 +163,10 @@ int RunSession(const DriverOptions& given_options, std::map<std::string, std::st
     WriteTables(session_folder / "tables.txt", tables.full);
     fmt::print("Session folder: {}\n", session_folder.string());
   }
-  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
+  if (interrupted()) {
+    fmt::print("Interrupted: what follows is incomplete.\n");
+    if (supervisor) fmt::print("Go on with: {}\n", ResumingCommand(flags, session_folder));
+  }
   fmt::print("\n{}", tables.brief);
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);

@@ -10,7 +10,7 @@ namespace planbench {
 
 /// Runs a whole session as the flags ask (`flags` are for the record): launches the processes if
 /// asked, drives, prints the tables, stops everything. Returns the exit code; throws InputError.
-int RunSession(const DriverOptions& options, std::map<std::string, std::string> flags,
+int RunSession(const DriverOptions& options, const std::map<std::string, std::string>& flags,
                const std::string& lcm_url, bool lcm_url_given,
                const std::function<bool()>& interrupted);
 

@@ -25,6 +25,16 @@ std::size_t TerminalWidth() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
+/// At most so many characters of UTF-8 text.
+std::string FirstCharacters(const std::string& text, std::size_t count) {
+  std::size_t end = 0;
+  for (std::size_t seen = 0; end < text.size(); ++end) {
+    const bool begins = (static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U;
+    if (begins && seen++ == count) break;
+  }
+  return text.substr(0, end);
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine(int total, int done)
@@ -52,7 +62,7 @@ void ProgressLine::Print(bool last) {
     line += fmt::format(" (about {} left)", Duration(elapsed_s / done_here * (total_ - done_)));
   }
   if (!text_.empty()) line += "  " + text_;
-  if (on_terminal_) line = line.substr(0, TerminalWidth() - 1);
+  if (on_terminal_) line = FirstCharacters(line, TerminalWidth() - 1);
   fmt::print(stderr, "{}{}{}", on_terminal_ ? "\r\033[K" : "", line,
              last || !on_terminal_ ? "\n" : "");
   std::fflush(stderr);

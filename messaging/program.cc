@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 
 #include "common/command_line.h"
 #include "geometry/mesh_loader.h"
@@ -45,7 +46,11 @@ Program::Program(const std::string& name, const std::string& description)
 std::string Program::lcm_url() const { return ResolveLcmUrl(lcm_url_flag_); }
 
 int Program::Run(int argc, char** argv, const std::function<int()>& work) {
-  const auto log = spdlog::stderr_color_mt(name_);
+  // https://no-color.org; without it colours are for terminals alone.
+  const char* no_color = std::getenv("NO_COLOR");
+  const bool plain = no_color != nullptr && *no_color != '\0';
+  const auto log = spdlog::stderr_color_mt(
+      name_, plain ? spdlog::color_mode::never : spdlog::color_mode::automatic);
   log->set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
   spdlog::set_default_logger(log);
   return RunCommand(&app_, argc, argv, [&] {

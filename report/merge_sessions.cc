@@ -18,8 +18,8 @@
 #include "messaging/event_log_reader.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
-#include "report/reproduce.h"
-#include "report/shell_quoted.h"
+#include "results/reproduce.h"
+#include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {

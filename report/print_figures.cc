@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "common/error.h"
-#include "report/shell_quoted.h"
 #include "report/web_files.h"
 #include "report/write_file.h"
+#include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {

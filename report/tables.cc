@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "planning/path_measures.h"
-#include "report/reproduce.h"
 #include "results/quality.h"
+#include "results/reproduce.h"
 
 namespace planbench {
 namespace {

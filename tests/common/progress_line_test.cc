@@ -1,7 +1,13 @@
 #include "common/progress_line.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 namespace planbench {
 namespace {
@@ -31,6 +37,35 @@ TEST(ProgressLineTest, EstimatesWhatIsLeftByWhatItHasSeen) {
   EXPECT_THAT(Shown(8, 3, 4), HasSubstr("left)"));
   EXPECT_THAT(Shown(8, 4, 4), Not(HasSubstr("left)")));  // nothing seen
   EXPECT_THAT(Shown(8, 4, 8), Not(HasSubstr("left)")));  // nothing left
+}
+
+TEST(ProgressLineTest, NeverExceedsTheTerminal) {
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) GTEST_SKIP() << "no terminals";
+  const int terminal = open(ptsname(master), O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  winsize size = {};
+  size.ws_col = 50;
+  ASSERT_EQ(ioctl(terminal, TIOCSWINSZ, &size), 0);
+  const int before = dup(STDERR_FILENO);
+  dup2(terminal, STDERR_FILENO);
+  {
+    ProgressLine line(8);
+    std::string text;
+    for (int i = 0; i < 40; ++i) text += "\xC3\xB6";
+    line.Show(4, text);
+  }
+  dup2(before, STDERR_FILENO);
+  std::string shown(1000, '\0');
+  shown.resize(static_cast<std::size_t>(read(master, shown.data(), shown.size())));
+  for (const int file : {before, terminal, master}) close(file);
+  const std::string begin = "\r\033[K";
+  ASSERT_EQ(shown.rfind(begin, 0), 0u) << shown;
+  const std::string line = shown.substr(begin.size(), shown.find('\r', 1) - begin.size());
+  const auto num_characters =
+      std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  EXPECT_EQ(num_characters, 49);
+  EXPECT_THAT(line, testing::EndsWith("\xC3\xB6"));  // no half character
 }
 
 }  // namespace

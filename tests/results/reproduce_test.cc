@@ -1,4 +1,4 @@
-#include "report/reproduce.h"
+#include "results/reproduce.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +32,11 @@ TEST(ReproducingCommandTest, RepeatsFlagsThatWereGivenSeveralTimes) {
 
 TEST(ReproducingCommandTest, OfAMergedSessionIsThatOfItsParts) {
   EXPECT_EQ(Command({{kMergedCommands, "a && b"}, {"seed", "1"}}), "a && b");
+}
+
+TEST(ReproducingCommandTest, ResumesWithTheFlagsOfTheBeginning) {
+  EXPECT_EQ(ResumingCommand({{"launch", "true"}, {"out", "a b"}, {"seed", "7"}}, "/a b"),
+            "benchmark_driver --launch --seed 7 --resume '/a b'");
 }
 
 TEST(ReproducingCommandTest, QuotesForTheShell) {

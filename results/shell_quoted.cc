@@ -1,4 +1,4 @@
-#include "report/shell_quoted.h"
+#include "results/shell_quoted.h"
 
 #include <string_view>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -12,5 +13,9 @@ inline constexpr char kMergedCommands[] = "merged";
 /// shell; "" if they are not known. Flags that were left out, and those that name this session's
 /// own folder or bus, are not in it. Of a merged session those of its parts, joined by &&.
 std::string ReproducingCommand(const std::map<std::string, std::string>& flags);
+
+/// The command that goes on with a session that was interrupted.
+std::string ResumingCommand(const std::map<std::string, std::string>& flags,
+                            const std::filesystem::path& session_folder);
 
 }  // namespace planbench

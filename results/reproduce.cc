@@ -1,4 +1,4 @@
-#include "report/reproduce.h"
+#include "results/reproduce.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/shell_quoted.h"
+#include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {
@@ -59,6 +59,11 @@ std::string ReproducingCommand(const std::map<std::string, std::string>& flags) 
     }
   }
   return command;
+}
+
+std::string ResumingCommand(const std::map<std::string, std::string>& flags,
+                            const std::filesystem::path& session_folder) {
+  return ReproducingCommand(flags) + " --resume " + ShellQuoted(session_folder.string());
 }
 
 }  // namespace planbench
