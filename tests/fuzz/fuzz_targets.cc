@@ -18,7 +18,7 @@
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/motion_primitives.h"
 #include "planner_rrtc/rrtc_settings.h"
-#include "results/reference.h"
+#include "results/imported_results.h"
 #include "results/stored_session.h"
 #include "robot_model/robot_folder.h"
 #include "robot_model/srdf.h"
@@ -283,12 +283,18 @@ FuzzTarget LineUpTarget() {
       500};
 }
 
-FuzzTarget ReferenceTarget() {
-  return {"reference",
-          [](Input input) { ReadReference(Written("reference.csv", input), "paper", 10); },
-          {BytesOf("problem_set,problem_index,solved,time_s,direction,trial,time_limit_s\n"
-                   "shelf,1,1,0.5,forward,1,10\nshelf,2,0,10,backward,2,10\n")},
-          2000};
+FuzzTarget ImportTarget() {
+  return {
+      "import",
+      [](Input input) { ImportResults(Written("import", input), "paper", 10); },
+      {BytesOf("problem_set,problem_index,solved,time_s,direction,trial,time_limit_s\n"
+               "shelf,1,1,0.5,forward,1,10\nshelf,2,0,10,backward,2,10\n"),
+       BytesOf("OMPL version 1.6.0\nExperiment lab/3\nRunning on host1\nStarting at 2024-05-01 "
+               "10:00:00\n<<<|\nsetup\n|>>>\n7 is the random seed\n2.5 seconds per run\n0 MB per "
+               "run\n1 runs per planner\n1.5 seconds spent to collect the data\n0 enum "
+               "types\n1 planners\ngeometric_RRT\n0 common properties\n2 properties for each "
+               "run\nsolved BOOLEAN\ntime REAL\n1 runs\n1; 0.5; \n.\n")},
+      2000};
 }
 
 FuzzTarget OctomapTarget() {
@@ -336,7 +342,7 @@ const std::vector<FuzzTarget>& FuzzTargets() {
         MovesTarget(),
         SettingsTarget(),
         LineUpTarget(),
-        ReferenceTarget(),
+        ImportTarget(),
         OctomapTarget()};
     for (FuzzTarget& target : all) AddCorpus(&target);
     return all;
