@@ -60,9 +60,11 @@ TEST(Diagnosis, NamesWhoElseIsOnThePort) {
   one.host = "here";
   one.pid = 11;
   one.start_utime = 1;
+  one.instance = std::string(16, 'a');
   one.version = Version();
   NodeStatusMessage twin = one;
   twin.pid = 12;
+  twin.instance = std::string(16, 'b');
   twin.version = "0.0.1";
   const Subscription asked =
       bus.Subscribe<DiscoverMessage>(channel::kDiscover, [&](const DiscoverMessage&) {

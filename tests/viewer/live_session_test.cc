@@ -65,6 +65,7 @@ TEST_F(LiveSessionTest, CountsEveryRunOnce) {
 TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   NodeStatusMessage node;
   node.name = "ara";
+  node.instance = std::string(16, 'a');
   node.busy = true;
   node.request_id = "session/shelf/1@7";
   Hear(channel::kNodeStatus, node);
