@@ -109,7 +109,7 @@ void LoggerNode::Write() {
 void LoggerNode::Persist(const std::function<void()>& work) {
   constexpr int kRetryAfter = 20;  // times kPause
   constexpr std::chrono::milliseconds kPause{50};
-  bool failed = false;
+  std::exception_ptr failed;
   while (true) {
     try {
       if (failed) recorder_.Recover();
@@ -122,10 +122,12 @@ void LoggerNode::Persist(const std::function<void()>& work) {
     } catch (const std::exception& error) {
       if (queue_.closed()) throw;
       if (!failed) spdlog::critical("cannot record: {}; trying again", error.what());
-      failed = true;
+      failed = std::current_exception();
       SetTrouble(error.what());
     }
     for (int i = 0; i < kRetryAfter && !queue_.closed(); ++i) std::this_thread::sleep_for(kPause);
+    // What recovering gives up nobody would send again.
+    if (queue_.closed()) std::rethrow_exception(failed);
   }
 }
 
