@@ -7,19 +7,17 @@
 #include <sstream>
 
 #include "common/text.h"
+#include "common/utf8.h"
 #include "messaging/any_message.h"
 #include "messaging/codec.h"
 
 namespace planbench {
 namespace {
 
-// Cut where a character begins.
-std::string Cut(std::string line, std::size_t length) {
-  if (length == 0 || line.size() <= length) return line;
-  std::size_t end = length;
-  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) --end;
-  line.resize(end);
-  return line + "...";
+std::string Cut(const std::string& line, std::size_t length) {
+  if (length == 0) return line;
+  std::string cut = FirstCharacters(line, length);
+  return cut.size() < line.size() ? cut + "..." : cut;
 }
 
 std::string TimeOfDay(std::int64_t utime) {
@@ -54,7 +52,7 @@ std::string EchoText(const ReceivedMessage& message, const EchoFormat& format) {
     if (format.max_lines > 0 && num_lines >= format.max_lines) {
       ++num_left;
     } else {
-      text += "  " + Cut(std::move(line), format.max_line_length) + "\n";
+      text += "  " + Cut(line, format.max_line_length) + "\n";
     }
   }
   if (num_left > 0) text += fmt::format("  ... {} more lines\n", num_left);

@@ -11,7 +11,7 @@ namespace planbench {
 struct EchoFormat {
   bool fields = true;                 ///< Else the first line alone.
   std::size_t max_lines = 40;         ///< Of fields; what is left out is counted. 0: all.
-  std::size_t max_line_length = 160;  ///< In bytes; longer lines end in "...". 0: whole.
+  std::size_t max_line_length = 160;  ///< Characters; longer lines end in "...". 0: whole.
 };
 
 /// A message as lines: time of receipt (UTC), channel, type and size, then its fields, indented. A

@@ -45,9 +45,10 @@ int Main(int argc, char** argv) {
                            "regular expression for the channels; default: all");
   program.app().add_flag("--brief", brief, "one line a message");
   program.app()
-      .add_flag("--full", full,
-                fmt::format("all fields, however long; default: {} lines a message, of {} bytes",
-                            format.max_lines, format.max_line_length))
+      .add_flag(
+          "--full", full,
+          fmt::format("all fields, however long; default: {} lines a message, of {} characters",
+                      format.max_lines, format.max_line_length))
       ->excludes("--brief");
   program.app()
       .add_flag("--rates", rates, "no messages: once a second how many come on each channel")

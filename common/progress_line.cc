@@ -6,6 +6,8 @@
 
 #include <cstdio>
 
+#include "common/utf8.h"
+
 namespace planbench {
 namespace {
 
@@ -23,16 +25,6 @@ std::string Duration(double seconds) {
 std::size_t TerminalWidth() {
   winsize size = {};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
-/// At most so many characters of UTF-8 text.
-std::string FirstCharacters(const std::string& text, std::size_t count) {
-  std::size_t end = 0;
-  for (std::size_t seen = 0; end < text.size(); ++end) {
-    const bool begins = (static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U;
-    if (begins && seen++ == count) break;
-  }
-  return text.substr(0, end);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/write_file.h"
 #include "report/web_files.h"
-#include "report/write_file.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {

@@ -10,11 +10,11 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "common/write_file.h"
 #include "report/figures.h"
 #include "report/merge_sessions.h"
 #include "report/page.h"
 #include "report/print_figures.h"
-#include "report/write_file.h"
 #include "results/imported_results.h"
 #include "results/ompl_log.h"
 

@@ -6,10 +6,10 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "common/write_file.h"
 #include "messaging/record_log.h"
 #include "report/page.h"
 #include "report/recorded_views.h"
-#include "report/write_file.h"
 #include "results/stored_session.h"
 #include "scene/moveit_yaml.h"
 

@@ -25,8 +25,7 @@ namespace fs = std::filesystem;
 // The file a field of robot.yaml names, relative to the folder.
 fs::path NamedFile(const fs::path& folder, const YamlNode& field) {
   fs::path path = folder / field.String();
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) field.Fail("no file " + path.string());
+  if (!IsFile(path)) field.Fail("no file " + path.string());
   return path;
 }
 
@@ -187,8 +186,7 @@ fs::path OnlyUrdf(const fs::path& folder) {
 }
 
 void NeedFolder(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
+  if (!IsFolder(folder)) throw InputError(folder.string() + ": no such folder");
 }
 
 bool MovesWithAGroup(const Robot& robot, int link) {

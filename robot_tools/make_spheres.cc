@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <fstream>
 #include <memory>
 #include <utility>
 
 #include "common/error.h"
 #include "common/progress_line.h"
 #include "common/read_text.h"
+#include "common/stopwatch.h"
+#include "common/write_file.h"
 #include "robot_tools/link_bodies.h"
 #include "robot_tools/sphere_writer.h"
 #include "sphere_fitting/inner_spheres.h"
@@ -52,12 +52,6 @@ std::vector<std::string> Table(const std::vector<Row>& rows, bool with_inner) {
   return lines;
 }
 
-void WriteFile(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw InputError("cannot write " + path.string());
-}
-
 }  // namespace
 
 void MakeSpheresFlags::AddTo(CLI::App* app) {
@@ -83,7 +77,6 @@ void MakeSpheresFlags::AddTo(CLI::App* app) {
 }
 
 std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
-  using Clock = std::chrono::steady_clock;
   const std::string urdf_text = ReadText(flags.urdf);
   std::vector<std::string> report;
   const RobotModel model = RobotModel::FromUrdf(urdf_text, flags.urdf.string(), &report);
@@ -119,9 +112,9 @@ std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
     row.outer = MeasureTightness(body, outer.back());
     row.seconds = fitted[i].seconds;
     if (with_inner) {
-      const auto begin = Clock::now();
+      const Stopwatch clock;
       inner.push_back(FitInnerSpheres(body, row.outer.balls));
-      row.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+      row.seconds += clock.seconds();
       row.inner = MeasureTightness(body, inner.back());
     }
     all.outer.Add(row.outer);

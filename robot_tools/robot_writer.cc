@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 
 #include "common/enum_names.h"
 #include "common/error.h"
+#include "common/write_file.h"
 #include "common/yaml_text.h"
 #include "robot_tools/sphere_writer.h"
 
@@ -73,12 +73,6 @@ std::string PairsYaml(const RobotDraft& draft) {
     }
   }
   return yaml;
-}
-
-void WriteFile(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw InputError("cannot write " + path.string());
 }
 
 }  // namespace

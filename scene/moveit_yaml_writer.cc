@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/write_file.h"
 #include "common/yaml_text.h"
 #include "scene/moveit_yaml.h"
 #include "scene/pose.h"
@@ -179,13 +179,6 @@ std::string AllowedCollisionsYaml(const AllowedCollisionMatrix& full_matrix) {
     yaml += fmt::format("  default_entry_values: [{}]\n", fmt::join(values, ", "));
   }
   return yaml;
-}
-
-void WriteFile(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <memory>
 
 #include "common/error.h"
+#include "common/stopwatch.h"
 #include "sphere_fitting/center_fit.h"
 #include "sphere_fitting/cover_proof.h"
 
@@ -25,16 +25,13 @@ constexpr double kBareResolution = 0.5;  // Of how far bare points are apart.
 class Timer {
  public:
   explicit Timer(OuterSet* set) : set_(set) {}
-  ~Timer() {
-    set_->seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  ~Timer() { set_->seconds += clock_.seconds(); }
   Timer(const Timer&) = delete;
   Timer& operator=(const Timer&) = delete;
 
  private:
   OuterSet* set_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Stopwatch clock_;
 };
 
 int Count(const std::vector<LinkBody>& links, const Fits& fits) {

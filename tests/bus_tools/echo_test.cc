@@ -33,8 +33,8 @@ TEST(EchoText, IsOneLineWithoutFields) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
 }
 
-TEST(EchoText, CutsLongLinesWhereACharacterBeginsAndCountsLinesLeftOut) {
-  const std::string text = EchoText(Discover("aääää"), {.max_line_length = 13});
+TEST(EchoText, CutsLongLinesByCharactersAndCountsLinesLeftOut) {
+  const std::string text = EchoText(Discover("aääää"), {.max_line_length = 11});
   EXPECT_THAT(text, HasSubstr("  sender: \"aä...\n"));
   ReceivedMessage many;
   many.channel = "PROBLEM_SETS";

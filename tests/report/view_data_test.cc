@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/write_file.h"
 #include "report/page.h"
-#include "report/write_file.h"
 #include "tests/report/browser.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "report/write_file.h"
+#include "common/write_file.h"
 
 #include <fstream>
 
