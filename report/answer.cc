@@ -141,6 +141,22 @@ std::string Rejections(const ComparedSessions& compared) {
                        : fmt::format("the referee rejected {} of {} paths", rejected, claimed);
 }
 
+/// What the logger saw of the bus, by which all others heard the same session.
+std::string OnTheBus(const BusRecord& bus) {
+  std::vector<std::string> odd;
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count > 0) odd.push_back(fmt::format("{} {}", count, what));
+  };
+  add(bus.lost, "messages did not reach the logger");
+  add(bus.dropped, "messages were more than it could keep up with");
+  add(bus.malformed, "packets were none of LCM's");
+  add(bus.contradictions, "messages told otherwise than those believed");
+  if (odd.empty()) return "no message was lost on the bus, as far as the logger saw.";
+  return fmt::format(
+      "on the bus {}; runs are sent until they are recorded, so that none is missing for that.",
+      fmt::join(odd, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
@@ -182,6 +198,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
                                      FormatNumber(session.total_time_s)));
     }
+    if (session.finished && session.bus) cautions.push_back(name + ": " + OnTheBus(*session.bus));
     const auto parallel = session.flags.find("parallel");
     if (parallel != session.flags.end() && parallel->second == "true") {
       cautions.push_back(fmt::format(

@@ -25,7 +25,7 @@ std::string ScriptElement(std::string_view text) {
 
 /// JSON in a script element: the one character that HTML could take for markup is escaped, which
 /// JSON allows in strings, and it stands nowhere else.
-std::string DataElement(const char* id, const Json& data) {
+std::string DataElement(const std::string& id, const Json& data) {
   const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id,
                      ReplaceAll(text, "<", "\\u003c"));
@@ -46,11 +46,11 @@ std::string Page(std::string_view html, const std::string& scripts) {
 }  // namespace
 
 std::string ReportPage(const Json& data, const EmbeddedViews& views) {
-  Json embedded = {{"notes", views.notes}, {"by_attempt", Json::object()}};
+  std::string scripts = DataElement("data", data) + DataElement("view-notes", views.notes);
+  // Each in an element of its own: read when it is looked at.
   for (const auto& [attempt, view] : views.by_attempt) {
-    embedded["by_attempt"][fmt::format("{}", attempt)] = view;
+    scripts += DataElement(fmt::format("view-{}", attempt), view);
   }
-  std::string scripts = DataElement("data", data) + DataElement("views", embedded);
   if (!views.by_attempt.empty()) scripts += ThreeScripts();
   scripts +=
       "<!-- Vega: copyright University of Washington Interactive Data Lab, BSD-3-Clause -->\n";

@@ -298,33 +298,46 @@ Table FailureTable(const ComparedSessions& compared) {
 Table MeshTable(const ComparedSessions& compared) {
   Table table{
       "meshes",
-      "Confirmed paths judged with the robot's meshes",
-      "Raw paths that the referee confirmed with the planners' own collision model, by what "
-      "the exact geometry says of them. Wilson's interval over the attempts. Commonest contact: of "
-      "those that the meshes do not allow, in parentheses how many.",
+      "What was claimed, confirmed, and true of the robot's meshes",
+      "Attempts. Claimed: the planner says that it found a path. Confirmed: the referee agrees, "
+      "with the "
+      "planners' own collision model. Valid: so does the exact geometry of the meshes, of the "
+      "confirmed paths that it judged; share with Wilson's interval over the attempts. "
+      "Commonest contact: of raw paths that the meshes do not allow, in parentheses how many.",
       {{"set", "set"},
        {"contestant", "contestant"},
-       {"judged", "judged", Style::kCount},
+       {"claimed", "claimed", Style::kCount},
+       {"confirmed", "confirmed", Style::kCount},
+       {"judged", "judged by meshes", Style::kCount},
        {"valid", "valid", Style::kCount},
        {"valid_percent", "% [95 %]", Style::kShare, true},
+       {"simplified_judged", "simplified, judged", Style::kCount},
+       {"simplified_valid", "valid", Style::kCount},
        {"commonest_contact", "commonest contact"}},
       {}};
   ForEach(
       compared, [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
-        int judged = 0, valid = 0;
+        int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
         std::map<std::string, int> contacts;
-        for (const StoredRun* run : ConfirmedRuns(contestant, set)) {
+        const std::vector<const StoredRun*> confirmed = ConfirmedRuns(contestant, set);
+        for (const StoredRun* run : confirmed) {
+          simple_judged += run->mesh_valid_simple.has_value();
+          simple_valid += run->mesh_valid_simple.value_or(false);
           if (!run->mesh_valid) continue;
           ++judged;
           valid += *run->mesh_valid;
           if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
         }
         if (judged == 0) return;
+        const auto claimed = std::count_if(
+            contestant.runs.begin(), contestant.runs.end(),
+            [&](const StoredRun* run) { return run->claimed && run->problem_set == set; });
         const Interval interval = WilsonInterval(valid, judged);
         table.rows.push_back(
-            {set, contestant.name, judged, valid,
+            {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
+             judged, valid,
              Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}},
-             Commonest(contacts)});
+             simple_judged, simple_valid, Commonest(contacts)});
       });
   return table;
 }
@@ -446,23 +459,26 @@ Table ConditionTable(const ComparedSessions& compared) {
   Table table{"conditions",
               "Conditions of the measurement",
               "Spread: longest over shortest time among the trials of a problem, its median over "
-              "the problems whose trials were all confirmed. Of a contestant whose path does not "
-              "depend on the seed it is the noise of the machine; of the others the luck of the "
-              "draw is in it too.",
+              "the problems whose trials were all confirmed: the luck of the draw and the noise of "
+              "the machine. Noise: the same of what a checked configuration cost on average, in "
+              "which luck counts little. Both need several trials of a problem, which a "
+              "contestant whose path does not depend on the seed has none of.",
               {{"session", "session"},
                {"contestant", "contestant"},
                {"attempts", "attempts", Style::kCount},
                {"no_answer", "no answer", Style::kCount},
-               {"spread", "spread of trials", Style::kNumber}},
+               {"spread", "spread of trials", Style::kNumber},
+               {"noise", "noise of the machine", Style::kNumber}},
               {}};
   for (const ComparedContestant& contestant : compared.contestants()) {
     const auto silent =
         std::count_if(contestant.runs.begin(), contestant.runs.end(),
                       [](auto* run) { return run->status == PlanStatus::kNoAnswer; });
     const auto spread = TrialSpread(compared.pooled().at(contestant.name));
+    const auto noise = CheckingSpread(contestant);
     table.rows.push_back({compared.session_names()[contestant.session], contestant.name,
                           static_cast<int>(contestant.runs.size()), static_cast<int>(silent),
-                          spread ? Cell(*spread) : Cell()});
+                          spread ? Cell(*spread) : Cell(), noise ? Cell(*noise) : Cell()});
   }
   return table;
 }

@@ -1,6 +1,8 @@
 #include "results/quality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace planbench {
@@ -50,6 +52,22 @@ ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
     if (value) values[run->problem_index].push_back(*value);
   }
   return values;
+}
+
+std::optional<double> CheckingSpread(const ComparedContestant& contestant) {
+  std::map<std::tuple<std::string, int, Direction>, std::vector<double>> costs_s;
+  for (const StoredRun* run : contestant.runs) {
+    const double cost_s = run->phases.collision_s / run->configurations_checked;
+    if (!run->confirmed() || !(cost_s > 0) || !std::isfinite(cost_s)) continue;
+    costs_s[{run->problem_set, run->problem_index, run->direction}].push_back(cost_s);
+  }
+  std::vector<double> spreads;
+  for (const auto& [problem, costs] : costs_s) {
+    const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+    if (costs.size() > 1) spreads.push_back(*most / *least);
+  }
+  if (spreads.empty()) return std::nullopt;
+  return Median(std::move(spreads));
 }
 
 PhaseTimes MeanPhases(const std::vector<const StoredRun*>& runs) {

@@ -33,6 +33,13 @@ ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
                                   const std::string& problem_set, const std::string& measure,
                                   bool raw);
 
+/// How unevenly the machine worked: what a checked configuration cost on average, in the attempt in
+/// which that was most over the one in which it was least, of the confirmed ones at a problem that
+/// looked for the path in one direction; the median over the problems with several. Other trials
+/// check other configurations of the same scene, so that the luck of a search counts little.
+/// Nothing if no problem has several, or if the planner does not count.
+std::optional<double> CheckingSpread(const ComparedContestant& contestant);
+
 /// Means over the runs; zero if there are none.
 PhaseTimes MeanPhases(const std::vector<const StoredRun*>& runs);
 

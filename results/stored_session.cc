@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/read_text.h"
 #include "common/sqlite.h"
 #include "results/database_version.h"
 
@@ -43,9 +44,10 @@ Field Time(const char* column, double PhaseTimes::*phase) {
           }};
 }
 
-Field Seconds(const char* column, double StoredRun::*time) {
-  return {column, [time](StoredRun* run, const SqliteValue& value) {
-            run->*time = Real(value).value_or(0);
+/// 0 where there is none.
+Field Number(const char* column, double StoredRun::*number) {
+  return {column, [number](StoredRun* run, const SqliteValue& value) {
+            run->*number = Real(value).value_or(0);
           }};
 }
 
@@ -87,8 +89,8 @@ std::vector<Field> Fields() {
        }},
       {"message", [](StoredRun* run, const SqliteValue& v) { run->message = Text(v); }},
       {"time", [](StoredRun* run, const SqliteValue& v) { run->time_s = Real(v); }},
-      Seconds("roundtrip_time", &StoredRun::roundtrip_time_s),
-      Seconds("time_limit", &StoredRun::time_limit_s),
+      Number("roundtrip_time", &StoredRun::roundtrip_time_s),
+      Number("time_limit", &StoredRun::time_limit_s),
       Time("setup_time", &PhaseTimes::setup_s),
       Time("collision_time", &PhaseTimes::collision_s),
       Time("guidance_time", &PhaseTimes::guidance_s),
@@ -99,6 +101,11 @@ std::vector<Field> Fields() {
          if (const auto valid = Int(v)) run->mesh_valid = *valid != 0;
        }},
       {"mesh_reason", [](StoredRun* run, const SqliteValue& v) { run->mesh_reason = Text(v); }},
+      {"mesh_valid_simplified",
+       [](StoredRun* run, const SqliteValue& v) {
+         if (const auto valid = Int(v)) run->mesh_valid_simple = *valid != 0;
+       }},
+      Number("configurations_checked", &StoredRun::configurations_checked),
   };
   for (const PathMeasure& measure : PathMeasures()) {
     const std::string name = measure.name;
@@ -106,6 +113,23 @@ std::vector<Field> Fields() {
     fields.push_back(Measure(name + "_simplified", name, &StoredRun::measures_simple));
   }
   return fields;
+}
+
+/// "bus" of the folder's run.json, which the logger writes there where anything was odd.
+std::optional<BusRecord> ReadBusRecord(const std::filesystem::path& run_json) {
+  if (!IsFile(run_json)) return std::nullopt;
+  const auto json = nlohmann::json::parse(ReadText(run_json), nullptr, false);
+  if (!json.is_object()) throw InputError(run_json.filename().string() + ": is no JSON object");
+  BusRecord record;
+  const auto bus = json.find("bus");
+  if (bus == json.end()) return record;
+  record.malformed = bus->value("malformed_packets", std::int64_t{0});
+  record.lost = bus->value("lost_messages", std::int64_t{0});
+  record.dropped = bus->value("dropped_messages", std::int64_t{0});
+  for (const auto& one : bus->value("contradictions", nlohmann::json::array())) {
+    record.contradictions += one.value("count", std::int64_t{0});
+  }
+  return record;
 }
 
 /// A database of which it is known that it is one of ours.
@@ -129,8 +153,13 @@ class Reader {
     ReadDescriptions();
     ReadRuns();
     ReadProgress();
+    const std::optional<BusRecord> bus =
+        ReadBusRecord(std::filesystem::absolute(file_).replace_filename("run.json"));
     StoredSessions stored;
-    for (auto& [run_id, session] : sessions_) stored.sessions.push_back(std::move(session));
+    for (auto& [run_id, session] : sessions_) {
+      session.bus = bus;
+      stored.sessions.push_back(std::move(session));
+    }
     std::stable_sort(stored.sessions.begin(), stored.sessions.end(),
                      [](const auto& a, const auto& b) { return a.date < b.date; });
     stored.num_foreign_runs = static_cast<int>(
@@ -243,7 +272,7 @@ StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
   } catch (const SqliteError& error) {
     throw InputError(error.what());
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(file.string() + ": sessions.details: " + error.what());
+    throw InputError(file.string() + ": " + error.what());
   }
 }
 

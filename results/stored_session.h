@@ -24,16 +24,18 @@ struct StoredRun {
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;
-  std::string message;                 ///< Why it is not solved.
-  std::optional<double> time_s;        ///< Planning time; nothing if no answer came.
-  double roundtrip_time_s = 0;         ///< By the driver's clock.
-  double time_limit_s = 0;             ///< Of the request.
-  PhaseTimes phases;                   ///< Zero if no answer came.
-  MeasuredValues measures;             ///< Of the raw path, finite ones.
-  MeasuredValues measures_simple;      ///< Of the simplified path.
-  std::optional<bool> mesh_valid;      ///< The raw path, judged with the robot's meshes.
-  std::string mesh_reason;             ///< Why they do not allow it.
-  std::vector<PlanProgress> progress;  ///< Improved solutions of an anytime planner, in order.
+  std::string message;                    ///< Why it is not solved.
+  std::optional<double> time_s;           ///< Planning time; nothing if no answer came.
+  double roundtrip_time_s = 0;            ///< By the driver's clock.
+  double time_limit_s = 0;                ///< Of the request.
+  PhaseTimes phases;                      ///< Zero if no answer came.
+  MeasuredValues measures;                ///< Of the raw path, finite ones.
+  MeasuredValues measures_simple;         ///< Of the simplified path.
+  std::optional<bool> mesh_valid;         ///< The raw path, judged with the robot's meshes.
+  std::string mesh_reason;                ///< Why they do not allow it.
+  std::optional<bool> mesh_valid_simple;  ///< The simplified path.
+  double configurations_checked = 0;      ///< By the planner; 0 if it does not tell.
+  std::vector<PlanProgress> progress;     ///< Improved solutions of an anytime planner, in order.
 
   bool confirmed() const { return status == PlanStatus::kSolved; }
 };
@@ -42,6 +44,14 @@ struct StoredRun {
 struct StoredContestant {
   std::string name;
   std::string settings;  ///< "key = value", one a line.
+};
+
+/// What was odd on the bus while a session folder was written, as its logger tells.
+struct BusRecord {
+  std::int64_t malformed = 0;       ///< Packets that are none of LCM's.
+  std::int64_t lost = 0;            ///< Messages that did not reach the logger (whole).
+  std::int64_t dropped = 0;         ///< Messages that it had no room for.
+  std::int64_t contradictions = 0;  ///< Messages that told otherwise than those believed.
 };
 
 /// A session, complete or not.
@@ -55,6 +65,7 @@ struct StoredSession {
   int num_runs = 0;  ///< As planned.
   std::string version, commit, host, cpu, date, seed, robot;
   std::map<std::string, std::string> flags;  ///< Of the driver.
+  std::optional<BusRecord> bus;              ///< Of its folder; nothing if that holds no run.json.
 
   std::vector<StoredContestant> contestants;
   std::vector<StoredRun> runs;

@@ -2,7 +2,8 @@
 // Vega specifications of the figures. They place numbers of the data and compute none.
 const charts = (() => {
   // ---- Parts ------------------------------------------------------------------------------------
-  const shortNumber = value => value == null ? "-" : Number(value.toPrecision(3)).toLocaleString("en");
+  const english = new Intl.NumberFormat("en");  // once: it takes as long to make as all points to draw
+  const shortNumber = value => value == null ? "-" : english.format(Number(value.toPrecision(3)));
   const percent = share => (100 * share).toFixed(1) + " %";
 
   // From a power of ten to a little above the largest of positive values, a decade at least.
@@ -15,20 +16,22 @@ const charts = (() => {
     const power = 10 ** Math.floor(Math.log10(low));
     return [power, Math.max(1.15 * high, 10 * power)];
   }
-  function powersOfTen([low, high]) {
+  // Powers of ten, with their multiples by 2 and 5 where there are few.
+  function logTicks([low, high]) {
     const powers = [];
     for (let p = Math.round(Math.log10(low)); 10 ** p <= high; ++p) powers.push(10 ** p);
+    if (powers.length < 3) return powers.flatMap(power => [power, 2 * power, 5 * power]).filter(tick => tick <= high);
     const every = Math.ceil(powers.length / 7);
     return powers.filter((power, i) => i % every === 0);
   }
   const logAxis = (scale, orient, domain, title) =>
-    ({scale, orient, title, values: powersOfTen(domain), grid: true, format: "~r", domain: false, zindex: 0,
+    ({scale, orient, title, values: logTicks(domain), grid: true, format: "~r", domain: false, zindex: 0,
       encode: {labels: {update: {text: {signal: "format(datum.value, datum.value < 1 ? '~g' : ',')"}}}}});
 
   // One row a contestant.
-  const rowHeight = count => (count > 12 ? 24 : 34);
+  const rowsHeight = count => (count > 12 ? 24 : 34) * count;
   const rows = names => ({
-    height: rowHeight(names.length) * names.length,
+    height: rowsHeight(names.length),
     scale: {name: "y", type: "band", domain: names.map((name, i) => i), range: "height", padding: 0.2},
     axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8,
            encode: {labels: {update: {text: {signal: "names[datum.value]"}}}}},
@@ -71,10 +74,11 @@ const charts = (() => {
     const runs = [], medians = [], failed = [];
     values.forEach((value, y) => {
       let numFailed = 0;
+      const colour = theme.colour(places[y]);
       value.time.forEach((time, i) => {
         if (time == null) ++numFailed;
         runs.push({
-          y, time, colour: theme.colour(places[y]), jitter: ((i * 0.6180339887) % 1) - 0.5,
+          y, time, colour, jitter: ((i * 0.6180339887) % 1) - 0.5,
           sideways: ((i * 0.7548776662) % 1) - 0.5,
           tip: `${names[y]}\nproblem ${value.problem[i]}, trial ${value.trial[i]}\n` +
                (time == null ? "not solved" : shortNumber(time) + " ms"),
@@ -133,6 +137,7 @@ const charts = (() => {
     };
   }
 
+  const CURVES_HEIGHT = 260;
   // Curves: [{place, name, x: [], share: [], lower: [], upper: []}] on a log axis that ends at `last`. Shares, which are 0 until
   // the first step, unless `range` tells that of the values; null: none.
   function curves(list, {first, last, title, share, range}) {
@@ -151,7 +156,7 @@ const charts = (() => {
     const places = list.map(curve => curve.place);
     const domain = [first, last], wide = range && range[1] > 20;
     return {
-      height: 260,
+      height: CURVES_HEIGHT,
       signals: [{name: "focus", value: null}],
       data: [{name: "steps", values}],
       scales: [
@@ -181,11 +186,12 @@ const charts = (() => {
     };
   }
 
+  const SCATTER_SIDE = 380;
   // points: [{x, y, label, open}], times in ms, null where not solved.
   function scatter(points, first, second, limit) {
     const solved = points.flatMap(point => [point.x, point.y]).filter(time => time != null);
     const domain = logDomain([...solved, limit]);
-    const side = 380, column = 34;
+    const side = SCATTER_SIDE, column = 34;
     const place = (field, range) => `datum.${field} === null ? ${range} : scale('${field}', datum.${field})`;
     const values = points.map(point => ({
       ...point, both: point.x != null && point.y != null,
@@ -264,7 +270,7 @@ const charts = (() => {
       data: [{name: "parts", values: data},
              {name: "totals", values: values.map((value, y) => ({y, text: shortNumber(value.total) + " ms"}))}],
       scales: [r.scale, {name: "x", type: "linear", domain: [0, 1], range: [0, {signal: "width - 74"}]},
-               {name: "colour", type: "ordinal", domain: [0, 1, 2, 3], range: [0, 1, 2, 3].map(theme.colour)}],
+               {name: "colour", type: "ordinal", domain: [0, 1, 2, 3], range: [0, 1, 2, 3].map(theme.phase)}],
       axes: [r.axis, {scale: "x", orient: "bottom", format: "%", tickCount: 5, domain: false,
                       title: "share of the time to the end of the search"}],
       marks: [
@@ -279,5 +285,9 @@ const charts = (() => {
     };
   }
 
-  return {logDomain, success, times, curves, scatter, quality, phases, PHASES};
+  return {
+    logDomain, success, times, curves, scatter, quality, phases, PHASES,
+    // Heights of figures without their axes, px.
+    rowsHeight, CURVES_HEIGHT, SCATTER_SIDE,
+  };
 })();

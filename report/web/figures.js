@@ -1,16 +1,21 @@
 "use strict";
-// The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how. `names` and
-// `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
+const rowsHeight = values => charts.rowsHeight(values.length);
+const curvesHeight = () => charts.CURVES_HEIGHT;
+// The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how; how high they
+// are, without axes, px. `names` and `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
 const figureKinds = {
   success: {
+    title: "Success", height: rowsHeight,
     list: set => set.success,
     make: (set, names, places, values) => charts.success(names, places, values),
   },
   times: {
+    title: "Planning time of every run", height: rowsHeight,
     list: set => set.times,
     make: (set, names, places, values, open) => charts.times(names, places, values, open),
   },
   survival: {
+    title: "Share solved by a time", height: curvesHeight,
     list: set => set.survival,
     make: (set, names, places, values) => {
       const last = Math.max(...values.map(value => value.limit), ...values.flatMap(value => value.time.slice(-1)));
@@ -20,6 +25,7 @@ const figureKinds = {
     },
   },
   profile: {
+    title: "Performance profile", height: curvesHeight,
     list: set => set.profile,
     make: (set, names, places, values) => {
       const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
@@ -28,14 +34,17 @@ const figureKinds = {
     },
   },
   cost: {
+    title: "Cost over time", height: curvesHeight,
     list: set => set.anytime_cost,
     make: (set, names, places, values) => improvement(names, places, values, "cost over the best found"),
   },
   bound: {
+    title: "Proven bound over time", height: curvesHeight,
     list: set => set.anytime_bound,
     make: (set, names, places, values) => improvement(names, places, values, "proven bound"),
   },
   phases: {
+    title: "Where the time goes", height: rowsHeight,
     list: set => set.phases,
     make: (set, names, places, values) => charts.phases(names, values),
   },

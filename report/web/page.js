@@ -47,31 +47,35 @@ const report = (() => {
                      cell("th", column.heading, column)))), body));
   }
 
-  // A table with the note on how it was computed; `open`: seen at once.
+  // A table with the note on how it was computed; `open`: seen at once. Others can be most of a page, and are made when they
+  // are opened.
   function tableBlock(name, open, cellOf) {
     const table = tables[name];
     if (!table) return element("p", {class: "note"}, "Nothing to show.");
-    const parts = [tableElement(table, cellOf), element("p", {class: "note"}, table.note)];
-    if (open) return element("div", {}, ...parts);
-    return element("details", {}, element("summary", {}, `Table: ${table.title}`), ...parts);
+    const parts = () => [tableElement(table, cellOf), element("p", {class: "note"}, table.note)];
+    if (open) return element("div", {}, ...parts());
+    const block = element("details", {}, element("summary", {}, `Table: ${table.title}`));
+    block.addEventListener("toggle", () => block.append(...parts()), {once: true});
+    return block;
   }
 
-  function figure(title, make) {
+  // `name`: what it shows, for who cannot see it.
+  function figure(title, name, height, make) {
     const chart = element("div");
     const made = element("figure", {}, element("h3", {}, title), chart);
-    pictures.add(chart, title, make);
+    pictures.add(chart, name, height, make);
     return made;
   }
 
   // A figure of a kind for each set of which there is anything.
   function figuresOfSets(kind) {
-    const {list, make} = figureKinds[kind];
+    const {list, make, title, height} = figureKinds[kind];
     const grid = element("div", {class: "grid"});
     for (const set of data.sets) {
       const values = list(set);
       if (!values || values.length === 0) continue;
       const places = values.map(value => value.contestant);
-      grid.append(figure(set.name, () => make(set, places.map(place => names[place]), places, values,
+      grid.append(figure(set.name, `${title}, ${set.name}`, height(values), () => make(set, places.map(place => names[place]), places, values,
                                               problem => showProblem(sets.indexOf(set), problem))));
     }
     return grid;
@@ -87,7 +91,7 @@ const report = (() => {
     return element("label", {}, label, made);
   }
 
-  function swatch(place) {
+  function swatch(colour, dash = () => []) {
     const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     line.setAttribute("class", "swatch");
     line.setAttribute("viewBox", "0 0 26 12");
@@ -96,14 +100,16 @@ const report = (() => {
     stroke.setAttribute("d", "M0,6H26");
     stroke.setAttribute("stroke-width", "4");
     const paint = () => {
-      stroke.setAttribute("stroke", theme.colour(place));
-      stroke.setAttribute("stroke-dasharray", theme.dash(place).join(","));
+      stroke.setAttribute("stroke", colour());
+      stroke.setAttribute("stroke-dasharray", dash().join(","));
     };
     paint();
     theme.onChange(paint);
     line.append(stroke);
     return line;
   }
+
+  const contestantSwatch = place => swatch(() => theme.colour(place), () => theme.dash(place));
 
   // Buttons that bring one contestant's curves out in the charts of an element.
   function legend(container) {
@@ -115,7 +121,7 @@ const report = (() => {
       }
     };
     names.forEach((name, place) => {
-      const button = element("button", {type: "button", "aria-pressed": "false"}, swatch(place), name);
+      const button = element("button", {type: "button", "aria-pressed": "false"}, contestantSwatch(place), name);
       button.addEventListener("click", () => {
         pressed = pressed === place ? null : place;
         list.querySelectorAll("button").forEach((other, i) => other.setAttribute("aria-pressed", String(i === pressed)));
@@ -142,7 +148,7 @@ const report = (() => {
     if (tables.changes) made.append(element("h3", {}, tables.changes.title), tableBlock("changes", true));
     made.append(note("Contestants, in the order of their penalised mean time over all runs; each opens to its settings."));
     data.contestants.forEach((contestant, place) => {
-      made.append(element("details", {}, element("summary", {}, swatch(place), " " + contestant.name),
+      made.append(element("details", {}, element("summary", {}, contestantSwatch(place), " " + contestant.name),
                           element("pre", {tabindex: "0"}, contestant.settings)));
     });
   }
@@ -193,7 +199,7 @@ const report = (() => {
     let set = data.sets.length - 1, first = 0, second = 1;
     const chart = element("div");
     const figure = element("div");
-    const shown = pictures.add(chart, "Times of two contestants, problem by problem", () => charts.scatter(
+    const shown = pictures.add(chart, "Times of two contestants, problem by problem", charts.SCATTER_SIDE, () => charts.scatter(
       pairPoints(data.sets[set], first, second), names[first], names[second],
       Math.max(...data.sets[set].survival.map(value => value.limit))));
     function update() {
@@ -236,7 +242,8 @@ const report = (() => {
       if (set.quality.every(one => one.raw.length + one.simplified.length === 0)) continue;
       const chart = element("div");
       grid.append(element("figure", {}, element("h3", {}, set.name), chart));
-      shown.push(pictures.add(chart, "Path quality, " + set.name, () => qualityFigure(data, set, kind)));
+      shown.push(pictures.add(chart, "Path quality, " + set.name, charts.rowsHeight(names.length),
+                              () => qualityFigure(data, set, kind)));
     }
     function update() {
       meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +
@@ -252,7 +259,7 @@ const report = (() => {
 
   function phases() {
     const key = element("ul", {class: "legend"});
-    charts.PHASES.forEach((phase, i) => key.append(element("li", {}, swatch(i), " " + phase)));
+    charts.PHASES.forEach((phase, i) => key.append(element("li", {}, swatch(() => theme.phase(i)), " " + phase)));
     section("phases", "Where the time goes",
       note("Means over confirmed attempts, as shares of the time to the end of the search, which stands on the right."), key,
       figuresOfSets("phases"),
@@ -286,7 +293,7 @@ const report = (() => {
         showProblem(set, problem);
         const shown = attempts.run.findIndex((run, k) => attempts.set[k] === set && attempts.problem[k] === problem &&
           names[attempts.contestant[k]] === contestant && attempts.statuses[attempts.status[k]] === status &&
-          k in views.by_attempt);
+          viewData(k));
         if (shown >= 0) showView(shown);
       });
       return i === 0 ? [link] : [", ", link];
@@ -296,26 +303,31 @@ const report = (() => {
   function rest() {
     section("failures", "What failed, and why", tables.failures ? tableBlock("failures", true, failureCell) :
                                                                   note("Every attempt ended with a confirmed path."));
-    if (tables.meshes) section("meshes", "The robot's true geometry", tableBlock("meshes", true));
+    section("meshes", "Honesty", tables.meshes ? tableBlock("meshes", true) :
+      note("Planners and referee judge by the collision model of each contestant. No robot with meshes judged the paths besides " +
+           "(--referee-robot), so that what they are worth on the true geometry is not known. Success tells what was claimed and " +
+           "what was confirmed."));
     section("conditions", "Conditions of the measurement", ...data.cautions.map(caution => element("p", {}, caution)),
             tableBlock("conditions", true));
   }
 
   // ---- Single problems --------------------------------------------------------------------------
   const problem = {set: 0, index: 0, element: element("div")};
-  const views = JSON.parse(document.getElementById("views").textContent);
   const shown = {element: element("div"), viewer: null};
+
+  // The element that holds the 3D view of an attempt; null if the page has none of it.
+  const viewData = attempt => document.getElementById("view-" + attempt);
 
   function showView(attempt) {
     if (shown.viewer) shown.viewer.dispose();
-    const view = views.by_attempt[attempt];
+    const view = JSON.parse(viewData(attempt).textContent);
     const at = element("div");
     shown.element.replaceChildren(element("h3", {}, view.title), element("p", {}, view.facts.join(" ")), at);
     shown.viewer = makeViewer(at, view);
   }
 
   function viewButton(attempt) {
-    if (!(attempt in views.by_attempt)) return "";
+    if (!viewData(attempt)) return "";
     const button = element("button", {type: "button"}, "Show in 3D");
     button.addEventListener("click", () => showView(attempt));
     return button;
@@ -369,7 +381,7 @@ const report = (() => {
 
   function problems() {
     section("problem", "One problem", note("Every attempt, each direction and trial for itself; run is the id in the table " +
-                                           "runs of results.sqlite."), problem.element, shown.element, ...views.notes.map(note));
+                                           "runs of results.sqlite."), problem.element, shown.element, ...JSON.parse(document.getElementById("view-notes").textContent).map(note));
     updateProblem();
   }
 

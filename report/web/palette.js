@@ -2,11 +2,13 @@
 // Colours of figures; property(name) gives a variable of page.css.
 function makePalette(property) {
   const DASHES = [[], [7, 3], [2, 2], [9, 3, 2, 3]];
-  const series = () => property("--series").split(",").map(colour => colour.trim());
+  const list = name => property(name).split(",").map(colour => colour.trim());
+  const series = () => list("--series");
   return {
     property,
     // Of the contestant at a place: colours repeat with another dash.
     colour: index => { const all = series(); return all[index % all.length]; },
+    phase: index => list("--phases")[index],
     dash: index => DASHES[Math.floor(index / series().length) % DASHES.length],
     vegaConfig: () => {
       const text = property("--text"), muted = property("--muted"), line = property("--line");

@@ -13,7 +13,7 @@ const pictures = (() => {
     const width = chart.element.clientWidth;
     if (width === 0) return;
     chart.width = width;
-    const spec = chart.make();
+    const spec = {description: chart.label, ...chart.make()};
     const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
     chart.view = vega.view(spec, width, theme.vegaConfig(), {
       container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg",
@@ -33,11 +33,13 @@ const pictures = (() => {
     tooltip.style.top = Math.min(event.clientY + 14, innerHeight - tooltip.offsetHeight - 8) + "px";
   }
 
-  function add(element, label, make) {
+  // `height` is kept free until it is made, so that what is below it is out of sight: of its parts without axes, px.
+  function add(element, label, height, make) {
     element.classList.add("chart");
     element.setAttribute("role", "img");
     element.setAttribute("aria-label", label);
-    const chart = {element, make, view: null};
+    element.style.minHeight = height + "px";
+    const chart = {element, label, make, view: null};
     element.planbenchChart = chart;
     all.push(chart);
     sight.observe(element);

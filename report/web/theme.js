@@ -6,9 +6,17 @@ const theme = (() => {
   let chosen = null;
 
   const isDark = () => (chosen === null ? system.matches : chosen === "dark");
-  const property = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  // Those in force, by name: to ask the document for one makes it work out all its styles anew.
+  const properties = new Map();
+  function property(name) {
+    if (!properties.has(name)) {
+      properties.set(name, getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+    }
+    return properties.get(name);
+  }
 
   function apply() {
+    properties.clear();
     document.documentElement.dataset.theme = isDark() ? "dark" : "light";
     document.getElementById("theme").textContent = isDark() ? "Light colours" : "Dark colours";
     listeners.forEach(listener => listener());

@@ -34,11 +34,14 @@ constexpr char kProbe[] = R"script(
     return {
       text: Math.min(...["--text", "--muted", "--accent", "--failure"].flatMap(name =>
         [contrast(theme.property(name), background), contrast(theme.property(name), panel)])),
-      series: Math.min(...theme.property("--series").split(",").map(c => contrast(c.trim(), background))),
+      series: Math.min(...["--series", "--phases"].flatMap(name => theme.property(name).split(","))
+        .map(c => contrast(c.trim(), background))),
     };
   };
+  document.querySelectorAll("details").forEach(details => details.dispatchEvent(new Event("toggle")));
   pictures.all.forEach(chart => pictures.render(chart));
   found.charts = pictures.all.length;
+  found.names = new Set(pictures.all.map(chart => chart.element.getAttribute("aria-label"))).size;
   found.empty = pictures.all.filter(chart => !chart.element.querySelector("svg, canvas")).length;
   found.marks = count();
   found.contrast = [contrasts()];
@@ -85,6 +88,7 @@ class PageTest : public testing::Test {
     EXPECT_EQ(found["evil"], 0) << "a name was taken for markup";
     EXPECT_EQ(found["unreachable"], 0) << "not reachable with the keyboard";
     EXPECT_EQ(found["empty"], 0);
+    EXPECT_EQ(found["names"], found["charts"]) << "figures without names of their own";
     for (const auto& contrast : found["contrast"]) {
       EXPECT_GE(contrast["text"], 4.5);
       EXPECT_GE(contrast["series"], 3);

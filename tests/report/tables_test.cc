@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/error.h"
 #include "report/answer.h"
 #include "report/figures.h"
 #include "tests/report/example_session.h"
@@ -109,10 +110,43 @@ TEST_F(ReportTest, Failures) {
 
 TEST_F(ReportTest, Conditions) {
   const Table table = ConditionTable(compared_);
-  EXPECT_EQ(Texts(table, 0), (Row{"example", kTagName, "30", "0", "1.00"}));
-  EXPECT_EQ(Texts(table, 1), (Row{"example", kScriptName, "18", "0", "-"}));
+  EXPECT_EQ(Texts(table, 0), (Row{"example", kTagName, "30", "0", "1.00", "-"}));
+  EXPECT_EQ(Texts(table, 1), (Row{"example", kScriptName, "18", "0", "-", "-"}));
   EXPECT_EQ(Cautions(compared_),
             std::vector<std::string>{"example: all 48 runs are recorded; it took 0 s."});
+}
+
+TEST_F(ReportTest, NoiseIsWhatAChecksTimeVariesAmongTrials) {
+  // Collision checking is half of the time: 5 ms and 4 ms a configuration, then 1 ms and 3 ms.
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .time_s = 1, .configurations = 100},
+            {.contestant = "A", .trial = 2, .time_s = 2, .configurations = 250},
+            {.contestant = "A", .problem = 2, .time_s = 2, .configurations = 1000},
+            {.contestant = "A", .problem = 2, .trial = 2, .time_s = 6, .configurations = 1000},
+            {.contestant = "A", .problem = 3, .time_s = 6, .configurations = 1}});
+  const Row row = Texts(ConditionTable(compared), 0);
+  EXPECT_EQ(row[4], "2.50");  // median of 2 and 3
+  EXPECT_EQ(row[5], FormatNumber((1.25 + 3) / 2));
+}
+
+TEST_F(ReportTest, TheBusIsTold) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "example", {{.contestant = "A"}}, ExampleSession());
+  const auto cautions = [&] {
+    return Cautions(ComparedSessions(ReadSessions(folder / "example").sessions));
+  };
+  EXPECT_EQ(cautions().size(), 1u);  // no run.json: nothing is known
+  folder.Write("example/run.json", R"({"sessions": []})");
+  EXPECT_EQ(cautions().at(1), "example: no message was lost on the bus, as far as the logger saw.");
+  folder.Write("example/run.json",
+               R"({"bus": {"malformed_packets": 0, "lost_messages": 3, "dropped_messages": 1,
+                           "contradictions": [{"count": 2}, {"count": 5}]}})");
+  EXPECT_TRUE(cautions().at(1).starts_with(
+      "example: on the bus 3 messages did not reach the logger, 1 messages were more than it could "
+      "keep up with, 7 messages told otherwise"))
+      << cautions().at(1);
+  folder.Write("example/run.json", "{\"sessions\": [");
+  EXPECT_THROW(cautions(), InputError);
 }
 
 TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
@@ -165,13 +199,17 @@ TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
             run(2, false, "segment 1: 'arm' and 'shelf', 0.001 m deep"),
             run(3, false, "segment 7: 'arm' and 'shelf' in contact"),
             run(4, false, "segment 2: 'hand' and 'box', 0.002 m deep"),
+            {.contestant = "A", .problem = 5, .status = PlanStatus::kInvalidPath},
+            {.contestant = "A", .problem = 6, .mesh_valid_simplified = true},
+            {.contestant = "A", .problem = 7, .mesh_valid_simplified = false},
             {.contestant = "B", .problem = 1}});
   const Table table = MeshTable(compared);
   ASSERT_EQ(table.rows.size(), 1u);
   const Row row = Texts(table, 0);
-  EXPECT_EQ(row[2], "4");
-  EXPECT_EQ(row[3], "1");
-  EXPECT_EQ(row[5], "'arm' and 'shelf' (2)");
+  const Interval wilson = WilsonInterval(1, 4);
+  EXPECT_EQ(row, (Row{"shelf", "A", "7", "6", "4", "1",
+                      fmt::format("25.0 [{:.1f}, {:.1f}]", 100 * wilson.lower, 100 * wilson.upper),
+                      "2", "1", "'arm' and 'shelf' (2)"}));
 }
 
 TEST_F(ReportTest, ImprovementsAreFiguresOfTheirOwn) {

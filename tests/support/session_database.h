@@ -26,6 +26,8 @@ struct MadeRun {
   double length_simplified = 1;
   std::optional<bool> mesh_valid = {};  ///< Verdict of the mesh robot, if it has one.
   std::string mesh_reason = "";
+  std::optional<bool> mesh_valid_simplified = {};
+  int configurations = 0;  ///< That it had checked; 0: it does not tell.
   std::vector<PlanProgress> progress = {};
 };
 
@@ -50,6 +52,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   result.planning_time_s = result.total_time_s = run.time_s;
   result.phases = {run.time_s / 8, run.time_s / 2, run.time_s / 4, run.time_s / 8, 0.25};
   result.progress = run.progress;
+  if (run.configurations > 0) result.counters["configurations_checked"] = run.configurations;
   if (!claimed) return record;
   record.result.joint_names = {"j"};
   result.path = {{0}, {1}};
@@ -64,6 +67,9 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
     PathVerdict& verdict = record.path_check.mesh_verdict.emplace();
     verdict.valid = *run.mesh_valid;
     verdict.reason = run.mesh_reason;
+  }
+  if (run.mesh_valid_simplified) {
+    record.simplified_check.mesh_verdict.emplace().valid = *run.mesh_valid_simplified;
   }
   return record;
 }
