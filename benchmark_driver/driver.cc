@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "benchmark_driver/await_nodes.h"
 #include "common/error.h"
 #include "common/random_id.h"
 #include "common/utime.h"
@@ -34,6 +35,21 @@ std::string CpuName() {
   return "unknown";
 }
 
+/// What tables show of a record; the rest, most of it paths, would be some 10 kB a run. Of a path a
+/// waypoint stays, by which it counts as one.
+RunRecordMessage Kept(RunRecordMessage record) {
+  PlanResult& result = record.result.result;
+  if (!result.path.empty()) result.path = Path{result.path.front()};
+  result.simplified_path = {};
+  result.progress = {};
+  record.result.joint_names = {};
+  record.settings = {};
+  record.request.start = {};
+  record.request.goal = {};
+  record.request.parameters = {};
+  return record;
+}
+
 }  // namespace
 
 std::string NewRunId() {
@@ -49,8 +65,10 @@ Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up
       earlier_(std::move(earlier)),
       start_utime_(NowUtime()),
       registry_(bus),
-      recorder_(bus, &registry_),
-      records_(std::move(earlier_.runs)) {}
+      recorder_(bus, &registry_) {
+  for (RunRecordMessage& run : earlier_.runs) records_.push_back(Kept(std::move(run)));
+  earlier_.runs = {};
+}
 
 std::string Driver::Missing(bool need_logger) const {
   std::vector<std::string> missing;
@@ -66,25 +84,8 @@ std::string Driver::Missing(bool need_logger) const {
 }
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
-  const auto deadline = std::chrono::steady_clock::now() +
-                        std::chrono::duration<double>(options_.discovery_timeout_s);
-  while (true) {
-    watch();
-    const std::string missing = Missing(need_logger);
-    if (missing.empty()) break;
-    if (std::chrono::steady_clock::now() >= deadline) {
-      std::vector<std::string> heard;
-      for (const NodeStatusMessage& node : registry_.Live()) {
-        if (node.kind == NodeKind::kDriver) continue;
-        heard.push_back(fmt::format("{} ({})", node.name, EnumName(node.kind)));
-      }
-      if (heard.empty()) heard.emplace_back("nobody");
-      throw InputError(fmt::format("not on the bus within {} s: {}; heard: {}",
-                                   options_.discovery_timeout_s, missing, fmt::join(heard, ", ")));
-    }
-    registry_.Discover("driver");
-    registry_.WaitUntil([] { return false; }, std::chrono::milliseconds(200));
-  }
+  AwaitNodes(
+      &registry_, options_.discovery_timeout_s, [&] { return Missing(need_logger); }, watch);
   served_ = *registry_.ProblemSets();
   CompleteConditions();
   schedule_ = MakeSchedule(options_, Entrants(), served_);
@@ -275,7 +276,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
     recorder_.Record(*record);
     const std::scoped_lock lock(mutex_);
     progress_->Add(*record);
-    records_.push_back(*std::move(record));
+    records_.push_back(Kept(*std::move(record)));
   }
 }
 

@@ -36,7 +36,8 @@ class Driver {
   /// recorded.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
-  /// All records so far, those of the resumed session included.
+  /// All records so far, those of the resumed session included, without what no table shows: paths,
+  /// starts and goals, settings.
   const std::vector<RunRecordMessage>& records() const { return records_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }

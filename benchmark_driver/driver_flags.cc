@@ -97,8 +97,12 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
   using Texts = std::vector<std::string>;
   launch->needs(with_launch(app->add_option("--robot", options->robot,
                                             "robot folder, or the name of a robot that ships")));
-  launch->needs(with_launch(
-      app->add_option("--problems", options->problems, "problem set folder; repeatable")));
+  with_launch(app->add_option("--problems", options->problems, "problem set folder; repeatable"));
+  app->callback([options] {
+    if (options->launch && !options->replay && options->problems.empty()) {
+      throw CLI::RequiresError("--launch", "--problems");
+    }
+  });
   with_launch(app->add_option("--referee-robot", options->referee_robot,
                               "folder of a mesh robot that judges paths too"));
   with_launch(app->add_flag("--allow-standing-contacts", options->allow_standing_contacts,
@@ -221,6 +225,17 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   CLI::Option* resume = app->add_option(
       "--resume", options->resume, "session folder to go on with: finished runs are not run again");
   AddLaunchFlags(app, resume, options);
+  CLI::Option* replay = app->add_option(
+      "--replay", options->replay,
+      "event log of a session whose requests are made again, of live planners or with --launch; "
+      "tells which answers differ. --planners chooses; what a request says is the log's");
+  // All but who answers, how they are started and where they are found.
+  const std::set<std::string> taken = {
+      "help",  "version", "replay", "lcm-url",      "planners",        "lineup",           "launch",
+      "robot", "out",     "set",    "package-path", "planner-command", "discovery-timeout"};
+  for (CLI::Option* option : app->get_options()) {
+    if (!taken.contains(option->get_single_name())) replay->excludes(option);
+  }
 }
 
 std::map<std::string, std::string> FlagsOf(const CLI::App& app) {

@@ -32,6 +32,8 @@ struct DriverOptions {
   /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).
   std::vector<std::pair<std::string, std::string>> references;
 
+  std::optional<std::filesystem::path> replay;  ///< Event log whose requests are made again.
+
   bool launch = false;
   std::optional<std::filesystem::path> resume;  ///< Session folder to go on with.
   // With launch only:
@@ -40,7 +42,7 @@ struct DriverOptions {
   std::optional<std::filesystem::path> referee_robot;
   bool allow_standing_contacts = false;  ///< Of the referee's robot.
   std::vector<std::string> package_paths;
-  std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>.
+  std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>; a replay's: none.
 };
 
 }  // namespace planbench

@@ -5,9 +5,11 @@
 
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "common/error.h"
 #include "common/sibling_program.h"
+#include "messaging/node_registry.h"
 
 namespace planbench {
 namespace {
@@ -43,6 +45,17 @@ std::set<std::string> PlannersIn(const std::filesystem::path& folder) {
 
 std::string Program(const std::string& name) { return SiblingProgram(name).string(); }
 
+ChildSpec Child(const std::string& name, std::vector<std::string> arguments,
+                const std::filesystem::path& logs, const std::string& lcm_url) {
+  return {name, std::move(arguments), {{"LCM_DEFAULT_URL", lcm_url}}, logs / (name + ".log")};
+}
+
+void AddPackages(const DriverOptions& options, std::vector<std::string>* arguments) {
+  for (const std::string& package : options.package_paths) {
+    arguments->insert(arguments->end(), {"--package-path", package});
+  }
+}
+
 }  // namespace
 
 void RequirePrograms(const std::vector<LineUpEntry>& line_up,
@@ -57,55 +70,69 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
   }
 }
 
+void RequireEmptyBus(Bus* bus) {
+  NodeRegistry registry(bus);
+  registry.Discover("driver");
+  std::string heard;
+  registry.WaitUntil(
+      [&] {
+        for (const NodeStatusMessage& node : registry.Live()) {
+          heard = fmt::format("{} '{}' (host {}, pid {})", EnumName(node.kind), node.name,
+                              node.host, node.pid);
+        }
+        return !heard.empty();
+      },
+      std::chrono::milliseconds(700));
+  if (!heard.empty()) {
+    throw InputError("another session is on " + bus->url() + ": the " + heard +
+                     " is live; choose another port with --lcm-url, or leave it to --launch");
+  }
+}
+
+void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
+                    const std::filesystem::path& logs, const std::string& lcm_url,
+                    Supervisor* supervisor) {
+  for (const LineUpEntry& entry : line_up) {
+    const std::string& planner = entry.contestant.planner;
+    std::vector<std::string> arguments;
+    if (!entry.contestant.command.empty()) {
+      arguments = {"/bin/sh", "-c", kRunCommand, "sh", entry.contestant.command};
+    } else {
+      arguments = {Program(std::string(kPlannerPrefix) + entry.program), "--robot",
+                   options.robot.string(), "--name", planner};
+      AddPackages(options, &arguments);
+      if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
+      for (const std::string& setting : entry.settings) {
+        arguments.insert(arguments.end(), {"--set", setting});
+      }
+    }
+    supervisor->Start(Child(planner, std::move(arguments), logs, lcm_url));
+  }
+}
+
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor) {
   const std::filesystem::path logs = session_folder / "logs";
-  const auto start = [&](const std::string& name, std::vector<std::string> arguments,
-                         const std::vector<std::string>& when_again = {}) {
-    supervisor->Start({name,
-                       std::move(arguments),
-                       {{"LCM_DEFAULT_URL", lcm_url}},
-                       logs / (name + ".log"),
-                       when_again});
-  };
-  const auto with_packages = [&](std::vector<std::string> arguments) {
-    for (const std::string& package : options.package_paths) {
-      arguments.insert(arguments.end(), {"--package-path", package});
-    }
-    return arguments;
-  };
 
-  std::vector<std::string> logger = {Program("logger"), "--out", session_folder.string()};
-  if (options.resume) logger.emplace_back("--resume");
-  start(kLogger, std::move(logger), {"--resume"});
+  ChildSpec logger =
+      Child(kLogger, {Program("logger"), "--out", session_folder.string()}, logs, lcm_url);
+  if (options.resume) logger.arguments.emplace_back("--resume");
+  logger.when_again = {"--resume"};
+  supervisor->Start(std::move(logger));
 
-  std::vector<std::string> server =
-      with_packages({Program("scene_server"), "--robot", options.robot.string()});
+  std::vector<std::string> server = {Program("scene_server"), "--robot", options.robot.string()};
+  AddPackages(options, &server);
   for (const std::filesystem::path& folder : options.problems) {
     server.insert(server.end(), {"--problems", folder.string()});
   }
   if (options.referee_robot) {
     server.insert(server.end(), {"--referee-robot", options.referee_robot->string()});
-    if (options.allow_standing_contacts) server.push_back("--allow-standing-contacts");
+    if (options.allow_standing_contacts) server.emplace_back("--allow-standing-contacts");
   }
-  start(kSceneServer, std::move(server));
+  supervisor->Start(Child(kSceneServer, std::move(server), logs, lcm_url));
 
-  for (const LineUpEntry& entry : line_up) {
-    const std::string& planner = entry.contestant.planner;
-    if (!entry.contestant.command.empty()) {
-      start(planner, {"/bin/sh", "-c", kRunCommand, "sh", entry.contestant.command});
-      continue;
-    }
-    std::vector<std::string> arguments =
-        with_packages({Program(std::string(kPlannerPrefix) + entry.program), "--robot",
-                       options.robot.string(), "--name", planner});
-    if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
-    for (const std::string& setting : entry.settings) {
-      arguments.insert(arguments.end(), {"--set", setting});
-    }
-    start(planner, std::move(arguments));
-  }
+  LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
 }
 
 void StopProcesses(const std::vector<LineUpEntry>& line_up, Supervisor* supervisor) {

@@ -5,6 +5,7 @@
 
 #include "benchmark_driver/driver_options.h"
 #include "benchmark_driver/supervisor.h"
+#include "messaging/bus.h"
 
 namespace planbench {
 
@@ -13,8 +14,17 @@ namespace planbench {
 void RequirePrograms(const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& program_folder);
 
-/// Starts scene server, planners and logger as children on the bus `lcm_url`, with their output in
-/// <session>/logs/, which exists. The programs are those beside this one.
+/// Throws InputError if a planbench process is live on the bus: what is launched wants it for
+/// itself.
+void RequireEmptyBus(Bus* bus);
+
+/// Starts the planners as children on the bus `lcm_url`, with their output in <logs>/NAME.log; the
+/// folder exists. The programs are those beside this one.
+void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
+                    const std::filesystem::path& logs, const std::string& lcm_url,
+                    Supervisor* supervisor);
+
+/// The same for scene server, planners and logger, with their output in <session>/logs/.
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor);

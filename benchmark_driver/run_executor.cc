@@ -20,10 +20,6 @@ constexpr std::chrono::seconds kServerPatience{10};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
 
-/// An id that nobody can tell before it is used, so that no answer can be prepared for it; also, a
-/// planner or scene server that outlives a driver remembers the answers of attempts that are over.
-std::string UniqueId(const std::string& what) { return what + "@" + RandomId(); }
-
 std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
                                                      const std::string& channel) {
   return [=](const PacketSender& sender) {

@@ -14,6 +14,7 @@
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
 #include "benchmark_driver/new_session_folder.h"
+#include "benchmark_driver/replay_session.h"
 #include "benchmark_driver/resume.h"
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
@@ -32,27 +33,6 @@
 
 namespace planbench {
 namespace {
-
-/// Throws InputError if a planbench process is live on the bus: a launched session wants it for
-/// itself.
-void RequireEmptyBus(Bus* bus) {
-  NodeRegistry registry(bus);
-  registry.Discover("driver");
-  std::string heard;
-  registry.WaitUntil(
-      [&] {
-        for (const NodeStatusMessage& node : registry.Live()) {
-          heard = fmt::format("{} '{}' (host {}, pid {})", EnumName(node.kind), node.name,
-                              node.host, node.pid);
-        }
-        return !heard.empty();
-      },
-      std::chrono::milliseconds(700));
-  if (!heard.empty()) {
-    throw InputError("another session is on " + bus->url() + ": the " + heard +
-                     " is live; choose another port with --lcm-url, or leave it to --launch");
-  }
-}
 
 /// Says what is odd about the robots, once for all the processes that load them. Throws InputError
 /// if the robot lacks the geometry of a contestant's collision model.
@@ -94,6 +74,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   DriverOptions options = given_options;
   std::string& run_id = options.conditions.request.run_id;
   run_id = NewRunId();
+  if (options.replay) {
+    return ReplaySession(options, run_id, lcm_url, lcm_url_given, interrupted);
+  }
   EarlierSession earlier;
   if (options.resume) {
     if (options.launch) AwaitLoggersEnd(*options.resume);

@@ -16,4 +16,8 @@ inline std::string RandomId() {
   return fmt::format("{:016x}", high | (random() & 0xffffffffU));
 }
 
+/// An id that nobody can tell before it is used, so that no answer can be prepared for it; also, a
+/// planner or scene server that outlives a driver remembers the answers of attempts that are over.
+inline std::string UniqueId(const std::string& what) { return what + "@" + RandomId(); }
+
 }  // namespace planbench

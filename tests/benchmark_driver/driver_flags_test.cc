@@ -209,6 +209,15 @@ TEST(DriverFlagsTest, RefusesBadLaunchFlags) {
   ExpectRefused(Launch({"--set", "x.=1"}), {"--set", "x.=1"});
 }
 
+TEST(DriverFlagsTest, AReplayTakesItsRequestsFromTheLog) {
+  EXPECT_EQ(ParseFlags({"--replay", "a.lcmlog", "--planners", "x"}).replay, "a.lcmlog");
+  // Without --problems.
+  EXPECT_TRUE(ParseFlags({"--replay", "a.lcmlog", "--launch", "--robot", "r"}).launch);
+  ExpectRefused({"--replay", "a.lcmlog", "--time", "3"}, {"--replay", "--time"});
+  ExpectRefused({"--replay", "a.lcmlog", "--resume", "s"}, {"--replay", "--resume"});
+  ExpectRefused(Launch({"--replay", "a.lcmlog"}), {"--replay", "--problems"});
+}
+
 TEST(DriverFlagsTest, LaunchFlagsNeedLaunch) {
   ExpectRefused({"--robot", "r"}, {"--robot", "--launch"});
   ExpectRefused({"--out", "o"}, {"--out", "--launch"});

@@ -74,8 +74,12 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
   EXPECT_EQ(first.status, PlanStatus::kSolved);
   EXPECT_EQ(first.algorithm, "Fake*");
-  EXPECT_EQ(first.settings.at("step"), "5");
+  EXPECT_EQ(logger.records().messages().at(0).settings.at("step"), "5");
   EXPECT_EQ(first.request.edge_resolution_m, 0.02);  // the robot's
+  // Logged whole, kept without what no table shows.
+  EXPECT_EQ(logger.records().messages().at(0).result.result.path, FakePath());
+  EXPECT_TRUE(first.result.result.Solves());
+  EXPECT_EQ(first.result.result.path.size(), 1u);
 
   EXPECT_EQ(Ids(logger.records()).size(), 4u);
   const auto sessions = logger.sessions().messages();
@@ -275,7 +279,7 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
   ASSERT_EQ(driver.records().size(), 1u);
   EXPECT_EQ(driver.records()[0].status, PlanStatus::kNoAnswer);
   EXPECT_EQ(driver.records()[0].algorithm, "Fake*");
-  EXPECT_EQ(driver.records()[0].settings.at("step"), "5");
+  EXPECT_EQ(logger.records().messages().at(0).settings.at("step"), "5");
 }
 
 TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {

@@ -61,5 +61,38 @@ TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
   expect_same("SELECT name, settings FROM plannerConfigs ORDER BY id", 2);
 }
 
+TEST_F(Replay, PlannersAnswerAsTheyDidOrItIsSaid) {
+  const auto session = folder() / "session";
+  ChildProcess* driver = StartLaunchedDriver(
+      session, {"--problems-range", "2-3", "--time", "20", "--planners", "rrtc"});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  const std::string log = (session / "session.lcmlog").string();
+  const auto launched = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {
+        Program("benchmark_driver"), "--launch", "--robot", RobotFolder(), "--replay", log, "--out",
+        (folder() / out).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Start(arguments);
+  };
+
+  ChildProcess* same = launched("same", {});
+  EXPECT_EQ(same->Wait(), 0) << same->Output() << same->Errors();
+  EXPECT_NE(same->Output().find("Answers now and as recorded"), std::string::npos)
+      << same->Output();
+
+  ChildProcess* other = launched("other", {"--set", "rrtc.range=0.3"});
+  EXPECT_EQ(other->Wait(), 1) << other->Output() << other->Errors();
+  EXPECT_NE(other->Output().find("shelf_demo/2/rrtc/forward/1: path"), std::string::npos)
+      << other->Output();
+  EXPECT_NE(other->Errors().find("setting range was"), std::string::npos) << other->Errors();
+
+  ChildProcess* rrtc = StartPlanner("rrtc");  // no scene server: the scenes are in the log
+  ChildProcess* live = StartDriver({"--replay", log});
+  EXPECT_EQ(live->Wait(), 0) << live->Output() << live->Errors();
+  ExpectEndsCleanly(rrtc);
+
+  ExpectBadInput(StartDriver({"--replay", log, "--planners", "ara"}), "'ara'");
+}
+
 }  // namespace
 }  // namespace planbench

@@ -1,0 +1,121 @@
+#include "benchmark_driver/replay_session.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "benchmark_driver/await_nodes.h"
+#include "benchmark_driver/launcher.h"
+#include "benchmark_driver/new_session_folder.h"
+#include "benchmark_driver/replay.h"
+#include "benchmark_driver/supervisor.h"
+#include "common/error.h"
+#include "common/exit_codes.h"
+#include "common/file_kind.h"
+#include "common/sibling_program.h"
+#include "messaging/lcm_url.h"
+#include "messaging/node_announcer.h"
+#include "messaging/record_log.h"
+#include "robot_model/shipped_robots.h"
+
+namespace planbench {
+namespace {
+
+/// What the flags leave open: the planners of the log, started by the commands of then.
+void Complete(const RecordedSession& recorded, LineUpFlags* flags) {
+  if (flags->planners.empty()) flags->planners = PlannersAsked(recorded.runs);
+  if (flags->file || recorded.sessions.empty()) return;
+  for (const Contestant& contestant : recorded.sessions.back().conditions.contestants) {
+    const auto is_it = [&](const auto& command) { return command.first == contestant.planner; };
+    if (!contestant.command.empty() &&
+        std::find(flags->planners.begin(), flags->planners.end(), contestant.planner) !=
+            flags->planners.end() &&
+        std::none_of(flags->commands.begin(), flags->commands.end(), is_it)) {
+      flags->commands.emplace_back(contestant.planner, contestant.command);
+    }
+  }
+}
+
+}  // namespace
+
+int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
+                  const std::string& lcm_url, bool lcm_url_given,
+                  const std::function<bool()>& interrupted) {
+  DriverOptions options = given_options;
+  const std::filesystem::path& log = options.replay.value();
+  if (!IsFile(log)) throw InputError(log.string() + ": there is no such event log");
+  RecordedSession recorded = ReadRecords(log);
+  if (PlannersAsked(recorded.runs).empty()) {
+    throw InputError(log.string() + ": holds no run that could be made again");
+  }
+  Complete(recorded, &options.line_up);
+  const std::vector<LineUpEntry> line_up =
+      MakeLineUp(options.line_up,
+                 options.launch ? std::optional(FindRobotFolder(options.robot)) : std::nullopt);
+  std::vector<std::string> planners;
+  for (const LineUpEntry& entry : line_up) planners.push_back(entry.contestant.planner);
+
+  std::string url = lcm_url;
+  std::filesystem::path folder;
+  if (options.launch) {
+    RequirePrograms(line_up, ProgramFolder());
+    if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
+    folder = options.out.value_or(std::filesystem::path("sessions") / run_id);
+    folder = std::filesystem::absolute(folder).lexically_normal();
+  }
+  Bus bus(url);
+  NodeRegistry registry(&bus);
+  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), ReadScenes(log), planners);
+  // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
+  std::optional<NewSessionFolder> new_folder;
+  if (options.launch) new_folder.emplace(folder);
+  std::optional<Supervisor> supervisor;
+  bus.Start();
+  if (options.launch) {
+    if (lcm_url_given) RequireEmptyBus(&bus);
+    supervisor.emplace();
+    LaunchPlanners(options, line_up, folder / "logs", url, &*supervisor);
+    options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
+  }
+  const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
+  const NodeAnnouncer announcer(&bus, [&] { return self; });
+  const auto stop = [&] {
+    announcer.ThrowIfDisplaced();
+    if (supervisor) supervisor->ThrowIfHopeless();
+    return interrupted();
+  };
+  AwaitNodes(
+      &registry, options.discovery_timeout_s,
+      [&] {
+        std::vector<std::string> missing;
+        for (const std::string& planner : planners) {
+          if (registry.Find(planner, NodeKind::kPlanner)) continue;
+          missing.push_back("a planner named '" + planner + "'");
+        }
+        return fmt::format("{}", fmt::join(missing, ", "));
+      },
+      [&] {
+        if (stop()) throw std::runtime_error("interrupted");
+      });
+  if (new_folder) new_folder->Keep();
+
+  const bool agree = replay.Run(stop, [](const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  });
+  if (supervisor) supervisor->StopAll(planners);
+  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
+  fmt::print("\n{}", replay.Table());
+  std::fflush(stdout);
+  return agree ? kExitOk : kExitFailed;
+}
+
+}  // namespace planbench
