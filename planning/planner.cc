@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <new>
 #include <utility>
+#include <variant>
 
 #include "collision/rigid_bodies.h"
 #include "common/error.h"
@@ -134,16 +135,24 @@ PlanResult Unsearched(PlanStatus status, const std::string& message, const Stopw
   return result;
 }
 
+bool HasMeshes(const Scene& scene) {
+  for (const SceneObject& object : scene.objects) {
+    for (const PlacedShape& placed : object.shapes) {
+      if (std::holds_alternative<Mesh>(placed.shape)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Scene& scene,
                       std::span<const double> base_positions) {
   Compiled& compiled = compiled_[{group.name, model}];
   std::vector<double> held = HeldPositions(robot_->model, group, base_positions);
-  if (compiled.checker && compiled.held == held &&
-      compiled.allowed_collisions == scene.allowed_collisions) {
-    return;
-  }
+  const bool is_compiled = compiled.checker && compiled.held == held &&
+                           compiled.allowed_collisions == scene.allowed_collisions;
+  if (is_compiled && !HasMeshes(scene)) return;
   if (!compiled.checker) {
     compiled.checker = MakeCollisionChecker(*robot_, group, model);
   }
@@ -151,7 +160,7 @@ void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Sc
   compiled.checker->SetScene(scene, base_positions);
   compiled.held = std::move(held);
   compiled.allowed_collisions = scene.allowed_collisions;
-  ++num_compilations_;
+  if (!is_compiled) ++num_compilations_;
 }
 
 std::map<CollisionModel, std::string> Planner::WarmUp() {

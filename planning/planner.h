@@ -48,8 +48,8 @@ class Planner {
   int num_compilations() const { return num_compilations_; }
 
   /// Solves a request in its scene. Never throws for bad requests: they come back as
-  /// kInvalidRequest with a message. The clock starts when the robot is compiled as the request
-  /// holds it, which only the first of requests that are alike in this has to wait for.
+  /// kInvalidRequest with a message. The clock starts when robot and meshes are compiled as the
+  /// request has them, which only the first of requests that are alike in this has to wait for.
   /// Deterministic up to the time limit: the same request gives the same path whatever ran before.
   /// A solution that comes after the time limit counts as kTimedOut. A search that breaks its
   /// contract (see SearchResult) aborts the process. `control` may be null.

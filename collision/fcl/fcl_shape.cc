@@ -55,10 +55,24 @@ double CapsuleDistance(const Capsule& capsule, const Eigen::Vector3d& point) {
   return std::hypot(point.head<2>().norm(), beyond) - capsule.radius;
 }
 
+/// A triangle that is but a line: FCL divides by its area, and finds it at distance 0 of anything.
+bool IsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double squared =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() <= 1e-6 * squared;
+}
+
 std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  for (const auto& t : mesh.triangles) {
+    // Their edges are those of other triangles, unless the mesh is nothing else.
+    if (IsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
+    triangles.emplace_back(t[0], t[1], t[2]);
+  }
+  if (triangles.empty()) {
+    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  }
   auto model = std::make_unique<BvhModel>();
   model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
   model->addSubModel(mesh.vertices, triangles);

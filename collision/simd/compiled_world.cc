@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "collision/at.h"
 #include "collision/balls.h"
@@ -96,11 +97,14 @@ bool CutBox(const Ball& reach, const Eigen::Matrix3d& R_WS, Eigen::Vector3d* cen
 
 void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
   kernel.solids.clear();
+  kernel.meshes.clear();
   kernel.trees.clear();
   kernel.candidates.clear();
   kernel.bvh.clear();
   kernel.bvh_solids.clear();
   sources_.clear();
+  meshes_before_ = std::move(meshes_);
+  meshes_.clear();
   std::vector<Ball> reaches;
   for (const CompiledTree& tree : robot.bodies) reaches.push_back(tree.reach_W);
   Ball reach = EnclosingBall(reaches);
@@ -113,6 +117,7 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
       AddShape(placed.shape, X_WO * Pose::From(placed.X_FS), static_cast<int>(i), reach);
     }
   }
+  meshes_before_.clear();
   if (kernel.solids.size() > kMaxListed) BuildHierarchy();
 }
 
@@ -155,7 +160,8 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
   if (is_box || large || mesh != nullptr) {
     if (!CutBox(reach, source.R_WS, &source.center, &source.half_size)) return;
     Solid solid = MakeBox(source.center, source.R_WS, source.half_size);
-    solid.doubtful = !is_box;
+    solid.doubtful = large;
+    if (mesh != nullptr && !large) solid.mesh = AddMesh(mesh->triangles, X_WS);
     AddSolid(solid, source);
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     Solid solid{};
@@ -180,6 +186,32 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
   } else {
     AddSolid(MakeAxial(Kind::kCone, source.center, axis, cone->radius, cone->length / 2), source);
   }
+}
+
+int CompiledWorld::AddMesh(const TriangleMesh& mesh, const Pose& X_WS) {
+  const auto find = [&](const std::vector<std::shared_ptr<const MeshTree>>& meshes) {
+    const auto found = std::find_if(
+        meshes.begin(), meshes.end(), [&](const std::shared_ptr<const MeshTree>& tree) {
+          return tree->mesh().triangles == mesh.triangles && tree->mesh().vertices == mesh.vertices;
+        });
+    return found == meshes.end() ? nullptr : *found;
+  };
+  std::shared_ptr<const MeshTree> tree = find(meshes_);
+  if (tree == nullptr) tree = find(meshes_before_);
+  if (tree == nullptr) tree = std::make_shared<const MeshTree>(mesh);
+
+  kernels::WorldMesh placed{};
+  placed.tree = &tree->tree();
+  const Eigen::Vector3d position = X_WS * Eigen::Vector3d::Map(tree->tree().origin);
+  for (int row = 0; row < 3; ++row) {
+    placed.position[row] = static_cast<float>(position[row]);
+    for (int column = 0; column < 3; ++column) {
+      placed.rotation[3 * row + column] = static_cast<float>(X_WS.rotation(column, row));
+    }
+  }
+  meshes_.push_back(std::move(tree));
+  kernel.meshes.push_back(placed);
+  return static_cast<int>(kernel.meshes.size()) - 1;
 }
 
 void CompiledWorld::AddHalfSpace(const Pose& X_WS, int object, const Ball& reach) {

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "collision/pair_rules.h"
 #include "collision/simd/compiled_robot.h"
 #include "collision/simd/kernels/sphere_kernel.h"
+#include "collision/simd/mesh_tree.h"
 #include "scene/scene.h"
 
 namespace planbench {
@@ -23,7 +25,8 @@ class CompiledWorld {
   static constexpr double kMaxDistance = 0.5;
 
   /// Takes the objects of a scene. Throws InputError, naming the object, for a shape that is none.
-  /// Meshes become doubtful boxes, as do solids too large for single precision.
+  /// Solids too large for single precision become doubtful boxes. Of meshes that the objects set
+  /// before had, too, the trees are kept.
   void SetObjects(const Scene& scene, const CompiledRobot& robot);
 
   /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
@@ -45,12 +48,16 @@ class CompiledWorld {
   };
 
   void AddShape(const Shape& shape, const Pose& X_WS, int object, const Ball& reach);
+  /// Returns its index in the kernel's world.
+  int AddMesh(const TriangleMesh& mesh, const Pose& X_WS);
   void AddHalfSpace(const Pose& X_WS, int object, const Ball& reach);
   void AddSolid(kernels::Solid solid, const Source& source);
   void BuildHierarchy();
   void BuildNode(int first, int last);
 
-  std::vector<Source> sources_;  ///< By solid.
+  std::vector<Source> sources_;                          ///< By solid.
+  std::vector<std::shared_ptr<const MeshTree>> meshes_;  ///< By mesh of the kernel's.
+  std::vector<std::shared_ptr<const MeshTree>> meshes_before_;
 };
 
 }  // namespace planbench

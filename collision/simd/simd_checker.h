@@ -18,10 +18,9 @@ namespace planbench {
 ///
 /// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
-/// kernels do not know (scene meshes, attached objects, prismatic joints far beyond their limits,
-/// objects of tens of metres that are not boxes) they pass on as doubts, which the FCL engine
-/// decides, over the pairs that are in doubt; it also names contacts and nearest pairs, in double
-/// precision.
+/// kernels do not know (attached objects, prismatic joints far beyond their limits, objects of tens
+/// of metres that are not boxes) they pass on as doubts, which the FCL engine decides, over the
+/// pairs that are in doubt; it also names contacts and nearest pairs, in double precision.
 ///
 /// Voxels: a sphere collides with the world if the distance field's value at its centre is less
 /// than its radius. A stretch of a motion is free if no cell that a sphere's centre can reach on it

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "collision/simd/kernels/meshes-inl.h"
 #include "collision/simd/kernels/nearby-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
@@ -48,11 +49,6 @@ class CheckPass {
     }
   }
 
-  static LaneMask Bits(M mask) {
-    alignas(64) std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(Lanes(), mask, bits);
-    return static_cast<LaneMask>(bits[0]) | static_cast<LaneMask>(bits[1]) << 8;
-  }
   LaneMask hits() const { return Bits(hits_); }
   LaneMask certain() const { return Bits(certain_); }
   LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
@@ -142,12 +138,14 @@ class CheckPass {
     const Node& node = placement_.node(index);
     const Points p = placement_.Position(index);
     if (node.num_children == 0) return TestLeaf(node, p, motion, list, num);
-    const V reach = Squared(Grown(node.radius, motion));
+    const V grown = Grown(node.radius, motion);
+    const V reach = Squared(grown);
     int num_near = 0;
     for (int i = 0; i < num; ++i) {
-      const V squared = SquaredDistance(world_.solids[static_cast<std::size_t>(list[i])], p);
+      const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+      const M near = hn::And(alive_, hn::Le(SquaredDistance(solid, p), reach));
       free_list[num_near] = list[i];
-      num_near += None(hn::And(alive_, hn::Le(squared, reach))) ? 0 : 1;
+      num_near += !None(near) && MayBeNear(world_, solid, p, grown, near) ? 1 : 0;
     }
     if (num_near == 0) return false;
     placement_.PlaceChildren(index, body);
@@ -162,11 +160,16 @@ class CheckPass {
 
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
                            int num) {
-    V reach = Squared(Grown(node.radius, motion));
+    const V grown = Grown(node.radius, motion);
+    V reach = Squared(grown);
     V least = Fill(std::numeric_limits<float>::max());
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
-      const V squared = SquaredDistance(solid, p);
+      V squared = SquaredDistance(solid, p);
+      if (HWY_UNLIKELY(solid.mesh >= 0)) {
+        squared =
+            SquaredMeshDistance(world_, solid, p, grown, hn::And(alive_, hn::Le(squared, reach)));
+      }
       if (HWY_UNLIKELY(solid.doubtful)) {
         Note(squared, node.radius, hn::Le(squared, reach), true);
       } else {

@@ -8,6 +8,7 @@
 
 #include <limits>
 
+#include "collision/simd/kernels/meshes-inl.h"
 #include "collision/simd/kernels/nearby-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
@@ -44,6 +45,11 @@ class DistancePass {
   HWY_INLINE bool Improves(V squared, V radius) const {
     return !None(hn::Lt(squared, Squared(Positive(best_ + radius))));
   }
+  HWY_INLINE bool Improves(const Solid& solid, const Points& p, V radius) const {
+    const V reach = Positive(best_ + radius);
+    const M near = hn::Lt(SquaredDistance(solid, p), Squared(reach));
+    return !None(near) && MayBeNear(world_, solid, p, reach, near);
+  }
 
   void TestWorld(const WorldTree& tree) {
     placement_.PlaceRoot(tree.root, tree.body);
@@ -73,17 +79,21 @@ class DistancePass {
     if (node.num_children == 0) {
       V least = Fill(std::numeric_limits<float>::max());
       for (int i = 0; i < num; ++i) {
-        least =
-            hn::Min(least, SquaredDistance(world_.solids[static_cast<std::size_t>(list[i])], p));
+        const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+        V squared = SquaredDistance(solid, p);
+        if (HWY_UNLIKELY(solid.mesh >= 0)) {
+          const V reach = Positive(best_ + radius);
+          squared = SquaredMeshDistance(world_, solid, p, reach, hn::Lt(squared, Squared(reach)));
+        }
+        least = hn::Min(least, squared);
       }
       best_ = hn::Min(best_, hn::Sqrt(least) - radius);
       return;
     }
     int num_near = 0;
     for (int i = 0; i < num; ++i) {
-      const V squared = SquaredDistance(world_.solids[static_cast<std::size_t>(list[i])], p);
       free_list[num_near] = list[i];
-      num_near += Improves(squared, radius) ? 1 : 0;
+      num_near += Improves(world_.solids[static_cast<std::size_t>(list[i])], p, radius) ? 1 : 0;
     }
     if (num_near == 0) return;
     placement_.PlaceChildren(index, body);

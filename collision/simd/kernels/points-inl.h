@@ -25,6 +25,11 @@ HWY_INLINE V Zero() { return hn::Zero(Lanes()); }
 HWY_INLINE V Load(const float* lanes) { return hn::Load(Lanes(), lanes); }
 HWY_INLINE void Store(V v, float* lanes) { hn::Store(v, Lanes(), lanes); }
 HWY_INLINE bool None(M mask) { return hn::AllFalse(Lanes(), mask); }
+HWY_INLINE LaneMask Bits(M mask) {
+  alignas(64) std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Lanes(), mask, bits);
+  return static_cast<LaneMask>(bits[0]) | static_cast<LaneMask>(bits[1]) << 8;
+}
 /// What of v is above 0.
 HWY_INLINE V Positive(V v) { return hn::Max(v, Zero()); }
 HWY_INLINE V Squared(V v) { return v * v; }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "collision/simd/kernels/triangle_tree.h"
+
 // The vectorised sphere engine's inner part: plain arrays of floats in, bit masks out. A block of
 // kBlock configurations is checked at once, one SIMD lane a configuration, with the widest
 // instructions of the machine it runs on (Highway's run-time dispatch). What it is given has been
@@ -76,7 +78,8 @@ struct Solid {
   Kind kind;
   bool doubtful;  ///< Hits are passed on as doubts: it stands for something inside it.
   float center[3];
-  float v[12];  ///< See Kind.
+  float v[12];    ///< See Kind.
+  int mesh = -1;  ///< What it is a bound of, if not negative: index into SphereWorld::meshes.
 };
 
 /// Bounding-volume hierarchy over solids, depth first: `next` is the node behind the subtree, a
@@ -114,6 +117,7 @@ struct DistanceGrid {
 /// What stands still.
 struct SphereWorld {
   std::vector<Solid> solids;
+  std::vector<WorldMesh> meshes;
   std::vector<WorldTree> trees;
   std::vector<std::int32_t> candidates;
   std::vector<BvhNode> bvh;

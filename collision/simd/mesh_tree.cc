@@ -1,0 +1,181 @@
+#include "collision/simd/mesh_tree.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "collision/at.h"
+
+namespace planbench {
+namespace {
+
+using Eigen::Vector3d;
+using kernels::BoxGroup;
+using kernels::kWide;
+using kernels::TriangleGroup;
+using Corners = std::array<Vector3d, 3>;
+
+/// Where the boxes and triangles are that there are not, m; its square is a number still.
+constexpr float kFarAway = 1e18f;
+/// Enlargement of boxes, m: what single precision rounds.
+constexpr double kBoxPadding = 5e-6;
+
+/// Writes a triangle into a place of a group.
+void SetTriangle(Corners corners, std::size_t i, TriangleGroup* group) {
+  // The longest edge comes first: the frame is as good as its direction, and a triangle of no area
+  // is a line along it.
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double edge = (corners[(k + 1) % 3] - corners[k]).norm();
+    if (edge > length) {
+      length = edge;
+      longest = k;
+    }
+  }
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest),
+              corners.end());
+  const Vector3d x = length > 0 ? Vector3d((corners[1] - corners[0]) / length) : Vector3d::UnitX();
+  const Vector3d to_apex = corners[2] - corners[0];
+  const Vector3d across = to_apex - to_apex.dot(x) * x;
+  const double width = across.norm();
+  // Of a triangle of no width any plane through the edge will do.
+  const Vector3d y = width > 1e-12 * length && width > 0
+                         ? Vector3d((across / width - across.dot(x) / width * x).normalized())
+                         : x.unitOrthogonal();
+  Eigen::Matrix3d R_TM;
+  R_TM << x.transpose(), y.transpose(), x.cross(y).transpose();
+  const Vector3d p_TM = -(R_TM * corners[0]);
+  const Eigen::Vector2d apex(to_apex.dot(x), std::max(to_apex.dot(y), 0.0));
+  const Eigen::Vector2d edges[2] = {apex - Eigen::Vector2d(length, 0), -apex};
+
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      group->rotation[3 * row + column][i] = static_cast<float>(R_TM(row, column));
+    }
+    group->position[row][i] = static_cast<float>(p_TM[row]);
+  }
+  group->length[0][i] = static_cast<float>(length);
+  for (int k = 0; k < 2; ++k) {
+    group->apex[k][i] = static_cast<float>(apex[k]);
+    const double edge = edges[k].norm();
+    const Eigen::Vector2d along =
+        edge > 0 ? Eigen::Vector2d(edges[k] / edge) : Eigen::Vector2d(1, 0);
+    group->length[k + 1][i] = static_cast<float>(edge);
+    group->along[k][0][i] = static_cast<float>(along.x());
+    group->along[k][1][i] = static_cast<float>(along.y());
+  }
+}
+
+class Builder {
+ public:
+  Builder(const TriangleMesh& mesh, kernels::TriangleTree* tree) : tree_(*tree) {
+    Eigen::AlignedBox3d box;
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) box.extend(mesh.vertices[corner]);
+    }
+    const Vector3d origin = box.center();
+    for (int k = 0; k < 3; ++k) tree_.origin[k] = origin[k];
+    for (const auto& triangle : mesh.triangles) {
+      Corners& corners = triangles_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.vertices[triangle[k]] - origin;
+    }
+    order_.resize(triangles_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    AddBoxes(0, static_cast<int>(order_.size()));
+  }
+
+ private:
+  const Corners& TriangleAt(int place) const { return At(triangles_, At(order_, place)); }
+
+  /// A node over the triangles at places [first, last); returns its index.
+  int AddBoxes(int first, int last) {
+    // All children are full but the last.
+    int capacity = kWide;
+    while (capacity < (last - first + kWide - 1) / kWide) capacity *= kWide;
+    const auto index = static_cast<int>(tree_.boxes.size());
+    BoxGroup& group = tree_.boxes.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      std::fill_n(group.low[axis], kWide, kFarAway);
+      std::fill_n(group.high[axis], kWide, kFarAway);
+    }
+    std::fill_n(group.child, kWide, 0);
+    int num_children = 0;
+    AddChildren(first, last, capacity, index, &num_children);
+    return index;
+  }
+
+  void AddChildren(int first, int last, int capacity, int parent, int* num_children) {
+    Eigen::AlignedBox3d box;
+    Eigen::AlignedBox3d middles;
+    for (int place = first; place < last; ++place) {
+      for (const Vector3d& corner : TriangleAt(place)) box.extend(corner);
+      middles.extend(Middle(At(order_, place)));
+    }
+    if (last - first > capacity) {
+      int axis = 0;
+      middles.sizes().maxCoeff(&axis);
+      const int parts = (last - first + capacity - 1) / capacity;
+      const int middle = first + parts / 2 * capacity;
+      std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                       [&](int a, int b) {
+                         const double at = Middle(a)[axis];
+                         const double bt = Middle(b)[axis];
+                         return at < bt || (at == bt && a < b);
+                       });
+      AddChildren(first, middle, capacity, parent, num_children);
+      AddChildren(middle, last, capacity, parent, num_children);
+      return;
+    }
+    const int child = last - first <= kWide ? ~AddTriangles(first, last) : AddBoxes(first, last);
+    BoxGroup& group = At(tree_.boxes, parent);
+    const int i = (*num_children)++;
+    for (int axis = 0; axis < 3; ++axis) {
+      group.low[axis][i] = static_cast<float>(box.min()[axis] - kBoxPadding);
+      group.high[axis][i] = static_cast<float>(box.max()[axis] + kBoxPadding);
+    }
+    group.child[i] = child;
+  }
+
+  int AddTriangles(int first, int last) {
+    TriangleGroup& group = tree_.triangles.emplace_back();
+    std::fill_n(group.position[2], kWide, kFarAway);
+    for (int place = first; place < last; ++place) {
+      SetTriangle(TriangleAt(place), static_cast<std::size_t>(place - first), &group);
+    }
+    return static_cast<int>(tree_.triangles.size()) - 1;
+  }
+
+  /// Of the triangle's bounding box.
+  Vector3d Middle(int triangle) const {
+    const auto& [a, b, c] = At(triangles_, triangle);
+    return (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c)) / 2;
+  }
+
+  kernels::TriangleTree& tree_;
+  std::vector<Corners> triangles_;  ///< In the tree's frame.
+  std::vector<int> order_;          ///< Of triangles.
+};
+
+}  // namespace
+
+MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
+  Builder(mesh_, &tree_);
+  tree_.solid = &solid_;
+}
+
+namespace kernels {
+
+bool Encloses(const TriangleTree& tree, const float* p) {
+  return tree.solid->Contains(
+      {p[0] + tree.origin[0], p[1] + tree.origin[1], p[2] + tree.origin[2]});
+}
+
+}  // namespace kernels
+}  // namespace planbench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "collision/simd/kernels/triangle_tree.h"
+#include "geometry/shapes.h"
+#include "geometry/solid_mesh.h"
+
+namespace planbench {
+
+/// A triangle mesh with what the kernels take of it. Immutable; any number of threads may use it.
+class MeshTree {
+ public:
+  /// At least one triangle; indices must be valid, vertices finite.
+  explicit MeshTree(TriangleMesh mesh);
+  MeshTree(const MeshTree&) = delete;
+  MeshTree& operator=(const MeshTree&) = delete;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const kernels::TriangleTree& tree() const { return tree_; }
+
+ private:
+  TriangleMesh mesh_;
+  SolidMesh solid_;
+  kernels::TriangleTree tree_;
+};
+
+}  // namespace planbench
