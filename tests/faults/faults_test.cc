@@ -137,6 +137,48 @@ TEST_F(FaultsTest, AHostileSenderBendsNothing) {
   EXPECT_FALSE(json.at("bus").at("contradictions").empty());
 }
 
+/// Percent of the datagrams that are lost; as many are doubled, and as many swapped.
+class LossyNetworkTest : public FaultsTest, public testing::WithParamInterface<int> {};
+
+TEST_P(LossyNetworkTest, EveryRunHasOneRecord) {
+  if (!std::string(PLANBENCH_SANITIZED).empty()) {
+    GTEST_SKIP() << "sanitizers want to be the first library, where this one has to be";
+  }
+  // As StartLaunchedDriver, with the library before all others.
+  std::vector<std::string> bad_network = {"env"};
+  bad_network.push_back(fmt::format("LD_PRELOAD={}", PLANBENCH_LOSSY_NETWORK));
+  bad_network.push_back(fmt::format("PLANBENCH_LOSS={}", GetParam()));
+  bad_network.push_back(fmt::format("PLANBENCH_FAULT_SEED={}", seed_));
+  const std::vector<std::string> session = {Program("benchmark_driver"),
+                                            "--launch",
+                                            "--robot",
+                                            RobotFolder(),
+                                            "--problems",
+                                            ProblemFolder(),
+                                            "--out",
+                                            Session().string(),
+                                            "--time",
+                                            "5",
+                                            "--planners",
+                                            "rrtc",
+                                            "--problems-range",
+                                            "1",
+                                            "--trials",
+                                            "3"};
+  bad_network.insert(bad_network.end(), session.begin(), session.end());
+  ChildProcess* driver = Start(bad_network);
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  ExpectOneRecordOfEach(3);
+  // A planner may be silent for so long that it counts as dead, if much is lost.
+  EXPECT_EQ(Query(Session(), "SELECT count(*) FROM runs WHERE status NOT IN (0, 7)"), 0);
+  EXPECT_GE(Query(Session(), "SELECT count(*) FROM runs WHERE status = 0"), 2);
+  if (GetParam() < 10) return;  // none of a few datagrams may be lost
+  const auto json = nlohmann::json::parse(std::ifstream(Session() / "run.json"));
+  EXPECT_GT(json.at("bus").at("lost_messages"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, LossyNetworkTest, testing::Values(1, 10, 30));
+
 TEST_F(FaultsTest, APlannerThatMisbehavesHasOneTrueRecordOfEveryRun) {
   ChildProcess* driver = StartSession(
       {"--planners", "mine", "--planner-command", "mine=sleep 600", "--problems-range", "1-6"});
