@@ -95,8 +95,9 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
     return option->needs(launch)->allow_extra_args(false)->group("With --launch");
   };
   using Texts = std::vector<std::string>;
-  launch->needs(with_launch(app->add_option("--robot", options->robot,
-                                            "robot folder, or the name of a robot that ships")));
+  const std::vector<CLI::Option*> robot_flags = options->robot.AddTo(app);
+  for (CLI::Option* flag : robot_flags) with_launch(flag);
+  launch->needs(robot_flags.front());
   with_launch(app->add_option("--problems", options->problems, "problem set folder; repeatable"));
   app->callback([options] {
     if (options->launch && !options->replay && options->problems.empty()) {
@@ -108,8 +109,6 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
   with_launch(app->add_flag("--allow-standing-contacts", options->allow_standing_contacts,
                             "links of the referee's robot that touch in every configuration may; "
                             "default: they end the session before it begins"));
-  with_launch(app->add_option("--package-path", options->package_paths,
-                              "NAME=DIR: folder that package://NAME/ stands for; repeatable"));
   with_launch(
       app->add_option("--out", options->out, "session folder; default: sessions/<date and time>"))
       ->excludes(resume);

@@ -8,6 +8,7 @@
 
 #include "benchmark_driver/line_up.h"
 #include "messaging/messages.h"
+#include "messaging/robot_flags.h"
 
 namespace planbench {
 
@@ -37,11 +38,10 @@ struct DriverOptions {
   bool launch = false;
   std::optional<std::filesystem::path> resume;  ///< Session folder to go on with.
   // With launch only:
-  std::filesystem::path robot;
+  RobotFlags robot;
   std::vector<std::filesystem::path> problems;
   std::optional<std::filesystem::path> referee_robot;
-  bool allow_standing_contacts = false;  ///< Of the referee's robot.
-  std::vector<std::string> package_paths;
+  bool allow_standing_contacts = false;      ///< Of the referee's robot.
   std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>; a replay's: none.
 };
 

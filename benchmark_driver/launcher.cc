@@ -50,10 +50,10 @@ ChildSpec Child(const std::string& name, std::vector<std::string> arguments,
   return {name, std::move(arguments), {{"LCM_DEFAULT_URL", lcm_url}}, logs / (name + ".log")};
 }
 
-void AddPackages(const DriverOptions& options, std::vector<std::string>* arguments) {
-  for (const std::string& package : options.package_paths) {
-    arguments->insert(arguments->end(), {"--package-path", package});
-  }
+std::vector<std::string> WithRobot(const std::string& program, const RobotFlags& robot) {
+  std::vector<std::string> arguments = robot.Arguments();
+  arguments.insert(arguments.begin(), Program(program));
+  return arguments;
 }
 
 }  // namespace
@@ -98,9 +98,8 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
     if (!entry.contestant.command.empty()) {
       arguments = {"/bin/sh", "-c", kRunCommand, "sh", entry.contestant.command};
     } else {
-      arguments = {Program(std::string(kPlannerPrefix) + entry.program), "--robot",
-                   options.robot.string(), "--name", planner};
-      AddPackages(options, &arguments);
+      arguments = WithRobot(std::string(kPlannerPrefix) + entry.program, options.robot);
+      arguments.insert(arguments.end(), {"--name", planner});
       if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
       for (const std::string& setting : entry.settings) {
         arguments.insert(arguments.end(), {"--set", setting});
@@ -121,8 +120,7 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   logger.when_again = {"--resume"};
   supervisor->Start(std::move(logger));
 
-  std::vector<std::string> server = {Program("scene_server"), "--robot", options.robot.string()};
-  AddPackages(options, &server);
+  std::vector<std::string> server = WithRobot("scene_server", options.robot);
   for (const std::filesystem::path& folder : options.problems) {
     server.insert(server.end(), {"--problems", folder.string()});
   }

@@ -57,9 +57,9 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
     throw InputError(log.string() + ": holds no run that could be made again");
   }
   Complete(recorded, &options.line_up);
-  const std::vector<LineUpEntry> line_up =
-      MakeLineUp(options.line_up,
-                 options.launch ? std::optional(FindRobotFolder(options.robot)) : std::nullopt);
+  const std::vector<LineUpEntry> line_up = MakeLineUp(
+      options.line_up,
+      options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
   std::vector<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.push_back(entry.contestant.planner);
 

@@ -37,8 +37,7 @@ namespace {
 /// Says what is odd about the robots, once for all the processes that load them. Throws InputError
 /// if the robot lacks the geometry of a contestant's collision model.
 void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& line_up) {
-  const auto packages = ParsePackagePaths(options.package_paths);
-  const Robot robot = LoadRobot(options.robot, packages);
+  const Robot robot = options.robot.Load();
   for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
   std::set<CollisionModel> checked;
   for (const LineUpEntry& entry : line_up) {
@@ -54,7 +53,7 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   }
   if (!options.referee_robot) return;
   for (const std::string& warning :
-       LoadRefereeRobot(*options.referee_robot, robot, packages).warnings) {
+       LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages()).warnings) {
     spdlog::warn("{}", warning);
   }
 }
@@ -94,9 +93,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
   std::string url = lcm_url;
   std::filesystem::path session_folder;
-  const std::vector<LineUpEntry> line_up =
-      MakeLineUp(options.line_up,
-                 options.launch ? std::optional(FindRobotFolder(options.robot)) : std::nullopt);
+  const std::vector<LineUpEntry> line_up = MakeLineUp(
+      options.line_up,
+      options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
   if (options.launch) {
     RequirePrograms(line_up, ProgramFolder());
     CheckRobots(options, line_up);

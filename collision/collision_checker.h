@@ -18,8 +18,8 @@ namespace planbench {
 struct Contact {
   std::string body_a;  ///< A link or attached object.
   std::string body_b;
-  /// Depth of the deepest pair of their shapes, >= 0; 0 if they but touch or the engine does not
-  /// know it, as of meshes and of two shapes none of which is a sphere.
+  /// Depth of the deepest pair of their shapes, m, >= 0: exact for spheres; of other shapes how far
+  /// one would have to be moved, along the best of the directions tried, to come free.
   double depth_m = 0;
   bool operator==(const Contact&) const = default;
 };

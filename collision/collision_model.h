@@ -6,13 +6,15 @@ namespace planbench {
 
 /// What stands for the robot and the world in a collision check.
 enum class CollisionModel {
-  kSpheres,  ///< Robot spheres against exact primitives and meshes.
-  kVoxels,   ///< Robot spheres against a Euclidean distance field of the scene.
-  kMeshes,   ///< Robot meshes against exact primitives and meshes.
+  kSpheres,    ///< Robot spheres against exact primitives and meshes.
+  kVoxels,     ///< Robot spheres against a Euclidean distance field of the scene.
+  kMeshes,     ///< Robot meshes against exact primitives and meshes.
+  kEnclosing,  ///< As kSpheres, with the spheres that enclose the robot's meshes.
 };
 template <>
 struct EnumNames<CollisionModel> {
-  static constexpr auto kNames = std::to_array<std::string_view>({"spheres", "voxels", "meshes"});
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"spheres", "voxels", "meshes", "enclosing"});
 };
 
 }  // namespace planbench

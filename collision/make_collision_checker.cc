@@ -22,6 +22,7 @@ std::unique_ptr<CollisionChecker> MakeReferenceChecker(const Robot& robot,
   }
   switch (model) {
     case CollisionModel::kSpheres:
+    case CollisionModel::kEnclosing:
     case CollisionModel::kMeshes:
       return std::make_unique<FclChecker>(robot, group, model);
     case CollisionModel::kVoxels:

@@ -99,6 +99,14 @@ RunColumn Reason(std::string name, Check check, Verdict verdict) {
           }};
 }
 
+/// Of the contact that makes a path invalid.
+RunColumn ContactDepth(std::string name, Check check, Verdict verdict) {
+  return {std::move(name), "REAL", [=](const Record& r) {
+            const auto& found = r.*check.*verdict;
+            return found && found->contact ? Real(found->contact->depth_m) : SqliteValue(kNull);
+          }};
+}
+
 RunColumn Measure(std::string name, Check check, const char* measure) {
   return {std::move(name), "REAL", [=](const Record& r) {
             const auto& verdict = (r.*check).verdict;
@@ -177,8 +185,10 @@ std::vector<RunColumn> MakeRunColumns() {
       Reason("simplified_reason", kSimplified, kOwn),
       Valid("mesh_valid", kRaw, kMesh),
       Reason("mesh_reason", kRaw, kMesh),
+      ContactDepth("mesh_depth", kRaw, kMesh),
       Valid("mesh_valid_simplified", kSimplified, kMesh),
       Reason("mesh_reason_simplified", kSimplified, kMesh),
+      ContactDepth("mesh_depth_simplified", kSimplified, kMesh),
 
       Quantity("epsilon", &PlanResult::epsilon),
       Quantity("cost", &PlanResult::cost),

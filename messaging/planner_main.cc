@@ -4,6 +4,7 @@
 
 #include "messaging/planner_node.h"
 #include "messaging/program.h"
+#include "messaging/robot_flags.h"
 #include "planning/planner_settings.h"
 
 namespace planbench {
@@ -11,14 +12,11 @@ namespace planbench {
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory, const std::vector<SettingFlag>& setting_flags) {
   Program program("planner_" + planner, description);
-  std::string robot_folder;
+  RobotFlags robot_flags;
   std::string name = planner;
   std::string config;
   std::vector<std::string> overrides;
-  std::vector<std::string> package_paths;
-  program.app()
-      .add_option("--robot", robot_folder, "robot folder, or the name of a robot that ships")
-      ->required();
+  robot_flags.AddTo(&program.app()).front()->required();
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
   program.app().add_option("--config", config, "settings file; default: the robot folder's");
   program.app()
@@ -32,9 +30,8 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
         },
         flag.help);
   }
-  AddPackagePathFlag(&program.app(), &package_paths);
   return program.Run(argc, argv, [&] {
-    const Robot robot = LoadRobot(robot_folder, ParsePackagePaths(package_paths));
+    const Robot robot = robot_flags.Load();
     std::unique_ptr<Planner> solver =
         factory(robot, LoadPlannerSettings(robot, planner, config, overrides));
     Bus bus(program.lcm_url());

@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "common/command_line.h"
-#include "geometry/mesh_loader.h"
 #include "messaging/lcm_url.h"
 
 namespace planbench {
@@ -57,19 +56,6 @@ int Program::Run(int argc, char** argv, const std::function<int()>& work) {
     InstallSignalHandlers();
     return work();
   });
-}
-
-void AddPackagePathFlag(CLI::App* app, std::vector<std::string>* arguments) {
-  app->add_option("--package-path", *arguments,
-                  "NAME=DIR: folder that package://NAME/ stands for; repeatable")
-      ->allow_extra_args(false);
-}
-
-std::map<std::string, std::filesystem::path> ParsePackagePaths(
-    const std::vector<std::string>& arguments) {
-  std::map<std::string, std::filesystem::path> packages;
-  for (const std::string& argument : arguments) packages.insert(ParsePackagePath(argument));
-  return packages;
 }
 
 }  // namespace planbench

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
-#include <vector>
 
 #include "common/exit_codes.h"
 
@@ -32,11 +29,6 @@ class Program {
   CLI::App app_;
   std::string lcm_url_flag_;
 };
-
-/// Adds --package-path NAME=DIR (repeatable) to an app.
-void AddPackagePathFlag(CLI::App* app, std::vector<std::string>* arguments);
-std::map<std::string, std::filesystem::path> ParsePackagePaths(
-    const std::vector<std::string>& arguments);
 
 /// True once SIGINT or SIGTERM arrived (handlers are installed by Program::Run).
 bool StopRequested();

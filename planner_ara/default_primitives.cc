@@ -24,7 +24,7 @@ int NearestDivisor(int whole, int wanted) {
 }  // namespace
 
 std::vector<double> JointReaches(const Robot& robot, const PlanningGroup& group) {
-  std::vector<LinkSphere> balls = robot.spheres;
+  std::vector<LinkSphere> balls = robot.spheres.empty() ? robot.enclosing_spheres : robot.spheres;
   if (balls.empty()) {
     for (int link = 0; link < robot.model.num_links(); ++link) {
       balls.push_back({link, Eigen::Vector3d::Zero(), 0});

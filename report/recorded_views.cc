@@ -26,12 +26,18 @@ std::filesystem::path RobotFolder(const StoredSession& session,
   return flag->second;
 }
 
+/// Empty: the robot folder's.
+std::filesystem::path SpheresFile(const StoredSession& session) {
+  const auto flag = session.flags.find("spheres");
+  return flag == session.flags.end() ? "" : flag->second;
+}
+
 }  // namespace
 
 RecordedViews::RecordedViews(const StoredSession& session,
                              const std::filesystem::path& robot_folder)
     : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())),
-      robot_(LoadRobot(RobotFolder(session, robot_folder))),
+      robot_(LoadRobot(RobotFolder(session, robot_folder), {}, SpheresFile(session))),
       scenes_(ReadScenes(log_)) {
   RecordedSession recorded = ReadRecords(log_);
   for (RunRecordMessage& record : recorded.runs) {

@@ -303,7 +303,10 @@ Table MeshTable(const ComparedSessions& compared) {
       "with the "
       "planners' own collision model. Valid: so does the exact geometry of the meshes, of the "
       "confirmed paths that it judged; share with Wilson's interval over the attempts. "
-      "Commonest contact: of raw paths that the meshes do not allow, in parentheses how many.",
+      "Depth: median over the raw paths that the meshes do not allow, where they first touch. "
+      "Median: planning "
+      "time of the paths judged. "
+      "Commonest contact: of these paths, in parentheses how many.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"claimed", "claimed", Style::kCount},
@@ -313,20 +316,26 @@ Table MeshTable(const ComparedSessions& compared) {
        {"valid_percent", "% [95 %]", Style::kShare, true},
        {"simplified_judged", "simplified, judged", Style::kCount},
        {"simplified_valid", "valid", Style::kCount},
+       {"depth_mm", "depth, mm", Style::kNumber},
+       {"median_ms", "median, ms", Style::kNumber},
        {"commonest_contact", "commonest contact"}},
       {}};
   ForEach(
       compared, [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
         int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
         std::map<std::string, int> contacts;
+        std::vector<double> depths_m;
+        std::vector<double> times_s;
         const std::vector<const StoredRun*> confirmed = ConfirmedRuns(contestant, set);
         for (const StoredRun* run : confirmed) {
           simple_judged += run->mesh_valid_simple.has_value();
           simple_valid += run->mesh_valid_simple.value_or(false);
           if (!run->mesh_valid) continue;
           ++judged;
+          times_s.push_back(run->time_s.value_or(0));
           valid += *run->mesh_valid;
           if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
+          if (run->mesh_depth_m) depths_m.push_back(*run->mesh_depth_m);
         }
         if (judged == 0) return;
         const auto claimed = std::count_if(
@@ -337,7 +346,9 @@ Table MeshTable(const ComparedSessions& compared) {
             {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
              judged, valid,
              Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}},
-             simple_judged, simple_valid, Commonest(contacts)});
+             simple_judged, simple_valid,
+             depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
+             kMs * Summarize(times_s).median, Commonest(contacts)});
       });
   return table;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/model_spheres.h"
 #include "common/error.h"
 #include "planning/resolve.h"
 #include "robot_model/group_kinematics.h"
@@ -70,8 +71,10 @@ void AppendSolids(const SceneObject& object, const std::string& link, Json* soli
 class View {
  public:
   View(const Robot& robot, const Scene& scene, const std::string& group_name,
-       const JointState& start, const std::vector<JointGoal>& goal)
+       const JointState& start, const std::vector<JointGoal>& goal,
+       const std::vector<LinkSphere>& spheres)
       : robot_(robot),
+        spheres_(spheres),
         group_(robot.Group(group_name)),
         query_(ResolveQuery(robot, group_, start, goal, "the problem")),
         kinematics_(robot.model, group_, query_.base_positions) {
@@ -88,7 +91,7 @@ class View {
                   {"pose", Pose(kinematics_.X_BL(link))},
                   {"moves", kinematics_.Moves(link)},
                   {"spheres", Json::array()}};
-      for (const LinkSphere& sphere : robot.spheres) {
+      for (const LinkSphere& sphere : spheres_) {
         if (sphere.link != link) continue;
         Json values = Point(sphere.p_LS);
         values.push_back(Rounded(sphere.radius));
@@ -156,7 +159,7 @@ class View {
     const auto at_link = [&](const AttachedObject& attached) {
       return robot_.model.FindLink(attached.link) == link;
     };
-    return std::any_of(robot_.spheres.begin(), robot_.spheres.end(), of_link) ||
+    return std::any_of(spheres_.begin(), spheres_.end(), of_link) ||
            std::any_of(scene.attached.begin(), scene.attached.end(), at_link);
   }
 
@@ -186,6 +189,7 @@ class View {
   }
 
   const Robot& robot_;
+  const std::vector<LinkSphere>& spheres_;  // That stand for it.
   const PlanningGroup& group_;
   ResolvedQuery query_;
   GroupKinematics kinematics_;
@@ -196,7 +200,7 @@ class View {
 }  // namespace
 
 Json ProblemView(const Robot& robot, const Problem& problem) {
-  View view(robot, problem.scene, problem.group, problem.start, problem.goal);
+  View view(robot, problem.scene, problem.group, problem.start, problem.goal, robot.spheres);
   return view.Take(
       fmt::format("{} {}", problem.set, problem.index),
       {fmt::format("Robot {}, group {}.", robot.name, robot.Group(problem.group).name)});
@@ -208,7 +212,8 @@ Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run
     throw InputError(fmt::format("{} is not the robot of run {}, whose content is {}",
                                  robot.folder.string(), run.request_id, request.robot_id));
   }
-  View view(robot, scene, request.group, request.start, request.goal);
+  View view(robot, scene, request.group, request.start, request.goal,
+            ModelSpheres(robot, request.collision_model));
   const PlanResult& result = run.result.result;
   const auto verdict = [](const PathCheckReplyMessage& check) {
     return check.verdict ? &*check.verdict : nullptr;

@@ -52,14 +52,18 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
   std::string robot = flags.robot;
+  std::string spheres;
   for (const SessionMessage& session : recorded.sessions) {
-    const auto flag = session.settings.find("robot");
-    if (robot.empty() && session.run_id == run.run_id && flag != session.settings.end()) {
-      robot = flag->second;
-    }
+    if (session.run_id != run.run_id) continue;
+    const auto setting = [&](const char* name) {
+      const auto flag = session.settings.find(name);
+      return flag == session.settings.end() ? "" : flag->second;
+    };
+    if (robot.empty()) robot = setting("robot");
+    spheres = setting("spheres");
   }
   if (robot.empty()) throw InputError(flags.log + " does not name the robot's folder: --robot DIR");
-  return RunView(LoadRobot(robot), scene->second, run, kFrames);
+  return RunView(LoadRobot(robot, {}, spheres), scene->second, run, kFrames);
 }
 
 Json ViewOfProblem(const Flags& flags) {

@@ -101,6 +101,7 @@ std::vector<Field> Fields() {
          if (const auto valid = Int(v)) run->mesh_valid = *valid != 0;
        }},
       {"mesh_reason", [](StoredRun* run, const SqliteValue& v) { run->mesh_reason = Text(v); }},
+      {"mesh_depth", [](StoredRun* run, const SqliteValue& v) { run->mesh_depth_m = Real(v); }},
       {"mesh_valid_simplified",
        [](StoredRun* run, const SqliteValue& v) {
          if (const auto valid = Int(v)) run->mesh_valid_simple = *valid != 0;

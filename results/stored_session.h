@@ -33,6 +33,7 @@ struct StoredRun {
   MeasuredValues measures_simple;         ///< Of the simplified path.
   std::optional<bool> mesh_valid;         ///< The raw path, judged with the robot's meshes.
   std::string mesh_reason;                ///< Why they do not allow it.
+  std::optional<double> mesh_depth_m;     ///< Of the contact that they do not allow.
   std::optional<bool> mesh_valid_simple;  ///< The simplified path.
   double configurations_checked = 0;      ///< By the planner; 0 if it does not tell.
   std::vector<PlanProgress> progress;     ///< Improved solutions of an anytime planner, in order.

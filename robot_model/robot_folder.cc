@@ -111,8 +111,20 @@ void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, C
   }
 }
 
-// Links with a body in the URDF that have no spheres and are not meant to have none: nothing else
-// would tell that they go unchecked.
+// Links with a body in the URDF that no sphere is on, and that are not `meant` to have none:
+// nothing else would tell that they go unchecked.
+std::vector<std::string> LinksWithout(const std::vector<LinkSphere>& spheres, std::set<int> meant,
+                                      const RobotModel& model) {
+  for (const LinkSphere& sphere : spheres) meant.insert(sphere.link);
+  std::vector<std::string> unchecked;
+  for (int link = 0; link < model.num_links(); ++link) {
+    const Link& description = model.links()[static_cast<std::size_t>(link)];
+    if (description.collision.empty() || meant.contains(link)) continue;
+    unchecked.push_back(description.name);
+  }
+  return unchecked;
+}
+
 void WarnOfUncheckedLinks(const YamlNode& root, Robot* robot) {
   std::set<int> meant;
   if (const auto names = root.Find("links_without_spheres")) {
@@ -120,13 +132,8 @@ void WarnOfUncheckedLinks(const YamlNode& root, Robot* robot) {
       meant.insert(LinkAt(name, name.String(), robot->model));
     }
   }
-  for (const LinkSphere& sphere : robot->spheres) meant.insert(sphere.link);
-  std::vector<std::string> unchecked;
-  for (int link = 0; link < robot->model.num_links(); ++link) {
-    const Link& description = robot->model.links()[static_cast<std::size_t>(link)];
-    if (description.collision.empty() || meant.contains(link)) continue;
-    unchecked.push_back(description.name);
-  }
+  if (robot->spheres.empty()) return;
+  const std::vector<std::string> unchecked = LinksWithout(robot->spheres, meant, robot->model);
   if (unchecked.empty()) return;
   robot->warnings.push_back(fmt::format(
       "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
@@ -248,7 +255,8 @@ const PlanningGroup& Robot::Group(const std::string& group_name) const {
                                fmt::join(known, ", ")));
 }
 
-Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::path>& packages) {
+Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::path>& packages,
+                const fs::path& spheres) {
   const fs::path folder = FindRobotFolder(folder_or_name);
   Robot robot;
   robot.folder = fs::absolute(folder);
@@ -257,8 +265,9 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   const fs::path robot_file = folder / "robot.yaml";
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
-  root.AllowOnly({"name", "urdf", "srdf", "spheres", "edge_resolution_m", "edge_check", "groups",
-                  "allowed_pairs", "links_without_spheres", "planners", "voxels"});
+  root.AllowOnly({"name", "urdf", "srdf", "spheres", "enclosing_spheres", "edge_resolution_m",
+                  "edge_check", "groups", "allowed_pairs", "links_without_spheres", "planners",
+                  "voxels"});
   ContentHash hash;
   hash.Add(robot_text);
 
@@ -269,13 +278,28 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   hash.Add(urdf_text);
   robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &robot.warnings);
   ReadSemantics(root, folder, &robot, &hash);
-  if (const auto spheres = root.Find("spheres")) {
-    const fs::path file = NamedFile(folder, *spheres);
+  const auto read_spheres = [&](const fs::path& file) {
     const std::string text = ReadText(file);
     hash.Add(text);
-    robot.spheres = ReadLinkSpheres(file, text, robot.model);
+    return ReadLinkSpheres(file, text, robot.model);
+  };
+  if (!spheres.empty()) {
+    robot.spheres = read_spheres(spheres);
+    if (robot.spheres.empty()) throw InputError(spheres.string() + ": no spheres");
+  } else {
+    if (const auto named = root.Find("spheres")) {
+      robot.spheres = read_spheres(NamedFile(folder, *named));
+    }
+    WarnOfUncheckedLinks(root, &robot);
   }
-  if (!robot.spheres.empty()) WarnOfUncheckedLinks(root, &robot);
+  if (const auto named = root.Find("enclosing_spheres")) {
+    robot.enclosing_spheres = read_spheres(NamedFile(folder, *named));
+    const auto bare = LinksWithout(robot.enclosing_spheres, {}, robot.model);
+    if (!bare.empty()) {
+      named->Fail(fmt::format("the spheres enclose nothing of {}, which have bodies in the URDF",
+                              fmt::join(bare, ", ")));
+    }
+  }
   if (const auto resolution = root.Find("edge_resolution_m")) {
     robot.edge_resolution_m = resolution->PositiveDouble();
   }

@@ -23,7 +23,9 @@ namespace planbench {
 ///   srdf: fetch.srdf               # optional: groups with their states, pairs that are never
 ///                                  #   checked, and sphere approximations (Srdf)
 ///   spheres: spheres.yaml          # or a URDF or SRDF with spheres (ReadLinkSpheres); optional:
-///                                  #   without any only the meshes model can be used
+///                                  #   without any the spheres and voxels models cannot be used
+///   enclosing_spheres: enclosing.yaml   # optional, likewise: those of the enclosing model, which
+///                                       #   contain every body of the URDF (make_spheres)
 ///   edge_resolution_m: 0.02        # optional, default 0.02
 ///   edge_check: certified          # or fixed; optional, default certified
 ///   groups:                        # instead of the SRDF's; needed without one
@@ -33,9 +35,8 @@ namespace planbench {
 ///       states: {tuck: [0.1, ...]}                # optional: named configurations
 ///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other,
 ///                                                #   beside those of the SRDF
-///   links_without_spheres: [link, ...]           # optional: links with a body that are not
-///   checked
-///                                                #   by intention; others are warned of
+///   links_without_spheres: [link, ...]           # optional: links with a body that `spheres`
+///                                                #   leaves out by intention; others are warned of
 ///   planners: {ara: ara.yaml, rrtc: rrtc.yaml}   # optional: settings files by planner name
 ///   voxels:                        # optional: the grid of the voxels model (VoxelSettings);
 ///     resolution_m: 0.02           #   without it the reach of the robot, without walls
@@ -46,11 +47,12 @@ namespace planbench {
 struct Robot {
   std::string name;
   std::filesystem::path folder;
-  std::string content_id;  ///< Content hash of robot.yaml, the URDF, the SRDF and the spheres:
+  std::string content_id;  ///< Content hash of robot.yaml, the URDF, the SRDF and both spheres:
                            ///< equal robots, equal ids.
   RobotModel model;
   std::vector<PlanningGroup> groups;
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.
+  std::vector<LinkSphere> enclosing_spheres;       ///< Those of the enclosing model, likewise.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
   double edge_resolution_m = 0.02;
   EdgeCheck edge_check = EdgeCheck::kCertified;
@@ -66,9 +68,11 @@ struct Robot {
   const PlanningGroup& Group(const std::string& group_name) const;
 };
 
-/// Loads a robot folder; throws InputError naming file, line and field.
+/// Loads a robot folder; throws InputError naming file, line and field. `spheres`: a file whose
+/// spheres take the place of the folder's `spheres`, unless empty.
 Robot LoadRobot(const std::filesystem::path& folder,
-                const std::map<std::string, std::filesystem::path>& packages = {});
+                const std::map<std::string, std::filesystem::path>& packages = {},
+                const std::filesystem::path& spheres = {});
 
 /// The robot whose meshes judge paths: `folder` holds a robot.yaml, or exactly one .urdf file whose
 /// groups are then those of `planning_robot` (matched by joint and link names). `folder` also

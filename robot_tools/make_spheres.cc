@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "common/error.h"
+#include "common/name_value.h"
 #include "common/progress_line.h"
 #include "common/read_text.h"
 #include "common/stopwatch.h"
@@ -52,6 +56,26 @@ std::vector<std::string> Table(const std::vector<Row>& rows, bool with_inner) {
   return lines;
 }
 
+// By index in `links`.
+std::map<std::size_t, double> ProtrusionOfLinks(const std::vector<std::string>& flags,
+                                                const RobotModel& model, const LinkBodies& links) {
+  std::map<std::size_t, double> protrusion_m;
+  for (const std::string& flag : flags) {
+    const auto [name, value] = SplitNameValue(flag, "--link", "NAME=M");
+    const auto found = std::find(links.links.begin(), links.links.end(), model.FindLink(name));
+    if (found == links.links.end()) {
+      throw InputError(fmt::format("--link {}: no link '{}' with collision geometry", flag, name));
+    }
+    double metres = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), metres);
+    if (error != std::errc() || end != value.data() + value.size() || !(metres > 0)) {
+      throw InputError(fmt::format("--link {}: '{}' is no length, m", flag, value));
+    }
+    protrusion_m[static_cast<std::size_t>(found - links.links.begin())] = metres;
+  }
+  return protrusion_m;
+}
+
 }  // namespace
 
 void MakeSpheresFlags::AddTo(CLI::App* app) {
@@ -60,10 +84,15 @@ void MakeSpheresFlags::AddTo(CLI::App* app) {
   auto* goal = app->add_option_group("goal", "one of:");
   goal->add_option("--spheres", spheres, "so many on all links together, as close as they can be")
       ->check(CLI::Range(1, 100'000));
-  goal->add_option("--protrusion", protrusion_m,
-                   "as many as it takes so that none reaches further beyond its link, m")
-      ->check(CLI::PositiveNumber);
+  CLI::Option* protrusion =
+      goal->add_option("--protrusion", protrusion_m,
+                       "as many as it takes so that none reaches further beyond its link, m")
+          ->check(CLI::PositiveNumber);
   goal->require_option(1);
+  app->add_option("--link", links,
+                  "NAME=M: with --protrusion: how far spheres of link NAME may reach; repeatable")
+      ->needs(protrusion)
+      ->allow_extra_args(false);
   app->add_option("--most-a-link", most_a_link,
                   "with --protrusion: no more on any link, however far they reach")
       ->check(CLI::Range(1, 100'000))
@@ -93,6 +122,7 @@ std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
   FitGoal goal;
   if (flags.spheres > 0) goal.spheres = flags.spheres;
   if (flags.protrusion_m > 0) goal.protrusion_m = flags.protrusion_m;
+  goal.protrusion_of_m = ProtrusionOfLinks(flags.links, model, links);
   goal.most_a_link = flags.most_a_link;
   std::vector<OuterSet> fitted;
   {

@@ -11,8 +11,9 @@ namespace planbench {
 struct MakeSpheresFlags {
   std::filesystem::path urdf;
   std::vector<std::string> package_paths;
-  int spheres = 0;          ///< In all; 0: as many as protrusion_m needs.
-  double protrusion_m = 0;  ///< Greatest; 0: what `spheres` reach.
+  int spheres = 0;                 ///< In all; 0: as many as protrusion_m needs.
+  double protrusion_m = 0;         ///< Greatest; 0: what `spheres` reach.
+  std::vector<std::string> links;  ///< NAME=M: links with a greatest protrusion of their own.
   int most_a_link = 1000;
   std::filesystem::path outer;  ///< Files to write; empty: not written.
   std::filesystem::path inner;

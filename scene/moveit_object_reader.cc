@@ -173,9 +173,12 @@ bool HasShapes(const YamlNode& object) {
 }
 
 bool HasBody(const Robot& robot, int link) {
+  const auto has_one = [&](const std::vector<LinkSphere>& spheres) {
+    return std::any_of(spheres.begin(), spheres.end(),
+                       [&](const LinkSphere& sphere) { return sphere.link == link; });
+  };
   return !robot.model.links()[static_cast<std::size_t>(link)].collision.empty() ||
-         std::any_of(robot.spheres.begin(), robot.spheres.end(),
-                     [&](const LinkSphere& sphere) { return sphere.link == link; });
+         has_one(robot.spheres) || has_one(robot.enclosing_spheres);
 }
 
 std::string ReadId(const YamlNode& object, const Robot& robot) {

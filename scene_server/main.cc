@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "messaging/program.h"
+#include "messaging/robot_flags.h"
 #include "scene_server/scene_server_node.h"
 
 int main(int argc, char** argv) {
@@ -15,14 +16,11 @@ int main(int argc, char** argv) {
       "scene_server",
       "Serves problem sets and scenes on the bus, answers collision queries, and judges "
       "the planners' paths.");
-  std::string robot_folder;
+  RobotFlags robot_flags;
   std::string referee_folder;
-  std::vector<std::string> package_paths;
   std::vector<std::filesystem::path> problem_folders;
   std::string name = "scene_server";
-  program.app()
-      .add_option("--robot", robot_folder, "robot folder, or the name of a robot that ships")
-      ->required();
+  robot_flags.AddTo(&program.app()).front()->required();
   program.app()
       .add_option("--problems", problem_folders,
                   "problem set, or folder of problem sets (may be repeated)")
@@ -34,15 +32,14 @@ int main(int argc, char** argv) {
   bool allow_standing_contacts = false;
   program.app().add_flag("--allow-standing-contacts", allow_standing_contacts,
                          "links of the referee's robot that touch in every configuration may");
-  AddPackagePathFlag(&program.app(), &package_paths);
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
 
   return program.Run(argc, argv, [&] {
-    const auto packages = ParsePackagePaths(package_paths);
-    Robot robot = LoadRobot(robot_folder, packages);
+    Robot robot = robot_flags.Load();
     for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
     std::optional<Robot> referee;
-    if (!referee_folder.empty()) referee = LoadRefereeRobot(referee_folder, robot, packages);
+    if (!referee_folder.empty())
+      referee = LoadRefereeRobot(referee_folder, robot, robot_flags.Packages());
     SceneService service(std::move(robot), std::move(referee), problem_folders,
                          allow_standing_contacts);
     Bus bus(program.lcm_url());

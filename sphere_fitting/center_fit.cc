@@ -207,9 +207,7 @@ void CenterFit::Improve(int rounds) {
   for (int round = 0; round < rounds && size() > 2; ++round) {
     const State before = {centers_, owner_, cost_};
     const double burden = Burden();
-    centers_.erase(centers_.begin() + static_cast<std::ptrdiff_t>(LeastMissed()));
-    owner_.clear();  // The centres' numbers have changed.
-    Assign();
+    Shrink(1);
     Insert();
     Settle(2 * kSettleRounds);
     if (Burden() < burden) continue;
@@ -217,6 +215,14 @@ void CenterFit::Improve(int rounds) {
     owner_ = before.owner;
     cost_ = before.cost;
     return;
+  }
+}
+
+void CenterFit::Shrink(int fewer) {
+  for (; fewer > 0 && size() > 1; --fewer) {
+    centers_.erase(centers_.begin() + static_cast<std::ptrdiff_t>(LeastMissed()));
+    owner_.clear();  // The centres' numbers have changed.
+    Assign();
   }
 }
 

@@ -26,6 +26,8 @@ class CenterFit {
   /// All centres move for a while; then those that do little are put where much is to be done, as
   /// long as that helps, at most `rounds` times.
   void Improve(int rounds);
+  /// So many centres fewer, one at least left: those whose samples the others serve best.
+  void Shrink(int fewer);
   /// Points that are to be contained too.
   void AddSamples(const std::vector<Eigen::Vector3d>& points);
   double spacing_m() const { return spacing_m_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "common/error.h"
 #include "common/stopwatch.h"
@@ -17,6 +18,7 @@ namespace {
 using Fits = std::vector<std::unique_ptr<CenterFit>>;
 
 constexpr int kImproveRounds = 20;
+constexpr int kTrimRounds = 3;
 constexpr double kAim = 0.97;            // What the proof adds is left room for.
 constexpr int kProofRounds = 8;          // Of fitting to bare points.
 constexpr double kBareResolution = 0.5;  // Of how far bare points are apart.
@@ -80,18 +82,38 @@ void Distribute(const std::vector<LinkBody>& links, int spheres, const FitProgre
   }
 }
 
-std::vector<Ball> FitTo(double protrusion_m, int most, const LinkBody& link, CenterFit* fit) {
-  while (fit->Worst() > kAim * protrusion_m && fit->size() < most) fit->Grow();
+std::vector<Ball> FitTo(double protrusion_m, int most, const LinkBody& link,
+                        std::unique_ptr<CenterFit>* fit) {
+  while ((*fit)->Worst() > kAim * protrusion_m && (*fit)->size() < most) (*fit)->Grow();
+  std::vector<Ball> balls;
   for (int rounds = kImproveRounds;; rounds = 1) {
-    fit->Improve(rounds);
-    std::vector<Ball> balls = Proven(link, fit);
+    (*fit)->Improve(rounds);
+    balls = Proven(link, fit->get());
     const double reached = GreatestProtrusion(link, balls);
-    if (reached <= protrusion_m || fit->size() >= most) return balls;
+    if (reached <= protrusion_m) break;
+    const int size = (*fit)->size();
+    if (size >= most) return balls;
     // Along edges, where most are needed, spheres protrude by a share of how far they are apart.
-    const double lacking = fit->size() * (reached / protrusion_m - 1);
-    const int size = std::min(most, fit->size() + std::max(1, static_cast<int>(lacking)));
-    while (fit->size() < size) fit->Grow();
+    const double lacking = size * (reached / protrusion_m - 1);
+    const int wanted = std::min(most, size + std::max(1, static_cast<int>(lacking)));
+    while ((*fit)->size() < wanted) (*fit)->Grow();
   }
+  // Growing one by one takes more than are needed: as many go again as can be done without.
+  for (int fewer = (*fit)->size() / 4; fewer > 0;) {
+    auto trial = std::make_unique<CenterFit>(**fit);
+    trial->Shrink(fewer);
+    trial->Improve(kTrimRounds);
+    std::vector<Ball> trial_balls;
+    if (trial->Worst() <= protrusion_m) trial_balls = Proven(link, trial.get());
+    if (trial_balls.empty() || GreatestProtrusion(link, trial_balls) > protrusion_m) {
+      fewer /= 2;
+      continue;
+    }
+    *fit = std::move(trial);
+    balls = std::move(trial_balls);
+    fewer = std::min(fewer, (*fit)->size() / 4);
+  }
+  return balls;
 }
 
 }  // namespace
@@ -121,9 +143,12 @@ std::vector<OuterSet> FitOuterSpheres(const std::vector<LinkBody>& links, const 
     sets[i].balls = links[i].spheres();
     if (fits[i] == nullptr) continue;
     if (goal.spheres) fits[i]->Improve(kImproveRounds);
+    const auto own = goal.protrusion_of_m.find(i);
     const std::vector<Ball> fitted =
-        goal.spheres ? Proven(links[i], fits[i].get())
-                     : FitTo(goal.protrusion_m.value(), goal.most_a_link, links[i], fits[i].get());
+        goal.spheres
+            ? Proven(links[i], fits[i].get())
+            : FitTo(own == goal.protrusion_of_m.end() ? goal.protrusion_m.value() : own->second,
+                    goal.most_a_link, links[i], &fits[i]);
     sets[i].balls.insert(sets[i].balls.end(), fitted.begin(), fitted.end());
   }
   say(goal.spheres.value_or(0) + static_cast<int>(links.size()), "links proven");

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +16,10 @@ namespace planbench {
 struct FitGoal {
   std::optional<int> spheres;          ///< So many on all links together.
   std::optional<double> protrusion_m;  ///< No point of a sphere further than that from its link.
-  int most_a_link = 1000;              ///< However far that protrudes.
-  int samples = 3000;                  ///< About so many points stand for a link's surface.
+  std::map<std::size_t, double>
+      protrusion_of_m;     ///< Of links, by index, that have one of their own.
+  int most_a_link = 1000;  ///< However far that protrudes.
+  int samples = 3000;      ///< About so many points stand for a link's surface.
 };
 
 /// The balls of a link, in its frame, and how long it took to fit them.

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "collision/at.h"
+#include "collision/model_spheres.h"
 #include "collision/pair_rules.h"
 #include "common/error.h"
 
@@ -40,6 +42,19 @@ double BoxDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& box_cent
   return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
+std::string_view GeometryOf(CollisionModel model) {
+  switch (model) {
+    case CollisionModel::kMeshes:
+      return "collision geometry";
+    case CollisionModel::kEnclosing:
+      return "enclosing_spheres (see make_spheres)";
+    case CollisionModel::kSpheres:
+    case CollisionModel::kVoxels:
+      break;
+  }
+  return "collision spheres";
+}
+
 }  // namespace
 
 FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
@@ -50,7 +65,7 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
     const std::size_t num_balls = balls.size();
     if (model != CollisionModel::kMeshes) {
       std::vector<Ball> spheres;
-      for (const LinkSphere& sphere : robot.spheres) {
+      for (const LinkSphere& sphere : ModelSpheres(robot, model)) {
         if (sphere.link != link) continue;
         spheres.push_back({sphere.p_LS, sphere.radius});
         balls.push_back(sphere);
@@ -83,10 +98,8 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
     if (balls.size() > num_balls) links_.push_back(std::move(geometry));
   }
   if (links_.empty()) {
-    throw InputError(
-        fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
-                    model != CollisionModel::kMeshes ? "collision spheres" : "collision geometry",
-                    EnumName(model)));
+    throw InputError(fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
+                                 GeometryOf(model), EnumName(model)));
   }
   geometry_bound_.emplace(robot.model, group, std::move(balls));
 }
@@ -426,12 +439,11 @@ Contact FclChecker::ContactOf(std::span<const Pair> pairs, const Pair& touching)
     return std::minmax(At(geometries_, pair.source).body, At(geometries_, pair.target).body);
   };
   const auto [first, second] = bodies_of(touching);
-  double distance = 0;
+  Contact contact{At(bodies_, first).name, At(bodies_, second).name, 0};
   for (const Pair& pair : pairs) {
     const auto [a, b] = bodies_of(pair);
-    if (a == first && b == second) distance = Distance(pair, distance);
+    if (a == first && b == second) contact.depth_m = std::max(contact.depth_m, Depth(pair));
   }
-  Contact contact{At(bodies_, first).name, At(bodies_, second).name, std::max(0.0, -distance)};
   if (At(bodies_, first).kind == Body::Kind::kObject) std::swap(contact.body_a, contact.body_b);
   return contact;
 }
@@ -475,6 +487,15 @@ double FclChecker::Distance(const Pair& pair, double at_most) {
     ++i;
   }
   return best;
+}
+
+double FclChecker::Depth(const Pair& pair) {
+  const Geometry& source = At(geometries_, pair.source);
+  const Geometry& target = At(geometries_, pair.target);
+  if (source.tree != nullptr) return std::max(0.0, -Distance(pair, 0));
+  if (!Within(pair, 0)) return 0;
+  return target.shape->Depth(*source.shape,
+                             At(poses_, target.pose).Inverse() * At(poses_, source.pose));
 }
 
 void FclChecker::SetClosest(const Pair& pair, double distance, ClosestPair* closest) const {

@@ -116,6 +116,8 @@ class FclChecker : public CollisionChecker {
   double RelativeMotion(const Pair& pair, std::span<const double> motion) const;
   /// Whether the pair is no further apart than `margin`, m.
   bool Within(const Pair& pair, double margin);
+  /// How deep the pair's shapes are in each other, m; 0 if they do not touch.
+  double Depth(const Pair& pair);
   double Distance(const Pair& pair, double at_most);
   double DistanceBound(const Pair& pair) const;
   Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);

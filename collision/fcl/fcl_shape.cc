@@ -326,6 +326,55 @@ double FclShape::Distance(const FclShape& other, const Pose& X_SO, double at_mos
   return std::min(at_most, std::max(distance, std::numeric_limits<double>::min()));
 }
 
+double FclShape::Depth(const FclShape& other, const Pose& X_SO) const {
+  if (std::holds_alternative<Sphere>(geometry_->shape) ||
+      std::holds_alternative<Sphere>(other.geometry_->shape)) {
+    return std::max(0.0, -Distance(other, X_SO, 0));
+  }
+  constexpr double kPrecision = 1e-6;  // m
+  constexpr double kFirstStep = 1e-3;  // m
+  constexpr double kFarthest = 1e3;    // m: from half-spaces few directions lead away
+  double depth = kFarthest;
+  Eigen::Vector3d best = Eigen::Vector3d::UnitZ();
+  const auto try_direction = [&](const Eigen::Vector3d& direction) {
+    const auto touches_after = [&](double distance) {
+      Pose moved = X_SO;
+      moved.translation += distance * direction;
+      return Touches(other, moved);
+    };
+    double touching = 0;
+    double free = std::min(depth - kPrecision, kFirstStep);
+    while (touches_after(free)) {
+      if (free >= depth - kPrecision) return;
+      touching = free;
+      free = std::min(depth - kPrecision, 2 * free);
+    }
+    while (free - touching > kPrecision) {
+      const double middle = (free + touching) / 2;
+      (touches_after(middle) ? touching : free) = middle;
+    }
+    depth = free;
+    best = direction;
+  };
+  // Faces, edges and corners of a cube along the axes of either shape.
+  for (const Eigen::Matrix3d& axes :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Eigen::Matrix3d(X_SO.rotation)}) {
+    for (int code = 0; code < 27; ++code) {
+      const Eigen::Vector3d corner(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+      if (code != 13) try_direction(axes * corner.normalized());
+    }
+  }
+  for (double tilt = 0.3; tilt > 0.01; tilt /= 2) {
+    const Eigen::Vector3d around = best;
+    const Eigen::Vector3d side = around.unitOrthogonal();
+    const Eigen::Vector3d other_side = around.cross(side);
+    for (const Eigen::Vector3d& to : {side, other_side}) {
+      for (const double sign : {-1.0, 1.0}) try_direction((around + sign * tilt * to).normalized());
+    }
+  }
+  return depth;
+}
+
 double ConeDistance(const Cone& cone, const Eigen::Vector3d& point) {
   // In the half-plane through the axis the cone is the triangle of apex, rim and centre of the
   // base.

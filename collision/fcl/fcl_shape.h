@@ -10,7 +10,8 @@ namespace planbench {
 
 /// A shape as FCL sees it: the one place (with its .cc) where FCL is used. Shapes are solid.
 /// Touching counts as collision. Distances are signed: minus the depth inside for spheres against
-/// any shape, 0 for other pairs in collision, whose depth FCL does not give reliably.
+/// any shape, 0 for other pairs in collision; their depth, which FCL does not give reliably, is
+/// searched for when asked.
 ///
 /// FCL's own view of a mesh is its surface; what lies wholly inside a closed one is found here by
 /// ray parity. A mesh that is not closed remains a surface. Half-spaces are not given to FCL, which
@@ -36,6 +37,9 @@ class FclShape {
   /// and `at_most`, sooner for a small `at_most`.
   bool Touches(const FclShape& other, const Pose& X_SO) const;
   double Distance(const FclShape& other, const Pose& X_SO, double at_most) const;
+  /// How far another shape, which touches this one, has to be moved to come free, m: exact if one
+  /// of them is a sphere, else along the best of the directions tried, so not less than the least.
+  double Depth(const FclShape& other, const Pose& X_SO) const;
 
  private:
   struct Geometry;

@@ -50,7 +50,8 @@ void SetVector(const Eigen::Vector3d& v, float* values) {
 }  // namespace
 
 CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
-                             std::span<const double> base_positions)
+                             std::span<const double> base_positions,
+                             const std::vector<LinkSphere>& spheres)
     : model_(&robot.model),
       group_(&group),
       base_positions_(base_positions.begin(), base_positions.end()),
@@ -85,7 +86,7 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     for (int link = 0; link < robot.model.num_links(); ++link) {
       if (rigid_bodies_.BodyOf(link) != i) continue;
       std::vector<Ball> balls;
-      for (const LinkSphere& sphere : robot.spheres) {
+      for (const LinkSphere& sphere : spheres) {
         if (sphere.link != link) continue;
         balls.push_back({rigid_bodies_.X_GL(link) * sphere.p_LS, sphere.radius});
       }

@@ -24,11 +24,11 @@ struct CompiledTree {
   int reach = 0;  ///< Offset into SphereRobot::reaches of its motion bound relative to W.
 };
 
-/// A robot's spheres as the kernels take them, with joints outside the group held.
+/// A robot's spheres, sorted by link, as the kernels take them, with joints outside the group held.
 struct CompiledRobot {
   /// `base_positions`: full positions, at which joints outside the group are held.
   CompiledRobot(const Robot& robot, const PlanningGroup& group,
-                std::span<const double> base_positions);
+                std::span<const double> base_positions, const std::vector<LinkSphere>& spheres);
 
   /// How much of the kernel's robot there is.
   struct Extent {

@@ -6,6 +6,7 @@
 
 #include "collision/at.h"
 #include "collision/balls.h"
+#include "collision/model_spheres.h"
 #include "collision/rigid_bodies.h"
 #include "collision/shape_check.h"
 
@@ -35,7 +36,7 @@ CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, Col
     : robot_(&robot),
       group_(&group),
       model_(model),
-      geometry_bound_(robot.model, group, robot.spheres) {}
+      geometry_bound_(robot.model, group, ModelSpheres(robot, model)) {}
 
 void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions) {
   const PairRules rules(*robot_, scene);
@@ -49,7 +50,7 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   const bool robot_holds = held == held_;
   if (!robot_holds) {
     held_.clear();
-    compiled_robot_.emplace(*robot_, *group_, base_positions);
+    compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_));
     without_pairs_ = compiled_robot_->extent();
     if (model_ == CollisionModel::kVoxels) {
       field_ = std::make_unique<DistanceFieldBuilder>(

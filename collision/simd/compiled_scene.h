@@ -31,7 +31,7 @@ class CompiledScene {
     double distance_m = 0;  ///< Of the nearest; at most CompiledWorld::kMaxDistance or infinite.
   };
 
-  /// `model`: kSpheres or kVoxels.
+  /// `model`: any but kMeshes.
   CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model);
 
   /// Compiles anew; what depends on the held joints or the allowed-collision matrix alone is kept

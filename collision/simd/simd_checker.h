@@ -13,8 +13,8 @@
 
 namespace planbench {
 
-/// The vectorised engine of the spheres and voxels models: many configurations at once, one SIMD
-/// lane each, in single precision (kernels/sphere_kernel.h).
+/// The vectorised engine of the spheres, enclosing and voxels models: many configurations at once,
+/// one SIMD lane each, in single precision (kernels/sphere_kernel.h).
 ///
 /// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
@@ -30,7 +30,8 @@ namespace planbench {
 /// one that covers the robot's reach at 0.02 m.
 class SimdChecker : public CollisionChecker {
  public:
-  /// Throws InputError if the robot has no spheres, or for a grid that is too large.
+  /// Throws InputError if the robot has none of the model's spheres, or for a grid that is too
+  /// large.
   SimdChecker(const Robot& robot, const PlanningGroup& group,
               CollisionModel model = CollisionModel::kSpheres);
 

@@ -120,6 +120,8 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
                                                    "q",
                                                    "--referee-robot",
                                                    "m",
+                                                   "--spheres",
+                                                   "s.yaml",
                                                    "--package-path",
                                                    "f=/a",
                                                    "--package-path",
@@ -149,10 +151,11 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
   EXPECT_FALSE(options.conditions.with_clearance);
   EXPECT_TRUE(options.conditions.parallel);
   EXPECT_EQ(options.discovery_timeout_s, 7);
-  EXPECT_EQ(options.robot, "r");
+  EXPECT_EQ(options.robot.folder, "r");
+  EXPECT_EQ(options.robot.spheres, "s.yaml");
   EXPECT_EQ(options.problems, (std::vector<std::filesystem::path>{"p", "q"}));
   EXPECT_EQ(options.referee_robot, "m");
-  EXPECT_EQ(options.package_paths, (std::vector<std::string>{"f=/a", "g=/b"}));
+  EXPECT_EQ(options.robot.package_paths, (std::vector<std::string>{"f=/a", "g=/b"}));
   EXPECT_EQ(options.out, "o");
   using Pairs = std::vector<std::pair<std::string, std::string>>;
   EXPECT_EQ(options.line_up.commands, (Pairs{{"y", "./y --fast=1"}}));

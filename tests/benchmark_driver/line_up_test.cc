@@ -103,7 +103,7 @@ TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
   ExpectRefused("lineup: {}", {":1", "lineup"});
   ExpectRefused("contestants:\n  ara: {colision_model: voxels}", {":2", "colision_model"});
   ExpectRefused("contestants:\n  ara: {collision_model: balls}",
-                {":2", "spheres, voxels or meshes"});
+                {":2", "spheres, voxels, meshes or enclosing"});
   ExpectRefused("contestants:\n  ara: {edge_resolution: 0}", {":2", "edge_resolution"});
   ExpectRefused("contestants:\n  ara: {directions: up}", {":2", "auto, forward, backward or both"});
   ExpectRefused("contestants:\n  ara: {config: none.yaml}", {":2", "config", robot().string()});

@@ -94,6 +94,7 @@ class CertifiedEdges : public testing::TestWithParam<Combination> {
     // A grid that the arm leaves.
     robot_.voxels = VoxelSettings{0.02, Eigen::Vector3d(-0.9, -0.8, -0.3),
                                   Eigen::Vector3d(0.9, 0.8, 1.3), false};
+    if (model() == CollisionModel::kEnclosing) robot_.spheres.swap(robot_.enclosing_spheres);
     base_ = FullPositions(robot_.model, {"finger_joint"}, {0.1}, "test");
     checker_ = Make(robot_);
   }
@@ -259,7 +260,8 @@ INSTANTIATE_TEST_SUITE_P(Models, CertifiedEdges,
                          testing::Values(Combination{Engine::kFcl, CollisionModel::kSpheres},
                                          Combination{Engine::kFcl, CollisionModel::kMeshes},
                                          Combination{Engine::kSimd, CollisionModel::kSpheres},
-                                         Combination{Engine::kSimd, CollisionModel::kVoxels}),
+                                         Combination{Engine::kSimd, CollisionModel::kVoxels},
+                                         Combination{Engine::kSimd, CollisionModel::kEnclosing}),
                          [](const auto& instance) {
                            return std::string(instance.param.first == Engine::kFcl ? "fcl"
                                                                                    : "simd") +
@@ -323,7 +325,7 @@ TEST(ContactTest, IsDescribedWithItsDepthIfThatIsKnown) {
   EXPECT_EQ(Describe({"arm", "table", 0}), "'arm' and 'table' in contact");
 }
 
-TEST(ContactTest, DepthsAreNeverNegative) {
+TEST(ContactTest, DepthsOfSolidsArePositive) {
   const TemporaryFolder folder;
   const Robot robot = MakeSolidTestArm(folder.path());
   FclChecker checker(robot, robot.groups.front(), CollisionModel::kMeshes);
@@ -332,15 +334,15 @@ TEST(ContactTest, DepthsAreNeverNegative) {
   int num_contacts = 0;
   for (const NamedScene& world : MakeTestScenes()) {
     checker.SetScene(world.scene, base);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 12; ++i) {
       const auto contact =
           checker.FindContact(RandomConfiguration(robot.groups.front().space, &generator));
       if (!contact) continue;
       ++num_contacts;
-      EXPECT_FALSE(std::signbit(contact->depth_m));
+      EXPECT_GT(contact->depth_m, 0);
     }
   }
-  EXPECT_GT(num_contacts, 50);
+  EXPECT_GT(num_contacts, 10);
 }
 
 }  // namespace

@@ -110,6 +110,7 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
   verdict.valid = false;
   verdict.reason = "elbow hits board at segment 1";
   verdict.segment = 1;
+  verdict.contact = Contact{"elbow", "board", 0.0125};
   check.mesh_verdict = verdict;
 
   PathCheckReplyMessage& simplified = record.simplified_check;
@@ -118,6 +119,7 @@ RunRecordMessage SampleRecord(const std::string& request_id) {
   simplified.mesh_verdict->valid = true;
   simplified.mesh_verdict->reason = "";
   simplified.mesh_verdict->segment = -1;
+  simplified.mesh_verdict->contact.reset();
   return record;
 }
 

@@ -42,7 +42,7 @@ TEST_F(CodecValues, MessagesOfErrors) {
       {"goal[0].tolerance_above: -1 is negative", [](auto& m) { m.goal[0].tolerance_above = -1; }},
       {"direction: no such value: 2", [](auto& m) { m.direction = 2; }},
       {"time_limit_s: nan is not a finite number", [](auto& m) { m.time_limit_s = NAN; }},
-      {"collision_model: expected spheres, voxels or meshes, found 'magic'",
+      {"collision_model: expected spheres, voxels, meshes or enclosing, found 'magic'",
        [](auto& m) { m.collision_model = "magic"; }},
       {"edge_check: expected fixed or certified, found 'magic'",
        [](auto& m) { m.edge_check = "magic"; }},

@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "messaging/lcm_url.h"
+#include "messaging/robot_flags.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -122,15 +123,19 @@ TEST_F(ProgramTest, TerminationIsARequestToStop) {
 }
 
 TEST_F(ProgramTest, PackagePathsMayBeGivenSeveralTimes) {
-  std::vector<std::string> arguments;
-  AddPackagePathFlag(&program_.app(), &arguments);
-  Run({"--package-path", "fetch=/a", "--package-path", "other=/b/c"}, [&] {
-    const auto packages = ParsePackagePaths(arguments);
-    EXPECT_EQ(packages.size(), 2u);
-    EXPECT_EQ(packages.at("other"), "/b/c");
+  RobotFlags flags;
+  flags.AddTo(&program_.app());
+  const std::vector<std::string> arguments = {
+      "--robot",        "r",        "--spheres",      "s.yaml",
+      "--package-path", "fetch=/a", "--package-path", "other=/b/c"};
+  Run(arguments, [&] {
+    EXPECT_EQ(flags.spheres, "s.yaml");
+    EXPECT_EQ(flags.Arguments(), arguments) << "handed on as they are";
+    EXPECT_EQ(flags.package_paths.size(), 2u);
     return 0;
   });
-  ExpectInputError([] { ParsePackagePaths({"fetch"}); }, {"fetch"});
+  flags.package_paths = {"fetch"};
+  ExpectInputError([&] { flags.Packages(); }, {"fetch"});
 }
 
 }  // namespace

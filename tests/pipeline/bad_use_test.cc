@@ -37,6 +37,25 @@ TEST_F(BadUse, MeshesModelWithoutTheMeshFiles) {
   EXPECT_TRUE(LeftRunning().empty());
 }
 
+TEST_F(BadUse, EnclosingModelWithoutItsSpheres) {
+  const auto arm = folder() / "arm";
+  std::filesystem::create_directory(arm);
+  std::filesystem::copy(RobotFolder() + "/fetch.urdf", arm / "fetch.urdf");
+  std::filesystem::copy(RobotFolder() + "/spheres.yaml", arm / "spheres.yaml");
+  std::ofstream(arm / "robot.yaml") << R"(name: arm
+urdf: fetch.urdf
+spheres: spheres.yaml
+groups: [{name: arm, joints: [elbow_flex_joint], tip_link: gripper_link}]
+)";
+  ExpectBadInput(Start({Program("benchmark_driver"), "--launch", "--robot", arm.string(),
+                        "--problems", ProblemFolder(), "--out", (folder() / "s").string(),
+                        "--collision-model", "enclosing"}),
+                 "--collision-model enclosing (of 'ara'): robot 'arm' has no enclosing_spheres");
+  ExpectBadInput(StartLaunchedDriver(folder() / "s", {"--spheres", "/nowhere.yaml"}),
+                 "/nowhere.yaml");
+  EXPECT_TRUE(LeftRunning().empty());
+}
+
 TEST_F(BadUse, MissingOrBrokenRobot) {
   ExpectBadInput(Start({Program("planner_ara"), "--robot", "/nowhere"}), "/nowhere");
   ExpectBadInput(StartPlanner("rrtc", {"--set", "rang=1"}), "--set rang");

@@ -190,15 +190,19 @@ TEST_F(ReportTest, FiguresHaveEveryRunAndEveryProblem) {
 }
 
 TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
-  const auto run = [](int problem, bool valid, const std::string& reason) {
-    return MadeRun{
-        .contestant = "A", .problem = problem, .mesh_valid = valid, .mesh_reason = reason};
+  const auto run = [](int problem, bool valid, const std::string& reason, double depth_m = 0) {
+    return MadeRun{.contestant = "A",
+                   .problem = problem,
+                   .time_s = 0.25,
+                   .mesh_valid = valid,
+                   .mesh_reason = reason,
+                   .mesh_depth_m = depth_m};
   };
   const ComparedSessions compared =
       Read({run(1, true, ""),
-            run(2, false, "segment 1: 'arm' and 'shelf', 0.001 m deep"),
+            run(2, false, "segment 1: 'arm' and 'shelf', 0.001 m deep", 0.001),
             run(3, false, "segment 7: 'arm' and 'shelf' in contact"),
-            run(4, false, "segment 2: 'hand' and 'box', 0.002 m deep"),
+            run(4, false, "segment 2: 'hand' and 'box', 0.002 m deep", 0.002),
             {.contestant = "A", .problem = 5, .status = PlanStatus::kInvalidPath},
             {.contestant = "A", .problem = 6, .mesh_valid_simplified = true},
             {.contestant = "A", .problem = 7, .mesh_valid_simplified = false},
@@ -209,7 +213,7 @@ TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
   const Interval wilson = WilsonInterval(1, 4);
   EXPECT_EQ(row, (Row{"shelf", "A", "7", "6", "4", "1",
                       fmt::format("25.0 [{:.1f}, {:.1f}]", 100 * wilson.lower, 100 * wilson.upper),
-                      "2", "1", "'arm' and 'shelf' (2)"}));
+                      "2", "1", "1.50", "250", "'arm' and 'shelf' (2)"}));
 }
 
 TEST_F(ReportTest, ImprovementsAreFiguresOfTheirOwn) {

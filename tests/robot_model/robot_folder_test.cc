@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
 #include <set>
+#include <variant>
 
 #include "common/yaml.h"
 #include "robot_model/mesh_robot_id.h"
@@ -120,6 +122,32 @@ TEST(LoadRobot, FetchSpheresEqualThePublishedOnes) {
                  s.p_LS.z(), s.radius);
   }
   EXPECT_EQ(ours, published);
+}
+
+TEST(LoadRobot, TheFetchsEnclosingSpheresHoldItsMeshes) {
+  PLANBENCH_NEED_SHARED_DATA("fetch_description/meshes");
+  const Robot fetch =
+      LoadRobot(FetchFolder(), {{"fetch_description", SharedData("fetch_description")}});
+  EXPECT_EQ(fetch.enclosing_spheres.size(), 883u);
+  for (int link = 0; link < fetch.model.num_links(); ++link) {
+    const Link& description = fetch.model.links()[static_cast<std::size_t>(link)];
+    int outside = 0;
+    for (const PlacedShape& placed : description.collision) {
+      const auto& mesh = std::get<Mesh>(placed.shape);
+      const TriangleMesh triangles = LoadMesh(fetch.resources.Resolve(mesh.resource), mesh.scale);
+      for (const auto& [a, b, c] : triangles.triangles) {
+        const auto& v = triangles.vertices;
+        for (const Eigen::Vector3d& p : {v[a], v[b], v[c], Eigen::Vector3d((v[a] + v[b]) / 2),
+                                         Eigen::Vector3d((v[a] + v[b] + v[c]) / 3)}) {
+          outside += std::none_of(fetch.enclosing_spheres.begin(), fetch.enclosing_spheres.end(),
+                                  [&, p_LP = Eigen::Vector3d(placed.X_FS * p)](const auto& s) {
+                                    return s.link == link && (p_LP - s.p_LS).norm() <= s.radius;
+                                  });
+        }
+      }
+    }
+    EXPECT_EQ(outside, 0) << description.name;
+  }
 }
 
 TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
@@ -274,6 +302,47 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
   EXPECT_TRUE(LoadRobot(folder.path()).warnings.empty());
   folder.Write("robot.yaml", yaml + "links_without_spheres: [basis]\n");
   ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:5", "'basis'"});
+}
+
+TEST(LoadRobot, EnclosingSpheresAreASecondSet) {
+  const TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  const std::string yaml = std::string(kRobot) + "enclosing_spheres: enclosing.yaml\n";
+  folder.Write("small/robot.yaml", yaml);
+  const auto load = [&] { return LoadRobot(folder / "small"); };
+  ExpectInputError(load, {"robot.yaml:6", "enclosing_spheres", "no file", "enclosing.yaml"});
+  folder.Write("small/enclosing.yaml",
+               "links:\n  arm:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
+  const Robot robot = load();
+  EXPECT_TRUE(robot.spheres.empty());
+  ASSERT_EQ(robot.enclosing_spheres.size(), 1u);
+  EXPECT_EQ(robot.enclosing_spheres[0].radius, 0.25);
+  EXPECT_TRUE(robot.warnings.empty());
+  folder.Write("small/enclosing.yaml",
+               "links:\n  arm:\n    - {center: [0, 0, 0.5], radius: 0.26}\n");
+  EXPECT_NE(load().content_id, robot.content_id);
+  folder.Write("small/enclosing.yaml",
+               "links:\n  leg:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
+  ExpectInputError(load, {"enclosing.yaml:3", "leg"});
+  folder.Write("small/enclosing.yaml",
+               "links:\n  base:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
+  ExpectInputError(load, {"robot.yaml:6", "enclosing_spheres", "nothing of arm"});
+}
+
+TEST(LoadRobot, AFileOfSpheresMayTakeThePlaceOfTheFolders) {
+  const TemporaryFolder folder;
+  WriteSmallRobot(folder, "small");
+  folder.Write("own.yaml", "links:\n  arm:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
+  const auto load = [&](const fs::path& spheres) {
+    return LoadRobot(folder / "small", {}, spheres);
+  };
+  const Robot robot = load(folder / "own.yaml");
+  ASSERT_EQ(robot.spheres.size(), 1u);
+  EXPECT_EQ(robot.spheres[0].radius, 0.25);
+  EXPECT_NE(robot.content_id, load({}).content_id);
+  folder.Write("own.yaml", "links:\n  leg:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
+  ExpectInputError([&] { load(folder / "own.yaml"); }, {"own.yaml:3", "leg"});
+  ExpectInputError([&] { load(folder / "none.yaml"); }, {"none.yaml"});
 }
 
 TEST(LoadRobot, LoadsThePandaAndTheUr5e) {

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/read_text.h"
 #include "robot_model/link_spheres.h"
@@ -108,6 +111,33 @@ TEST_F(MakeSpheresTest, NamesWhatIsOddAboutMeshes) {
   EXPECT_THAT(Make(), HasSubstr("1 of 2 parts are not closed"));
   Ring(TorusMesh(300, 100, 30, 20));
   EXPECT_THAT(Make(), HasSubstr("is 400 m large"));
+}
+
+TEST_F(MakeSpheresTest, ALinkMayHaveAProtrusionOfItsOwn) {
+  const auto counts = [&] {
+    Make();
+    std::pair<int, int> on_base_and_arm = {0, 0};
+    for (const LinkSphere& sphere : Read(flags_.outer)) {
+      ++(sphere.link == 0 ? on_base_and_arm.first : on_base_and_arm.second);
+    }
+    return on_base_and_arm;
+  };
+  flags_.spheres = 0;
+  flags_.protrusion_m = 0.06;
+  const auto before = counts();
+  flags_.links = {"arm=0.035"};
+  const auto after = counts();
+  EXPECT_EQ(after.first, before.first);
+  EXPECT_GT(after.second, before.second);
+  for (const auto& [flag, fault] : std::vector<std::pair<std::string, std::string>>{
+           {"leg=0.1", "no link 'leg'"},
+           {"bare=0.1", "no link 'bare' with collision geometry"},
+           {"arm=much", "'much' is no length"},
+           {"arm=-1", "'-1' is no length"},
+           {"arm", "NAME=M"}}) {
+    flags_.links = {flag};
+    ExpectInputError([&] { Make(); }, {"--link", fault});
+  }
 }
 
 TEST_F(MakeSpheresTest, RefusesInOneLine) {

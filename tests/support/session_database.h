@@ -26,6 +26,7 @@ struct MadeRun {
   double length_simplified = 1;
   std::optional<bool> mesh_valid = {};  ///< Verdict of the mesh robot, if it has one.
   std::string mesh_reason = "";
+  double mesh_depth_m = 0;  ///< 0: the verdict names no contact.
   std::optional<bool> mesh_valid_simplified = {};
   int configurations = 0;  ///< That it had checked; 0: it does not tell.
   std::vector<PlanProgress> progress = {};
@@ -67,6 +68,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
     PathVerdict& verdict = record.path_check.mesh_verdict.emplace();
     verdict.valid = *run.mesh_valid;
     verdict.reason = run.mesh_reason;
+    if (run.mesh_depth_m > 0) verdict.contact = Contact{"arm", "shelf", run.mesh_depth_m};
   }
   if (run.mesh_valid_simplified) {
     record.simplified_check.mesh_verdict.emplace().valid = *run.mesh_valid_simplified;

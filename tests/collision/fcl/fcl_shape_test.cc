@@ -182,5 +182,31 @@ TEST(FclShapeTest, RefusesWhatIsNoShape) {
   ExpectInputError([&] { FclShape(broken, "vase"); }, {"vase", "not finite"});
 }
 
+TEST(FclShapeTest, DepthIsTheWayOut) {
+  const FclShape plate(Box{{1, 1, 0.1}}, "plate");
+  const FclShape box(Box{{0.2, 0.4, 0.6}}, "box");
+  const FclShape cuboid(Cuboid({0.2, 0.4, 0.6}), "cuboid");
+  const FclShape ball(Sphere{0.3}, "ball");
+  // 0.02 m into a face; through the plate, out by its nearer face; past its rim.
+  const std::vector<std::pair<Pose, double>> cases = {
+      {Shift(0, 0, 0.33), 0.02}, {Shift(0.1, 0.2, -0.1), 0.25}, {Shift(0.57, 0, 0), 0.03}};
+  for (const auto& [X_PO, depth] : cases) {
+    for (const FclShape* shape : {&box, &cuboid}) {
+      EXPECT_NEAR(plate.Depth(*shape, X_PO), depth, 2e-6);
+      EXPECT_NEAR(shape->Depth(plate, X_PO.Inverse()), depth, 2e-6);
+    }
+  }
+  EXPECT_NEAR(plate.Depth(ball, Shift(0, 0, 0.33)), 0.02, 1e-9);
+  // A corner, with the diagonal of a cube downwards.
+  Pose tilted = Shift(0, 0, 0.05 + std::sqrt(3.0) * 0.2 - 0.01);
+  tilted.rotation =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::Ones(), Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  const FclShape cube(Cuboid({0.4, 0.4, 0.4}), "cube");
+  EXPECT_NEAR(plate.Depth(cube, tilted), 0.01, 2e-6);
+  // One inside the other: out by the nearest side.
+  EXPECT_NEAR(FclShape(Cuboid({4, 4, 4}), "room").Depth(cuboid, Shift(1, 0, 0)), 1.1, 2e-6);
+}
+
 }  // namespace
 }  // namespace planbench
