@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <fstream>
 #include <set>
 #include <thread>
 
@@ -24,16 +23,8 @@ namespace {
 // What a planner does only once takes well below that.
 constexpr double kWarmUpLimit = 1;  // s
 
-std::string CpuName() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown";
-}
+/// How often a run is made again because it was disturbed.
+constexpr int kMostRepeats = 2;
 
 /// What tables show of a record; the rest, most of it paths, would be some 10 kB a run. Of a path a
 /// waypoint stays, by which it counts as one.
@@ -100,7 +91,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   std::set<std::string> done;
   for (const RunRecordMessage& record : records_) done.insert(record.request_id);
   std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
-  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions);
+  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
   CheckProblems(watch);
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
@@ -228,7 +219,7 @@ SessionMessage Driver::Session(bool finished) const {
   session.version = self.version;
   session.commit = self.commit;
   session.host = self.host;
-  session.cpu = CpuName();
+  session.cpu = DescribeMachine(options_.kernel).at("cpu");
   session.robot_name = served_.robot_name;
   session.conditions = options_.conditions;
   session.settings = flags_;
@@ -247,36 +238,69 @@ bool Driver::Claimed(const std::string& request_id) {
   });
 }
 
+std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,
+                                             const std::function<bool()>& interrupted) {
+  std::unique_ptr<PlannerClient>& client = (*clients)[run.planner];
+  if (!client) {
+    client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
+    if (!executor_->WarmUp(run, kWarmUpLimit, client.get(), interrupted)) return std::nullopt;
+  }
+  std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
+  if (!record) return std::nullopt;
+  // One that died is described as it was when last heard.
+  const std::scoped_lock lock(mutex_);
+  NodeStatusMessage& planner = planners_.at(run.planner);
+  planner = registry_.Find(run.planner, NodeKind::kPlanner).value_or(planner);
+  record->algorithm = planner.algorithm;
+  record->planner_class = planner.planner_class;
+  record->settings = planner.settings;
+  return record;
+}
+
 void Driver::RunLane(const std::vector<ScheduledRun>& lane,
                      const std::function<bool()>& interrupted) {
-  std::map<std::string, std::unique_ptr<PlannerClient>> clients;
-  for (const ScheduledRun& run : lane) {
-    if (run.unless_solved && Claimed(*run.unless_solved)) {
+  Clients clients;
+  std::map<std::string, int> num_repeats;  // of runs that were disturbed, by request id
+  std::vector<ScheduledRun> left = lane;
+  while (!left.empty()) {
+    std::vector<ScheduledRun> again;
+    std::set<std::string> put_off;
+    const auto put_off_run = [&](const ScheduledRun& run) {
+      put_off.insert(run.request_id);
+      again.push_back(run);
+    };
+    for (const ScheduledRun& run : left) {
+      if (run.unless_solved && put_off.contains(*run.unless_solved)) {
+        put_off_run(run);  // it is not known yet whether it is needed
+        continue;
+      }
+      if (run.unless_solved && Claimed(*run.unless_solved)) {
+        const std::scoped_lock lock(mutex_);
+        --num_runs_;
+        progress_->Drop();
+        continue;
+      }
+      std::optional<RunRecordMessage> record = Make(run, &clients, interrupted);
+      if (!record) return;
+      std::map<std::string, double>& counters = record->result.result.counters;
+      const bool disturbed =
+          IsDisturbed(counters, record->roundtrip_time_s, options_.max_disturbance);
+      int& repeats = num_repeats[run.request_id];
+      if (disturbed && options_.repeat_disturbed && repeats < kMostRepeats) {
+        ++repeats;
+        put_off_run(run);
+        continue;
+      }
+      if (!record->result.request_id.empty()) {  // an answer came
+        counters["disturbed"] = disturbed ? 1 : 0;
+        counters["repeats"] = repeats;
+      }
+      recorder_.Record(*record);
       const std::scoped_lock lock(mutex_);
-      --num_runs_;
-      progress_->Drop();
-      continue;
+      progress_->Add(*record);
+      records_.push_back(Kept(*std::move(record)));
     }
-    std::unique_ptr<PlannerClient>& client = clients[run.planner];
-    if (!client) {
-      client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
-      if (!executor_->WarmUp(run, kWarmUpLimit, client.get(), interrupted)) return;
-    }
-    std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
-    if (!record) return;
-    {
-      // One that died is described as it was when last heard.
-      const std::scoped_lock lock(mutex_);
-      NodeStatusMessage& planner = planners_.at(run.planner);
-      planner = registry_.Find(run.planner, NodeKind::kPlanner).value_or(planner);
-      record->algorithm = planner.algorithm;
-      record->planner_class = planner.planner_class;
-      record->settings = planner.settings;
-    }
-    recorder_.Record(*record);
-    const std::scoped_lock lock(mutex_);
-    progress_->Add(*record);
-    records_.push_back(Kept(*std::move(record)));
+    left = std::move(again);
   }
 }
 

@@ -55,7 +55,12 @@ class Driver {
   void AddContestant(const LineUpEntry& entry);
   std::vector<Entrant> Entrants() const;
   SessionMessage Session(bool finished) const;
+  /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
+  using Clients = std::map<std::string, std::unique_ptr<PlannerClient>>;
+  /// The record of a run, nothing if interrupted.
+  std::optional<RunRecordMessage> Make(const ScheduledRun& run, Clients* clients,
+                                       const std::function<bool()>& interrupted);
   /// Of an attempt that was made, whether the planner says that it found a path.
   bool Claimed(const std::string& request_id);
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <limits>
@@ -60,11 +61,11 @@ CLI::Option* AddNames(CLI::App* app, const std::string& flag, Take take, const s
       ->allow_extra_args(false);
 }
 
-int ParseIndex(const std::string& text, const std::string& whole) {
+int ParseIndex(const std::string& text, const std::string& whole, const std::string& flag) {
   int value = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-    throw InputError("--problems-range " + whole + ": '" + text + "' is no problem index");
+    throw InputError(flag + " " + whole + ": '" + text + "' is no number");
   }
   return value;
 }
@@ -85,6 +86,22 @@ void TakeSettings(const std::vector<std::string>& settings, LineUpFlags* line_up
     }
     line_up->settings.emplace_back(setting.substr(0, dot), setting.substr(dot + 1));
   }
+}
+
+/// Processors that this process may use, some to be left for all but the planners.
+std::vector<int> ParsePin(const std::string& text) {
+  std::vector<int> processors = ParseRange(text, "--pin");
+  const std::vector<int> usable = UsableProcessors();
+  for (const int processor : processors) {
+    if (!std::binary_search(usable.begin(), usable.end(), processor)) {
+      throw InputError(fmt::format("--pin {}: there is no processor {}; usable are {}", text,
+                                   processor, fmt::join(usable, ",")));
+    }
+  }
+  if (processors.size() == usable.size()) {
+    throw InputError("--pin " + text + ": none of the processors is left for the other processes");
+  }
+  return processors;
 }
 
 void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) {
@@ -109,6 +126,9 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
   with_launch(app->add_flag("--allow-standing-contacts", options->allow_standing_contacts,
                             "links of the referee's robot that touch in every configuration may; "
                             "default: they end the session before it begins"));
+  with_launch(app->add_option_function<std::string>(
+      "--pin", [=](const std::string& text) { options->pinned = ParsePin(text); },
+      "processors of the planners, e.g. 2-3: all else keeps off them; default: no matter which"));
   with_launch(
       app->add_option("--out", options->out, "session folder; default: sessions/<date and time>"))
       ->excludes(resume);
@@ -123,16 +143,17 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
 
 }  // namespace
 
-std::vector<int> ParseRange(const std::string& text) {
+std::vector<int> ParseRange(const std::string& text, const std::string& flag) {
   constexpr int kMost = 1'000'000;
   std::set<int> indices;
   std::istringstream parts(text + ",");
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t dash = part.find('-');
-    const int first = ParseIndex(part.substr(0, dash), text);
-    const int last = dash == std::string::npos ? first : ParseIndex(part.substr(dash + 1), text);
+    const int first = ParseIndex(part.substr(0, dash), text, flag);
+    const int last =
+        dash == std::string::npos ? first : ParseIndex(part.substr(dash + 1), text, flag);
     if (last < first || last - first >= kMost) {
-      throw InputError("--problems-range " + text + ": '" + part + "' is no range");
+      throw InputError(flag + " " + text + ": '" + part + "' is no range");
     }
     for (int i = first; i <= last; ++i) indices.insert(i);
   }
@@ -204,6 +225,13 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   app->add_flag("!--no-clearance", conditions.with_clearance, "do not measure clearance of paths");
   app->add_flag("--parallel", conditions.parallel,
                 "let the planners work at once, each on its own request");
+  app->add_option("--max-disturbance", options->max_disturbance,
+                  "share of a run's time beyond which it is marked as disturbed: that its planner "
+                  "waited for a processor, or the hypervisor had the processors")
+      ->check(Positive(1))
+      ->capture_default_str();
+  app->add_flag("--repeat-disturbed", options->repeat_disturbed,
+                "make disturbed runs again at the end, twice at most, and record the last");
   app->add_option("--discovery-timeout", options->discovery_timeout_s,
                   "how long to wait for the other processes, s")
       ->check(Positive())

@@ -20,7 +20,7 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options);
 std::map<std::string, std::string> FlagsOf(const CLI::App& app);
 
 /// "1-20", "3", "1-5,8,10-12" -> indices, ascending, without repetitions; throws InputError.
-std::vector<int> ParseRange(const std::string& text);
+std::vector<int> ParseRange(const std::string& text, const std::string& flag = "--problems-range");
 
 /// "2/8"; throws InputError.
 Shard ParseShard(const std::string& text);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmark_driver/line_up.h"
+#include "benchmark_driver/machine.h"
 #include "messaging/messages.h"
 #include "messaging/robot_flags.h"
 
@@ -29,6 +30,11 @@ struct DriverOptions {
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
   double discovery_timeout_s = 5;
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
+  /// Share of a run's time beyond which what kept its planner from working makes it a disturbed
+  /// one.
+  double max_disturbance = 0.1;
+  bool repeat_disturbed = false;  ///< At the end, and record what was less disturbed.
+  KernelFolders kernel;
 
   /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).
   std::vector<std::pair<std::string, std::string>> references;
@@ -41,7 +47,8 @@ struct DriverOptions {
   RobotFlags robot;
   std::vector<std::filesystem::path> problems;
   std::optional<std::filesystem::path> referee_robot;
-  bool allow_standing_contacts = false;      ///< Of the referee's robot.
+  bool allow_standing_contacts = false;  ///< Of the referee's robot.
+  std::vector<int> pinned;  ///< Processors of the planners, which nothing else uses; empty: all.
   std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>; a replay's: none.
 };
 

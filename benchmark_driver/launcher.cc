@@ -105,7 +105,9 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
         arguments.insert(arguments.end(), {"--set", setting});
       }
     }
-    supervisor->Start(Child(planner, std::move(arguments), logs, lcm_url));
+    ChildSpec child = Child(planner, std::move(arguments), logs, lcm_url);
+    child.processors = options.pinned;
+    supervisor->Start(std::move(child));
   }
 }
 

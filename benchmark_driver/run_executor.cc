@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/random_id.h"
 #include "common/utime.h"
+#include "messaging/node_announcer.h"
 
 namespace planbench {
 namespace {
@@ -29,9 +30,11 @@ std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
 
 }  // namespace
 
-RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions)
+RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
+                         KernelFolders kernel)
     : registry_(registry),
       conditions_(std::move(conditions)),
+      kernel_(std::move(kernel)),
       problems_(bus, channel::kProblemRequest, channel::kProblem,
                 ServersOnly(registry, channel::kProblem)),
       path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
@@ -114,6 +117,13 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
 }
 
+std::optional<pid_t> RunExecutor::PidOf(const std::string& planner) const {
+  const auto node = registry_->Find(planner, NodeKind::kPlanner);
+  static const std::string host = MakeNodeStatus("driver", NodeKind::kDriver).host;
+  if (!node || node->host != host) return std::nullopt;
+  return static_cast<pid_t>(node->pid);
+}
+
 const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
   const auto found =
       std::find_if(conditions_.contestants.begin(), conditions_.contestants.end(),
@@ -176,6 +186,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
     return record;
   }
 
+  const DisturbanceMeter meter(PidOf(run.planner), kernel_);
   const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);
   switch (answer.outcome) {
     case PlannerClient::Outcome::kInterrupted:
@@ -195,6 +206,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   }
   record.roundtrip_time_s = answer.roundtrip_time_s;
   record.result = answer.result;
+  meter.Read(&record.result.result.counters);
   record.status = answer.result.result.status;
   record.message = answer.result.result.message;
   if (record.status != PlanStatus::kSolved) return record;

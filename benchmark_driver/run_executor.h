@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "benchmark_driver/machine.h"
 #include "benchmark_driver/planner_client.h"
 #include "benchmark_driver/schedule.h"
 #include "messaging/rpc.h"
@@ -18,14 +19,16 @@ class RunExecutor {
  public:
   /// `conditions`: complete, the referee's step and the contestants' included. Answers of others
   /// than the scene server that `registry` knows are none.
-  RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions);
+  RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
+              KernelFolders kernel = {});
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
   /// `interrupted`. The server also hands out the scene.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
-  /// The finished record, nothing if `interrupted`. Where the scene server denies the problem,
-  /// which it had when the session began, the record says so.
+  /// The finished record, what kept the planner from working among the answer's counters; nothing
+  /// if `interrupted`. Where the scene server denies the problem, which it had when the session
+  /// began, the record says so.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
                                           const std::function<bool()>& interrupted);
   /// Has a planner answer a first request, within `time_limit_s`, that is neither judged nor
@@ -45,11 +48,14 @@ class RunExecutor {
                                  std::chrono::milliseconds retry_period,
                                  const std::function<bool()>& interrupted);
 
+  /// Of a planner on this machine.
+  std::optional<pid_t> PidOf(const std::string& planner) const;
   const Contestant& ContestantOf(const ScheduledRun& run) const;
   PlanRequest RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const;
 
   NodeRegistry* registry_;
   SessionConditions conditions_;
+  KernelFolders kernel_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::mutex mutex_;

@@ -1,8 +1,10 @@
 #include "benchmark_driver/run_session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
@@ -56,6 +59,15 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
        LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages()).warnings) {
     spdlog::warn("{}", warning);
   }
+}
+
+/// Leaves processors to the planners.
+void KeepOff(const std::vector<int>& pinned) {
+  std::vector<int> others = UsableProcessors();
+  std::erase_if(others, [&](int processor) {
+    return std::binary_search(pinned.begin(), pinned.end(), processor);
+  });
+  if (!UseProcessors(others)) throw std::runtime_error("--pin: the processors cannot be chosen");
 }
 
 void WriteTables(const std::filesystem::path& file, const std::string& tables) {
@@ -106,6 +118,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     session_folder = std::filesystem::absolute(session_folder).lexically_normal();
   }
 
+  if (!options.pinned.empty()) KeepOff(options.pinned);
   Bus bus(url);
   // Goes, if it has to, when nobody writes there any more.
   std::optional<NewSessionFolder> new_folder;
@@ -121,7 +134,11 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
   }
 
-  const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
+  NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
+  self.settings = DescribeMachine(options.kernel);
+  if (!options.pinned.empty()) {
+    self.settings["planners' processors"] = fmt::format("{}", fmt::join(options.pinned, ","));
+  }
   NodeAnnouncer announcer(&bus, [&] { return self; });
   const auto watch = [&] {
     announcer.ThrowIfDisplaced();

@@ -14,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "benchmark_driver/machine.h"
 #include "common/error.h"
 
 namespace planbench {
@@ -163,6 +164,7 @@ void Supervisor::Spawn(Child* child) {
       dup2(output, STDERR_FILENO);
     }
     if (input >= 0) dup2(input, STDIN_FILENO);
+    if (!child->spec.processors.empty()) UseProcessors(child->spec.processors);
     execve(arguments[0], arguments.data(), environment.data());
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(2);

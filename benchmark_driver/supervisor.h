@@ -19,6 +19,7 @@ struct ChildSpec {
   std::map<std::string, std::string> environment;  ///< Added to ours.
   std::filesystem::path log;                       ///< Takes its stdout and stderr, appended.
   std::vector<std::string> when_again = {};        ///< Added when it is started again.
+  std::vector<int> processors = {};                ///< That it may use; empty: as this process.
 };
 
 /// Starts child processes, restarts those that die, and stops all in the end. Children do not get

@@ -213,6 +213,32 @@ std::map<std::string, std::string> ClassesIfSeveral(const SessionResults& result
   return classes;
 }
 
+/// How many runs other work on the machine held up (machine.h); "" if none.
+std::string Disturbances(const SessionResults& results) {
+  int runs = 0, disturbed = 0, repeated = 0;
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& contestant : set.contestants) {
+      for (const RunRecordMessage* record : contestant.records) {
+        const std::map<std::string, double>& counters = record->result.result.counters;
+        const auto is_counted = [&](const char* name) {
+          const auto found = counters.find(name);
+          return found != counters.end() && found->second > 0;
+        };
+        ++runs;
+        disturbed += is_counted("disturbed");
+        repeated += is_counted("repeats");
+      }
+    }
+  }
+  if (disturbed + repeated == 0) return "";
+  return BreakLines(
+      fmt::format("{} of {} runs were DISTURBED by other work on the machine beyond "
+                  "--max-disturbance{}.\n",
+                  disturbed, runs,
+                  repeated == 0 ? "; --repeat-disturbed makes such runs again"
+                                : fmt::format("; {} had been, and were made again", repeated)));
+}
+
 /// What the contestants are, and what holds of all the figures.
 std::string Preface(const SessionConditions& conditions, const SessionResults& results) {
   std::string text = "Contestants\n";
@@ -237,7 +263,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
   }
-  return text + "\n";
+  return text + Disturbances(results) + "\n";
 }
 
 }  // namespace

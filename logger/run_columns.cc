@@ -61,8 +61,8 @@ RunColumn Quantity(std::string name, double PlanResult::*value) {
                   [value](const PlanResult& p) { return RealUnlessZero(p.*value); });
 }
 
-RunColumn Counter(const char* name) {
-  return OfAnswer(name, "INTEGER", [name](const PlanResult& p) -> SqliteValue {
+RunColumn Counter(const char* name, const char* type = "INTEGER") {
+  return OfAnswer(name, type, [name](const PlanResult& p) -> SqliteValue {
     const auto found = p.counters.find(name);
     if (found == p.counters.end()) return kNull;
     // INTEGER columns hold exact counts; what is none stays what it is.
@@ -197,6 +197,12 @@ std::vector<RunColumn> MakeRunColumns() {
       Counter("iterations"),
       Counter("expansions"),
       Counter("states"),
+
+      Counter("load_before", "REAL"),
+      Counter("waiting_time", "REAL"),
+      Counter("steal_time", "REAL"),
+      Counter("disturbed", "BOOLEAN"),
+      Counter("repeats"),
   });
   // OMPL's names of quantities that have names used throughout here.
   const auto ompl = [&](std::string name, const std::string& own, auto convert) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -25,6 +26,11 @@ Estimate Milliseconds(double value_s, const std::optional<Interval>& interval_s)
     estimate.interval->upper *= kMs;
   }
   return estimate;
+}
+
+/// NaN, which is shown as nothing, for none.
+double OrNothing(const std::optional<double>& value) {
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Calls `visit` with each set, contestant and its outcomes, in the contestants' order.
@@ -374,6 +380,17 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   field("commit", member(&StoredSession::commit));
   field("host", member(&StoredSession::host));
   field("processor", member(&StoredSession::cpu));
+  std::set<std::string> told;
+  for (const StoredSession& session : compared.sessions()) {
+    for (const auto& [name, value] : session.machine) told.insert(name);
+  }
+  told.erase("cpu");  // that of the session
+  for (const std::string& name : told) {
+    field(name, [&](const StoredSession& session) {
+      const auto found = session.machine.find(name);
+      return found == session.machine.end() ? std::string() : found->second;
+    });
+  }
   field("robot", member(&StoredSession::robot));
   field("seed", member(&StoredSession::seed));
   std::set<std::string> flags;
@@ -473,23 +490,44 @@ Table ConditionTable(const ComparedSessions& compared) {
               "the problems whose trials were all confirmed: the luck of the draw and the noise of "
               "the machine. Noise: the same of what a checked configuration cost on average, in "
               "which luck counts little. Both need several trials of a problem, which a "
-              "contestant whose path does not depend on the seed has none of.",
+              "contestant whose path does not depend on the seed has none of. Load before: of the "
+              "machine over the minute before a run, the session's own included; median. Waited: "
+              "for a processor, or while a hypervisor had it, of all the time from request to "
+              "answer. Disturbed: runs that lost more than --max-disturbance so; repeated: had "
+              "been, and were made again.",
               {{"session", "session"},
                {"contestant", "contestant"},
                {"attempts", "attempts", Style::kCount},
                {"no_answer", "no answer", Style::kCount},
                {"spread", "spread of trials", Style::kNumber},
-               {"noise", "noise of the machine", Style::kNumber}},
+               {"noise", "noise of the machine", Style::kNumber},
+               {"load_before", "load before", Style::kNumber},
+               {"waiting_percent", "waited, %", Style::kNumber},
+               {"disturbed", "disturbed", Style::kCount},
+               {"repeated", "repeated", Style::kCount}},
               {}};
   for (const ComparedContestant& contestant : compared.contestants()) {
     const auto silent =
         std::count_if(contestant.runs.begin(), contestant.runs.end(),
                       [](auto* run) { return run->status == PlanStatus::kNoAnswer; });
-    const auto spread = TrialSpread(compared.pooled().at(contestant.name));
-    const auto noise = CheckingSpread(contestant);
+    std::vector<double> loads;
+    double waiting_s = 0, measured_s = 0;
+    for (const StoredRun* run : contestant.runs) {
+      if (run->load_before) loads.push_back(*run->load_before);
+      if (!run->waiting_s) continue;
+      waiting_s += *run->waiting_s + run->steal_s.value_or(0);
+      measured_s += run->roundtrip_time_s;
+    }
+    const auto disturbed = std::count_if(contestant.runs.begin(), contestant.runs.end(),
+                                         [](auto* run) { return run->disturbed; });
+    const auto repeated = std::count_if(contestant.runs.begin(), contestant.runs.end(),
+                                        [](auto* run) { return run->repeats > 0; });
     table.rows.push_back({compared.session_names()[contestant.session], contestant.name,
                           static_cast<int>(contestant.runs.size()), static_cast<int>(silent),
-                          spread ? Cell(*spread) : Cell(), noise ? Cell(*noise) : Cell()});
+                          OrNothing(TrialSpread(compared.pooled().at(contestant.name))),
+                          OrNothing(CheckingSpread(contestant)), Summarize(std::move(loads)).median,
+                          100 * waiting_s / measured_s, static_cast<int>(disturbed),
+                          static_cast<int>(repeated)});
   }
   return table;
 }

@@ -107,6 +107,15 @@ std::vector<Field> Fields() {
          if (const auto valid = Int(v)) run->mesh_valid_simple = *valid != 0;
        }},
       Number("configurations_checked", &StoredRun::configurations_checked),
+      {"load_before", [](StoredRun* run, const SqliteValue& v) { run->load_before = Real(v); }},
+      {"waiting_time", [](StoredRun* run, const SqliteValue& v) { run->waiting_s = Real(v); }},
+      {"steal_time", [](StoredRun* run, const SqliteValue& v) { run->steal_s = Real(v); }},
+      {"disturbed",
+       [](StoredRun* run, const SqliteValue& v) { run->disturbed = Int(v).value_or(0) != 0; }},
+      {"repeats",
+       [](StoredRun* run, const SqliteValue& v) {
+         run->repeats = static_cast<int>(Int(v).value_or(0));
+       }},
   };
   for (const PathMeasure& measure : PathMeasures()) {
     const std::string name = measure.name;
@@ -204,6 +213,11 @@ class Reader {
         session.robot = fmt::format("{} ({})", robot->value("name", ""), robot->value("id", ""));
       }
       session.flags = details.value("flags", session.flags);
+      for (const auto& node : details.value("nodes", nlohmann::json::array())) {
+        if (node.value("kind", "") == "driver") {
+          session.machine = node.value("settings", session.machine);
+        }
+      }
     }
   }
 

@@ -38,6 +38,13 @@ struct StoredRun {
   double configurations_checked = 0;      ///< By the planner; 0 if it does not tell.
   std::vector<PlanProgress> progress;     ///< Improved solutions of an anytime planner, in order.
 
+  // What other work on the machine did to it; nothing in sessions of earlier versions.
+  std::optional<double> load_before;
+  std::optional<double> waiting_s;  ///< Of the planner for a processor.
+  std::optional<double> steal_s;    ///< By the hypervisor.
+  bool disturbed = false;           ///< Beyond the session's limit.
+  int repeats = 0;                  ///< Earlier attempts that were.
+
   bool confirmed() const { return status == PlanStatus::kSolved; }
 };
 
@@ -65,8 +72,9 @@ struct StoredSession {
   double total_time_s = 0;
   int num_runs = 0;  ///< As planned.
   std::string version, commit, host, cpu, date, seed, robot;
-  std::map<std::string, std::string> flags;  ///< Of the driver.
-  std::optional<BusRecord> bus;              ///< Of its folder; nothing if that holds no run.json.
+  std::map<std::string, std::string> flags;    ///< Of the driver.
+  std::map<std::string, std::string> machine;  ///< What the driver says of its own.
+  std::optional<BusRecord> bus;  ///< Of its folder; nothing if that holds no run.json.
 
   std::vector<StoredContestant> contestants;
   std::vector<StoredRun> runs;

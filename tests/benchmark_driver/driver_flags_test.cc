@@ -1,5 +1,6 @@
 #include "benchmark_driver/driver_flags.h"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
@@ -84,6 +85,28 @@ TEST(DriverFlagsTest, DefaultsAreTheStudys) {
   EXPECT_TRUE(options.conditions.with_clearance);
   EXPECT_FALSE(options.conditions.parallel);
   EXPECT_FALSE(options.launch);
+}
+
+TEST(DriverFlagsTest, WhatASharedMachineDoesCanBeLimited) {
+  const DriverOptions defaults = ParseFlags({});
+  EXPECT_EQ(defaults.max_disturbance, 0.1);
+  EXPECT_FALSE(defaults.repeat_disturbed);
+  const DriverOptions options = ParseFlags({"--max-disturbance", "0.5", "--repeat-disturbed"});
+  EXPECT_EQ(options.max_disturbance, 0.5);
+  EXPECT_TRUE(options.repeat_disturbed);
+  ExpectRefused({"--max-disturbance", "0"}, {"--max-disturbance"});
+  ExpectRefused({"--max-disturbance", "nan"}, {"--max-disturbance"});
+  ExpectRefused({"--max-disturbance", "2"}, {"at most 1"});
+
+  const std::vector<int> usable = UsableProcessors();
+  const std::string last = fmt::format("{}", usable.back());
+  if (usable.size() > 1) {
+    EXPECT_EQ(ParseFlags(Launch({"--pin", last})).pinned, std::vector<int>{usable.back()});
+  }
+  ExpectRefused(Launch({"--pin", "4095"}), {"--pin 4095", "there is no processor 4095"});
+  ExpectRefused(Launch({"--pin", fmt::format("{}", fmt::join(usable, ","))}), {"is left"});
+  ExpectRefused(Launch({"--pin", "x"}), {"--pin x", "is no number"});
+  ExpectRefused({"--pin", last}, {"--launch"});
 }
 
 TEST(DriverFlagsTest, ReadsEveryFlag) {

@@ -339,6 +339,17 @@ TEST(TablesTest, ContestantsAreExplained) {
   EXPECT_THAT(MakeTables(conditions, Session()).brief, HasSubstr("UNDER LOAD"));
 }
 
+TEST(TablesTest, DisturbedRunsAreCounted) {
+  auto records = Session();
+  EXPECT_THAT(Brief(records), Not(HasSubstr("DISTURBED")));
+  records[0].result.result.counters = {{"disturbed", 1}, {"repeats", 0}};
+  records[1].result.result.counters = {{"disturbed", 0}, {"repeats", 0}};
+  EXPECT_THAT(Brief(records),
+              HasSubstr(fmt::format("1 of {} runs were DISTURBED", records.size())));
+  records[1].result.result.counters["repeats"] = 2;
+  EXPECT_THAT(Brief(records), HasSubstr("; 1 had been, and"));
+}
+
 TEST(TablesTest, ContestantsOfSeveralClassesHaveTheirs) {
   auto records = Session();
   for (RunRecordMessage& record : records) record.planner_class = "sampling-guided";

@@ -110,23 +110,72 @@ TEST_F(ReportTest, Failures) {
 
 TEST_F(ReportTest, Conditions) {
   const Table table = ConditionTable(compared_);
-  EXPECT_EQ(Texts(table, 0), (Row{"example", kTagName, "30", "0", "1.00", "-"}));
-  EXPECT_EQ(Texts(table, 1), (Row{"example", kScriptName, "18", "0", "-", "-"}));
+  EXPECT_EQ(Texts(table, 0),
+            (Row{"example", kTagName, "30", "0", "1.00", "-", "-", "-", "0", "0"}));
+  EXPECT_EQ(Texts(table, 1),
+            (Row{"example", kScriptName, "18", "0", "-", "-", "-", "-", "0", "0"}));
   EXPECT_EQ(Cautions(compared_),
             std::vector<std::string>{"example: all 48 runs are recorded; it took 0 s."});
 }
 
 TEST_F(ReportTest, NoiseIsWhatAChecksTimeVariesAmongTrials) {
   // Collision checking is half of the time: 5 ms and 4 ms a configuration, then 1 ms and 3 ms.
-  const ComparedSessions compared =
-      Read({{.contestant = "A", .time_s = 1, .configurations = 100},
-            {.contestant = "A", .trial = 2, .time_s = 2, .configurations = 250},
-            {.contestant = "A", .problem = 2, .time_s = 2, .configurations = 1000},
-            {.contestant = "A", .problem = 2, .trial = 2, .time_s = 6, .configurations = 1000},
-            {.contestant = "A", .problem = 3, .time_s = 6, .configurations = 1}});
+  const ComparedSessions compared = Read(
+      {{.contestant = "A", .time_s = 1, .counters = {{"configurations_checked", 100}}},
+       {.contestant = "A", .trial = 2, .time_s = 2, .counters = {{"configurations_checked", 250}}},
+       {.contestant = "A",
+        .problem = 2,
+        .time_s = 2,
+        .counters = {{"configurations_checked", 1000}}},
+       {.contestant = "A",
+        .problem = 2,
+        .trial = 2,
+        .time_s = 6,
+        .counters = {{"configurations_checked", 1000}}},
+       {.contestant = "A",
+        .problem = 3,
+        .time_s = 6,
+        .counters = {{"configurations_checked", 1}}}});
   const Row row = Texts(ConditionTable(compared), 0);
   EXPECT_EQ(row[4], "2.50");  // median of 2 and 3
   EXPECT_EQ(row[5], FormatNumber((1.25 + 3) / 2));
+}
+
+TEST_F(ReportTest, WhatOtherWorkDidToTheRunsIsTold) {
+  // A round trip takes half a second longer than planning: 1.5 s and 2.5 s.
+  const ComparedSessions compared = Read(
+      {{.contestant = "A",
+        .time_s = 1,
+        .counters = {{"load_before", 1}, {"waiting_time", 0.5}, {"disturbed", 1}, {"repeats", 2}}},
+       {.contestant = "A",
+        .problem = 2,
+        .time_s = 2,
+        .counters =
+            {{"load_before", 4}, {"waiting_time", 0}, {"steal_time", 0.25}, {"repeats", 1}}},
+       {.contestant = "A", .problem = 3}});
+  const Row row = Texts(ConditionTable(compared), 0);
+  EXPECT_EQ(row[6], "2.50");
+  EXPECT_EQ(row[7], FormatNumber(100 * 0.75 / 4));
+  EXPECT_EQ(row[8], "1");
+  EXPECT_EQ(row[9], "2");
+}
+
+TEST_F(ReportTest, TheMachineIsTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  NodeStatusMessage driver;
+  driver.kind = NodeKind::kDriver;
+  driver.settings = {{"cpu", "Fast CPU"}, {"governor", "powersave"}, {"load", "1 2 3"}};
+  session.nodes = {driver};
+  WriteSession(folder / "example", {{.contestant = "A"}}, session);
+  const ComparedSessions compared(ReadSessions(folder / "example").sessions);
+  const Table table = SessionTable(compared, false);
+  std::map<std::string, std::string> fields;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    fields[Texts(table, i)[0]] = Texts(table, i)[1];
+  EXPECT_EQ(fields.at("governor"), "powersave");
+  EXPECT_EQ(fields.at("load"), "1 2 3");
+  EXPECT_FALSE(fields.contains("cpu"));
 }
 
 TEST_F(ReportTest, TheBusIsTold) {

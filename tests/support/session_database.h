@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ struct MadeRun {
   std::string mesh_reason = "";
   double mesh_depth_m = 0;  ///< 0: the verdict names no contact.
   std::optional<bool> mesh_valid_simplified = {};
-  int configurations = 0;  ///< That it had checked; 0: it does not tell.
+  std::map<std::string, double> counters = {};
   std::vector<PlanProgress> progress = {};
 };
 
@@ -53,7 +54,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   result.planning_time_s = result.total_time_s = run.time_s;
   result.phases = {run.time_s / 8, run.time_s / 2, run.time_s / 4, run.time_s / 8, 0.25};
   result.progress = run.progress;
-  if (run.configurations > 0) result.counters["configurations_checked"] = run.configurations;
+  result.counters = run.counters;
   if (!claimed) return record;
   record.result.joint_names = {"j"};
   result.path = {{0}, {1}};

@@ -1,0 +1,134 @@
+#include "benchmark_driver/machine.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace planbench {
+namespace {
+
+/// Below, what a run waited is what every thread waits when it is woken.
+constexpr double kLeastDisturbance = 1e-3;  // s
+
+std::string FirstLine(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+std::string CpuName(const std::filesystem::path& proc) {
+  std::ifstream info(proc / "cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::map<std::string, std::string> DescribeMachine(const KernelFolders& kernel) {
+  std::map<std::string, std::string> machine = {
+      {"cpu", CpuName(kernel.proc)},
+      {"processors", fmt::format("{}", sysconf(_SC_NPROCESSORS_ONLN))}};
+  std::istringstream load(FirstLine(kernel.proc / "loadavg"));
+  std::string minutes, five_minutes, quarter;
+  if (load >> minutes >> five_minutes >> quarter) {
+    machine["load"] = fmt::format("{} {} {}", minutes, five_minutes, quarter);
+  }
+  std::set<std::string> governors;
+  std::error_code none;
+  for (const auto& cpu :
+       std::filesystem::directory_iterator(kernel.sys / "devices/system/cpu", none)) {
+    const std::string governor = FirstLine(cpu.path() / "cpufreq/scaling_governor");
+    if (!governor.empty()) governors.insert(governor);
+  }
+  if (!governors.empty()) machine["governor"] = fmt::format("{}", fmt::join(governors, ", "));
+  return machine;
+}
+
+DisturbanceMeter::DisturbanceMeter(std::optional<pid_t> pid, KernelFolders kernel)
+    : kernel_(std::move(kernel)), pid_(pid) {
+  double load = 0;
+  if (std::istringstream(FirstLine(kernel_.proc / "loadavg")) >> load) load_ = load;
+  waiting_s_ = WaitingByThread();
+  steal_s_ = Steal();
+}
+
+void DisturbanceMeter::Read(std::map<std::string, double>* counters) const {
+  if (load_) (*counters)["load_before"] = *load_;
+  const std::map<std::string, double> waiting_s = WaitingByThread();
+  if (!waiting_s.empty()) {
+    double sum = 0;
+    for (const auto& [thread, now] : waiting_s) {
+      const auto before = waiting_s_.find(thread);
+      sum += now - (before == waiting_s_.end() ? 0 : before->second);
+    }
+    (*counters)["waiting_time"] = sum;
+  }
+  const std::optional<double> steal_s = Steal();
+  if (steal_s && steal_s_) (*counters)["steal_time"] = *steal_s - *steal_s_;
+}
+
+std::map<std::string, double> DisturbanceMeter::WaitingByThread() const {
+  std::map<std::string, double> waiting;
+  if (!pid_) return waiting;
+  std::error_code none;
+  const auto threads = kernel_.proc / fmt::format("{}", *pid_) / "task";
+  for (const auto& thread : std::filesystem::directory_iterator(threads, none)) {
+    double running_ns = 0, waiting_ns = 0;
+    std::istringstream line(FirstLine(thread.path() / "schedstat"));
+    if (line >> running_ns >> waiting_ns) {
+      waiting[thread.path().filename().string()] = waiting_ns * 1e-9;
+    }
+  }
+  return waiting;
+}
+
+std::optional<double> DisturbanceMeter::Steal() const {
+  // cpu  user nice system idle iowait irq softirq steal ..., of all processors, in ticks.
+  std::istringstream line(FirstLine(kernel_.proc / "stat"));
+  std::string name;
+  line >> name;
+  double steal = 0;
+  for (int i = 0; i < 8; ++i) line >> steal;
+  if (!line || name != "cpu") return std::nullopt;
+  return steal / static_cast<double>(sysconf(_SC_CLK_TCK) * sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+bool IsDisturbed(const std::map<std::string, double>& counters, double run_s, double limit) {
+  double lost_s = 0;
+  for (const char* name : {"waiting_time", "steal_time"}) {
+    const auto found = counters.find(name);
+    if (found != counters.end()) lost_s += found->second;
+  }
+  return lost_s > kLeastDisturbance && lost_s > limit * run_s;
+}
+
+std::vector<int> UsableProcessors() {
+  cpu_set_t set;
+  std::vector<int> processors;
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) return processors;
+  for (int i = 0; i < CPU_SETSIZE; ++i) {
+    if (CPU_ISSET(i, &set)) processors.push_back(i);
+  }
+  return processors;
+}
+
+bool UseProcessors(const std::vector<int>& processors) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const int processor : processors) CPU_SET(processor, &set);
+  return sched_setaffinity(0, sizeof(set), &set) == 0;
+}
+
+}  // namespace planbench
