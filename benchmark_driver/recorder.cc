@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kRetry{500};
-constexpr std::chrono::milliseconds kPoll{100};
+constexpr std::chrono::milliseconds kWakeUp{100};
 /// Records under way at once.
 constexpr std::size_t kWindow = 16;
 
@@ -173,7 +173,7 @@ void Recorder::Deliver(std::unique_lock<std::mutex>* lock, bool wait_for_return)
       const bool lost = best != nullptr && Lacks(*best);
       if (!wait_for_return || !lost || now - progress >= return_patience) return;
     }
-    changed_.wait_for(*lock, kPoll);
+    changed_.wait_for(*lock, kWakeUp);
   }
 }
 

@@ -21,7 +21,7 @@ namespace planbench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::chrono::milliseconds kExitPoll{20};
 constexpr std::chrono::milliseconds kRestartDelay{200};
 
 std::string LastLine(const std::filesystem::path& log) {
@@ -83,7 +83,7 @@ void Supervisor::Supervise() {
         if (child.pid < 0 && child.wanted && Clock::now() >= child.restart_at) Spawn(&child);
       }
     }
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kExitPoll);
   }
 }
 
@@ -217,7 +217,7 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
           killed = true;
         }
       }
-      std::this_thread::sleep_for(kPoll);
+      std::this_thread::sleep_for(kExitPoll);
     }
   }
 }

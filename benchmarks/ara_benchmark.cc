@@ -36,7 +36,7 @@ std::vector<Coordinates> Walk(std::size_t length) {
 void StoreStates(benchmark::State& state) {
   const std::vector<Coordinates> walk = Walk(static_cast<std::size_t>(state.range(0)));
   std::size_t distinct = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     LatticePoints points(kJoints);
     for (const Coordinates& coordinates : walk) points.FindOrAdd(coordinates);
     distinct = points.size();
@@ -52,7 +52,7 @@ void RetrieveStates(benchmark::State& state) {
   const std::vector<Coordinates> walk = Walk(static_cast<std::size_t>(state.range(0)));
   LatticePoints points(kJoints);
   for (const Coordinates& coordinates : walk) points.FindOrAdd(coordinates);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     for (const Coordinates& coordinates : walk) {
       benchmark::DoNotOptimize(points.Coordinates(points.FindOrAdd(coordinates)).data());
     }
@@ -67,7 +67,7 @@ void OpenEdges(benchmark::State& state) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<EdgeHeap::Entry> entries(1 << 12);
   for (EdgeHeap::Entry& entry : entries) entry = {unit(random), unit(random), 0, 1, 2};
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     EdgeHeap heap;
     heap.Rebuild(100, EdgeOrder::kHeuristic, {}, [](const EdgeHeap::Entry&) { return true; });
     std::size_t next = 0;

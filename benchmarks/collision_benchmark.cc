@@ -81,7 +81,7 @@ void Check(benchmark::State& state, CollisionChecker& checker,
            const std::vector<Configuration>& configurations) {
   std::size_t i = 0;
   std::int64_t num_free = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     num_free += checker.IsFree(configurations[i]) ? 1 : 0;
     i = i + 1 == configurations.size() ? 0 : i + 1;
   }
@@ -97,7 +97,7 @@ void VisitBlocks(benchmark::State& state, const std::vector<Configuration>& conf
   for (const Configuration& q : configurations) rows.insert(rows.end(), q.begin(), q.end());
   const std::size_t size = kBlock * configurations.front().size();
   std::size_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     visit(std::span<const double>(rows).subspan(i, size));
     i = i + 2 * size > rows.size() ? 0 : i + size;
   }
@@ -130,7 +130,7 @@ void CheckEdges(benchmark::State& state, Workload& work, double max_length) {
   }
   std::size_t i = 0;
   std::int64_t num_valid = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     num_valid += edges.IsValidEdge(work.free[i], ends[i], true) ? 1 : 0;
     i = i + 1 == ends.size() ? 0 : i + 1;
   }
@@ -171,7 +171,7 @@ void CheckUnitEdges(benchmark::State& state, Workload& work) {
   }
   if (edges.empty()) throw InputError("hardly an edge of this problem is free");
   std::size_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(checker.CheckSamples(edges[i].start, edges[i].motion, samples));
     i = i + 1 == edges.size() ? 0 : i + 1;
   }
@@ -318,14 +318,15 @@ void Register(Workload* work) {
   }
   benchmark::RegisterBenchmark("closest/free", [work](benchmark::State& state) {
     std::size_t i = 0;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
       benchmark::DoNotOptimize(work->checker->FindClosest(work->free[i]));
       i = i + 1 == work->free.size() ? 0 : i + 1;
     }
     state.SetItemsProcessed(state.iterations());
   });
   benchmark::RegisterBenchmark("set_scene", [work](benchmark::State& state) {
-    for (auto _ : state) work->checker->SetScene(work->problem.scene, work->base_positions);
+    for ([[maybe_unused]] auto _ : state)
+      work->checker->SetScene(work->problem.scene, work->base_positions);
     state.SetItemsProcessed(state.iterations());
   });
 }

@@ -62,6 +62,10 @@ endfunction()
 function(planbench_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(planbench_${name} STATIC ${ARG_SOURCES})
+  # clang-tidy reads the rooms before anything is generated.
+  set(generated ${ARG_SOURCES})
+  list(FILTER generated INCLUDE REGEX "^${PROJECT_BINARY_DIR}/")
+  set_source_files_properties(${generated} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(planbench_${name} PUBLIC planbench_options ${ARG_LINK}
                                           PRIVATE ${ARG_PRIVATE_LINK})
   planbench_reuse(planbench_${name} planbench_headers)

@@ -10,7 +10,7 @@
 namespace planbench {
 
 GeometryBound::GeometryBound(const RobotModel& model, const PlanningGroup& group,
-                             std::vector<LinkSphere> geometry)
+                             const std::vector<LinkSphere>& geometry)
     : model_(&model), group_(&group), geometry_(static_cast<std::size_t>(model.num_links())) {
   for (const LinkSphere& ball : geometry) At(geometry_, ball.link).push_back(ball);
 }

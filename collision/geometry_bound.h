@@ -14,7 +14,7 @@ class GeometryBound {
  public:
   /// `geometry`: balls that cover the robot's. Holds references to model and group.
   GeometryBound(const RobotModel& model, const PlanningGroup& group,
-                std::vector<LinkSphere> geometry);
+                const std::vector<LinkSphere>& geometry);
 
   /// `base_positions`: full positions, at which joints outside the group are held. The links that
   /// objects are attached to are known.

@@ -77,7 +77,7 @@ struct Fields<PlacedShape> : On<lcmt_shape> {
           Box{{0, 0, 0}}, Sphere{}, Cylinder{}, Cone{}, Capsule{}, HalfSpace{}, Mesh{}};
       io.Require(type >= 0 && type < std::ssize(kOfEachType), "type", "no such value: {}",
                  static_cast<int>(type));
-      placed.shape = kOfEachType[static_cast<std::size_t>(type)];
+      placed.shape = kOfEachType[static_cast<unsigned char>(type)];
       std::size_t size = 0;
       const auto set = [&](double& dimension) {
         if (size < dimensions.size()) dimension = dimensions[size];

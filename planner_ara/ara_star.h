@@ -4,9 +4,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "common/numbers.h"
 #include "planner_ara/chunked_array.h"
 #include "planner_ara/edge_heap.h"
 
@@ -69,8 +69,6 @@ enum class ImproveOutcome {
 template <SearchGraph Graph>
 class AraStar {
  public:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
   /// The graph must outlive this.
   AraStar(Graph* graph, StateId start, StateId goal) : graph_(graph), start_(start), goal_(goal) {
     Touch(goal);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "common/numbers.h"
+
 namespace planbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A search goes on until it has done this much more work than the other.
 constexpr std::int64_t kSlice = 200;
 /// Work of an expansion, a configuration checked being 1.

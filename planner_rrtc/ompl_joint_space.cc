@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numbers>
 #include <ostream>
 #include <random>
 
+#include "common/numbers.h"
 #include "common/random.h"
 
 namespace planbench {
 namespace {
 
 namespace ob = ompl::base;
-constexpr double kPi = std::numbers::pi;
 
 /// Header of a block that goes on with the positions.
 class alignas(double) JointSpaceState final : public ob::State {

@@ -36,7 +36,7 @@ Trajectory InitialGuesses::DrawByWayOf(int num_points) {
 Trajectory InitialGuesses::Next() {
   if (count_++ == 0) return Through(space_, {start_, goal_}, num_inner_);
   const int num_points = 1 + count_ % kMostPoints;
-  const int num_rows = num_inner_ + 2;
+  const Eigen::Index num_rows = num_inner_ + 2;
   Trajectory candidates(kCandidates * num_rows, space_.size());
   for (int k = 0; k < kCandidates; ++k) {
     candidates.middleRows(k * num_rows, num_rows) = DrawByWayOf(num_points);

@@ -1,16 +1,16 @@
 #include "planner_trajopt/trajectory.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "common/numbers.h"
 
 namespace planbench {
 
 JointBounds::JointBounds(const JointSpace& space) : lower_(space.size()), upper_(space.size()) {
-  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   for (int j = 0; j < space.size(); ++j) {
     const JointSpace::Joint& joint = space.joint(j);
-    lower_[j] = joint.continuous ? -kUnbounded : joint.lower;
-    upper_[j] = joint.continuous ? kUnbounded : joint.upper;
+    lower_[j] = joint.continuous ? -kInfinity : joint.lower;
+    upper_[j] = joint.continuous ? kInfinity : joint.upper;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "common/numbers.h"
 #include "common/version.h"
 #include "planning/path_measures.h"
 #include "report/answer.h"
@@ -15,8 +16,6 @@
 
 namespace planbench {
 namespace {
-
-constexpr double kMs = 1e3;
 
 Json Rounded(double value) {
   if (!std::isfinite(value)) return nullptr;
@@ -81,17 +80,17 @@ Json SuccessJson(const Outcomes& outcomes) {
 
 Json TimesJson(const Outcomes& outcomes) {
   const TimeSummary s = SummarizeTimes(outcomes);
-  Json json = {{"median", Rounded(kMs * s.solved_s.median)},
-               {"limit", kMs * outcomes.time_limit_s}};
-  json["lower"] = s.median_interval_s ? Rounded(kMs * s.median_interval_s->lower) : Json();
-  json["upper"] = s.median_interval_s ? Rounded(kMs * s.median_interval_s->upper) : Json();
+  Json json = {{"median", Rounded(kMsPerS * s.solved_s.median)},
+               {"limit", kMsPerS * outcomes.time_limit_s}};
+  json["lower"] = s.median_interval_s ? Rounded(kMsPerS * s.median_interval_s->lower) : Json();
+  json["upper"] = s.median_interval_s ? Rounded(kMsPerS * s.median_interval_s->upper) : Json();
   // Every run, problem by problem.
   Json problems = Json::array(), trials = Json::array(), times = Json::array();
   for (const auto& [problem, of_problem] : outcomes.by_problem) {
     for (std::size_t t = 0; t < of_problem.size(); ++t) {
       problems.push_back(problem);
       trials.push_back(t + 1);
-      times.push_back(Rounded(kMs * of_problem[t].time_s));
+      times.push_back(Rounded(kMsPerS * of_problem[t].time_s));
     }
   }
   json["problem"] = std::move(problems);
@@ -103,7 +102,7 @@ Json TimesJson(const Outcomes& outcomes) {
 Json SurvivalJson(const Outcomes& outcomes) {
   Json time = Json::array(), share = Json::array(), lower = Json::array(), upper = Json::array();
   for (const SolvedBy& step : SolvedOverTime(outcomes)) {
-    time.push_back(Rounded(kMs * step.time_s));
+    time.push_back(Rounded(kMsPerS * step.time_s));
     share.push_back(Rounded(step.share));
     lower.push_back(Rounded(step.interval.lower));
     upper.push_back(Rounded(step.interval.upper));
@@ -112,7 +111,7 @@ Json SurvivalJson(const Outcomes& outcomes) {
           {"share", std::move(share)},
           {"lower", std::move(lower)},
           {"upper", std::move(upper)},
-          {"limit", kMs * outcomes.time_limit_s}};
+          {"limit", kMsPerS * outcomes.time_limit_s}};
 }
 
 Json Rounded(const std::optional<double>& value) { return value ? Rounded(*value) : Json(); }
@@ -120,7 +119,7 @@ Json Rounded(const std::optional<double>& value) { return value ? Rounded(*value
 Json StepsJson(const std::vector<AnytimeStep>& steps) {
   Json time = Json::array(), median = Json::array(), lower = Json::array(), upper = Json::array();
   for (const AnytimeStep& step : steps) {
-    time.push_back(Rounded(kMs * step.time_s));
+    time.push_back(Rounded(kMsPerS * step.time_s));
     median.push_back(Rounded(step.median));
     lower.push_back(Rounded(step.lower));
     upper.push_back(Rounded(step.upper));
@@ -145,7 +144,7 @@ Json ProblemTimesJson(const Outcomes& outcomes) {
   Json problem = Json::array(), time = Json::array();
   for (const auto& [index, trials] : outcomes.by_problem) {
     problem.push_back(index);
-    time.push_back(Rounded(kMs * ProblemTime(trials)));
+    time.push_back(Rounded(kMsPerS * ProblemTime(trials)));
   }
   return {{"problem", std::move(problem)}, {"time", std::move(time)}};
 }
@@ -191,7 +190,7 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
         if (runs.empty()) return nullptr;
         const PhaseTimes mean = MeanPhases(runs);
         const double total = mean.setup_s + mean.collision_s + mean.guidance_s + mean.search_s;
-        return {{"total", Rounded(kMs * total)},
+        return {{"total", Rounded(kMsPerS * total)},
                 {"shares",
                  {Rounded(mean.setup_s / total), Rounded(mean.collision_s / total),
                   Rounded(mean.guidance_s / total), Rounded(mean.search_s / total)}}};
@@ -239,7 +238,7 @@ Json AttemptsJson(const ComparedSessions& compared, const Places& places) {
     columns["trial"].push_back(run.trial);
     columns["direction"].push_back(static_cast<int>(run.direction));
     columns["status"].push_back(static_cast<int>(run.status));
-    columns["time"].push_back(run.time_s ? Rounded(kMs * *run.time_s) : Json());
+    columns["time"].push_back(run.time_s ? Rounded(kMsPerS * *run.time_s) : Json());
     const auto length = [](const MeasuredValues& measures) {
       const auto value = FindMeasure(measures, "path_length");
       return value ? Rounded(*value) : Json();

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "common/numbers.h"
 #include "planning/path_measures.h"
 #include "results/quality.h"
 #include "results/reproduce.h"
@@ -17,13 +18,11 @@
 namespace planbench {
 namespace {
 
-constexpr double kMs = 1e3;
-
 Estimate Milliseconds(double value_s, const std::optional<Interval>& interval_s) {
-  Estimate estimate{kMs * value_s, interval_s};
+  Estimate estimate{kMsPerS * value_s, interval_s};
   if (estimate.interval) {
-    estimate.interval->lower *= kMs;
-    estimate.interval->upper *= kMs;
+    estimate.interval->lower *= kMsPerS;
+    estimate.interval->upper *= kMsPerS;
   }
   return estimate;
 }
@@ -161,9 +160,9 @@ Table TimeTable(const ComparedSessions& compared) {
     const TimeSummary s = SummarizeTimes(outcomes);
     table.rows.push_back({set, contestant.name, s.solved_s.count,
                           Milliseconds(s.solved_s.median, s.median_interval_s),
-                          kMs * s.solved_s.mean, kMs * s.solved_s.lower_quartile,
-                          kMs * s.solved_s.upper_quartile, kMs * s.solved_s.percentile_95,
-                          kMs * s.penalised_mean_s});
+                          kMsPerS * s.solved_s.mean, kMsPerS * s.solved_s.lower_quartile,
+                          kMsPerS * s.solved_s.upper_quartile, kMsPerS * s.solved_s.percentile_95,
+                          kMsPerS * s.penalised_mean_s});
   });
   return table;
 }
@@ -268,8 +267,9 @@ Table PhaseTable(const ComparedSessions& compared) {
             if (runs.empty()) return;
             const PhaseTimes mean = MeanPhases(runs);
             table.rows.push_back({set, contestant.name, static_cast<int>(runs.size()),
-                                  kMs * mean.setup_s, kMs * mean.collision_s, kMs * mean.guidance_s,
-                                  kMs * mean.search_s, kMs * mean.simplification_s});
+                                  kMsPerS * mean.setup_s, kMsPerS * mean.collision_s,
+                                  kMsPerS * mean.guidance_s, kMsPerS * mean.search_s,
+                                  kMsPerS * mean.simplification_s});
           });
   return table;
 }
@@ -354,7 +354,7 @@ Table MeshTable(const ComparedSessions& compared) {
              Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}},
              simple_judged, simple_valid,
              depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
-             kMs * Summarize(times_s).median, Commonest(contacts)});
+             kMsPerS * Summarize(times_s).median, Commonest(contacts)});
       });
   return table;
 }

@@ -14,13 +14,13 @@ namespace planbench {
 namespace {
 
 /// To 0.01 mm, or 1e-5 of a quaternion.
-double Rounded(double value) { return std::round(1e5 * value) / 1e5; }
+double RoundedPosition(double value) { return std::round(1e5 * value) / 1e5; }
 
 void AppendPose(const Eigen::Isometry3d& X, Json* list) {
   const Eigen::Quaterniond q(X.linear());
   for (const double value : {X.translation().x(), X.translation().y(), X.translation().z(), q.x(),
                              q.y(), q.z(), q.w()}) {
-    list->push_back(Rounded(value));
+    list->push_back(RoundedPosition(value));
   }
 }
 
@@ -30,7 +30,9 @@ Json Pose(const Eigen::Isometry3d& X) {
   return pose;
 }
 
-Json Point(const Eigen::Vector3d& p) { return {Rounded(p.x()), Rounded(p.y()), Rounded(p.z())}; }
+Json Point(const Eigen::Vector3d& p) {
+  return {RoundedPosition(p.x()), RoundedPosition(p.y()), RoundedPosition(p.z())};
+}
 
 Json ShapeJson(const Shape& shape) {
   Json json = {{"type", ShapeTypeName(shape)}};
@@ -47,7 +49,7 @@ Json ShapeJson(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape)) {
     json["vertices"] = Json::array();
     for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
-      for (const double value : vertex) json["vertices"].push_back(Rounded(value));
+      for (const double value : vertex) json["vertices"].push_back(RoundedPosition(value));
     }
     json["triangles"] = Json::array();
     for (const auto& triangle : mesh->triangles.triangles) {
@@ -94,7 +96,7 @@ class View {
       for (const LinkSphere& sphere : spheres_) {
         if (sphere.link != link) continue;
         Json values = Point(sphere.p_LS);
-        values.push_back(Rounded(sphere.radius));
+        values.push_back(RoundedPosition(sphere.radius));
         one["spheres"].push_back(std::move(values));
       }
       json_["links"].push_back(std::move(one));

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "common/numbers.h"
 #include "results/comparison.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Problems that all contestants tried, each with its shortest time.
 std::map<int, double> BestTimes(const std::map<std::string, Outcomes>& contestants) {
@@ -61,7 +59,8 @@ std::vector<SolvedBy> SolvedOverTime(const Outcomes& outcomes) {
   std::vector<std::pair<double, double>> solved;  // when, and what it adds to the problems solved
   for (const auto& [problem, trials] : outcomes.by_problem) {
     for (const Outcome& trial : trials) {
-      if (trial.confirmed()) solved.emplace_back(trial.time_s, 1.0 / trials.size());
+      if (trial.confirmed())
+        solved.emplace_back(trial.time_s, 1.0 / static_cast<double>(trials.size()));
     }
   }
   std::sort(solved.begin(), solved.end());

@@ -36,7 +36,7 @@ struct Property {
   std::function<std::string(const StoredRun&)> value;  ///< Empty: none.
 };
 
-std::vector<Property> Properties() {
+std::vector<Property> LoggedProperties() {
   const auto measure = [](const char* name, bool raw) {
     return [=](const StoredRun& run) {
       return Text(FindMeasure(raw ? run.measures : run.measures_simple, name));
@@ -90,7 +90,7 @@ std::string PlannerResults(const StoredContestant& contestant,
   std::string text =
       fmt::format("{}\n{} common properties\n", OneLine(contestant.name), settings.size());
   for (const std::string& line : settings) text += line + "\n";
-  const std::vector<Property> properties = Properties();
+  const std::vector<Property> properties = LoggedProperties();
   text += fmt::format("{} properties for each run\n", properties.size());
   for (const Property& one : properties) text += fmt::format("{} {}\n", one.name, one.type);
   text += fmt::format("{} runs\n", runs.size());

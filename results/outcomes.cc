@@ -1,13 +1,12 @@
 #include "results/outcomes.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool Solved(const Attempt* attempt) {
   return attempt != nullptr && attempt->status == PlanStatus::kSolved;

@@ -1,12 +1,11 @@
 #include "robot_model/joint_space.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // `angle` in [-pi, pi]. The first branches give what std::remainder gives (the differences are
 // exact), in a fraction of its time; they are the ones taken by positions that are themselves

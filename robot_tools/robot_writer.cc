@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 #include "common/enum_names.h"
 #include "common/error.h"
 #include "common/write_file.h"
@@ -43,7 +42,7 @@ std::vector<std::string> Numbers(const std::vector<double>& values) {
   return texts;
 }
 
-std::string LinkName(const RobotModel& model, int link) {
+std::string LinkYaml(const RobotModel& model, int link) {
   return YamlText(model.links()[static_cast<std::size_t>(link)].name);
 }
 
@@ -51,8 +50,8 @@ std::string GroupYaml(const PlanningGroup& group, const RobotModel& model) {
   std::vector<std::string> joints;
   for (const JointSpace::Joint& joint : group.space.joints())
     joints.push_back(YamlText(joint.name));
-  std::vector<std::string> tips = {LinkName(model, group.tip_link)};
-  for (const int tip : group.more_tips) tips.push_back(LinkName(model, tip));
+  std::vector<std::string> tips = {LinkYaml(model, group.tip_link)};
+  for (const int tip : group.more_tips) tips.push_back(LinkYaml(model, tip));
   std::string yaml =
       fmt::format("  - name: {}\n    joints: {}\n    tip_link: {}\n", YamlText(group.name),
                   List(joints, 13), tips.size() == 1 ? tips.front() : List(tips, 15));
@@ -68,8 +67,8 @@ std::string PairsYaml(const RobotDraft& draft) {
   for (const RobotDraft::ExemptPairs& exempt : draft.exempt) {
     if (!exempt.pairs.empty()) yaml += fmt::format("  # {}\n", exempt.reason);
     for (const auto& [a, b] : exempt.pairs) {
-      yaml += fmt::format("  - [{}, {}]\n", LinkName(draft.robot.model, a),
-                          LinkName(draft.robot.model, b));
+      yaml += fmt::format("  - [{}, {}]\n", LinkYaml(draft.robot.model, a),
+                          LinkYaml(draft.robot.model, b));
     }
   }
   return yaml;

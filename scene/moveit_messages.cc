@@ -19,7 +19,7 @@ namespace {
 
 struct Field {
   std::string_view name;
-  std::string_view type = "";  // A message, or a list of such; empty for what has no fields.
+  std::string_view type = {};  // A message, or a list of such; empty for what has no fields.
 };
 using Messages = std::map<std::string_view, std::vector<Field>>;
 

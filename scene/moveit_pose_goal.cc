@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
 
+#include "common/numbers.h"
 #include "common/random.h"
 #include "robot_model/inverse_kinematics.h"
 #include "scene/moveit_fields.h"
@@ -26,9 +25,6 @@ constexpr int kPoses = 64;
 constexpr int kStartsOfPose = 8;
 // The same for all problems: two files that say the same in other frames get the same goals.
 constexpr std::uint64_t kSeed = 1;
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // P is the frame that is constrained: fixed to the tip link T, with its origin at the constrained
 // point and the axes of the link whose orientation is constrained. B is the base frame.

@@ -184,8 +184,8 @@ Vector3d CoverProof::InVoid(std::span<const Ball> balls, const Vector3d& corner)
     bool farther = false;
     for (int direction = 0; direction < 26 && !farther; ++direction) {
       const int code = direction < 13 ? direction : direction + 1;  // 13 is no direction.
-      const Vector3d to =
-          p + step * Vector3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
+      const Eigen::Vector3i signs(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+      const Vector3d to = p + step * signs.cast<double>().normalized();
       const double clearance_there = NearestBall(balls, {&to, 1}).lacking;
       if (clearance_there <= clearance || body_.HullDepth(to) <= -kVoidMargin) continue;
       p = to;

@@ -13,18 +13,18 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kInsideSamples = 20'000;  // In the bounding box.
-constexpr double kMargin = 1e-6;        // m: more than rounding does to depths.
+constexpr double kDepthMargin = 1e-6;   // m: more than rounding does to depths.
 constexpr double kLeastGain = 0.002;    // of the samples
 
 std::vector<Vector3d> InsideSamples(const LinkBody& link) {
   std::vector<Vector3d> samples = SampleBody(link, 1, kInsideSamples).inside;
-  std::erase_if(samples, [&](const Vector3d& p) { return link.CoreDepth(p) <= kMargin; });
+  std::erase_if(samples, [&](const Vector3d& p) { return link.CoreDepth(p) <= kDepthMargin; });
   return samples;
 }
 
 // What a ball at a point of that depth adds: samples that no ball holds yet, and for its size.
 double Gain(const std::vector<Vector3d>& left, const Vector3d& center, double depth) {
-  if (depth <= kMargin) return 0;
+  if (depth <= kDepthMargin) return 0;
   const double depth2 = depth * depth;
   const auto held = std::count_if(left.begin(), left.end(), [&](const Vector3d& p) {
     return (p - center).squaredNorm() <= depth2;
@@ -72,7 +72,7 @@ std::vector<Ball> FitInnerSpheres(const LinkBody& link, int most) {
     }
     if (gain < least || depth <= 0) break;
     const Vector3d rounded = (center * 1e4).array().round() / 1e4;
-    const double radius = std::floor((link.CoreDepth(rounded) - kMargin) * 1e6) / 1e6;
+    const double radius = std::floor((link.CoreDepth(rounded) - kDepthMargin) * 1e6) / 1e6;
     if (radius <= 0) break;
     balls.push_back({rounded, radius});
     std::erase_if(left, [&](const Vector3d& p) { return (p - rounded).norm() <= radius; });

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <variant>
 
 #include "common/error.h"
+#include "common/numbers.h"
 #include "geometry/polyhedra.h"
 #include "sphere_fitting/hole_filling.h"
 
@@ -16,7 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kSidesOfCylinders = 64;  // The prisms are 0.12 % of the radius off.
 
 std::shared_ptr<const Solid> Placed(TriangleMesh mesh, const Eigen::Isometry3d& X_FS) {

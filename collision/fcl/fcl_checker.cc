@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -12,11 +11,10 @@
 #include "collision/model_spheres.h"
 #include "collision/pair_rules.h"
 #include "common/error.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Culling may err towards "may touch" only; this absorbs the rounding of frames some metres apart.
 constexpr double kRoundingMargin = 1e-12;

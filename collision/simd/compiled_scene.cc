@@ -1,7 +1,6 @@
 #include "collision/simd/compiled_scene.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "collision/at.h"
@@ -9,13 +8,12 @@
 #include "collision/model_spheres.h"
 #include "collision/rigid_bodies.h"
 #include "collision/shape_check.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
 
 using kernels::kBlock;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A grid that no sphere leaves.
 VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "collision/at.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
@@ -15,8 +15,6 @@ namespace {
 using kernels::BlockQuery;
 using kernels::BlockVerdict;
 using kernels::kBlock;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 kernels::LaneMask FirstLanes(int num) {
   return static_cast<kernels::LaneMask>((std::uint64_t{1} << num) - 1);

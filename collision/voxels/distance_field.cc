@@ -7,10 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common/numbers.h"
+
 namespace planbench {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Squared distances are whole numbers, exact in floats up to here.
 static_assert(3LL * kMaxVoxelsAlongAxis * kMaxVoxelsAlongAxis < (1 << 24));

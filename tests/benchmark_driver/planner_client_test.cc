@@ -14,7 +14,6 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
-using Outcome = PlannerClient::Outcome;
 using Verdict = PlanAckVerdict;
 
 class PlannerClientTest : public testing::Test {
@@ -45,7 +44,7 @@ class PlannerClientTest : public testing::Test {
 TEST_F(PlannerClientTest, ReturnsTheResult) {
   const FakePlanner planner(&bus_);
   const PlannerClient::Answer answer = Solve("a");
-  EXPECT_EQ(answer.outcome, Outcome::kResult);
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kResult);
   EXPECT_EQ(answer.result.request_id, "a");
   EXPECT_EQ(answer.result.result.path, FakePath());
   EXPECT_GT(answer.roundtrip_time_s, 0);
@@ -55,13 +54,13 @@ TEST_F(PlannerClientTest, ReturnsTheResult) {
 TEST_F(PlannerClientTest, WaitsForThePlannerToCome) {
   auto answer = BeginToSolve("a");
   const FakePlanner planner(&bus_);
-  EXPECT_EQ(answer.get().outcome, Outcome::kResult);
+  EXPECT_EQ(answer.get().outcome, PlannerClient::Outcome::kResult);
 }
 
 TEST_F(PlannerClientTest, WaitingForThePlannerCanBeInterrupted) {
   auto answer = BeginToSolve("a");
   interrupted_ = true;
-  EXPECT_EQ(answer.get().outcome, Outcome::kInterrupted);
+  EXPECT_EQ(answer.get().outcome, PlannerClient::Outcome::kInterrupted);
 }
 
 TEST_F(PlannerClientTest, AsksAgainUntilTheResultComes) {
@@ -72,7 +71,7 @@ TEST_F(PlannerClientTest, AsksAgainUntilTheResultComes) {
     if (num_requests == 2) planner.Acknowledge(request, Verdict::kWorking);
     if (num_requests == 4) planner.Solve(request);
   });
-  EXPECT_EQ(Solve("a").outcome, Outcome::kResult);
+  EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
 }
 
 TEST_F(PlannerClientTest, ResultsOfOtherRequestsAreNoConcern) {
@@ -93,7 +92,7 @@ TEST_F(PlannerClientTest, RefusalSaysWhy) {
     planner.Acknowledge(request, Verdict::kRefused, "another robot");
   });
   const PlannerClient::Answer answer = Solve("a");
-  EXPECT_EQ(answer.outcome, Outcome::kRefused);
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kRefused);
   EXPECT_EQ(answer.message, "another robot");
 }
 
@@ -105,7 +104,7 @@ TEST_F(PlannerClientTest, ResultThatCannotBeReadEndsTheRequest) {
     planner.SendResult(request.request_id, result);
   });
   const PlannerClient::Answer answer = Solve("a");
-  EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("planning_time_s"));
 }
 
@@ -119,19 +118,19 @@ TEST_F(PlannerClientTest, ResultOfAnotherSessionOrPlannerIsNoAnswer) {
     bus_.Publish(PlannerChannels("arm").result, result);
   });
   const PlannerClient::Answer answer = Solve("a");
-  EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("session 'another'"));
 }
 
 TEST_F(PlannerClientTest, AnotherResultThanBeforeIsNoted) {
   FakePlanner planner(&bus_);
-  EXPECT_EQ(Solve("a").outcome, Outcome::kResult);
+  EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
   planner.SendResult("a", FakePlanner::SolvedResult());  // the same, again
   PlanResult other = FakePlanner::SolvedResult();
   other.planning_time_s = 1e-6;
   planner.SendResult("a", other);
   EXPECT_TRUE(WaitUntil([&] { return bus_.contradictions().count() == 1; }));
-  EXPECT_EQ(Solve("b").outcome, Outcome::kResult);
+  EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
 }
 
 TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
@@ -166,7 +165,7 @@ TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
   request.scene_id = "scene";
   request.time_limit_s = 60;
   const PlannerClient::Answer answer = client.Solve(request, [] { return false; });
-  EXPECT_EQ(answer.outcome, Outcome::kResult) << answer.message;
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kResult) << answer.message;
   EXPECT_EQ(answer.result.result.path, FakePath());
   EXPECT_GE(bus.contradictions().count(), 3);
 }
@@ -175,7 +174,7 @@ TEST_F(PlannerClientTest, PlannerThatDiesGivesNoAnswer) {
   FakePlanner planner(&bus_);
   planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
   const PlannerClient::Answer answer = Solve("a");
-  EXPECT_EQ(answer.outcome, Outcome::kNoAnswer);
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("died"));
 }
 
@@ -186,11 +185,11 @@ TEST_F(PlannerClientTest, PlannerThatWasRestartedGivesNoAnswer) {
   ASSERT_FALSE(planner.requests().WaitFor(1).empty());
   planner.Restart();
   const PlannerClient::Answer given = answer.get();
-  EXPECT_EQ(given.outcome, Outcome::kNoAnswer);
+  EXPECT_EQ(given.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(given.message, HasSubstr("restarted"));
   // The next request is the new process's.
   planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
-  EXPECT_EQ(Solve("b").outcome, Outcome::kResult);
+  EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
 }
 
 TEST_F(PlannerClientTest, InterruptionCancelsTheRequestUntilItsResultComes) {
@@ -205,7 +204,7 @@ TEST_F(PlannerClientTest, InterruptionCancelsTheRequestUntilItsResultComes) {
   auto answer = BeginToSolve("a");
   ASSERT_FALSE(planner.requests().WaitFor(1).empty());
   interrupted_ = true;
-  EXPECT_EQ(answer.get().outcome, Outcome::kInterrupted);
+  EXPECT_EQ(answer.get().outcome, PlannerClient::Outcome::kInterrupted);
   EXPECT_EQ(num_cancels, 2);
 }
 

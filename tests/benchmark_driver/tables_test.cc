@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
@@ -115,7 +115,7 @@ constexpr char kFailed[] = "Attempts without a confirmed path";
 /// Four problems of which ARA* solves the first forward, the second backward, the third not; the
 /// fourth's goal is in collision. RRT-Connect solves the first; its path for the second is
 /// rejected.
-std::vector<RunRecordMessage> Session() {
+std::vector<RunRecordMessage> FourProblems() {
   std::vector<RunRecordMessage> session = {
       OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.1)),
       OfProblem(1, Backward(PlanStatus::kSolved, 0.02)),
@@ -133,7 +133,7 @@ std::vector<RunRecordMessage> Session() {
 }
 
 TEST(TablesTest, SuccessCountsClaimedAndConfirmed) {
-  const std::string text = Brief(Session());
+  const std::string text = Brief(FourProblems());
   EXPECT_EQ(Table(text, kSuccess).at(0),
             "contestant runs claimed confirmed % [95 %] fwd bwd failed blocked");
   EXPECT_EQ(Row(text, kSuccess, "ARA*"), "4 2 2 50.0 [15.0, 85.0] 1 1 1 1");
@@ -141,7 +141,7 @@ TEST(TablesTest, SuccessCountsClaimedAndConfirmed) {
 }
 
 TEST(TablesTest, TimesIncludeFailedAttempts) {
-  const std::string text = Brief(Session());
+  const std::string text = Brief(FourProblems());
   EXPECT_EQ(Table(text, kTimes).at(0), "contestant solved median [95 %] mean 95 % penalised mean");
   // 0.1 s, and 60 s of failure before 0.04 s; two of four runs count as 600 s.
   EXPECT_EQ(Row(text, kTimes, "ARA*"), "2 30070 30070 57043 315035");
@@ -149,7 +149,7 @@ TEST(TablesTest, TimesIncludeFailedAttempts) {
 }
 
 TEST(TablesTest, DirectionsAreToldApartInTheFullTables) {
-  const std::string text = Full(Session());
+  const std::string text = Full(FourProblems());
   EXPECT_EQ(Row(text, kDirections, "box ARA* forward"), "4 1 100.0 100.0 100.0 100.0 100.0");
   EXPECT_EQ(Row(text, kDirections, "box ARA* backward"), "4 2 30.0 30.0 25.0 35.0 39.0");
   EXPECT_EQ(Row(text, kDirections, "box RRT-Connect forward"), "2 1 5.123 5.123 5.123 5.123 5.123");
@@ -157,14 +157,14 @@ TEST(TablesTest, DirectionsAreToldApartInTheFullTables) {
 }
 
 TEST(TablesTest, PairsAreComparedProblemByProblem) {
-  const std::string text = Brief(Session());
+  const std::string text = Brief(FourProblems());
   // RRT-Connect comes first in the line-up. ARA* takes 0.1 s against 0.0051234 s, and is alone in
   // solving the second.
   EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "2 50.0 19.5 [19.5, 19.5] 1.0000");
 }
 
 TEST(TablesTest, AllPairsAreInTheFullTables) {
-  auto records = Session();
+  auto records = FourProblems();
   auto more = OfProblem(1, AttemptOf(PlanStatus::kSolved, 1));
   more.contestant = "third";  // of an earlier part of the session
   records.push_back(more);
@@ -174,12 +174,12 @@ TEST(TablesTest, AllPairsAreInTheFullTables) {
 }
 
 TEST(TablesTest, FailuresAreListedWithProblemAndReason) {
-  const std::string brief = Brief(Session());
+  const std::string brief = Brief(FourProblems());
   EXPECT_THAT(brief, HasSubstr("  box, RRT-Connect: 1 INVALID_PATH, problem 2\n"
                                "    mostly: elbow hits board\n"));
   EXPECT_THAT(brief, HasSubstr("  box, ARA*: 2 TIMED_OUT, problems 2 3\n"));
   EXPECT_THAT(brief, HasSubstr("  box, ARA*: 2 GOAL_INVALID, problem 4\n"));
-  EXPECT_EQ(Row(Full(Session()), kFailed, "box 2 RRT-Connect forward 1 INVALID_PATH"),
+  EXPECT_EQ(Row(Full(FourProblems()), kFailed, "box 2 RRT-Connect forward 1 INVALID_PATH"),
             "elbow hits board");
 }
 
@@ -210,7 +210,7 @@ TEST(TablesTest, TrialsAreRunsOfOneProblem) {
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
-  auto session = Session();
+  auto session = FourProblems();
   const SessionTables tables = MakeTables(Conditions(), session);
   std::reverse(session.begin(), session.end());
   EXPECT_EQ(MakeTables(Conditions(), session).brief, tables.brief);
@@ -276,7 +276,6 @@ TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
 }
 
 TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   // The medians of three problems whose measures all have that value; NaN: not taken.
   const auto medians = [](std::initializer_list<double> values) {
     std::vector<RunRecordMessage> records;
@@ -329,18 +328,18 @@ TEST(TablesTest, ReasonsThatDifferInFiguresAloneAreOne) {
 }
 
 TEST(TablesTest, ContestantsAreExplained) {
-  const std::string text = Brief(Session());
+  const std::string text = Brief(FourProblems());
   EXPECT_THAT(text, StartsWith("Contestants\n  RRT-Connect: what RRT-Connect is [spheres, edges "
                                "fixed at 0.02 m]\n  ARA*: what ARA* is [spheres, edges fixed at "
                                "0.02 m]\n\nSuccess\n"));
   SessionConditions conditions = Conditions();
   EXPECT_THAT(text, Not(HasSubstr("UNDER LOAD")));
   conditions.parallel = true;
-  EXPECT_THAT(MakeTables(conditions, Session()).brief, HasSubstr("UNDER LOAD"));
+  EXPECT_THAT(MakeTables(conditions, FourProblems()).brief, HasSubstr("UNDER LOAD"));
 }
 
 TEST(TablesTest, DisturbedRunsAreCounted) {
-  auto records = Session();
+  auto records = FourProblems();
   EXPECT_THAT(Brief(records), Not(HasSubstr("DISTURBED")));
   records[0].result.result.counters = {{"disturbed", 1}, {"repeats", 0}};
   records[1].result.result.counters = {{"disturbed", 0}, {"repeats", 0}};
@@ -351,7 +350,7 @@ TEST(TablesTest, DisturbedRunsAreCounted) {
 }
 
 TEST(TablesTest, ContestantsOfSeveralClassesHaveTheirs) {
-  auto records = Session();
+  auto records = FourProblems();
   for (RunRecordMessage& record : records) record.planner_class = "sampling-guided";
   EXPECT_THAT(Brief(records), Not(HasSubstr("sampling-guided")));
   for (RunRecordMessage& record : records) {
@@ -363,7 +362,7 @@ TEST(TablesTest, ContestantsOfSeveralClassesHaveTheirs) {
 }
 
 TEST(TablesTest, BriefOnesFitATerminal) {
-  auto records = Session();
+  auto records = FourProblems();
   for (int i = 10; i < 400; ++i)
     records.push_back(OfProblem(i, AttemptOf(PlanStatus::kTimedOut, 1)));
   for (RunRecordMessage& record : records) {
@@ -381,7 +380,7 @@ TEST(TablesTest, BriefOnesFitATerminal) {
 TEST(TablesTest, PublishedFiguresStandBesideWhoAsksForThem) {
   SessionConditions conditions = Conditions();
   conditions.contestants[1].published = "ARA*";
-  auto session = Session();
+  auto session = FourProblems();
   for (RunRecordMessage& record : session) record.problem_set = "shelf_height_rot_test";
   std::string text = MakeTables(conditions, session).brief;
   EXPECT_EQ(Row(text, kSuccess, "published ARA*"), "100 86 - 86.0 [77.9, 91.5] 43 43 6 8");
@@ -389,7 +388,7 @@ TEST(TablesTest, PublishedFiguresStandBesideWhoAsksForThem) {
   EXPECT_EQ(Row(text, kTimes, "published ARA*"), "86 ~170.0 - - -");
   EXPECT_EQ(Row(text, kSuccess, "published RRT-Connect"), "");
   EXPECT_THAT(text, HasSubstr("arXiv 2406.09623"));
-  text = MakeTables(conditions, Session()).brief;  // not a set of the study's
+  text = MakeTables(conditions, FourProblems()).brief;  // not a set of the study's
   EXPECT_THAT(text, Not(HasSubstr("published ARA*")));
 }
 
@@ -399,7 +398,7 @@ TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
     references.push_back({"box", problem, "published", 1, Direction::kForward, PlanStatus::kSolved,
                           true, 1.0 * problem, 60});
   }
-  const std::string text = MakeTables(Conditions(), Session(), references).brief;
+  const std::string text = MakeTables(Conditions(), FourProblems(), references).brief;
   EXPECT_EQ(Row(text, kSuccess, "published"), "4 4 - 100.0 [51.0, 100.0] 4 0 0 0");
   EXPECT_EQ(Row(text, kTimes, "published"), "4 2500 2500 3850 2500");
   EXPECT_NE(Row(text, kPairs, "published RRT-Connect"), "");
@@ -408,11 +407,11 @@ TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
 TEST(TablesTest, NoRuns) { EXPECT_EQ(Brief({}), "No runs.\n"); }
 
 TEST(TablesTest, SayHowManyRunsAreMissing) {
-  const SessionTables tables = MakeTables(Conditions(), Session(), {}, 3);
+  const SessionTables tables = MakeTables(Conditions(), FourProblems(), {}, 3);
   EXPECT_THAT(tables.brief, testing::StartsWith("3 OF "));
   EXPECT_THAT(tables.full, testing::StartsWith("3 OF "));
   EXPECT_THAT(MakeTables(Conditions(), {}, {}, 3).brief, HasSubstr("3 OF 3 RUNS ARE MISSING"));
-  EXPECT_THAT(MakeTables(Conditions(), Session()).brief, testing::Not(HasSubstr("MISSING")));
+  EXPECT_THAT(MakeTables(Conditions(), FourProblems()).brief, testing::Not(HasSubstr("MISSING")));
 }
 
 }  // namespace

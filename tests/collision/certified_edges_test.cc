@@ -242,8 +242,9 @@ TEST_P(CertifiedEdges, AMeshCostsWhatABoxDoes) {
     Scene scene =
         SceneWith("obstacle", shape, Eigen::Isometry3d(Eigen::Translation3d(0.8, 0, 0.7)));
     for (int i = 0; i < 30; ++i) {
+      const int row = i / 6;
       AddObject(&scene, "box" + std::to_string(i), Box{{0.1, 0.1, 0.1}},
-                Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.2 * (i % 6) - 0.5, 0.3 * (i / 6))));
+                Eigen::Isometry3d(Eigen::Translation3d(0.9, 0.2 * (i % 6) - 0.5, 0.3 * row)));
     }
     checker_->SetScene(scene, base_);
     return CostOf(checker_.get(), paths);

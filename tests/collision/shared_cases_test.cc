@@ -191,7 +191,7 @@ TEST(SharedCases, MeshesThatCannotBeFoundAreNamedWithTheirPlace) {
         std::pair("slash3", "'package:///meshes/hand.stl'")}) {
     SCOPED_TRACE(folder);
     ExpectInputError(
-        [&] {
+        [&, folder = folder] {
           const Robot referee = LoadRefereeRobot(SharedData("cases/54-mesh-uri") / folder, robot);
           MakeReferenceChecker(referee, referee.groups.front(), CollisionModel::kMeshes);
         },

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "common/error.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
@@ -267,7 +268,6 @@ TEST(YamlNode, AliasesAreFollowedOnce) {
 }
 
 TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
-  constexpr double kPi = 3.141592653589793;
   for (const auto& [text, value] : std::map<std::string, double>{{"!degrees 90", kPi / 2},
                                                                  {"deg(90)", kPi / 2},
                                                                  {"!degrees deg( -45 )", -kPi / 4},

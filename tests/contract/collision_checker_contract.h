@@ -57,7 +57,8 @@ class CollisionCheckerContract : public testing::TestWithParam<CollisionEngine> 
     return qs;
   }
   static std::span<const double> Row(const std::vector<double>& qs, int n, int i) {
-    return std::span(qs).subspan(static_cast<std::size_t>(i * n), static_cast<std::size_t>(n));
+    return std::span(qs).subspan(static_cast<std::size_t>(i) * static_cast<std::size_t>(n),
+                                 static_cast<std::size_t>(n));
   }
   /// A configuration of the rail robot.
   static std::vector<double> Slide(double z) { return {z}; }

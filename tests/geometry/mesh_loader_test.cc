@@ -23,7 +23,7 @@ using Triangle = std::array<Corner, 3>;
 // A box of 1 x 2 x 3 m with its lowest corner at (0, 0, 0), outward triangles.
 constexpr double kSize[3] = {1, 2, 3};
 
-TriangleMesh BoxMesh() {
+TriangleMesh UnevenBoxMesh() {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
     mesh.vertices.emplace_back(kSize[0] * (i & 1), kSize[1] * ((i >> 1) & 1),
@@ -104,7 +104,7 @@ std::string Obj(const TriangleMesh& mesh) {
 struct DaeOptions {
   double unit = 1;  // m per unit of the file; the vertices are written in it.
   std::string up_axis = "Z_UP";
-  std::string transform = "";  // Elements of the node, e.g. "<translate>1 0 0</translate>".
+  std::string transform = {};  // Elements of the node, e.g. "<translate>1 0 0</translate>".
 };
 
 std::string Dae(const TriangleMesh& mesh, const DaeOptions& options = {}) {
@@ -146,7 +146,7 @@ class LoadMeshTest : public testing::Test {
 };
 
 TEST_F(LoadMeshTest, EveryFormatGivesTheSameTriangles) {
-  const TriangleMesh box = BoxMesh();
+  const TriangleMesh box = UnevenBoxMesh();
   const std::vector<std::pair<std::string, std::string>> files = {{"ascii.stl", AsciiStl(box)},
                                                                   {"binary.STL", BinaryStl(box)},
                                                                   {"box.obj", Obj(box)},
@@ -169,7 +169,7 @@ TEST_F(LoadMeshTest, SplitsPolygonsIntoTriangles) {
 }
 
 TEST_F(LoadMeshTest, AppliesTheUnitOfColladaFilesAndIgnoresTheirUpAxis) {
-  const TriangleMesh box = BoxMesh();
+  const TriangleMesh box = UnevenBoxMesh();
   for (const double unit : {1.0, 0.01, 0.0254}) {
     for (const char* up_axis : {"X_UP", "Y_UP", "Z_UP"}) {
       SCOPED_TRACE(fmt::format("{} {}", unit, up_axis));
@@ -181,9 +181,10 @@ TEST_F(LoadMeshTest, AppliesTheUnitOfColladaFilesAndIgnoresTheirUpAxis) {
 
 TEST_F(LoadMeshTest, AppliesNodeTransforms) {
   const auto file = folder_.Write(
-      "box.dae", Dae(BoxMesh(), {.unit = 0.1,
-                                 .transform = "<translate>5 0 0</translate>"
-                                              "<rotate>0 0 1 90</rotate><scale>2 1 1</scale>"}));
+      "box.dae",
+      Dae(UnevenBoxMesh(), {.unit = 0.1,
+                            .transform = "<translate>5 0 0</translate>"
+                                         "<rotate>0 0 1 90</rotate><scale>2 1 1</scale>"}));
   const TriangleMesh mesh = LoadMesh(file);
   Eigen::AlignedBox3d bounds;
   for (const Vector3d& vertex : mesh.vertices) bounds.extend(vertex);
@@ -194,7 +195,7 @@ TEST_F(LoadMeshTest, AppliesNodeTransforms) {
 }
 
 TEST_F(LoadMeshTest, ScalesPerAxisAndKeepsSurfacesFacingOutwards) {
-  const auto file = folder_.Write("box.stl", BinaryStl(BoxMesh()));
+  const auto file = folder_.Write("box.stl", BinaryStl(UnevenBoxMesh()));
   const TriangleMesh scaled = LoadMesh(file, Vector3d(0.5, 2, 0.001));
   EXPECT_NEAR(Volume(scaled), 6 * 0.001, 1e-9);
   const TriangleMesh mirrored = LoadMesh(file, Vector3d(-1, 1, 1));
@@ -210,11 +211,11 @@ TEST_F(LoadMeshTest, RefusesBadFilesByName) {
   const std::vector<std::pair<std::string, std::string>> files = {
       {"empty.stl", ""},
       {"noise.stl", "this is no mesh"},
-      {"cut.stl", BinaryStl(BoxMesh()).substr(0, 200)},
+      {"cut.stl", BinaryStl(UnevenBoxMesh()).substr(0, 200)},
       {"nothing.stl", "solid nothing\nendsolid nothing\n"},
       {"points.obj", "o points\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"},
       {"flat.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"},
-      {"cut.dae", Dae(BoxMesh()).substr(0, 700)},
+      {"cut.dae", Dae(UnevenBoxMesh()).substr(0, 700)},
       {"unknown.xyz", "0 0 0\n"}};
   for (const auto& [name, content] : files) {
     SCOPED_TRACE(name);
@@ -224,7 +225,7 @@ TEST_F(LoadMeshTest, RefusesBadFilesByName) {
 }
 
 TEST_F(LoadMeshTest, RefusesScalesThatFlattenOrAreNoNumbers) {
-  const auto file = folder_.Write("box.stl", BinaryStl(BoxMesh()));
+  const auto file = folder_.Write("box.stl", BinaryStl(UnevenBoxMesh()));
   ExpectInputError([&] { LoadMesh(file, Vector3d(1, 0, 1)); }, {file.string(), "scale"});
   ExpectInputError([&] { LoadMesh(file, Vector3d(1, NAN, 1)); }, {file.string(), "scale"});
 }

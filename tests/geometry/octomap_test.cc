@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <Eigen/Core>
 #include <random>
 #include <sstream>
 
@@ -27,8 +28,9 @@ octomap::OcTree RandomTree(std::uint32_t seed) {
                                   static_cast<float>(place(random)),
                                   static_cast<float>(place(random)));
     for (int i = 0; i < 512; ++i) {
-      const octomap::point3d offset(static_cast<float>(i % 8), static_cast<float>(i / 8 % 8),
-                                    static_cast<float>(i / 64));
+      const Eigen::Vector3i cell(i % 8, i / 8 % 8, i / 64);
+      const octomap::point3d offset(static_cast<float>(cell.x()), static_cast<float>(cell.y()),
+                                    static_cast<float>(cell.z()));
       tree.updateNode(corner + offset * static_cast<float>(kResolution), true);
     }
   }

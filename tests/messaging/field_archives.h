@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/numbers.h"
 #include "messaging/message_fields.h"
 
 /// Archives (messaging/fields.h) that test all messages by the one list of their fields.
@@ -179,7 +179,6 @@ class Spoiler {
   /// Whatever of these the rule or the type forbids.
   template <typename Value, typename Rule, typename Wire>
   void SpoilValue(const std::string& name, Wire& wire) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto spoil = [&](const auto& bad) {
       if (Chosen(name)) wire = static_cast<Wire>(bad);
     };

@@ -45,6 +45,8 @@ TEST_F(BadUse, EnclosingModelWithoutItsSpheres) {
   std::ofstream(arm / "robot.yaml") << R"(name: arm
 urdf: fetch.urdf
 spheres: spheres.yaml
+links_without_spheres: [r_wheel_link, l_wheel_link, laser_link, estop_link, bellows_link, bellows_link2, head_pan_link,
+                        head_tilt_link]
 groups: [{name: arm, joints: [elbow_flex_joint], tip_link: gripper_link}]
 )";
   ExpectBadInput(Start({Program("benchmark_driver"), "--launch", "--robot", arm.string(),

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <vector>
 
+#include "common/numbers.h"
 #include "planner_ara/random_graph.h"
 
 namespace planbench {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr StateId kStart = 0;
 constexpr StateId kGoal = 1;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNumGraphs = 400;
 const auto kNever = [] { return false; };
 

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
+
+#include "common/numbers.h"
+#include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 JointSpace TestSpace() {
   return JointSpace({{"lift", false, true, 0.0, 0.4, 0.1},
@@ -17,13 +17,11 @@ JointSpace TestSpace() {
                      {"roll", true, false, -kPi, kPi, 1.0}});
 }
 
-GoalBox Point(const Configuration& q) { return {q, q, q}; }
-
 TEST(GoalDistance, OfAPointIsTheWeightedDistance) {
   const JointSpace space = TestSpace();
   const Configuration goal{0.1, 1.0, 3.0};
   const std::vector<double> weights{10, 1, 2};
-  const GoalDistance distance(space, Point(goal), weights);
+  const GoalDistance distance(space, PointGoal(goal), weights);
   EXPECT_FALSE(distance.has_extent());
   const Configuration q{0.3, 0.5, -3.0};
   // Roll goes the short way: 2 pi - 6.
@@ -76,7 +74,7 @@ TEST(GoalDistance, BoxEndsAtTheLimits) {
 TEST(GoalDistance, NominalPointBelongsToTheGoalEvenJustOutsideTheLimits) {
   const JointSpace space = TestSpace();
   const Configuration goal{0.4 + 5e-7, 1.0, 0.0};
-  const GoalDistance distance(space, Point(goal), {1, 1, 1});
+  const GoalDistance distance(space, PointGoal(goal), {1, 1, 1});
   Configuration nearest(3);
   distance.Nearest(Configuration{0.1, 0.1, 0.1}, nearest);
   EXPECT_EQ(nearest, goal);

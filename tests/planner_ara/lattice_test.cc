@@ -4,18 +4,17 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <random>
 
+#include "common/numbers.h"
 #include "support/expect_input_error.h"
 
 namespace planbench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Coordinates = std::vector<Lattice::Coordinate>;
 
-JointSpace TestSpace() {
+JointSpace LatticeSpace() {
   return JointSpace({{"lift", false, true, 0.0, 0.38, 0.1},
                      {"elbow", false, false, -1.0, 2.0, 1.0},
                      {"roll", true, false, -kPi, kPi, 1.0}});
@@ -23,7 +22,7 @@ JointSpace TestSpace() {
 
 TEST(Lattice, AnchorIsAPointOfIt) {
   const std::vector<double> anchor{0.1234, 0.5, 3.0};
-  const Lattice lattice(TestSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
+  const Lattice lattice(LatticeSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
   ASSERT_EQ(lattice.num_joints(), 3);
   for (int j = 0; j < 3; ++j) {
     EXPECT_EQ(lattice.Value(j, lattice.anchor()[static_cast<std::size_t>(j)]),
@@ -32,7 +31,7 @@ TEST(Lattice, AnchorIsAPointOfIt) {
 }
 
 TEST(Lattice, CoversTheLimitsAndNothingBeyond) {
-  const JointSpace space = TestSpace();
+  const JointSpace space = LatticeSpace();
   const std::vector<double> anchor{0.1234, 0.5, 3.0};
   const Lattice lattice(space, anchor, std::vector<double>{0.005, 0.1, 0.1});
   // lift: 24 cells below (0.1234 / 0.005 = 24.7), 51 above (0.2566 / 0.005 = 51.3), and the anchor.
@@ -52,7 +51,7 @@ TEST(Lattice, CoversTheLimitsAndNothingBeyond) {
 
 TEST(Lattice, AnchorAtOrJustBeyondALimitStillHasItsCell) {
   const std::vector<double> anchor{0.38 + 5e-7, -1.0, 0.0};
-  const Lattice lattice(TestSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
+  const Lattice lattice(LatticeSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
   EXPECT_EQ(lattice.anchor()[0], lattice.num_cells(0) - 1);
   EXPECT_EQ(lattice.Value(0, lattice.anchor()[0]), anchor[0]);
   EXPECT_EQ(lattice.anchor()[1], 0);
@@ -60,7 +59,7 @@ TEST(Lattice, AnchorAtOrJustBeyondALimitStillHasItsCell) {
 
 TEST(Lattice, ContinuousJointHasAWholeNumberOfCells) {
   const std::vector<double> anchor{0.1, 0.5, 3.0};
-  const Lattice lattice(TestSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
+  const Lattice lattice(LatticeSpace(), anchor, std::vector<double>{0.005, 0.1, 0.1});
   EXPECT_EQ(lattice.num_cells(2), 63);  // 62.83
   EXPECT_DOUBLE_EQ(lattice.step(2), 2 * kPi / 63);
   EXPECT_EQ(lattice.anchor()[2], 0);
@@ -73,7 +72,7 @@ TEST(Lattice, ContinuousJointHasAWholeNumberOfCells) {
 }
 
 TEST(Lattice, MovesWrapOrStopAtTheLimits) {
-  const Lattice lattice(TestSpace(), std::vector<double>{0.0, 0.5, 0.0},
+  const Lattice lattice(LatticeSpace(), std::vector<double>{0.0, 0.5, 0.0},
                         std::vector<double>{0.005, 0.1, 0.1});
   Lattice::Coordinate moved = 0;
   EXPECT_TRUE(lattice.Move(2, 60, 5, &moved));
@@ -94,18 +93,18 @@ TEST(Lattice, RefusesCellsOutOfProportion) {
   const std::vector<double> anchor{0.1, 0.5, 0.0};
   ExpectInputError(
       [&] {
-        Lattice(TestSpace(), anchor, std::vector<double>{0.005, 1e-6, 0.1});
+        Lattice(LatticeSpace(), anchor, std::vector<double>{0.005, 1e-6, 0.1});
       },
       {"elbow", "65535"});
   ExpectInputError(
       [&] {
-        Lattice(TestSpace(), anchor, std::vector<double>{0.005, 0.1, 4.0});
+        Lattice(LatticeSpace(), anchor, std::vector<double>{0.005, 0.1, 4.0});
       },
       {"roll", "fewer than 3"});
 }
 
 TEST(LatticePoints, OnePointOneNumberWhateverTheRoute) {
-  const Lattice lattice(TestSpace(), std::vector<double>{0.2, 0.5, 0.0},
+  const Lattice lattice(LatticeSpace(), std::vector<double>{0.2, 0.5, 0.0},
                         std::vector<double>{0.005, 0.1, 0.1});
   LatticePoints points(3);
   EXPECT_EQ(points.FindOrAdd(lattice.anchor()), 0U);

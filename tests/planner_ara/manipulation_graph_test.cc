@@ -12,6 +12,7 @@
 #include "collision/collision_checker.h"
 #include "support/expect_input_error.h"
 #include "support/planning_problems.h"
+#include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
 namespace {
@@ -20,9 +21,8 @@ const Configuration kLeft = {0.6, 0, 0};
 const Configuration kRight = {-0.6, 0, 0};
 const MotionPrimitives kSingleCells{{}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-GoalBox Point(const Configuration& q) { return {q, q, q}; }
 GoalBox BoxAround(const Configuration& q, double tolerance) {
-  GoalBox box = Point(q);
+  GoalBox box = PointGoal(q);
   for (double& value : box.lower) value -= tolerance;
   for (double& value : box.upper) value += tolerance;
   return box;
@@ -67,7 +67,7 @@ class ManipulationGraphTest : public testing::Test {
 };
 
 TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
-  ManipulationGraph graph = Graph(Point(kRight), Options());
+  ManipulationGraph graph = Graph(PointGoal(kRight), Options());
   Spread(&graph, 300);
   ASSERT_GT(graph.num_states(), 300);
   int num_valid = 0;
@@ -105,16 +105,16 @@ TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
 }
 
 TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
-  ManipulationGraph lazy = Graph(Point(kRight), Options());
+  ManipulationGraph lazy = Graph(PointGoal(kRight), Options());
   ManipulationGraphOptions options = Options();
   options.evaluation = Evaluation::kEager;
-  ManipulationGraph eager = Graph(Point(kRight), options);
+  ManipulationGraph eager = Graph(PointGoal(kRight), options);
   Spread(&lazy, 100);
   for (StateId s = 1; s < 100; ++s) {
     Configuration q(3);
     lazy.ConfigurationOf(s, q);
     if (!edges_->IsValidState(q)) continue;
-    ManipulationGraph from_here(edges_.get(), q, Point(kRight), options);
+    ManipulationGraph from_here(edges_.get(), q, PointGoal(kRight), options);
     std::vector<std::uint16_t> valid;
     for (const CandidateEdge& edge : EdgesOf(&lazy, s)) {
       if (lazy.IsValidEdge(s, edge.action)) valid.push_back(edge.action);
@@ -130,7 +130,7 @@ TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
 TEST_F(ManipulationGraphTest, AHeuristicThatDoesNotWrapRemembersTheTurns) {
   ManipulationGraphOptions options = Options(2 * M_PI / 20);
   options.wrap_heuristic = false;
-  ManipulationGraph graph = Graph(Point(kRight), options);
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
   const StateId start = ManipulationGraph::kStart;
   EXPECT_NEAR(graph.Heuristic(start), 1.2, 1e-9);
   // The first joint alone, upwards past half a turn: the way back grows and grows, up to the cell
@@ -175,7 +175,7 @@ TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
     options.cost = cost;
 
     // Dijkstra over every lattice point that can be reached.
-    ManipulationGraph all = Graph(Point(kRight), options);
+    ManipulationGraph all = Graph(PointGoal(kRight), options);
     std::vector<double> costs(2, std::numeric_limits<double>::infinity());
     costs[ManipulationGraph::kStart] = 0;
     std::priority_queue<std::pair<double, StateId>> queue;
@@ -196,7 +196,7 @@ TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
     ASSERT_TRUE(std::isfinite(optimum));
     EXPECT_GT(optimum, all.Heuristic(ManipulationGraph::kStart) * 1.01);  // there is a way round
 
-    ManipulationGraph graph = Graph(Point(kRight), options);
+    ManipulationGraph graph = Graph(PointGoal(kRight), options);
     AraStar<ManipulationGraph> search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal);
     for (const double epsilon : {10.0, 2.0, 1.0}) {
       ASSERT_EQ(search.ImprovePath(epsilon, [] { return false; }), ImproveOutcome::kConverged);
@@ -234,7 +234,7 @@ TEST_F(ManipulationGraphTest, GoalBoxIsReachedAtItsNearestOrNominalPoint) {
 TEST_F(ManipulationGraphTest, RemembersWhatItHasChecked) {
   ManipulationGraphOptions options = Options();
   for (int k = 0; k < 20; ++k) options.primitives.long_moves.push_back({2, k % 3, -1});
-  ManipulationGraph graph = Graph(Point(kRight), options);
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
   Spread(&graph, 100);
   std::vector<bool> first;
   for (StateId s = 1; s < 100; ++s) {
@@ -258,7 +258,7 @@ TEST_F(ManipulationGraphTest, PrimitivesCanBeKeptToTheirPlaces) {
   options.primitives.long_moves = {{4, 0, 0}};
   options.long_moves_beyond = 0.5;
   options.short_moves_within = 0.5;
-  ManipulationGraph graph = Graph(Point({-2.0, 0, 0}), options);
+  ManipulationGraph graph = Graph(PointGoal({-2.0, 0, 0}), options);
   Spread(&graph, 500);
   const double long_step = 4 * graph.lattice().step(0);
   int num_near = 0;
@@ -287,7 +287,7 @@ TEST_F(ManipulationGraphTest, CrowdedPlacesArePutOff) {
   ManipulationGraphOptions options = Options();
   options.crowding = 0.5;
   options.crowded_joints = {1, 0, 0};  // all states of one shoulder angle are one place
-  ManipulationGraph graph = Graph(Point(kRight), options);
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
   for (int visits = 0; visits < 3; ++visits) {
     for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
       const double factor = 1 + 0.5 * std::log2(1 + visits);
@@ -299,7 +299,7 @@ TEST_F(ManipulationGraphTest, CrowdedPlacesArePutOff) {
 TEST_F(ManipulationGraphTest, RefusesMovesOfHalfATurn) {
   ManipulationGraphOptions options = Options();
   options.primitives.long_moves = {{11, 0, 0}};
-  ExpectInputError([&] { Graph(Point(kRight), options); }, {"shoulder", "11", "half a turn"});
+  ExpectInputError([&] { Graph(PointGoal(kRight), options); }, {"shoulder", "11", "half a turn"});
 }
 
 }  // namespace

@@ -3,22 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "common/numbers.h"
 #include "support/planning_problems.h"
+#include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const auto kNever = [] { return false; };
 const auto kSilent = [](double) {};
-
-GoalBox Point(const Configuration& q) { return {q, q, q}; }
 
 // The planar arm between its two posts.
 class TwoWaySearchTest : public testing::Test {
@@ -36,7 +34,7 @@ class TwoWaySearchTest : public testing::Test {
 
   // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm.
   double Optimum(const Configuration& start, const Configuration& goal) {
-    ManipulationGraph graph(edges_.get(), start, Point(goal), options_);
+    ManipulationGraph graph(edges_.get(), start, PointGoal(goal), options_);
     std::vector<double> costs(2, kInfinity);
     costs[ManipulationGraph::kStart] = 0;
     std::priority_queue<std::pair<double, StateId>> queue;
@@ -92,7 +90,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
   for (const Guide& guide : {Guide{0, 0}, Guide{0.1, 0}, Guide{3, 0}, Guide{0.1, 5}}) {
     options_.crowding = guide.crowding;
     const Scene scene = PostsScene();
-    TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
     if (guide.tip > 0) search.GuideByTip(scene, std::vector<double>(4, 0.0), guide.tip);
     double last_cost = kInfinity;
     double last_bound = kInfinity;
@@ -113,14 +111,14 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
 }
 
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
-  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, false);
+  TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, false);
   ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
   EXPECT_NEAR(search.cost(), Optimum(kLeft_, kRight_), 1e-9);
   EXPECT_FALSE(search.found_backward());
 }
 
 TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
-  TwoWaySearch search(edges_.get(), kLeft_, Point(kRight_), options_, true);
+  TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   std::vector<double> costs;
   const auto note = [&](double bound) {
     costs.push_back(search.cost());
@@ -136,15 +134,15 @@ TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
   checker_->SetScene(WallsScene(), std::vector<double>(4, 0.0));
   const Configuration left = {1.57, 0, 0};
   const Configuration right = {-1.57, 0, 0};
-  TwoWaySearch search(edges_.get(), left, Point(right), options_, true);
+  TwoWaySearch search(edges_.get(), left, PointGoal(right), options_, true);
   EXPECT_EQ(search.Improve(50, kNever, kSilent), ImproveOutcome::kExhausted);
   EXPECT_TRUE(search.path().empty());
   EXPECT_EQ(search.ProveBound(), kInfinity);
 }
 
 TEST_F(TwoWaySearchTest, GoesOnWhereItWasStopped) {
-  TwoWaySearch at_once(edges_.get(), kLeft_, Point(kRight_), options_, true);
-  TwoWaySearch in_steps(edges_.get(), kLeft_, Point(kRight_), options_, true);
+  TwoWaySearch at_once(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+  TwoWaySearch in_steps(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   ASSERT_EQ(at_once.Improve(50, kNever, kSilent), ImproveOutcome::kConverged);
   int num_stops = 0;
   for (int budget = 20;; budget = 20, ++num_stops) {

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "common/numbers.h"
+
 namespace planbench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 JointSpace MakeSpace(const std::vector<bool>& continuous) {
   std::vector<JointSpace::Joint> joints;

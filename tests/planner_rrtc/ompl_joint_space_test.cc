@@ -7,15 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
 
 namespace ob = ompl::base;
-constexpr double kPi = std::numbers::pi;
 
 class OmplJointSpaceTest : public testing::Test {
  protected:

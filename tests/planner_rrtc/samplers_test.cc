@@ -1,17 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <vector>
 
+#include "common/numbers.h"
 #include "planner_rrtc/joint_sampler.h"
 #include "planning/goal_sampler.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 const JointSpace& Joints() {
   static const JointSpace joints({{"turn", true, false, -kPi, kPi, 1},

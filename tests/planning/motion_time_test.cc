@@ -4,30 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "common/numbers.h"
+#include "tests/planning/three_joints.h"
 
 namespace planbench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// A continuous joint and two bounded ones.
-JointSpace Space() {
-  return JointSpace({{"turn", true, false, -kPi, kPi, 1},
-                     {"bend", false, false, -10, 10, 1},
-                     {"slide", false, true, -10, 10, 1}});
-}
-
 TEST(MotionTimeTest, OfStraightMotionsIsThatOfTheTrapezoid) {
-  EXPECT_EQ(MotionTime(Space(), {}), 0);
-  EXPECT_EQ(MotionTime(Space(), {{0, 0, 0}, {0, 0, 0}}), 0);
+  EXPECT_EQ(MotionTime(ThreeJoints(), {}), 0);
+  EXPECT_EQ(MotionTime(ThreeJoints(), {{0, 0, 0}, {0, 0, 0}}), 0);
   // 2 rad at 1 rad/s, accelerated and braked at 2 rad/s^2: 0.5 s, 1.5 s, 0.5 s.
-  EXPECT_NEAR(MotionTime(Space(), {{0, 0, 0}, {0, 2, 0}}), 2.5, 1e-12);
+  EXPECT_NEAR(MotionTime(ThreeJoints(), {{0, 0, 0}, {0, 2, 0}}), 2.5, 1e-12);
   // 0.32 rad are too short for full speed: half of it at 2 rad/s^2 takes 0.4 s.
-  EXPECT_NEAR(MotionTime(Space(), {{0, 0, 0}, {0, 0.32, 0}}), 0.8, 1e-12);
+  EXPECT_NEAR(MotionTime(ThreeJoints(), {{0, 0, 0}, {0, 0.32, 0}}), 0.8, 1e-12);
   // Cut into pieces, and across the seam of the continuous joint.
-  EXPECT_NEAR(MotionTime(Space(), {{0, 0, 0}, {0, 0.5, 0}, {0, 0.5, 0}, {0, 2, 0}}), 2.5, 1e-12);
-  EXPECT_NEAR(MotionTime(Space(), {{3, 0, 0}, {-3, 0, 0}, {-2, 0, 0}}), 2 * kPi - 5 + 0.5, 1e-9);
+  EXPECT_NEAR(MotionTime(ThreeJoints(), {{0, 0, 0}, {0, 0.5, 0}, {0, 0.5, 0}, {0, 2, 0}}), 2.5,
+              1e-12);
+  EXPECT_NEAR(MotionTime(ThreeJoints(), {{3, 0, 0}, {-3, 0, 0}, {-2, 0, 0}}), 2 * kPi - 5 + 0.5,
+              1e-9);
 }
 
 TEST(MotionTimeTest, TheSlowestJointSetsThePaceAndCornersStop) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "common/numbers.h"
 #include "support/expect_input_error.h"
 #include "support/planning_problems.h"
 
@@ -70,7 +71,6 @@ TEST_F(ResolveTest, AlternativesFollowOneAnother) {
 
 TEST_F(ResolveTest, RefusesBadInput) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   struct Case {
     std::string what;
     std::function<void(JointState*, std::vector<JointGoal>*)> spoil;

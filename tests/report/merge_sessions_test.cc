@@ -75,7 +75,7 @@ class MergeSessionsTest : public testing::Test {
 
 TEST_F(MergeSessionsTest, MissingShardsAreNamedAndTheSessionIsNotFinished) {
   for (const int shard : {1, 3}) {
-    SessionMessage part = Session(fmt::format("part{}", shard), 1000 * shard, 1);
+    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
     part.settings["shard"] = fmt::format("{}/4", shard);
     Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
   }

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
 
 using Kind = Outcome::Kind;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Outcome Solved(double time_s, double solving_time_s) {
   return {Kind::kForward, true, time_s, solving_time_s};

@@ -2,16 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <random>
 
+#include "common/numbers.h"
 #include "common/random.h"
 #include "results/comparison.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Times of the trials of each problem, infinite where it failed.
 Outcomes Of(const std::vector<std::vector<double>>& times) {

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
 
 using Kind = Outcome::Kind;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Attempt Of(PlanStatus status, double time_s, Direction direction = Direction::kForward) {
   const bool claimed = status == PlanStatus::kSolved || status == PlanStatus::kInvalidPath;

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(CountWinsTest, SolvingAloneWinsToo) {
   const Wins wins =

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "common/numbers.h"
+
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Share of all 2^n ways to sign the differences in which the smaller rank sum is at most the
 /// observed one: the two-sided p-value, by enumeration.
@@ -61,7 +60,8 @@ TEST(SignedRankTestTest, PValueIsTheEnumeratedOne) {
     std::vector<double> differences(1 + random() % 12);
     // Few magnitudes, for ties.
     for (double& d : differences) {
-      d = (1.0 + random() % (round % 2 == 0 ? 4 : 1000)) * (random() % 3 == 0 ? -1 : 1);
+      d = static_cast<double>(1 + random() % (round % 2 == 0 ? 4 : 1000)) *
+          (random() % 3 == 0 ? -1 : 1);
     }
     EXPECT_NEAR(TestSignedRanks(differences).p_value, std::min(1.0, EnumeratedPValue(differences)),
                 1e-12)

@@ -4,13 +4,12 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(QuantileTest, InterpolatesLinearlyBetweenOrderStatistics) {
   // As numpy.quantile([1, 2, 4, 8], q).

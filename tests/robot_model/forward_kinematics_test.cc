@@ -1,13 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <numbers>
 #include <random>
 #include <sstream>
 
+#include "common/numbers.h"
 #include "robot_model/group_kinematics.h"
 #include "robot_model/robot_folder.h"
 #include "tests/robot_model/random_configuration.h"
+#include "tests/support/planning_problems.h"
 #include "tests/support/shared_data.h"
 
 namespace planbench {
@@ -16,8 +17,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 // Every kind of joint once, origins turned about different axes.
 constexpr char kArm[] = R"(<robot name="arm">
@@ -39,8 +38,6 @@ RobotModel LoadUrdf(const std::filesystem::path& file) {
   text << std::ifstream(file).rdbuf();
   return RobotModel::FromUrdf(text.str(), file.string());
 }
-
-Robot Fetch() { return LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"); }
 
 TEST(ForwardKinematics, AtZeroLinksSitAtTheirJointsOrigins) {
   const RobotModel model = RobotModel::FromUrdf(kArm, "arm.urdf");
@@ -76,7 +73,7 @@ TEST(ForwardKinematics, AgreesWithHandComputation) {
 
 TEST(ForwardKinematics, OfTheFetchAgreesWithTheManufacturersDescription) {
   PLANBENCH_NEED_SHARED_DATA("fetch_description/fetch.urdf");
-  const RobotModel ours = Fetch().model;
+  const RobotModel ours = LoadFetch().model;
   const RobotModel theirs = LoadUrdf(SharedData("fetch_description/fetch.urdf"));
   ASSERT_EQ(ours.num_links(), theirs.num_links());
   ASSERT_EQ(ours.num_positions(), theirs.num_positions());
@@ -110,7 +107,7 @@ TEST(ForwardKinematics, OfTheFetchAgreesWithTheManufacturersDescription) {
 
 TEST(ForwardKinematics, FetchHasTheManufacturersJointsAndCollisionGeometry) {
   PLANBENCH_NEED_SHARED_DATA("fetch_description/fetch.urdf");
-  const RobotModel ours = Fetch().model;
+  const RobotModel ours = LoadFetch().model;
   const RobotModel theirs = LoadUrdf(SharedData("fetch_description/fetch.urdf"));
   ASSERT_EQ(ours.joints().size(), theirs.joints().size());
   for (const Joint& joint : ours.joints()) {
@@ -140,7 +137,7 @@ TEST(ForwardKinematics, FetchHasTheManufacturersJointsAndCollisionGeometry) {
 }
 
 TEST(GroupKinematics, EqualsTheFullComputation) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.Group("arm_with_torso");
   std::mt19937 random(2);
   for (int base = 0; base < 5; ++base) {
@@ -160,7 +157,7 @@ TEST(GroupKinematics, EqualsTheFullComputation) {
 }
 
 TEST(GroupKinematics, KnowsWhichLinksMove) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const RobotModel& model = fetch.model;
   const PlanningGroup arm = model.MakeGroup(
       "arm", {"shoulder_pan_joint", "elbow_flex_joint", "wrist_roll_joint"}, "gripper_link");
@@ -175,7 +172,7 @@ TEST(GroupKinematics, KnowsWhichLinksMove) {
 }
 
 TEST(GroupKinematics, LinksMoveRelativelyIfTheirRelativePoseVaries) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const RobotModel& model = fetch.model;
   const PlanningGroup arm = model.MakeGroup(
       "arm", {"shoulder_pan_joint", "elbow_flex_joint", "wrist_roll_joint"}, "gripper_link");

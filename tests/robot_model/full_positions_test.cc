@@ -98,7 +98,7 @@ TEST_F(FullPositionsTest, AFollowerAloneTellsWhereItsLeaderIs) {
 }
 
 TEST_F(FullPositionsTest, RefusesWhatTheRobotDoesNotHave) {
-  const auto full = [this](std::vector<std::string> names, Positions positions) {
+  const auto full = [this](const std::vector<std::string>& names, const Positions& positions) {
     return [this, names, positions] { Full(names, positions); };
   };
   ExpectInputError(full({"slide"}, {1, 2}), {"start", "1 joint names", "2 positions"});

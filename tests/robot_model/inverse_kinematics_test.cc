@@ -9,11 +9,10 @@
 
 #include "robot_model/robot_folder.h"
 #include "tests/robot_model/random_configuration.h"
+#include "tests/support/planning_problems.h"
 
 namespace planbench {
 namespace {
-
-Robot Fetch() { return LoadRobot(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"); }
 
 Eigen::Isometry3d TipPose(const Robot& robot, const PlanningGroup& group,
                           const std::vector<double>& held, const std::vector<double>& q) {
@@ -30,7 +29,7 @@ void ExpectNear(const Eigen::Isometry3d& actual, const Eigen::Isometry3d& expect
 }
 
 TEST(InverseKinematics, IsTheInverseOfForwardKinematics) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.groups.front();
   std::mt19937 poses(1);
   std::mt19937_64 random(1);
@@ -55,7 +54,7 @@ TEST(InverseKinematics, IsTheInverseOfForwardKinematics) {
 }
 
 TEST(InverseKinematics, FindsConfigurationsAtTheLimits) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.groups.front();
   const std::vector<double> held = fetch.model.DefaultPositions();
   InverseKinematics kinematics(fetch.model, group, held);
@@ -76,7 +75,7 @@ TEST(InverseKinematics, FindsConfigurationsAtTheLimits) {
 }
 
 TEST(InverseKinematics, JointsOutsideTheGroupAreHeldAndThoseBeyondTheTipDoNotMatter) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const PlanningGroup group =
       fetch.model.MakeGroup("arm",
                             {"shoulder_pan_joint", "shoulder_lift_joint", "upperarm_roll_joint",
@@ -98,7 +97,7 @@ TEST(InverseKinematics, JointsOutsideTheGroupAreHeldAndThoseBeyondTheTipDoNotMat
 }
 
 TEST(InverseKinematics, PoseOutOfReachEndsAfterTheEffortAllowed) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.groups.front();
   InverseKinematics kinematics(fetch.model, group, fetch.model.DefaultPositions());
   Eigen::Isometry3d X_BT = Eigen::Isometry3d::Identity();
@@ -118,7 +117,7 @@ TEST(InverseKinematics, PoseOutOfReachEndsAfterTheEffortAllowed) {
 }
 
 TEST(InverseKinematics, ToleranceDecidesWhenAPoseIsReached) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   InverseKinematics kinematics(fetch.model, fetch.groups.front(), fetch.model.DefaultPositions());
   const Eigen::Isometry3d X_BT =
       kinematics.TipPose(std::vector<double>{0.2, 0.3, 0.1, 0, 1, 0.2, -0.8, 1});
@@ -171,7 +170,7 @@ TEST(InverseKinematics, InfiniteToleranceLeavesAPartFree) {
 }
 
 TEST(InverseKinematics, SameSeedSameSolutionOthersDiffer) {
-  const Robot fetch = Fetch();
+  const Robot fetch = LoadFetch();
   const std::vector<double> held = fetch.model.DefaultPositions();
   InverseKinematics kinematics(fetch.model, fetch.groups.front(), held);
   InverseKinematics other(fetch.model, fetch.groups.front(), held);

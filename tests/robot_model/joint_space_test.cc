@@ -4,13 +4,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A prismatic, a revolute and a continuous joint.
 JointSpace Space() {

@@ -11,7 +11,7 @@
 namespace planbench {
 namespace {
 
-constexpr char kUrdf[] = R"(<robot name="tiny">
+constexpr char kTinyUrdf[] = R"(<robot name="tiny">
   <link name="base"/><link name="arm"/><link name="hand"/>
   <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
   <joint name="weld" type="fixed"><parent link="arm"/><child link="hand"/></joint>
@@ -22,7 +22,7 @@ constexpr char kSpheres[] = R"(links:
     - {center: [0, 0, 0], radius: 0.1}
 )";
 
-constexpr char kRobot[] = R"(name: tiny
+constexpr char kTinyRobot[] = R"(name: tiny
 urdf: tiny.urdf
 spheres: spheres.yaml
 edge_resolution_m: 0.05
@@ -42,20 +42,20 @@ std::string Replaced(std::string text, const std::string& what, const std::strin
 }
 
 // A change of robot.yaml (or spheres.yaml) and what the message must name: line and field.
-struct Malformed {
+struct MalformedFolder {
   std::string name;
   std::string what;
   std::string by;
   std::vector<std::string> message;
 };
 
-void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
+void PrintTo(const MalformedFolder& malformed, std::ostream* out) { *out << malformed.name; }
 
-class MalformedFolderTest : public testing::TestWithParam<Malformed> {
+class MalformedFolderTest : public testing::TestWithParam<MalformedFolder> {
  protected:
   void ExpectRefused(const std::string& robot_yaml, const std::string& spheres_yaml,
                      std::vector<std::string> parts) {
-    folder_.Write("tiny.urdf", kUrdf);
+    folder_.Write("tiny.urdf", kTinyUrdf);
     folder_.Write("robot.yaml", robot_yaml);
     folder_.Write("spheres.yaml", spheres_yaml);
     parts.push_back(folder_.path().string());
@@ -71,18 +71,18 @@ class MalformedSpheresYamlTest : public MalformedFolderTest {};
 TEST_P(MalformedRobotYamlTest, IsRefusedWithFileLineAndField) {
   std::vector<std::string> parts = GetParam().message;
   parts.push_back("robot.yaml");
-  ExpectRefused(Replaced(kRobot, GetParam().what, GetParam().by), kSpheres, parts);
+  ExpectRefused(Replaced(kTinyRobot, GetParam().what, GetParam().by), kSpheres, parts);
 }
 
 TEST_P(MalformedSpheresYamlTest, IsRefusedWithFileLineAndField) {
   std::vector<std::string> parts = GetParam().message;
   parts.push_back("spheres.yaml");
-  ExpectRefused(kRobot, Replaced(kSpheres, GetParam().what, GetParam().by), parts);
+  ExpectRefused(kTinyRobot, Replaced(kSpheres, GetParam().what, GetParam().by), parts);
 }
 
-const Malformed kMalformedRobots[] = {
+const MalformedFolder kMalformedRobots[] = {
     {"NoYaml", "[turn]", "[turn", {"robot.yaml:"}},
-    {"NoMap", kRobot, "- robot", {"expected a map"}},
+    {"NoMap", kTinyRobot, "- robot", {"expected a map"}},
     {"UnknownKey", "edge_resolution_m", "edge_resolution", {":4:", "edge_resolution", "unknown"}},
     {"RepeatedKey", "edge_resolution_m: 0.05", "name: tiny", {"'name' occurs twice"}},
     {"NoName", "name: tiny\n", "", {"'name' is missing"}},
@@ -144,7 +144,7 @@ const Malformed kMalformedRobots[] = {
      {":11:", "voxels", "along x", "2048"}},
 };
 
-const Malformed kMalformedSpheres[] = {
+const MalformedFolder kMalformedSpheres[] = {
     {"NoYaml", "[0, 0, 0]", "[0, 0, 0", {"spheres.yaml:"}},
     {"NoLinks", "links:", "robots:", {"unknown key 'robots'"}},
     {"Empty", kSpheres, "", {"links"}},
@@ -166,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(Table, MalformedSpheresYamlTest, testing::ValuesIn(kMal
 
 TEST(MalformedFolder, TheUnchangedFilesAreFine) {
   TemporaryFolder folder;
-  folder.Write("tiny.urdf", kUrdf);
-  folder.Write("robot.yaml", kRobot);
+  folder.Write("tiny.urdf", kTinyUrdf);
+  folder.Write("robot.yaml", kTinyRobot);
   folder.Write("spheres.yaml", kSpheres);
   const Robot robot = LoadRobot(folder.path());
   EXPECT_EQ(robot.name, "tiny");

@@ -23,19 +23,19 @@ namespace fs = std::filesystem;
 
 fs::path FetchFolder() { return fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"; }
 
-constexpr char kUrdf[] = R"(<robot name="small">
+constexpr char kSmallUrdf[] = R"(<robot name="small">
   <link name="base"/>
   <link name="arm"><collision><geometry>
     <mesh filename="package://small_description/meshes/arm.stl"/></geometry></collision></link>
   <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
 </robot>)";
-constexpr char kRobot[] =
+constexpr char kSmallRobot[] =
     "name: small\nurdf: small.urdf\ngroups:\n  - {name: all, joints: [turn], tip_link: arm}\n"
     "allowed_pairs: [[base, arm]]\n";
 
 void WriteSmallRobot(const TemporaryFolder& folder, const std::string& name) {
-  folder.Write(name + "/small.urdf", kUrdf);
-  folder.Write(name + "/robot.yaml", kRobot);
+  folder.Write(name + "/small.urdf", kSmallUrdf);
+  folder.Write(name + "/robot.yaml", kSmallRobot);
 }
 
 TEST(LoadRobot, LoadsTheFetch) {
@@ -158,7 +158,7 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
     <link_sphere_approximation link="arm"><sphere center="1 0 0" radius="0.5"/>
     </link_sphere_approximation></robot>)";
   TemporaryFolder folder;
-  folder.Write("small.urdf", kUrdf);
+  folder.Write("small.urdf", kSmallUrdf);
   folder.Write("small.srdf", kSrdf);
   folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");
   const Robot robot = LoadRobot(folder.path());
@@ -195,7 +195,7 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
 TEST(LoadRobot, SpheresMayBeTheGeometryOfAUrdf) {
   TemporaryFolder folder;
   WriteSmallRobot(folder, ".");
-  folder.Write("robot.yaml", std::string(kRobot) + "spheres: spheres.urdf\n");
+  folder.Write("robot.yaml", std::string(kSmallRobot) + "spheres: spheres.urdf\n");
   const auto write = [&](const std::string& link, const std::string& geometry) {
     folder.Write("spheres.urdf", "<robot name='s'>\n<link name='" + link +
                                      "'><collision><origin xyz='0 0 3'/><geometry>" + geometry +
@@ -219,14 +219,14 @@ TEST(LoadRobot, ContentIdFollowsTheContentNotThePlace) {
   const std::string id = LoadRobot(folder.path() / "here").content_id;
   EXPECT_EQ(LoadRobot(folder.path() / "there/again").content_id, id);
 
-  folder.Write("here/robot.yaml", std::string(kRobot) + "edge_resolution_m: 0.01\n");
+  folder.Write("here/robot.yaml", std::string(kSmallRobot) + "edge_resolution_m: 0.01\n");
   EXPECT_NE(LoadRobot(folder.path() / "here").content_id, id);
-  folder.Write("here/robot.yaml", kRobot);
+  folder.Write("here/robot.yaml", kSmallRobot);
   EXPECT_EQ(LoadRobot(folder.path() / "here").content_id, id);
-  folder.Write("here/small.urdf", std::string(kUrdf) + "\n");
+  folder.Write("here/small.urdf", std::string(kSmallUrdf) + "\n");
   EXPECT_NE(LoadRobot(folder.path() / "here").content_id, id);
 
-  const std::string with_spheres = std::string(kRobot) + "spheres: spheres.yaml\n";
+  const std::string with_spheres = std::string(kSmallRobot) + "spheres: spheres.yaml\n";
   folder.Write("there/again/robot.yaml", with_spheres);
   folder.Write("there/again/spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 1}]}");
   const std::string spheres_id = LoadRobot(folder.path() / "there/again").content_id;
@@ -246,13 +246,13 @@ TEST(MeshRobotId, FollowsDescriptionAndMeshes) {
   EXPECT_NE(id(), with_mesh);
   folder.Write("small/small_description/meshes/arm.stl", "solid one");
   EXPECT_EQ(id(), with_mesh);
-  folder.Write("small/robot.yaml", std::string(kRobot) + "edge_resolution_m: 0.01\n");
+  folder.Write("small/robot.yaml", std::string(kSmallRobot) + "edge_resolution_m: 0.01\n");
   EXPECT_NE(id(), with_mesh);
 }
 
 TEST(LoadRobot, OptionalFieldsHaveDefaults) {
   TemporaryFolder folder;
-  folder.Write("small.urdf", kUrdf);
+  folder.Write("small.urdf", kSmallUrdf);
   folder.Write("robot.yaml",
                "name: small\nurdf: small.urdf\n"
                "groups: [{name: all, joints: [turn], tip_link: arm}]\n");
@@ -307,7 +307,7 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
 TEST(LoadRobot, EnclosingSpheresAreASecondSet) {
   const TemporaryFolder folder;
   WriteSmallRobot(folder, "small");
-  const std::string yaml = std::string(kRobot) + "enclosing_spheres: enclosing.yaml\n";
+  const std::string yaml = std::string(kSmallRobot) + "enclosing_spheres: enclosing.yaml\n";
   folder.Write("small/robot.yaml", yaml);
   const auto load = [&] { return LoadRobot(folder / "small"); };
   ExpectInputError(load, {"robot.yaml:6", "enclosing_spheres", "no file", "enclosing.yaml"});
@@ -390,7 +390,7 @@ TEST(Robot, FindsGroupsByName) {
 TEST(LoadRefereeRobot, TakesAFolderWithOneUrdf) {
   TemporaryFolder folder;
   WriteSmallRobot(folder, "small");
-  folder.Write("small_description/other_name.urdf", kUrdf);
+  folder.Write("small_description/other_name.urdf", kSmallUrdf);
   folder.Write("small_description/meshes/arm.stl", "");
   const Robot planning = LoadRobot(folder.path() / "small");
   const Robot referee = LoadRefereeRobot(folder.path() / "small_description", planning);
@@ -429,8 +429,8 @@ TEST(LoadRefereeRobot, RefusesRobotsThatDoNotFit) {
 
   folder.Write("none/readme", "");
   ExpectInputError(load("none"), {"none", "exactly one .urdf", "found 0"});
-  folder.Write("two/a.urdf", kUrdf);
-  folder.Write("two/b.urdf", kUrdf);
+  folder.Write("two/a.urdf", kSmallUrdf);
+  folder.Write("two/b.urdf", kSmallUrdf);
   ExpectInputError(load("two"), {"two", "exactly one .urdf", "found 2"});
 
   folder.Write("joint/a.urdf", R"(<robot name="r"><link name="base"/><link name="arm"/>

@@ -171,7 +171,7 @@ TEST_F(RobotModelTest, MakesGroupsInTheOrderGiven) {
 }
 
 TEST_F(RobotModelTest, RefusesGroupsItCannotMake) {
-  const auto make = [this](std::vector<std::string> joints, const char* tip) {
+  const auto make = [this](const std::vector<std::string>& joints, const char* tip) {
     return [this, joints, tip] { model_.MakeGroup("arm", joints, tip); };
   };
   ExpectInputError(make({"alpha", "yankee"}, "twig"), {"arm", "tree", "'yankee' is unknown"});

@@ -21,7 +21,7 @@ using testing::Pair;
 
 // A torso that carries two arms of two joints; the left one has a hand with two fingers, of which
 // the second follows the first.
-constexpr char kUrdf[] = R"(<robot name="twin">
+constexpr char kTwinUrdf[] = R"(<robot name="twin">
   <link name="base"/><link name="torso"/><link name="l1"/><link name="l2"/><link name="r1"/>
   <link name="r2"/><link name="palm"/><link name="f1"/><link name="f2"/>
   <joint name="lift" type="prismatic"><parent link="base"/><child link="torso"/>
@@ -37,7 +37,7 @@ constexpr char kUrdf[] = R"(<robot name="twin">
   <joint name="rj2" type="floating"><parent link="r1"/><child link="r2"/></joint>
 </robot>)";
 
-RobotModel Twin() { return RobotModel::FromUrdf(kUrdf, "twin.urdf"); }
+RobotModel Twin() { return RobotModel::FromUrdf(kTwinUrdf, "twin.urdf"); }
 
 Srdf Parse(const std::string& elements, const std::string& name = "twin") {
   return ParseSrdf("<robot name=\"" + name + "\">\n" + elements + "\n</robot>", "twin.srdf",
@@ -162,14 +162,14 @@ TEST(ParseSrdf, ThePandasFileSaysWhatItSays) {
   EXPECT_THAT(srdf.warnings, IsEmpty());
 }
 
-struct Malformed {
+struct MalformedSrdf {
   std::string name;
   std::string elements;
   std::vector<std::string> message;
 };
-void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
+void PrintTo(const MalformedSrdf& malformed, std::ostream* out) { *out << malformed.name; }
 
-class MalformedSrdfTest : public testing::TestWithParam<Malformed> {};
+class MalformedSrdfTest : public testing::TestWithParam<MalformedSrdf> {};
 
 TEST_P(MalformedSrdfTest, IsRefusedWithFileAndLine) {
   std::vector<std::string> parts = GetParam().message;
@@ -180,54 +180,56 @@ TEST_P(MalformedSrdfTest, IsRefusedWithFileAndLine) {
 INSTANTIATE_TEST_SUITE_P(
     ParseSrdf, MalformedSrdfTest,
     testing::Values(
-        Malformed{"empty_group", "<group name='a'/>", {":2", "'a' has no joints"}},
-        Malformed{"no_name", "\n<group/>", {":3", "attribute 'name' is missing"}},
-        Malformed{"twice",
-                  "<group name='a'><joint name='lift'/></group>\n<group name='a'/>",
-                  {":3", "'a' occurs twice"}},
-        Malformed{"unknown_joint",
-                  "<group name='a'>\n<joint name='knee'/></group>",
-                  {":3", "no joint 'knee'"}},
-        Malformed{"unknown_tip",
-                  "<group name='a'><chain base_link='base' tip_link='toe'/></group>",
-                  {":2", "no link 'toe'"}},
-        Malformed{"no_chain",
-                  "<group name='a'><chain base_link='l1' tip_link='r1'/></group>",
-                  {":2", "no chain of joints", "'l1'", "'r1'"}},
-        Malformed{
+        MalformedSrdf{"empty_group", "<group name='a'/>", {":2", "'a' has no joints"}},
+        MalformedSrdf{"no_name", "\n<group/>", {":3", "attribute 'name' is missing"}},
+        MalformedSrdf{"twice",
+                      "<group name='a'><joint name='lift'/></group>\n<group name='a'/>",
+                      {":3", "'a' occurs twice"}},
+        MalformedSrdf{"unknown_joint",
+                      "<group name='a'>\n<joint name='knee'/></group>",
+                      {":3", "no joint 'knee'"}},
+        MalformedSrdf{"unknown_tip",
+                      "<group name='a'><chain base_link='base' tip_link='toe'/></group>",
+                      {":2", "no link 'toe'"}},
+        MalformedSrdf{"no_chain",
+                      "<group name='a'><chain base_link='l1' tip_link='r1'/></group>",
+                      {":2", "no chain of joints", "'l1'", "'r1'"}},
+        MalformedSrdf{
             "unknown_group", "<group name='a'><group name='b'/></group>", {":2", "no group 'b'"}},
-        Malformed{
+        MalformedSrdf{
             "parts_of_each_other",
             "<group name='a'><group name='b'/></group><group name='b'><group name='a'/></group>",
             {":2", "a, b, a"}},
-        Malformed{"state_of_no_group", "<group_state name='s' group='g'/>", {":2", "no group 'g'"}},
-        Malformed{"effector_of_no_group",
-                  "<end_effector name='e' group='g' parent_link='l1'/>",
-                  {":2", "no group 'g'"}},
-        Malformed{"effector_on_no_link",
-                  "<end_effector name='e' group='g' parent_link='toe'/>",
-                  {":2", "no link 'toe'"}},
-        Malformed{"virtual_type",
-                  "<virtual_joint name='v' type='hinge' parent_frame='w' child_link='base'/>",
-                  {":2", "type", "hinge"}},
-        Malformed{"state_value",
-                  "<group name='a'><joint name='lift'/></group>\n<group_state name='s' group='a'>"
-                  "<joint name='lift' value='high'/></group_state>",
-                  {":3", "value", "high"}},
-        Malformed{"sphere_of_no_link",
-                  "<link_sphere_approximation link='toe'><sphere center='0 0 0' radius='1'/>"
-                  "</link_sphere_approximation>",
-                  {":2", "no link 'toe'"}},
-        Malformed{"sphere_centre",
-                  "<link_sphere_approximation link='l1'><sphere center='0 0' radius='1'/>"
-                  "</link_sphere_approximation>",
-                  {":2", "center", "3 numbers", "'0 0'"}},
-        Malformed{"sphere_radius",
-                  "<link_sphere_approximation link='l1'><sphere center='0 0 0' radius='-1'/>"
-                  "</link_sphere_approximation>",
-                  {":2", "radius", "-1"}},
-        Malformed{"not_closed", "<group name='a'>", {":", "<group>"}},
-        Malformed{"xacro", "<xacro:include filename='x'/>", {":2", "xacro"}}),
+        MalformedSrdf{
+            "state_of_no_group", "<group_state name='s' group='g'/>", {":2", "no group 'g'"}},
+        MalformedSrdf{"effector_of_no_group",
+                      "<end_effector name='e' group='g' parent_link='l1'/>",
+                      {":2", "no group 'g'"}},
+        MalformedSrdf{"effector_on_no_link",
+                      "<end_effector name='e' group='g' parent_link='toe'/>",
+                      {":2", "no link 'toe'"}},
+        MalformedSrdf{"virtual_type",
+                      "<virtual_joint name='v' type='hinge' parent_frame='w' child_link='base'/>",
+                      {":2", "type", "hinge"}},
+        MalformedSrdf{
+            "state_value",
+            "<group name='a'><joint name='lift'/></group>\n<group_state name='s' group='a'>"
+            "<joint name='lift' value='high'/></group_state>",
+            {":3", "value", "high"}},
+        MalformedSrdf{"sphere_of_no_link",
+                      "<link_sphere_approximation link='toe'><sphere center='0 0 0' radius='1'/>"
+                      "</link_sphere_approximation>",
+                      {":2", "no link 'toe'"}},
+        MalformedSrdf{"sphere_centre",
+                      "<link_sphere_approximation link='l1'><sphere center='0 0' radius='1'/>"
+                      "</link_sphere_approximation>",
+                      {":2", "center", "3 numbers", "'0 0'"}},
+        MalformedSrdf{"sphere_radius",
+                      "<link_sphere_approximation link='l1'><sphere center='0 0 0' radius='-1'/>"
+                      "</link_sphere_approximation>",
+                      {":2", "radius", "-1"}},
+        MalformedSrdf{"not_closed", "<group name='a'>", {":", "<group>"}},
+        MalformedSrdf{"xacro", "<xacro:include filename='x'/>", {":2", "xacro"}}),
     [](const auto& test) { return test.param.name; });
 
 TEST(ParseSrdf, TheSrdfOfAnotherRobotIsToldByItsName) {

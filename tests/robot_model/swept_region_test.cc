@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
+
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(MaxDistanceToEllipse, EqualsTheLargestSampledDistance) {
   std::mt19937 random(1);

@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 // Three joints, a box, a cylinder, a sphere and a mesh-free hand whose second finger follows.
-constexpr char kUrdf[] = R"(<robot name="crane">
+constexpr char kCraneUrdf[] = R"(<robot name="crane">
   <link name="base"><collision><geometry><box size="0.4 0.4 0.2"/></geometry></collision></link>
   <link name="mast"><collision><origin xyz="0 0 0.5"/><geometry>
     <cylinder radius="0.05" length="1"/></geometry></collision></link>
@@ -50,7 +50,7 @@ constexpr char kSrdf[] = R"(<robot name="crane">
 class MakeRobotTest : public testing::Test {
  protected:
   MakeRobotTest() {
-    folder_.Write("in/crane.urdf", kUrdf);
+    folder_.Write("in/crane.urdf", kCraneUrdf);
     folder_.Write("in/crane.srdf", kSrdf);
     flags_.urdf = folder_.path() / "in/crane.urdf";
     flags_.out = folder_.path() / "out";
@@ -62,7 +62,7 @@ class MakeRobotTest : public testing::Test {
     folder_.Write("in/crane.srdf", text);
     flags_.srdf = folder_.path() / "in/crane.srdf";
   }
-  void ExpectRefused(std::vector<std::string> parts) {
+  void ExpectRefused(const std::vector<std::string>& parts) {
     ExpectInputError([&] { MakeRobot(flags_); }, parts);
     EXPECT_FALSE(std::filesystem::exists(flags_.out)) << "something was written";
   }
@@ -152,9 +152,9 @@ TEST_F(MakeRobotTest, WhatTouchesByDefaultWhileNoGroupMovesItIsExempt) {
 }
 
 TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
-  const std::string mesh =
-      std::string(kUrdf).replace(std::string(kUrdf).find("<sphere radius=\"0.06\"/>"), 23,
-                                 "<mesh filename=\"package://crane/hook.obj\"/>");
+  const std::string mesh = std::string(kCraneUrdf)
+                               .replace(std::string(kCraneUrdf).find("<sphere radius=\"0.06\"/>"),
+                                        23, "<mesh filename=\"package://crane/hook.obj\"/>");
   folder_.Write("in/crane.urdf", mesh);
   ExpectRefused({"crane.urdf:7", "link 'hook'", "package://crane/hook.obj"});
   flags_.without_spheres = true;

@@ -24,7 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr char kUrdf[] = R"(<robot name="ringer">
+constexpr char kRingerUrdf[] = R"(<robot name="ringer">
   <link name="base"><visual><geometry><box size="1 1 1"/></geometry></visual>
     <collision><geometry><mesh filename="package://parts/ring.obj" scale="0.5 0.5 0.5"/></geometry></collision>
     <collision><origin xyz="0 0 0.2"/><geometry><sphere radius="0.05"/></geometry></collision></link>
@@ -39,14 +39,14 @@ class MakeSpheresTest : public testing::Test {
  protected:
   MakeSpheresTest() {
     Ring(TorusMesh(0.3, 0.1, 30, 20));
-    flags_.urdf = folder_.Write("ringer.urdf", kUrdf);
+    flags_.urdf = folder_.Write("ringer.urdf", kRingerUrdf);
     flags_.outer = folder_ / "outer.yaml";
     flags_.spheres = 12;
   }
   void Ring(const TriangleMesh& mesh) { folder_.Write("parts/ring.obj", MeshAsObj(mesh)); }
   std::string Make() { return fmt::format("{}", fmt::join(MakeSpheres(flags_), "\n")); }
   std::vector<LinkSphere> Read(const std::filesystem::path& file) {
-    return ReadLinkSpheres(file, ReadText(file), RobotModel::FromUrdf(kUrdf, "ringer.urdf"));
+    return ReadLinkSpheres(file, ReadText(file), RobotModel::FromUrdf(kRingerUrdf, "ringer.urdf"));
   }
 
   TemporaryFolder folder_;
@@ -152,7 +152,7 @@ TEST_F(MakeSpheresTest, RefusesInOneLine) {
   ExpectInputError([&] { Make(); }, {"ringer.urdf", "no link has collision geometry"});
   EXPECT_FALSE(std::filesystem::exists(flags_.outer)) << "something was written";
   flags_.outer = folder_ / "no/folder.yaml";
-  folder_.Write("ringer.urdf", kUrdf);
+  folder_.Write("ringer.urdf", kRingerUrdf);
   Ring(TorusMesh(0.3, 0.1, 30, 20));
   ExpectInputError([&] { Make(); }, {"cannot write", "no/folder.yaml"});
 }

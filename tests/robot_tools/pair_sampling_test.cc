@@ -11,7 +11,7 @@ using testing::Pair;
 
 // base - a - b - c, joints along x about z, 1 m apart; `sign` is welded to the base. c folds back
 // to where a is, and to the base in part of its configurations.
-constexpr char kUrdf[] = R"(<robot name="chain">
+constexpr char kChainUrdf[] = R"(<robot name="chain">
   <link name="base"/><link name="a"/><link name="b"/><link name="c"/><link name="post"/>
   <link name="sign"/>
   <joint name="j1" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
@@ -33,7 +33,7 @@ class PairSamplingTest : public testing::Test {
     return {Link(link), {x, 0, 0}, radius};
   }
 
-  const RobotModel model_ = RobotModel::FromUrdf(kUrdf, "chain.urdf");
+  const RobotModel model_ = RobotModel::FromUrdf(kChainUrdf, "chain.urdf");
   // c reaches a's sphere when it folds back; b's never meets the base; c's inner sphere is always
   // in a's far one.
   const std::vector<LinkSphere> spheres_ = {Ball("base", 0, 0.2), Ball("sign", 0, 0.2),

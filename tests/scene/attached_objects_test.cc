@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // The gripper is at (1, 0, 2) at the start.
-constexpr const char* kRequest = R"(
+constexpr const char* kToolRequest = R"(
 start_state:
   joint_state: {name: [a_joint, b_joint], position: [0, 2]}
   attached_collision_objects: []
@@ -56,8 +56,8 @@ TEST(AttachedObjects, ByIdLeaveTheWorldWhereTheyAre) {
   for (const bool in_request : {false, true}) {
     for (const char* object : {"id: tool", "id: tool, operation: 0",
                                "id: tool, primitives: [], meshes: [], planes: []"}) {
-      const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kRequest, object)).scene
-                                     : ParseProblem(Attaching(kWorld, object), kRequest).scene;
+      const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kToolRequest, object)).scene
+                                     : ParseProblem(Attaching(kWorld, object), kToolRequest).scene;
       ASSERT_EQ(scene.objects.size(), 1u);
       EXPECT_EQ(scene.objects[0].id, "wall");
       ASSERT_EQ(scene.attached.size(), 1u);
@@ -70,8 +70,8 @@ TEST(AttachedObjects, ByIdLeaveTheWorldWhereTheyAre) {
 
 TEST(AttachedObjects, WithShapesTakeTheIdOutOfTheWorld) {
   for (const bool in_request : {false, true}) {
-    const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kRequest, kTool)).scene
-                                   : ParseProblem(Attaching(kWorld, kTool), kRequest).scene;
+    const Scene scene = in_request ? ParseProblem(kWorld, Attaching(kToolRequest, kTool)).scene
+                                   : ParseProblem(Attaching(kWorld, kTool), kToolRequest).scene;
     ASSERT_EQ(scene.objects.size(), 1u);
     EXPECT_EQ(scene.objects[0].id, "wall");
     ASSERT_EQ(scene.attached.size(), 1u);
@@ -81,15 +81,15 @@ TEST(AttachedObjects, WithShapesTakeTheIdOutOfTheWorld) {
 
 TEST(AttachedObjects, OfSceneAndRequestMayBeTheSame) {
   const std::string scene = Attaching(kWorld, kTool);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, kTool)).scene.attached.size(), 1u);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, "id: tool")).scene.attached.size(), 1u);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kRequest, Replaced(kTool, "tool", "other")))
+  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, kTool)).scene.attached.size(), 1u);
+  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, "id: tool")).scene.attached.size(), 1u);
+  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, Replaced(kTool, "tool", "other")))
                 .scene.attached.size(),
             2u);
   ExpectInputError(
-      [&] { ParseProblem(scene, Attaching(kRequest, Replaced(kTool, "[0.2]", "[0.3]"))); },
+      [&] { ParseProblem(scene, Attaching(kToolRequest, Replaced(kTool, "[0.2]", "[0.3]"))); },
       {"request.yaml:4: ", "object.id: another object 'tool' is attached already"});
-  ExpectInputError([&] { ParseProblem(scene, Attaching(kRequest, "id: tool", "mast")); },
+  ExpectInputError([&] { ParseProblem(scene, Attaching(kToolRequest, "id: tool", "mast")); },
                    {"'tool' has no shape"});
 }
 
@@ -97,7 +97,7 @@ TEST(AttachedObjects, MayBeGivenInAnyFrame) {
   const auto place = [](const std::string& frame) {
     const Problem problem = ParseProblem(
         Attaching(kWorld, Replaced(kTool, "frame_id: gripper_link", "frame_id: " + frame)),
-        kRequest);
+        kToolRequest);
     return PlaceInLink(problem.scene.attached.at(0));
   };
   EXPECT_EQ(place("gripper_link"), Vector3d(0.25, 0, 0.5));
@@ -109,25 +109,25 @@ TEST(AttachedObjects, MayBeGivenInAnyFrame) {
 
 TEST(AttachedObjects, WithoutAFrameAreInTheirLinksWithAWarning) {
   const Problem problem = ParseProblem(
-      Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kRequest);
+      Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kToolRequest);
   EXPECT_EQ(PlaceInLink(problem.scene.attached.at(0)), Vector3d(0.25, 0, 0.5));
   EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("taken in that of its link")));
 }
 
 TEST(AttachedObjects, NeedAShapeAndALink) {
-  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: pen"), kRequest); },
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: pen"), kToolRequest); },
                    {"scene.yaml:3: robot_state.attached_collision_objects[0].object.id",
                     "'pen' has no shape, and the world has none of that id"});
-  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool", "hand"), kRequest); },
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool", "hand"), kToolRequest); },
                    {"attached_collision_objects[0].link_name", "no link 'hand'"});
-  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool, operation: 1"), kRequest); },
+  ExpectInputError([] { ParseProblem(Attaching(kWorld, "id: tool, operation: 1"), kToolRequest); },
                    {"only the operation ADD"});
   const std::string plane =
       Replaced(kWorld,
                "primitives: [{type: box, dimensions: [0.1, 0.1, 0.1]}]\n      primitive_poses: "
                "[{position: [0, 0, 0.5]",
                "planes: [{coef: [0, 0, 1, 0]}]\n      plane_poses: [{position: [0, 0, 0.5]");
-  ExpectInputError([&] { ParseProblem(Attaching(plane, "id: tool"), kRequest); },
+  ExpectInputError([&] { ParseProblem(Attaching(plane, "id: tool"), kToolRequest); },
                    {"a plane cannot be attached"});
 }
 
@@ -136,7 +136,7 @@ Problem WithBody(const std::string& scene) {
   Robot robot = TextRobot();
   robot.spheres.push_back({robot.model.FindLink("mast"), Vector3d(0, 0, 0), 0.1});
   return ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
-                      YamlNode::Parse(kRequest, "request.yaml"), robot, {});
+                      YamlNode::Parse(kToolRequest, "request.yaml"), robot, {});
 }
 
 TEST(Names, OfLinksAreNotForObjects) {

@@ -1,19 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "common/read_text.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
 namespace {
-
-std::string Contents(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TEST(EmbeddedProblems, ShelfDemoLoadsAndIsCanonical) {
   const ProblemSet set =
@@ -30,8 +23,8 @@ TEST(EmbeddedProblems, ShelfDemoLoadsAndIsCanonical) {
     EXPECT_EQ(problem.goal.size(), 8);
     EXPECT_EQ(problem.start.names.size(), 15);
     EXPECT_GE(problem.scene.objects.size(), 5);
-    EXPECT_EQ(Contents(files.scene), SceneToYaml(problem));
-    EXPECT_EQ(Contents(files.request), RequestToYaml(problem));
+    EXPECT_EQ(ReadText(files.scene), SceneToYaml(problem));
+    EXPECT_EQ(ReadText(files.request), RequestToYaml(problem));
   }
 }
 

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 // In these tests the robot's mast is turned by a quarter: the gripper is at (0, 1, 0), its x axis
 // along y.
-constexpr const char* kRequest = R"(
+constexpr const char* kBallRequest = R"(
 start_state: {joint_state: {name: [a_joint, b_joint], position: [1.5707963267948966, 0]}}
 goal_constraints:
   - joint_constraints: [{joint_name: a_joint, position: 1}, {joint_name: b_joint, position: 0}]
@@ -41,7 +41,7 @@ Vector3d PlaceOf(const SceneObject& object) {
   return object.X_WO * object.shapes.front().X_FS.translation();
 }
 
-Vector3d Ball(const std::string& scene, const std::string& request = kRequest) {
+Vector3d Ball(const std::string& scene, const std::string& request = kBallRequest) {
   return PlaceOf(ParseProblem(scene, request).scene.objects.at(0));
 }
 
@@ -57,7 +57,7 @@ TEST(Frames, OfTheRobotsLinks) {
   ExpectAt(Ball(BallIn("base_link")), 1, 0, 0);
   ExpectAt(Ball(BallIn("gripper_link")), 0, 2, 0);
   ExpectAt(Ball(BallIn("/r_finger")), 0, 2, 0);
-  EXPECT_EQ(ParseProblem(BallIn("gripper_link"), kRequest).scene.world_frame, "base_link");
+  EXPECT_EQ(ParseProblem(BallIn("gripper_link"), kBallRequest).scene.world_frame, "base_link");
 }
 
 TEST(Frames, WhereTheStartHasTheLinksNotTheScene) {
@@ -69,7 +69,7 @@ TEST(Frames, WhereTheStartHasTheLinksNotTheScene) {
                        "robot_state: {joint_state: {name: [a_joint, b_joint], "
                        "position: [0, 3]}}\n"),
                 "start_state: {joint_state: {name: [a_joint], position: [1.5707963267948966]}}\n" +
-                    std::string(kRequest).substr(std::string(kRequest).find("goal"))),
+                    std::string(kBallRequest).substr(std::string(kBallRequest).find("goal"))),
            0, 2, 3);
 }
 
@@ -172,7 +172,7 @@ TEST(Frames, AVirtualJointPlacesTheRobot) {
 
 TEST(Frames, TheRequestsVirtualJointComesFirst) {
   const std::string request =
-      Replaced(kRequest, "start_state: {joint_state: {name",
+      Replaced(kBallRequest, "start_state: {joint_state: {name",
                "start_state:\n" + RootAt("odom", "0, 0, -2") + "  joint_state: {name");
   ExpectAt(Ball(BallIn("odom", "robot_state:\n" + RootAt("odom", "0, 0, 9")),
                 Replaced(request, "0]}}", "0]}")),
@@ -206,7 +206,7 @@ TEST(Frames, OfObjectsAndTheirSubframes) {
     return Replaced(BallIn(frame), "    - id: ball", table + "    - id: ball");
   };
   const auto place = [&](const std::string& scene) {
-    return PlaceOf(ParseProblem(scene, kRequest).scene.objects.at(1));
+    return PlaceOf(ParseProblem(scene, kBallRequest).scene.objects.at(1));
   };
   ExpectAt(place(with_table("table")), 1, 0, 1);
   ExpectAt(place(with_table("/table")), 1, 0, 1);
@@ -275,7 +275,7 @@ TEST(Frames, FixedOnesComeOutInTheBaseFrame) {
       ParseProblem(BallIn("base_link", kTransforms + Transform("camera", "base_link", "0, 2, 0") +
                                            Transform("lens", "camera", "0, 0, 1") +
                                            Transform("lost", "found", "0, 0, 1")),
-                   kRequest)
+                   kBallRequest)
           .scene;
   std::vector<std::string> names;
   for (const FrameTransform& frame : scene.fixed_frames) names.push_back(frame.frame);
@@ -287,7 +287,7 @@ TEST(Quaternions, AreNormalisedOrTakenAsNoRotationWithAWarning) {
   const auto warnings = [](const std::string& quaternion) {
     const Problem problem = ParseProblem(
         Replaced(BallIn("base_link"), "orientation: [0, 0, 0, 1]", "orientation: " + quaternion),
-        kRequest);
+        kBallRequest);
     EXPECT_TRUE(problem.scene.objects[0].shapes[0].X_FS.linear().isUnitary(1e-12));
     return problem.warnings;
   };
@@ -323,7 +323,7 @@ TEST(Quaternions, EverywhereAlike) {
           "}, meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}], "
           "mesh_poses: [{position: [0, 0, 1], orientation: " +
           zero + "}]}]}\n",
-      kRequest);
+      kBallRequest);
   EXPECT_EQ(problem.warnings.size(), 5u);
   for (const std::string& warning : problem.warnings) {
     EXPECT_THAT(warning, HasSubstr("is all zero; taken as no rotation"));

@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <random>
 
 #include "common/error.h"
+#include "common/numbers.h"
 #include "tests/robot_model/random_configuration.h"
 #include "tests/scene/problem_texts.h"
 #include "tests/support/expect_input_error.h"
@@ -17,8 +17,6 @@ namespace planbench {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr double kPi = std::numbers::pi;
 
 // The text robot's gripper is at (cos a, sin a, b), turned by a about z.
 constexpr const char* kMast = R"(group_name: arm

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/read_text.h"
 #include "tests/scene/problem_texts.h"
 #include "tests/support/expect_input_error.h"
 
@@ -41,12 +40,6 @@ void ExpectEqual(const Problem& a, const Problem& b) {
   }
 }
 
-std::string Contents(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 class RoundTrip : public testing::Test {
  protected:
   void SetUp() override {
@@ -64,8 +57,8 @@ class RoundTrip : public testing::Test {
     EXPECT_EQ(again.index, 42);
     EXPECT_EQ(again.set, folder_.filename().string());
     ExpectEqual(problem, again);
-    EXPECT_EQ(Contents(scene), SceneToYaml(again));
-    EXPECT_EQ(Contents(request), RequestToYaml(again));
+    EXPECT_EQ(ReadText(scene), SceneToYaml(again));
+    EXPECT_EQ(ReadText(request), RequestToYaml(again));
     return again;
   }
 

@@ -33,7 +33,7 @@ Mesh& Wedge(Scene* scene) { return std::get<Mesh>(ShapeOf(scene, 2, 0)); }
 void Turn(Eigen::Isometry3d* pose, double angle_rad) {
   pose->rotate(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(1, 2, 3).normalized()));
 }
-const auto kName = [](const auto& info) { return std::string(info.param.name); };
+const auto kCaseName = [](const auto& info) { return std::string(info.param.name); };
 
 INSTANTIATE_TEST_SUITE_P(
     Fields, Matters,
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                [](Scene* s) { s->allowed_collisions.SetEntry("shelf", "can", false); }},
         Change{"Default", [](Scene* s) { s->allowed_collisions.SetDefaultEntry("shelf", false); }},
         Change{"NewDefault", [](Scene* s) { s->allowed_collisions.SetDefaultEntry("can", true); }}),
-    kName);
+    kCaseName);
 
 class DoesNotMatter : public testing::TestWithParam<Change> {};
 TEST_P(DoesNotMatter, KeepsTheId) {
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"WithItself", [](Scene* s) { s->allowed_collisions.SetEntry("a", "a", true); }},
         Change{"PairInOtherOrder",
                [](Scene* s) { s->allowed_collisions.SetEntry("b", "a", true); }}),
-    kName);
+    kCaseName);
 
 TEST(SceneId, IsTheSameOnEveryMachine) {
   // A change of this value makes stored records point nowhere: raise the layout's number in

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "common/numbers.h"
 #include "tests/scene_server/tiny_world.h"
 
 namespace planbench {
@@ -12,8 +12,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 class CollisionAnswer : public ::testing::Test {
  protected:

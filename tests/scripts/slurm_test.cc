@@ -139,13 +139,14 @@ TEST(Slurm, MergedShardsAreTheSessionInOneButForTimes) {
     GTEST_SKIP() << "needs a Slurm cluster with an idle node: slurm-wlm and munge, running";
   }
   TemporaryFolder folder;
-  const std::vector<std::string> flags = {"--robot",    PLANBENCH_SOURCE_DIR "/robots/fetch",
-                                          "--problems", PLANBENCH_SOURCE_DIR "/problems/shelf_demo",
+  const std::string source = PLANBENCH_SOURCE_DIR;
+  const std::vector<std::string> flags = {"--robot",    source + "/robots/fetch",
+                                          "--problems", source + "/problems/shelf_demo",
                                           "--planners", "rrtc",
                                           "--trials",   "2",
                                           "--time",     "30"};
-  std::vector<std::string> command = {PLANBENCH_SOURCE_DIR "/scripts/planbench_slurm", "--tasks",
-                                      "3", "--out", folder / "study"};
+  std::vector<std::string> command = {source + "/scripts/planbench_slurm", "--tasks", "3", "--out",
+                                      folder / "study"};
   command.insert(command.end(), flags.begin(), flags.end());
   ChildProcess slurm(command, folder / "slurm", {{"PLANBENCH_PROGRAMS", PLANBENCH_BIN_DIR}});
   ASSERT_EQ(slurm.Wait(), 0) << slurm.Errors();

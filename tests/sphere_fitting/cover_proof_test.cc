@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/polyhedra.h"
+#include "tests/sphere_fitting/in_one.h"
 #include "tests/support/generated_meshes.h"
 
 namespace planbench {
@@ -18,11 +19,6 @@ LinkBody BodyOf(const TriangleMesh& mesh) {
   LinkBody body;
   body.Add({Mesh{"", Vector3d::Ones(), mesh}, Eigen::Isometry3d::Identity()});
   return body;
-}
-
-bool InOne(const std::vector<Ball>& balls, const Vector3d& p) {
-  return std::any_of(balls.begin(), balls.end(),
-                     [&](const Ball& ball) { return (p - ball.center).norm() <= ball.radius; });
 }
 
 // Balls along the edges and over the faces of a cube of edge length 2; its middle is bare.

@@ -15,6 +15,7 @@
 #include "geometry/polyhedra.h"
 #include "sphere_fitting/cover_proof.h"
 #include "sphere_fitting/inner_spheres.h"
+#include "tests/sphere_fitting/in_one.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/generated_meshes.h"
 
@@ -57,11 +58,6 @@ LinkBody BodyOf(const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
 Eigen::Isometry3d SomePose() {
   return Eigen::Translation3d(0.1, -0.2, 0.3) *
          Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized());
-}
-
-bool InOne(const std::vector<Ball>& balls, const Vector3d& p) {
-  return std::any_of(balls.begin(), balls.end(),
-                     [&](const Ball& ball) { return (p - ball.center).norm() <= ball.radius; });
 }
 
 Vector3d RandomDirection(std::mt19937_64* random) {

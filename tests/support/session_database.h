@@ -22,11 +22,11 @@ struct MadeRun {
   PlanStatus status = PlanStatus::kSolved;
   double time_s = 1;
   Direction direction = Direction::kForward;
-  std::string reason = "";
+  std::string reason = {};
   double length = 2;
   double length_simplified = 1;
   std::optional<bool> mesh_valid = {};  ///< Verdict of the mesh robot, if it has one.
-  std::string mesh_reason = "";
+  std::string mesh_reason = {};
   double mesh_depth_m = 0;  ///< 0: the verdict names no contact.
   std::optional<bool> mesh_valid_simplified = {};
   std::map<std::string, double> counters = {};

@@ -3,18 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "common/numbers.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Mesh Cuboid(const Eigen::Vector3d& size) {
   Mesh mesh;

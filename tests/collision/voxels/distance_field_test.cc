@@ -61,7 +61,8 @@ TEST(DistanceTransform, EqualsBruteForce) {
                                       {2, 3, 5},  {16, 4, 17}, {17, 16, 1}, {11, 13, 9},
                                       {33, 2, 3}, {3, 35, 4},  {5, 3, 37}};
   for (const auto& size : sizes) {
-    const auto num = static_cast<std::size_t>(size[0] * size[1] * size[2]);
+    const auto num = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+                     static_cast<std::size_t>(size[2]);
     for (const bool walls : {false, true}) {
       const VoxelSettings settings = Grid(size[0], size[1], size[2], walls);
       SCOPED_TRACE(testing::Message()
@@ -111,8 +112,9 @@ void ExpectCellsMet(const VoxelGrid& grid, Distance distance) {
         if (std::abs(of_center) > grid.resolution()) least = of_center;
         const int num_samples = std::isfinite(least) ? 0 : kSamples * kSamples * kSamples;
         for (int s = 0; s < num_samples && least > 0; ++s) {
-          const Vector3d step(s % kSamples, s / kSamples % kSamples, s / kSamples / kSamples);
-          least = std::min(least, distance(corner + spacing * step));
+          const Eigen::Vector3i step(s % kSamples, s / kSamples % kSamples,
+                                     s / kSamples / kSamples);
+          least = std::min(least, distance(corner + spacing * step.cast<double>()));
         }
         if (least <= 0) {
           ASSERT_TRUE(occupied) << i << " " << j << " " << k << ": missed";
