@@ -31,6 +31,15 @@ std::string PublishedName(const PublishedFigures& row) {
   return "published " + std::string(row.algorithm);
 }
 
+/// True if the contestant's experience is of the very set that it is tried on.
+bool IsTrainedOn(const SetResults& set, const ContestantResults& one) {
+  if (one.records.empty()) return false;
+  const auto& settings = one.records.front()->settings;
+  const auto sets = settings.find("learned_from");
+  return sets != settings.end() &&
+         (", " + sets->second + ", ").find(", " + set.name + ", ") != std::string::npos;
+}
+
 std::string Count(int count) { return fmt::format("{}", count); }
 std::string Count(std::optional<int> count) { return count ? Count(*count) : "-"; }
 
@@ -61,13 +70,19 @@ std::string SuccessTable(const SessionResults& results) {
       1);
   bool published = false;
   bool one_trial = false, more_trials = false;
+  bool trained = false;
   ForEachRow(
       results, [&](const SetResults& set) { table.AddHeading(set.name); },
       [&](const SetResults& set, const ContestantResults& one) {
         using Kind = Outcome::Kind;
         SuccessSummary s = SummarizeSuccess(one.outcomes);
         if (!one.is_reference) (s.num_runs > s.num_problems ? more_trials : one_trial) = true;
-        table.Add({one.contestant->name, Count(s.num_runs), Count(s.claimed),
+        std::string name = one.contestant->name;
+        if (IsTrainedOn(set, one)) {
+          trained = true;
+          name += " (trained)";
+        }
+        table.Add({name, Count(s.num_runs), Count(s.claimed),
                    one.is_reference ? "-" : Count(s.confirmed), Percent(s.share, s.interval),
                    Count(s.kinds[Kind::kForward]), Count(s.kinds[Kind::kBackward]),
                    Count(s.kinds[Kind::kFailure]), Count(s.kinds[Kind::kUnsolvable])});
@@ -91,6 +106,7 @@ std::string SuccessTable(const SessionResults& results) {
   if (one_trial && more_trials) {
     notes += "Contestants whose answer does not depend on the seed make one trial.\n";
   }
+  if (trained) notes += "(trained): has learned from this very set, which is therefore no test.\n";
   if (published) notes += kPublishedNote;
   return table.Format(notes) + "\n";
 }

@@ -145,6 +145,36 @@ int RrtConnect::Connect(int tree, const double* q) {
   return node;
 }
 
+std::optional<RrtConnect::Meeting> RrtConnect::Follow(const Path& way) {
+  // The nodes that the trees get to; the other tree then has them in reach, or not.
+  const auto follow = [&](int tree, auto begin, auto end) -> std::optional<Meeting> {
+    int last = -1;
+    for (auto q = begin; q != end; ++q) {
+      const int node = Connect(tree, q->data());
+      if (node < 0) break;
+      last = Add(tree, q->data(), node);
+    }
+    if (last < 0) return std::nullopt;
+    std::copy_n(trees_[tree].nodes.Positions(last), flat_.size(), reached_.data());
+    const int other = Connect(1 - tree, reached_.data());
+    if (other < 0) return std::nullopt;
+    return tree == kStart ? Meeting{last, other} : Meeting{other, last};
+  };
+  if (const auto meeting = follow(kStart, way.begin(), way.end())) return meeting;
+  return follow(kGoal, way.rbegin(), way.rend());
+}
+
+std::optional<RrtConnect::Meeting> RrtConnect::Recall(const PathLibrary& experience,
+                                                      const SearchQuery& query) {
+  range_ = settings_->range.value_or(ShrinkingRange(0));
+  for (const Path& way :
+       experience.Recall(joints_, query.start(), query.goal().nominal, settings_->recall)) {
+    if (query.ShouldStop()) break;
+    if (const auto meeting = Follow(way)) return meeting;
+  }
+  return std::nullopt;
+}
+
 Path RrtConnect::PathThrough(const Meeting& meeting) const {
   Path path;
   const auto append = [&](int tree, int node) {
@@ -194,7 +224,8 @@ std::optional<RrtConnect::Meeting> RrtConnect::Grow(const SearchQuery& query, Jo
   return std::nullopt;
 }
 
-SearchResult RrtConnect::Search(const RrtcSettings& settings, const SearchQuery& query) {
+SearchResult RrtConnect::Search(const RrtcSettings& settings, const PathLibrary* experience,
+                                const SearchQuery& query) {
   settings_ = &settings;
   edges_ = &query.edges();
   Clear();
@@ -206,7 +237,10 @@ SearchResult RrtConnect::Search(const RrtcSettings& settings, const SearchQuery&
   Add(kStart, start.data(), NodeTree::kNoParent);
   AddGoal(&goals);
 
-  const std::optional<Meeting> meeting = Grow(query, &sampler, &goals);
+  std::optional<Meeting> meeting;
+  if (experience != nullptr) meeting = Recall(*experience, query);
+  const int num_recalled = NumStates(kStart) + NumStates(kGoal) - 2;
+  if (!meeting) meeting = Grow(query, &sampler, &goals);
   SearchResult result;
   if (meeting) {
     result.status = PlanStatus::kSolved;
@@ -221,6 +255,7 @@ SearchResult RrtConnect::Search(const RrtcSettings& settings, const SearchQuery&
   if (settings.domain_radius > 0) {
     result.counters["out_of_domain"] = static_cast<double>(num_out_of_domain_);
   }
+  if (experience != nullptr) result.counters["states_recalled"] = num_recalled;
   return result;
 }
 

@@ -34,6 +34,12 @@ std::optional<double> ReadRange(const YamlNode& node) {
   return node.PositiveDouble();
 }
 
+int ReadRecall(const YamlNode& node) {
+  const long long recall = node.Int();
+  if (recall < 1 || recall > 1000) node.Fail("must be from 1 to 1000");
+  return static_cast<int>(recall);
+}
+
 double ReadFraction(const YamlNode& node) {
   const double fraction = node.PositiveDouble();
   if (fraction > 1) node.Fail(fmt::format("must be at most 1, found {}", fraction));
@@ -54,6 +60,7 @@ std::string RrtcSettings::VariantName() const {
   if (connect && balance) variant = "balanced";
   if (!connect && !balance && range) variant = "canonical";
   if (domain_radius > 0) variant += ", dynamic domain";
+  if (!experience.empty()) variant += ", experience";
   return fmt::format("{} ({})", AlgorithmName(), variant);
 }
 
@@ -66,7 +73,7 @@ double ShrinkingRange(std::int64_t iterations) {
 
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
   node.AllowOnly({"algorithm", "sampler", "range", "extension", "balance", "domain_radius",
-                  "metric", "longest_valid_segment_fraction", "ompl"});
+                  "experience", "recall", "metric", "longest_valid_segment_fraction", "ompl"});
   RrtcSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
@@ -77,6 +84,12 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   if (const auto value = node.Find("domain_radius")) {
     settings.domain_radius = ReadDomainRadius(*value);
   }
+  for (const char* key : {"experience", "recall"}) {
+    const auto value = node.Find(key);
+    if (value && is_ompl) value->Fail("is for RRT-Connect only, not for OMPL's planners");
+  }
+  if (const auto value = node.Find("experience")) settings.experience = value->String();
+  if (const auto value = node.Find("recall")) settings.recall = ReadRecall(*value);
   for (const char* key : {"metric", "longest_valid_segment_fraction", "ompl"}) {
     const auto value = node.Find(key);
     if (value && !is_ompl) value->Fail("is for OMPL's planners only, not for RRT-Connect");
@@ -109,6 +122,10 @@ std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings
   text["extension"] = EnumName(settings.extension);
   text["balance"] = settings.balance ? "true" : "false";
   text["domain_radius"] = fmt::format("{}", settings.domain_radius);
+  if (!settings.experience.empty()) {
+    text["experience"] = settings.experience;
+    text["recall"] = fmt::format("{}", settings.recall);
+  }
   return text;
 }
 
@@ -119,7 +136,7 @@ RrtcSettings SettingsOfRequest(const RrtcSettings& settings,
   for (const auto& [key, text] : parameters) {
     request.Override(key, text, "request parameter " + key);
   }
-  request.AllowOnly({"sampler", "range", "extension", "balance", "domain_radius"});
+  request.AllowOnly({"sampler", "range", "extension", "balance", "domain_radius", "recall"});
   // A parameter without a value is a mistake, not a wish for the default.
   for (const auto& [key, text] : parameters) request.At(key).String();
   return ReadRrtcSettings(request, settings);

@@ -48,6 +48,11 @@ struct RrtcSettings {
   /// with successes (Jaillet, Yershova, LaValle and Simeon, IROS 2005), but not below the range.
   /// 0: off.
   double domain_radius = 0;
+  /// `experience`: file of paths that were found before (PathLibrary), absolute or from the robot
+  /// folder; empty: none.
+  std::string experience;
+  /// Of it, how many are followed at most before the trees grow.
+  int recall = 1;
 
   // Of OMPL's planners:
   Metric metric = Metric::kL2;

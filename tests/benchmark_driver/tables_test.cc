@@ -209,6 +209,20 @@ TEST(TablesTest, TrialsAreRunsOfOneProblem) {
   EXPECT_EQ(Row(Brief(records), kTimes, "ARA*"), "1 1500 1500 1500 201000");
 }
 
+TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
+  auto session = FourProblems();
+  const std::string set = session.front().problem_set;
+  EXPECT_THAT(Brief(session), Not(HasSubstr("(trained)")));
+  for (RunRecordMessage& record : session) {
+    record.settings["learned_from"] =
+        record.contestant == "ARA*" ? "other, " + set : "not_" + set + ", " + set + "_either";
+  }
+  const std::string text = Brief(session);
+  EXPECT_THAT(Row(text, kSuccess, "ARA* (trained)"), StartsWith("4 2 2 50.0 ["));
+  EXPECT_THAT(Row(text, kSuccess, "RRT-Connect"), StartsWith("2 2 1 50.0 ["));
+  EXPECT_THAT(text, HasSubstr("no test"));
+}
+
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
   auto session = FourProblems();
   const SessionTables tables = MakeTables(Conditions(), session);

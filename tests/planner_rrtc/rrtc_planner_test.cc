@@ -5,11 +5,13 @@
 
 #include "planner_rrtc/ompl_algorithms.h"
 #include "planner_rrtc/rrtc_settings.h"
+#include "planning/path_library.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/planner_contract.h"
 #include "tests/contract/random_robots_contract.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -57,6 +59,44 @@ class RrtcPlannerTest : public testing::Test {
 
   const Robot robot_ = LoadPlanarRobot();
 };
+
+TEST_F(RrtcPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
+  const PlanResult before = Solve("");
+  ASSERT_EQ(before.status, PlanStatus::kSolved);
+  const TemporaryFolder folder;
+  PathLibrary library;
+  for (const JointSpace::Joint& joint : robot_.groups.front().space.joints()) {
+    library.joints.push_back(joint.name);
+  }
+  library.learned_from = {"posts", "walls"};
+  library.paths = {before.simplified_path};
+  const auto with = [&](const std::string& name) {
+    return "experience: " + folder.Write(name, ToYaml(library)).string();
+  };
+
+  const PlanResult recalled = Solve(with("same.yaml"));
+  ASSERT_EQ(recalled.status, PlanStatus::kSolved) << recalled.message;
+  EXPECT_EQ(recalled.counters.at("iterations"), 0) << "the path is free as it is";
+  EXPECT_GT(recalled.counters.at("states_recalled"), 0);
+  EXPECT_EQ(recalled.path, Solve(with("same.yaml"), 7).path) << "no sample was drawn";
+
+  // Straight through the posts: of use up to them.
+  library.paths = {{{0.6, 0, 0}, {-0.6, 0, 0}}};
+  const PlanResult repaired = Solve(with("blocked.yaml"));
+  ASSERT_EQ(repaired.status, PlanStatus::kSolved) << repaired.message;
+  EXPECT_GT(repaired.counters.at("iterations"), 0);
+
+  const PlannerDescription description =
+      MakeRrtcPlanner(robot_, Settings(with("same.yaml")))->Describe();
+  EXPECT_EQ(description.algorithm, "RRT-Connect (balanced, experience)");
+  EXPECT_EQ(description.settings.at("learned_from"), "posts, walls");
+  EXPECT_FALSE(description.settings.at("experience_id").empty());
+
+  library.joints.front() = "other";
+  ExpectInputError([&] { Solve(with("other.yaml")); }, {"other.yaml", "joints", "planar3"});
+  ExpectInputError([&] { Solve("recall: 0"); }, {"rrtc.yaml:1", "recall"});
+  ExpectInputError([&] { Solve("{algorithm: PRM, experience: a.yaml}"); }, {"experience", "OMPL"});
+}
 
 TEST_F(RrtcPlannerTest, RefusesBadSettingsByFileLineAndKey) {
   const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+#include <iterator>
+
+#include "common/command_line.h"
+#include "common/exit_codes.h"
+#include "common/write_file.h"
+#include "experience/learn_paths.h"
+#include "messaging/record_log.h"
+
+int main(int argc, char** argv) {
+  using namespace planbench;
+  std::vector<std::string> sessions;
+  Lessons lessons;
+  std::string out;
+  CLI::App app(
+      "Collects the paths of recorded sessions for planners that learn from experience: of each "
+      "problem the shortest simplified one that the referee confirmed.",
+      "learn_paths");
+  AddVersionFlag(&app);
+  app.add_option("sessions", sessions, "session folders, with their event logs")->required();
+  app.add_option("--out", out, "file to write")->required();
+  app.add_option("--sets", lessons.sets, "problem sets to learn from; default: all")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--contestants", lessons.contestants, "whose paths; default: everybody's")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  return RunCommand(&app, argc, argv, [&] {
+    std::vector<RunRecordMessage> runs;
+    for (const std::string& session : sessions) {
+      RecordedSession recorded = ReadRecords(FindEventLog(session));
+      std::move(recorded.runs.begin(), recorded.runs.end(), std::back_inserter(runs));
+    }
+    const PathLibrary library = LearnPaths(runs, lessons);
+    WriteFile(out, ToYaml(library));
+    std::cout << fmt::format("{}: {} paths of {}\n", out, library.paths.size(),
+                             fmt::join(library.learned_from, ", "));
+    return kExitOk;
+  });
+}

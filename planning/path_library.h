@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planning/plan_result.h"
+#include "robot_model/joint_space.h"
+
+namespace planbench {
+
+/// Paths that were found before, for a planner to follow as far as they are still free.
+struct PathLibrary {
+  std::vector<std::string> joints;        ///< n, in the order of positions.
+  std::vector<std::string> learned_from;  ///< Problem sets, sorted.
+  std::vector<Path> paths;                ///< Each of two waypoints at least, n positions each.
+
+  /// True if its joints are those of the group, in its order.
+  bool Fits(const JointSpace& space) const;
+
+  /// The stretches of up to `count` paths, as they were or reversed, whose ends are nearest to
+  /// `from` and `to` (sum of the two distances in joint space), the nearest first: waypoints from
+  /// the one nearest to `from` to the one nearest to `to`. The library fits `space`.
+  std::vector<Path> Recall(const JointSpace& space, std::span<const double> from,
+                           std::span<const double> to, int count) const;
+};
+
+/// Throws InputError with file and line for what is no path library.
+PathLibrary ReadPathLibrary(const std::filesystem::path& file);
+
+/// What ReadPathLibrary reads.
+std::string ToYaml(const PathLibrary& library);
+
+}  // namespace planbench

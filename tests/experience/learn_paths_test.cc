@@ -1,0 +1,71 @@
+#include "experience/learn_paths.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+namespace {
+
+/// A solved run whose simplified path, of that length, is confirmed.
+RunRecordMessage SolvedRun(const std::string& set, int problem, double length) {
+  RunRecordMessage run;
+  run.contestant = "ARA*";
+  run.problem_set = set;
+  run.problem_index = problem;
+  run.status = PlanStatus::kSolved;
+  run.result.joint_names = {"turn"};
+  run.result.result.simplified_path = {{0}, {length}};
+  run.simplified_check.verdict.emplace();
+  run.simplified_check.verdict->valid = true;
+  run.simplified_check.verdict->measures["path_length"] = length;
+  return run;
+}
+
+TEST(LearnPaths, TakesTheShortestOfEachProblem) {
+  const PathLibrary library =
+      LearnPaths({SolvedRun("b", 1, 3), SolvedRun("a", 2, 2), SolvedRun("b", 1, 1),
+                  SolvedRun("a", 1, 4), SolvedRun("b", 1, 2)},
+                 {});
+  EXPECT_EQ(library.joints, (std::vector<std::string>{"turn"}));
+  EXPECT_EQ(library.learned_from, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(library.paths, (std::vector<Path>{{{0}, {4}}, {{0}, {2}}, {{0}, {1}}}));
+}
+
+TEST(LearnPaths, TakesOnlyWhatTheRefereeConfirmed) {
+  RunRecordMessage timed_out = SolvedRun("a", 1, 1);
+  timed_out.status = PlanStatus::kTimedOut;
+  RunRecordMessage rejected = SolvedRun("a", 2, 1);
+  rejected.simplified_check.verdict->valid = false;
+  RunRecordMessage unjudged = SolvedRun("a", 3, 1);
+  unjudged.simplified_check.verdict.reset();
+  RunRecordMessage through_meshes = SolvedRun("a", 4, 1);
+  through_meshes.simplified_check.mesh_verdict.emplace();
+  RunRecordMessage at_its_goal = SolvedRun("a", 5, 0);
+  at_its_goal.result.result.simplified_path = {{0}};
+  const std::vector<RunRecordMessage> none = {timed_out, rejected, unjudged, through_meshes,
+                                              at_its_goal};
+  ExpectInputError([&] { LearnPaths(none, {}); }, {"nothing to learn"});
+  std::vector<RunRecordMessage> one = none;
+  one.push_back(SolvedRun("a", 6, 7));
+  EXPECT_EQ(LearnPaths(one, {}).paths, (std::vector<Path>{{{0}, {7}}}));
+}
+
+TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
+  RunRecordMessage other = SolvedRun("a", 1, 1);
+  other.contestant = "other";
+  const std::vector<RunRecordMessage> runs = {other, SolvedRun("a", 1, 2), SolvedRun("b", 1, 3)};
+  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"ARA*"}}).paths, (std::vector<Path>{{{0}, {2}}}));
+  EXPECT_EQ(LearnPaths(runs, {{"b"}, {}}).learned_from, (std::vector<std::string>{"b"}));
+  ExpectInputError([&] { LearnPaths(runs, {{"c"}, {}}); }, {"--sets", "'c'"});
+  ExpectInputError([&] { LearnPaths(runs, {{}, {"PRM"}}); }, {"--contestants", "'PRM'"});
+}
+
+TEST(LearnPaths, PathsOfOtherJointsAreNotMixed) {
+  RunRecordMessage other = SolvedRun("b", 1, 1);
+  other.result.joint_names = {"bend"};
+  ExpectInputError([&] { LearnPaths({SolvedRun("a", 1, 1), other}, {}); }, {"'b'", "other joints"});
+}
+
+}  // namespace
+}  // namespace planbench

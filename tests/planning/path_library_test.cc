@@ -1,0 +1,101 @@
+#include "planning/path_library.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "common/numbers.h"
+#include "common/random.h"
+#include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+JointSpace Space() {
+  return JointSpace({{"turn", true, false, -kPi, kPi, 1}, {"bend", false, false, -2, 2, 1}});
+}
+
+PathLibrary Library(std::vector<Path> paths) {
+  return {{"turn", "bend"}, {"set"}, std::move(paths)};
+}
+
+TEST(PathLibrary, FitsTheGroupWithItsJointsInItsOrder) {
+  EXPECT_TRUE(Library({}).Fits(Space()));
+  EXPECT_FALSE((PathLibrary{{"bend", "turn"}, {}, {}}).Fits(Space()));
+  EXPECT_FALSE((PathLibrary{{"turn"}, {}, {}}).Fits(Space()));
+}
+
+TEST(PathLibrary, IsReadAsItWasWritten) {
+  const TemporaryFolder folder;
+  PathLibrary library = Library({{{0.1, -1.0 / 3}, {3, 2}, {-3, 0}}, {{0, 0}, {1, 1}}});
+  library.learned_from = {"a: set", "b"};
+  const PathLibrary read = ReadPathLibrary(folder.Write("paths.yaml", ToYaml(library)));
+  EXPECT_EQ(read.joints, library.joints);
+  EXPECT_EQ(read.learned_from, library.learned_from);
+  EXPECT_EQ(read.paths, library.paths);
+  EXPECT_TRUE(ReadPathLibrary(folder.Write("none.yaml", ToYaml(Library({})))).paths.empty());
+}
+
+TEST(PathLibrary, RecallsTheStretchBetweenTheEnds) {
+  const PathLibrary library = Library({{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {{0, 2}, {1, 2}}});
+  EXPECT_EQ(library.Recall(Space(), Configuration{0.9, 0.1}, Configuration{2.1, 0}, 1),
+            (std::vector<Path>{{{1, 0}, {2, 0}}}));
+  EXPECT_EQ(library.Recall(Space(), Configuration{3, 0}, Configuration{1, 0.1}, 1),
+            (std::vector<Path>{{{3, 0}, {2, 0}, {1, 0}}}))
+      << "reversed";
+  EXPECT_EQ(library.Recall(Space(), Configuration{-kPi + 0.1, 0}, Configuration{3, 0}, 1),
+            (std::vector<Path>{{{3, 0}}}))
+      << "the short way round";
+  EXPECT_EQ(library.Recall(Space(), Configuration{0, 2}, Configuration{1, 2}, 9),
+            (std::vector<Path>{{{0, 2}, {1, 2}}, {{0, 0}, {1, 0}}}))
+      << "the nearest first, not more than there are";
+  EXPECT_TRUE(Library({}).Recall(Space(), Configuration{0, 0}, Configuration{1, 1}, 1).empty());
+}
+
+TEST(PathLibrary, RecallsTheNearestOfAll) {
+  std::mt19937_64 random(1);
+  const JointSpace space = Space();
+  const auto draw = [&] {
+    return Configuration{kPi * (2 * UniformFraction(&random) - 1),
+                         2 * (2 * UniformFraction(&random) - 1)};
+  };
+  std::vector<Path> paths;
+  for (int i = 0; i < 40; ++i) paths.push_back({draw(), draw(), draw()});
+  const PathLibrary library = Library(paths);
+  for (int i = 0; i < 50; ++i) {
+    const Configuration from = draw();
+    const Configuration to = draw();
+    double least = kInfinity;
+    for (const Path& path : paths) {
+      for (const Configuration& a : path) {
+        for (const Configuration& b : path) {
+          least = std::min(least, space.Distance(a, from) + space.Distance(b, to));
+        }
+      }
+    }
+    const Path recalled = library.Recall(space, from, to, 1).front();
+    EXPECT_DOUBLE_EQ(space.Distance(recalled.front(), from) + space.Distance(recalled.back(), to),
+                     least);
+  }
+}
+
+TEST(PathLibrary, WhatIsNoneIsRefusedByFileAndLine) {
+  const TemporaryFolder folder;
+  const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    SCOPED_TRACE(text);
+    const auto file = folder.Write("paths.yaml", text);
+    ExpectInputError([&] { ReadPathLibrary(file); }, parts);
+  };
+  expect_refused("joints: []\nlearned_from: []\npaths: []\n", {"paths.yaml:1", "joints"});
+  expect_refused("learned_from: []\npaths: []\n", {"paths.yaml", "joints"});
+  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1], [2, 3]]\n", {"paths.yaml:4"});
+  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1], [.nan]]\n", {"paths.yaml:4"});
+  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1]]\n", {"paths.yaml:4", "two"});
+  expect_refused("joints: [a]\nlearned_from: []\npath: []\n", {"paths.yaml:3", "path"});
+  ExpectInputError([&] { ReadPathLibrary(folder.path() / "none"); }, {"none"});
+}
+
+}  // namespace
+}  // namespace planbench
