@@ -16,6 +16,7 @@
 #include "common/random_id.h"
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
+#include "planning/path_library.h"
 
 namespace planbench {
 namespace {
@@ -34,7 +35,7 @@ RunRecordMessage Kept(RunRecordMessage record) {
   result.simplified_path = {};
   result.progress = {};
   record.result.joint_names = {};
-  record.settings = {};
+  std::erase_if(record.settings, [](const auto& setting) { return setting.first != kLearnedFrom; });
   record.request.start = {};
   record.request.goal = {};
   record.request.parameters = {};

@@ -11,6 +11,7 @@
 #include "benchmark_driver/published_study.h"
 #include "benchmark_driver/session_results.h"
 #include "benchmark_driver/text_table.h"
+#include "planning/path_library.h"
 #include "results/comparison.h"
 
 namespace planbench {
@@ -35,7 +36,7 @@ std::string PublishedName(const PublishedFigures& row) {
 bool IsTrainedOn(const SetResults& set, const ContestantResults& one) {
   if (one.records.empty()) return false;
   const auto& settings = one.records.front()->settings;
-  const auto sets = settings.find("learned_from");
+  const auto sets = settings.find(kLearnedFrom);
   return sets != settings.end() &&
          (", " + sets->second + ", ").find(", " + set.name + ", ") != std::string::npos;
 }

@@ -37,7 +37,7 @@ class RrtConnectPlanner final : public Planner {
     description.settings = DescribeSettings(settings_);
     if (experience_) {
       description.settings["experience_id"] = experience_id_;
-      description.settings["learned_from"] =
+      description.settings[kLearnedFrom] =
           fmt::format("{}", fmt::join(experience_->learned_from, ", "));
     }
     return description;

@@ -10,6 +10,9 @@
 
 namespace planbench {
 
+/// Setting by which a planner tells the problem sets that it has learned from, ", " between.
+inline constexpr char kLearnedFrom[] = "learned_from";
+
 /// Paths that were found before, for a planner to follow as far as they are still free.
 struct PathLibrary {
   std::vector<std::string> joints;        ///< n, in the order of positions.

@@ -65,7 +65,9 @@ class DriverTest : public testing::Test {
 };
 
 TEST_F(DriverTest, MakesAndRecordsEveryRun) {
-  const FakePlanner planner(&bus_);
+  FakePlanner planner(&bus_);
+  planner.status.settings["learned_from"] = "books";
+  planner.Restart();
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   Driver driver(&bus_, Options(), LineUp({"arm"}), {{"key", "value"}});
@@ -82,6 +84,7 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_EQ(logger.records().messages().at(0).result.result.path, FakePath());
   EXPECT_TRUE(first.result.result.Solves());
   EXPECT_EQ(first.result.result.path.size(), 1u);
+  EXPECT_EQ(first.settings, (std::map<std::string, std::string>{{"learned_from", "books"}}));
 
   EXPECT_EQ(Ids(logger.records()).size(), 4u);
   const auto sessions = logger.sessions().messages();
