@@ -60,7 +60,7 @@ TEST(ScheduleTest, EveryContestantMeetsEveryProblemInEveryTrial) {
 
 TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {
   using enum Directions;
-  const auto ids = [](Entrant entrant) {
+  const auto ids = [](const Entrant& entrant) {
     std::vector<std::string> made;
     for (const ScheduledRun& run : MakeSchedule(OneProblem(), {entrant}, Served())) {
       made.push_back(std::string(EnumName(run.direction)) +
