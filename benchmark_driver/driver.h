@@ -37,7 +37,7 @@ class Driver {
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// All records so far, those of the resumed session included, without what no table shows: paths,
-  /// starts and goals, settings.
+  /// starts and goals, settings but what was learned from.
   const std::vector<RunRecordMessage>& records() const { return records_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
