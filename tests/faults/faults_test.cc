@@ -144,29 +144,11 @@ TEST_P(LossyNetworkTest, EveryRunHasOneRecord) {
   if (!std::string(PLANBENCH_SANITIZED).empty()) {
     GTEST_SKIP() << "sanitizers want to be the first library, where this one has to be";
   }
-  // As StartLaunchedDriver, with the library before all others.
-  std::vector<std::string> bad_network = {"env"};
-  bad_network.push_back(fmt::format("LD_PRELOAD={}", PLANBENCH_LOSSY_NETWORK));
-  bad_network.push_back(fmt::format("PLANBENCH_LOSS={}", GetParam()));
-  bad_network.push_back(fmt::format("PLANBENCH_FAULT_SEED={}", seed_));
-  const std::vector<std::string> session = {Program("benchmark_driver"),
-                                            "--launch",
-                                            "--robot",
-                                            RobotFolder(),
-                                            "--problems",
-                                            ProblemFolder(),
-                                            "--out",
-                                            Session().string(),
-                                            "--time",
-                                            "5",
-                                            "--planners",
-                                            "rrtc",
-                                            "--problems-range",
-                                            "1",
-                                            "--trials",
-                                            "3"};
-  bad_network.insert(bad_network.end(), session.begin(), session.end());
-  ChildProcess* driver = Start(bad_network);
+  ChildProcess* driver = StartLaunchedDriver(
+      Session(), {"--time", "5", "--planners", "rrtc", "--problems-range", "1", "--trials", "3"},
+      {"env", fmt::format("LD_PRELOAD={}", PLANBENCH_LOSSY_NETWORK),
+       fmt::format("PLANBENCH_LOSS={}", GetParam()),
+       fmt::format("PLANBENCH_FAULT_SEED={}", seed_)});
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   ExpectOneRecordOfEach(3);
   // A planner may be silent for so long that it counts as dead, if much is lost.

@@ -73,17 +73,12 @@ ChildProcess* PipelineTest::StartDriver(const std::vector<std::string>& flags) {
 }
 
 ChildProcess* PipelineTest::StartLaunchedDriver(const std::filesystem::path& out,
-                                                const std::vector<std::string>& flags) {
-  std::vector<std::string> arguments = {Program("benchmark_driver"),
-                                        "--launch",
-                                        "--robot",
-                                        RobotFolder(),
-                                        "--problems",
-                                        ProblemFolder(),
-                                        "--out",
-                                        out.string()};
-  arguments.insert(arguments.end(), flags.begin(), flags.end());
-  return Start(arguments);
+                                                const std::vector<std::string>& flags,
+                                                std::vector<std::string> command) {
+  command.insert(command.end(), {Program("benchmark_driver"), "--launch", "--robot", RobotFolder(),
+                                 "--problems", ProblemFolder(), "--out", out.string()});
+  command.insert(command.end(), flags.begin(), flags.end());
+  return Start(command);
 }
 
 void PipelineTest::ExpectEndsCleanly(ChildProcess* process) {

@@ -35,9 +35,10 @@ class PipelineTest : public ::testing::Test {
   ChildProcess* StartPlanner(const std::string& kind, const std::vector<std::string>& more = {});
   ChildProcess* StartLogger(const std::filesystem::path& out);
   ChildProcess* StartDriver(const std::vector<std::string>& flags);
-  /// The driver with --launch, robot and problems.
+  /// The driver with --launch, robot and problems; `command`: words before it, as `env NAME=VALUE`.
   ChildProcess* StartLaunchedDriver(const std::filesystem::path& out,
-                                    const std::vector<std::string>& flags);
+                                    const std::vector<std::string>& flags,
+                                    std::vector<std::string> command = {});
 
   /// Asks a process to end with SIGINT and expects exit code 0.
   static void ExpectEndsCleanly(ChildProcess* process);
