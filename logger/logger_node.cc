@@ -27,7 +27,7 @@ LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
       recorder_(
           options.out, options.resume, options.name,
           [bus](const std::string& channel, const AckMessage& ack) { bus->Publish(channel, ack); },
-          &bus->contradictions()) {
+          &bus->contradictions(), options.split_bytes) {
   constexpr int kUnbounded = 0;
   everything_ = bus->SubscribeToAll([this](const ReceivedMessage& message) { OnMessage(message); },
                                     kUnbounded);

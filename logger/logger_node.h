@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -23,6 +24,8 @@ struct LoggerOptions {
   std::filesystem::path out;  ///< Session folder.
   std::string name = "logger";
   bool resume = false;  ///< Add to a folder that holds results already.
+  /// Size from which on a file of the event log is followed by another one; none: never.
+  std::optional<std::uintmax_t> split_bytes = std::uintmax_t{1} << 30;
   /// Memory for messages that wait to be written.
   std::size_t queue_bytes = std::size_t{512} << 20;
 };

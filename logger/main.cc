@@ -16,7 +16,15 @@ int main(int argc, char** argv) {
   std::filesystem::path from;
   program.app().add_option("--from", from,
                            "LCM event log to record instead of a bus: builds the same database");
+  int split_mb = 1024;
+  program.app()
+      .add_option("--split-mb", split_mb,
+                  "Once a file of the event log has so many MB, begin another one; 0: never")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
   return program.Run(argc, argv, [&] {
+    options.split_bytes.reset();
+    if (split_mb > 0) options.split_bytes = static_cast<std::uintmax_t>(split_mb) << 20;
     if (!from.empty()) return RebuildSession(from, options) ? kExitOk : kExitFailed;
     Bus bus(program.lcm_url());
     LoggerNode logger(&bus, options);

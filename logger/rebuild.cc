@@ -13,7 +13,7 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   Contradictions contradictions;
   SessionRecorder recorder(
       options.out, options.resume, options.name, [](const std::string&, const AckMessage&) {},
-      &contradictions);
+      &contradictions, options.split_bytes);
   ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
   recorder.Flush();
   return recorder.Report();

@@ -89,10 +89,11 @@ std::string BusJson(const Bus::Counters& counters,
 }
 
 void WriteRunJson(const std::filesystem::path& file, const std::vector<std::string>& sessions,
-                  const std::string& bus) {
+                  int num_event_log_files, const std::string& bus) {
   Json json;
   json["sessions"] = Json::array();
   for (const std::string& session : sessions) json["sessions"].push_back(Json::parse(session));
+  json["event_log_files"] = num_event_log_files;
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   const std::filesystem::path unfinished = file.string() + ".part";
   std::ofstream stream(unfinished, std::ios::trunc);

@@ -12,12 +12,14 @@ namespace planbench {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resume,
                                  std::string sender, Acknowledge acknowledge,
-                                 Contradictions* contradictions)
+                                 Contradictions* contradictions,
+                                 std::optional<std::uintmax_t> split_bytes)
     : folder_(folder, resume),
       sender_(std::move(sender)),
       acknowledge_(std::move(acknowledge)),
       contradictions_(contradictions),
-      event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew),
+      event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew,
+                 split_bytes),
       database_(folder_.results()) {}
 
 void SessionRecorder::Record(const ReceivedMessage& message) {
@@ -45,7 +47,7 @@ void SessionRecorder::Record(const ReceivedMessage& message) {
       const auto session = Decode<SessionMessage>(message.bytes, message.channel);
       *id = SessionAckId(session);
       database_.Store(session);
-      WriteRunJson(folder_.run_json(), database_.Sessions());
+      DescribeSessions();
     });
   }
 }
@@ -61,7 +63,7 @@ void SessionRecorder::Recover() {
 }
 
 bool SessionRecorder::Report(const std::string& bus) {
-  if (!bus.empty()) WriteRunJson(folder_.run_json(), database_.Sessions(), bus);
+  if (!bus.empty() || event_log_.num_files() > 1) DescribeSessions(bus);
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
@@ -72,6 +74,10 @@ bool SessionRecorder::Report(const std::string& bus) {
     spdlog::error("{} run records or sessions could not be stored", tally_.failures);
   }
   return tally_.failures == 0;
+}
+
+void SessionRecorder::DescribeSessions(const std::string& bus) {
+  WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(), bus);
 }
 
 void SessionRecorder::StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,

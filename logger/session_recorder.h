@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "logger/message_queue.h"
@@ -29,9 +30,10 @@ class SessionRecorder {
   using Acknowledge = std::function<void(const std::string& channel, const AckMessage& ack)>;
 
   /// `sender`: name in the acknowledgements. `contradictions` is told of records that contradict
-  /// what is stored. Throws InputError if the folder cannot be used.
+  /// what is stored. `split_bytes`: EventLog's. Throws InputError if the folder cannot be used.
   SessionRecorder(const std::filesystem::path& folder, bool resume, std::string sender,
-                  Acknowledge acknowledge, Contradictions* contradictions);
+                  Acknowledge acknowledge, Contradictions* contradictions,
+                  std::optional<std::uintmax_t> split_bytes = {});
 
   /// Records one message. Acknowledges a run record or session once the event log is flushed and
   /// the database committed, or with ok = false if it can never be stored. Throws
@@ -54,6 +56,7 @@ class SessionRecorder {
   /// Runs `store`, which stores the message with that id; acknowledges or refuses it.
   void StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
                            const std::function<void(std::string* id)>& store);
+  void DescribeSessions(const std::string& bus = "");
 
   SessionFolder folder_;
   std::string sender_;

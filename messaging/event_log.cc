@@ -9,8 +9,11 @@
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "common/error.h"
+#include "messaging/event_log_files.h"
 
 namespace planbench {
 namespace {
@@ -39,11 +42,11 @@ Extent Scan(const fs::path& file) {
   return extent;
 }
 
-/// Cuts off a torn last event; the number of the event to come.
-std::int64_t PrepareToAppend(const fs::path& file) {
+/// Cuts off a torn last event.
+Extent PrepareToAppend(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size == 0) return 0;
+  if (error || size == 0) return {};
   const Extent extent = Scan(file);
   if (extent.bytes < size) {
     spdlog::warn("{}: {} bytes after the last whole event cut off", file.string(),
@@ -51,31 +54,34 @@ std::int64_t PrepareToAppend(const fs::path& file) {
     fs::resize_file(file, extent.bytes, error);
     if (error) throw InputError("cannot shorten " + file.string() + ": " + error.message());
   }
-  return extent.next_number;
+  return extent;
 }
 
 }  // namespace
 
-EventLog::EventLog(const fs::path& file, Mode mode) : file_(file) {
-  if (mode == Mode::kNew && fs::exists(file)) {
-    throw InputError("event log " + file.string() + " exists already");
+EventLog::EventLog(const fs::path& file, Mode mode, std::optional<std::uintmax_t> split_bytes)
+    : file_(file), split_bytes_(split_bytes) {
+  const std::vector<fs::path> files = EventLogFiles(file);
+  if (mode == Mode::kNew && (files.size() > 1 || fs::exists(file))) {
+    throw InputError("event log " + files.back().string() + " exists already");
   }
-  const std::int64_t next_number = mode == Mode::kAppend ? PrepareToAppend(file) : 0;
-  log_.reset(lcm_eventlog_create(file.c_str(), mode == Mode::kNew ? "w" : "a"));
-  if (!log_) throw CannotOpen(file);
-  log_->eventcount = next_number;  // LCM would begin at 0 again
+  number_ = static_cast<int>(files.size()) - 1;
+  Reopen();
 }
 
 EventLog::~EventLog() {
   if (log_ && std::fflush(log_->f) != 0) {
-    spdlog::error("cannot write {}: {}", file_.string(), std::strerror(errno));
+    spdlog::error("cannot write {}: {}", Current().string(), std::strerror(errno));
   }
 }
 
 void EventLog::Close::operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
 
+fs::path EventLog::Current() const { return EventLogFile(file_, number_); }
+
 void EventLog::Write(const ReceivedMessage& message) {
-  if (!log_) throw std::runtime_error("event log " + file_.string() + " is not open");
+  if (!log_) throw std::runtime_error("event log " + Current().string() + " is not open");
+  if (split_bytes_ && bytes_ >= *split_bytes_) BeginNextFile();
   // LCM only reads what these pointers point to.
   lcm_eventlog_event_t event = {};
   event.timestamp = message.utime;
@@ -84,6 +90,19 @@ void EventLog::Write(const ReceivedMessage& message) {
   event.channel = const_cast<char*>(message.channel.data());
   event.data = const_cast<std::uint8_t*>(message.bytes.data());
   if (lcm_eventlog_write_event(log_.get(), &event) != 0) Fail();
+  constexpr std::uintmax_t kHeaderBytes = 28;
+  bytes_ += kHeaderBytes + message.channel.size() + message.bytes.size();
+}
+
+void EventLog::BeginNextFile() {
+  Flush();
+  const fs::path next = EventLogFile(file_, number_ + 1);
+  std::unique_ptr<lcm_eventlog_t, Close> log(lcm_eventlog_create(next.c_str(), "a"));
+  if (!log) throw CannotOpen(next);
+  log->eventcount = log_->eventcount;
+  log_ = std::move(log);
+  ++number_;
+  bytes_ = 0;
 }
 
 void EventLog::Flush() {
@@ -94,14 +113,19 @@ void EventLog::Flush() {
 void EventLog::Reopen() {
   // First closed: what it still holds is torn.
   log_.reset();
-  const std::int64_t next_number = PrepareToAppend(file_);
-  log_.reset(lcm_eventlog_create(file_.c_str(), "a"));
-  if (!log_) throw CannotOpen(file_);
-  log_->eventcount = next_number;
+  const Extent extent = PrepareToAppend(Current());
+  std::int64_t next_number = extent.next_number;
+  for (int before = number_; next_number == 0 && before > 0;) {
+    next_number = Scan(EventLogFile(file_, --before)).next_number;
+  }
+  log_.reset(lcm_eventlog_create(Current().c_str(), "a"));
+  if (!log_) throw CannotOpen(Current());
+  log_->eventcount = next_number;  // LCM would begin at 0 again
+  bytes_ = extent.bytes;
 }
 
 void EventLog::Fail() const {
-  throw std::runtime_error("cannot write event log " + file_.string() + ": " +
+  throw std::runtime_error("cannot write event log " + Current().string() + ": " +
                            std::strerror(errno));
 }
 

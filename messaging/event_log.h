@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "messaging/packet_reader.h"
 
@@ -10,17 +11,20 @@ struct _lcm_eventlog_t;
 
 namespace planbench {
 
-/// An LCM event log open for writing. Not thread-safe.
+/// An LCM event log open for writing, split by size into files (EventLogFiles) if wanted. Not
+/// thread-safe.
 class EventLog {
  public:
   enum class Mode {
     kNew,     ///< There must be no such file.
-    kAppend,  ///< After the last whole event of the file, if there is one; event numbers go on.
+    kAppend,  ///< After the last whole event, if there is one; event numbers go on.
               ///< What a killed logger left of its last event is cut off, since it would swallow
               ///< the next ones.
   };
-  /// Throws InputError if the file cannot be opened.
-  EventLog(const std::filesystem::path& file, Mode mode);
+  /// With `split_bytes`, no event is added to a file that has as many; the next one begins another,
+  /// whose event numbers go on. Throws InputError if the file cannot be opened.
+  EventLog(const std::filesystem::path& file, Mode mode,
+           std::optional<std::uintmax_t> split_bytes = {});
   /// Closes the file; a failure is logged. Flush first to hear of it.
   ~EventLog();
   EventLog(const EventLog&) = delete;
@@ -34,13 +38,21 @@ class EventLog {
   /// InputError.
   void Reopen();
 
+  int num_files() const { return number_ + 1; }
+
  private:
+  /// The file that is written.
+  std::filesystem::path Current() const;
+  void BeginNextFile();
   [[noreturn]] void Fail() const;
 
   struct Close {
     void operator()(_lcm_eventlog_t* log) const;
   };
-  std::filesystem::path file_;
+  std::filesystem::path file_;  ///< The first.
+  std::optional<std::uintmax_t> split_bytes_;
+  int number_ = 0;            ///< Of the current file.
+  std::uintmax_t bytes_ = 0;  ///< Of it.
   std::unique_ptr<_lcm_eventlog_t, Close> log_;
 };
 

@@ -7,17 +7,19 @@
 #include <memory>
 
 #include "common/error.h"
+#include "messaging/event_log_files.h"
 
 namespace planbench {
+namespace {
 
-void ReadEventLog(const std::filesystem::path& event_log,
-                  const std::function<void(const ReceivedMessage& message)>& visit) {
+void ReadFile(const std::filesystem::path& file,
+              const std::function<void(const ReceivedMessage& message)>& visit) {
   const std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log(
-      lcm_eventlog_create(event_log.c_str(), "r"), [](lcm_eventlog_t* open) {
+      lcm_eventlog_create(file.c_str(), "r"), [](lcm_eventlog_t* open) {
         if (open != nullptr) lcm_eventlog_destroy(open);
       });
   if (!log) {
-    throw InputError(event_log.string() +
+    throw InputError(file.string() +
                      ": cannot be opened as an LCM event log: " + std::strerror(errno));
   }
   ReceivedMessage message;
@@ -30,6 +32,13 @@ void ReadEventLog(const std::filesystem::path& event_log,
     message.utime = event->timestamp;
     visit(message);
   }
+}
+
+}  // namespace
+
+void ReadEventLog(const std::filesystem::path& event_log,
+                  const std::function<void(const ReceivedMessage& message)>& visit) {
+  for (const std::filesystem::path& file : EventLogFiles(event_log)) ReadFile(file, visit);
 }
 
 }  // namespace planbench

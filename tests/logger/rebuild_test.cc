@@ -17,12 +17,14 @@ namespace {
 class RebuildTest : public testing::Test {
  protected:
   /// Records messages as they come from a bus; returns the event log.
-  std::filesystem::path Live(const std::vector<ReceivedMessage>& messages) {
+  std::filesystem::path Live(const std::vector<ReceivedMessage>& messages,
+                             std::optional<std::uintmax_t> split_bytes = {}) {
     SessionRecorder recorder(
         temporary_ / "live", false, "logger", [](const std::string&, const AckMessage&) {},
-        &contradictions_);
+        &contradictions_, split_bytes);
     for (const ReceivedMessage& message : messages) recorder.Record(message);
     recorder.Flush();
+    recorder.Report();
     return recorder.folder().event_log();
   }
   LoggerOptions Options() const {
@@ -47,6 +49,22 @@ TEST_F(RebuildTest, TheSameMessagesMakeTheSameDatabase) {
             DumpDatabase(temporary_ / "live" / "results.sqlite"));
   EXPECT_EQ(TextOf(temporary_ / "rebuilt" / "run.json"), TextOf(temporary_ / "live" / "run.json"));
   EXPECT_EQ(TextOf(temporary_ / "rebuilt" / "rebuilt.lcmlog"), TextOf(log));
+}
+
+TEST_F(RebuildTest, ASplitEventLogIsOne) {
+  const std::vector<ReceivedMessage> messages = {Received(channel::kSession, SampleSession()),
+                                                 Received(channel::kRunRecord, SampleRecord()),
+                                                 Received(channel::kRunRecord, UnansweredRecord()),
+                                                 Received(channel::kSession, FinishedSession())};
+  const auto log = Live(messages, 1);
+  EXPECT_TRUE(std::filesystem::exists(log.string() + ".03"));
+  EXPECT_NE(TextOf(temporary_ / "live" / "run.json").find("\"event_log_files\": 4"),
+            std::string::npos);
+  EXPECT_TRUE(RebuildSession(log, Options()));
+  EXPECT_EQ(DumpDatabase(temporary_ / "rebuilt" / "results.sqlite"),
+            DumpDatabase(temporary_ / "live" / "results.sqlite"));
+  EXPECT_NE(TextOf(temporary_ / "rebuilt" / "run.json").find("\"event_log_files\": 1"),
+            std::string::npos);
 }
 
 TEST_F(RebuildTest, ATornLastEventIsLeftOut) {

@@ -6,6 +6,9 @@
 
 #include "common/error.h"
 #include "common/read_text.h"
+#include "messaging/event_log_files.h"
+#include "messaging/event_log_reader.h"
+#include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -82,11 +85,86 @@ TEST(EventLog, CutsOffATornLastEvent) {
   EXPECT_EQ(ReadEvents(file), expected);
 }
 
+std::vector<Event> ReadEventsOfAll(const std::vector<std::filesystem::path>& files) {
+  std::vector<Event> events;
+  for (const std::filesystem::path& file : files) {
+    for (const Event& event : ReadEvents(file)) events.push_back(event);
+  }
+  return events;
+}
+
+std::vector<Event> Numbered(int count) {
+  std::vector<Event> events;
+  for (int i = 0; i < count; ++i) events.push_back({i, i, "A", "data"});
+  return events;
+}
+
+// Two of Numbered's events.
+constexpr std::uintmax_t kTwoEvents = 2 * (28 + 1 + 4);
+
+TEST(EventLog, IsSplitBySizeAndNumbersGoOn) {
+  const TemporaryFolder folder;
+  {
+    EventLog log(folder / "a.lcmlog", EventLog::Mode::kNew, kTwoEvents);
+    for (int i = 0; i < 6; ++i) log.Write(Message("A", "data", i));
+    EXPECT_EQ(log.num_files(), 3);  // the third is full, a fourth is not begun without need
+  }
+  const std::vector<std::filesystem::path> files = {folder / "a.lcmlog", folder / "a.lcmlog.01",
+                                                    folder / "a.lcmlog.02"};
+  EXPECT_EQ(EventLogFiles(folder / "a.lcmlog"), files);
+  EXPECT_EQ(ReadEvents(files[1]).size(), 2);
+  EXPECT_EQ(ReadEventsOfAll(files), Numbered(6));
+}
+
+TEST(EventLog, GoesOnInItsLastFile) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  for (int i = 0; i < 5; ++i) {
+    EventLog log(file, EventLog::Mode::kAppend, kTwoEvents);
+    log.Write(Message("A", "data", i));
+  }
+  EXPECT_EQ(EventLogFiles(file).size(), 3);
+  EXPECT_EQ(ReadEventsOfAll(EventLogFiles(file)), Numbered(5));
+  // A logger that was killed when it had just begun a file, and one that tore an event.
+  folder.Write("a.lcmlog.03", "");
+  EventLog(file, EventLog::Mode::kAppend, kTwoEvents).Write(Message("A", "data", 5));
+  EXPECT_EQ(ReadEventsOfAll(EventLogFiles(file)), Numbered(6));
+  std::filesystem::resize_file(folder / "a.lcmlog.03", 20);
+  EventLog(file, EventLog::Mode::kAppend, kTwoEvents).Write(Message("A", "data", 5));
+  EXPECT_EQ(ReadEventsOfAll(EventLogFiles(file)), Numbered(6));
+}
+
+TEST(EventLog, ASplitLogIsReadAsOne) {
+  const TemporaryFolder folder;
+  const auto read = [](const std::filesystem::path& file) {
+    std::vector<std::int64_t> times;
+    ReadEventLog(file, [&](const ReceivedMessage& message) { times.push_back(message.utime); });
+    return times;
+  };
+  {
+    EventLog log(folder / "a.lcmlog", EventLog::Mode::kNew, 1);
+    for (int i = 0; i < 12; ++i) log.Write(Message("A", "data", i));
+  }
+  folder.Write("a.lcmlog.part", "");
+  folder.Write("a.lcmlog.1", "");
+  folder.Write("b.lcmlog.01", "");
+  EXPECT_EQ(read(folder / "a.lcmlog"),
+            (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+  EXPECT_EQ(read(folder / "a.lcmlog.07"), (std::vector<std::int64_t>{7}));
+  // As lcm-logger begins.
+  std::filesystem::rename(folder / "a.lcmlog", folder / "a.lcmlog.00");
+  EXPECT_EQ(read(folder / "a.lcmlog.00").size(), 12);
+  std::filesystem::remove(folder / "a.lcmlog.03");
+  ExpectInputError([&] { read(folder / "a.lcmlog.00"); }, {"a.lcmlog.03 is missing"});
+}
+
 TEST(EventLog, NeverOverwrites) {
   const TemporaryFolder folder;
   folder.Write("a.lcmlog", "precious");
   EXPECT_THROW(EventLog(folder / "a.lcmlog", EventLog::Mode::kNew), InputError);
   EXPECT_EQ(ReadText(folder / "a.lcmlog"), "precious");
+  folder.Write("b.lcmlog.01", "precious");
+  EXPECT_THROW(EventLog(folder / "b.lcmlog", EventLog::Mode::kNew), InputError);
 }
 
 TEST(EventLog, RefusesAFolderThatIsNotThere) {

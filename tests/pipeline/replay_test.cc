@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "messaging/event_log.h"
+#include "messaging/event_log_files.h"
+#include "messaging/event_log_reader.h"
 #include "tests/pipeline/pipeline_fixture.h"
 #include "tests/support/private_bus.h"
 
@@ -13,19 +18,31 @@ TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
   const auto live = folder() / "live";
   const auto replayed = folder() / "replayed";
   const auto log = folder() / "plain.lcmlog";
+  const auto first_file = log.string() + ".00";
 
-  ChildProcess* recorder = Start({"lcm-logger", "--quiet", "--lcm-url", url(), log.string()});
+  ChildProcess* recorder =
+      Start({"lcm-logger", "--quiet", "-i", "--split-mb=0.02", "--lcm-url", url(), log.string()});
   ChildProcess* logger = StartLogger(live);
   ChildProcess* server = StartSceneServer();
   ChildProcess* ara = StartPlanner("ara");
   ChildProcess* rrtc = StartPlanner("rrtc");
-  ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(log); }));
+  ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(first_file); }));
   ChildProcess* driver =
       StartDriver({"--problems-range", "2-3", "--time", "20", "--directions", "both"});
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   for (ChildProcess* process : {server, ara, rrtc, logger}) ExpectEndsCleanly(process);
   recorder->Signal(SIGTERM);
   ASSERT_TRUE(recorder->Wait().has_value());
+
+  // Its files, one after the other, are one log.
+  EXPECT_GT(EventLogFiles(first_file).size(), 1);
+  for (const auto& file : EventLogFiles(first_file)) {
+    std::ofstream(log, std::ios::app) << std::ifstream(file).rdbuf();
+  }
+  ChildProcess* rebuilder = Start({Program("logger"), "--from", first_file, "--out",
+                                   (folder() / "rebuilt").string(), "--split-mb", "0"});
+  ASSERT_EQ(rebuilder->Wait(), 0) << rebuilder->Errors();
+  EXPECT_EQ(Query(folder() / "rebuilt", "SELECT count(*) FROM runs"), 8);
 
   const std::string replay_url = PrivateUdpUrl();
   ChildProcess* second_logger =
@@ -86,8 +103,14 @@ TEST_F(Replay, PlannersAnswerAsTheyDidOrItIsSaid) {
       << other->Output();
   EXPECT_NE(other->Errors().find("setting range was"), std::string::npos) << other->Errors();
 
+  const std::string split = (folder() / "split.lcmlog").string();
+  {
+    EventLog files(split, EventLog::Mode::kNew, 1000);
+    ReadEventLog(log, [&](const ReceivedMessage& message) { files.Write(message); });
+    EXPECT_GT(files.num_files(), 2);
+  }
   ChildProcess* rrtc = StartPlanner("rrtc");  // no scene server: the scenes are in the log
-  ChildProcess* live = StartDriver({"--replay", log});
+  ChildProcess* live = StartDriver({"--replay", split});
   EXPECT_EQ(live->Wait(), 0) << live->Output() << live->Errors();
   ExpectEndsCleanly(rrtc);
 
