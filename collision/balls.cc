@@ -4,7 +4,7 @@
 
 namespace planbench {
 
-Ball EnclosingBall(std::span<const Ball> balls) {
+Ball EnclosingBall(std::span<const Ball> balls, int num_steps) {
   Ball enclosing = balls.front();
   const auto farthest = [&](const Eigen::Vector3d& center) {
     return std::max_element(balls.begin(), balls.end(), [&](const Ball& a, const Ball& b) {
@@ -13,7 +13,7 @@ Ball EnclosingBall(std::span<const Ball> balls) {
   };
   Eigen::Vector3d center = enclosing.center;
   enclosing.radius = -1;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < num_steps; ++i) {
     const Ball& far = *farthest(center);
     const Eigen::Vector3d to_far = far.center - center;
     const double distance = to_far.norm();

@@ -9,9 +9,10 @@
 
 namespace planbench {
 
-/// A small ball that encloses all of the given ones (at least one), up to rounding: a
-/// 1.01-approximation by Badoiu and Clarkson's iteration (Optimal core-sets for balls, 2008).
-Ball EnclosingBall(std::span<const Ball> balls);
+/// A small ball that encloses all of the given ones (at least one), up to rounding: with so many
+/// steps a 1.01-approximation by Badoiu and Clarkson's iteration (Optimal core-sets for balls,
+/// 2008), with fewer one that is larger.
+Ball EnclosingBall(std::span<const Ball> balls, int num_steps = 200);
 
 /// Sorts balls along the longest extent of their centres; returns the number of those in the first
 /// half.

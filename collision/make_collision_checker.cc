@@ -10,7 +10,6 @@ std::unique_ptr<CollisionChecker> MakeCollisionChecker(const Robot& robot,
   if (!group.followers.empty()) {
     return std::make_unique<FollowerChecker>(robot, group, model, MakeCollisionChecker);
   }
-  if (model == CollisionModel::kMeshes) return MakeReferenceChecker(robot, group, model);
   return std::make_unique<SimdChecker>(robot, group, model);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "collision/at.h"
+#include "collision/link_geometry.h"
 #include "collision/model_spheres.h"
 #include "collision/pair_rules.h"
 #include "common/error.h"
@@ -58,42 +59,25 @@ std::string_view GeometryOf(CollisionModel model) {
 FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
     : CollisionChecker(robot, group, model) {
   std::vector<LinkSphere> balls;  // that cover the geometry
-  for (int link = 0; link < robot.model.num_links(); ++link) {
-    LinkGeometry geometry{link, SphereTree(), {}};
-    const std::size_t num_balls = balls.size();
-    if (model != CollisionModel::kMeshes) {
-      std::vector<Ball> spheres;
-      for (const LinkSphere& sphere : ModelSpheres(robot, model)) {
-        if (sphere.link != link) continue;
-        spheres.push_back({sphere.p_LS, sphere.radius});
-        balls.push_back(sphere);
-      }
-      geometry.spheres = SphereTree(std::move(spheres));
-    } else {
-      const Link& urdf_link = At(robot.model.links(), link);
-      for (const PlacedShape& placed : urdf_link.collision) {
-        Shape shape = placed.shape;
-        if (auto* mesh = std::get_if<Mesh>(&shape);
-            mesh != nullptr && mesh->triangles.triangles.empty() && !mesh->resource.empty()) {
-          try {
-            mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
-          } catch (const InputError& error) {
-            throw InputError(fmt::format("{}: collision mesh: {}", urdf_link.where, error.what()));
-          }
-        }
-        const Pose X_LS = Pose::From(placed.X_FS);
-        geometry.shapes.emplace_back(FclShape(shape, urdf_link.name), X_LS);
-        if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-          for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
-            balls.push_back({link, X_LS * vertex, 0});
-          }
-        } else {
-          const BoundingSphere bound = ComputeBoundingSphere(shape);
-          balls.push_back({link, X_LS * bound.center, bound.radius});
-        }
+  if (model == CollisionModel::kMeshes) {
+    const std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+    for (const auto& [link, shapes] : links) {
+      LinkShapes& geometry = links_.emplace_back(LinkShapes{link, SphereTree(), {}});
+      const std::string& name = At(robot.model.links(), link).name;
+      for (const PlacedShape& placed : shapes) {
+        geometry.shapes.emplace_back(FclShape(placed.shape, name), Pose::From(placed.X_FS));
       }
     }
-    if (balls.size() > num_balls) links_.push_back(std::move(geometry));
+    balls = CoverOf(links);
+  } else {
+    balls = ModelSpheres(robot, model);
+    for (int link = 0; link < robot.model.num_links(); ++link) {
+      std::vector<Ball> spheres;
+      for (const LinkSphere& sphere : balls) {
+        if (sphere.link == link) spheres.push_back({sphere.p_LS, sphere.radius});
+      }
+      if (!spheres.empty()) links_.push_back({link, SphereTree(std::move(spheres)), {}});
+    }
   }
   if (links_.empty()) {
     throw InputError(fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
@@ -124,7 +108,7 @@ void FclChecker::AddGeometry(Geometry geometry) {
   geometries_.push_back(geometry);
 }
 
-void FclChecker::AddLink(const LinkGeometry& link) {
+void FclChecker::AddLink(const LinkShapes& link) {
   const int body = static_cast<int>(bodies_.size());
   bodies_.push_back({Body::Kind::kLink, link.link, At(robot().model.links(), link.link).name});
   Geometry geometry;
@@ -164,7 +148,7 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
   node_positions_.clear();
   poses_.assign(static_cast<std::size_t>(rigid_bodies_->size()), Pose());
 
-  for (const LinkGeometry& link : links_) AddLink(link);
+  for (const LinkShapes& link : links_) AddLink(link);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     const int body = static_cast<int>(bodies_.size());

@@ -58,7 +58,7 @@ class FclChecker : public CollisionChecker {
 
  private:
   /// Geometry of one link, in the link's frame.
-  struct LinkGeometry {
+  struct LinkShapes {
     int link;
     SphereTree spheres;                             // spheres model
     std::vector<std::pair<FclShape, Pose>> shapes;  // meshes model, X_LS
@@ -98,7 +98,7 @@ class FclChecker : public CollisionChecker {
     std::size_t num_meeting = 0;
   };
 
-  void AddLink(const LinkGeometry& link);
+  void AddLink(const LinkShapes& link);
   void AddShapes(int body, int rigid_body, const Pose& X_GO, const std::vector<PlacedShape>& shapes,
                  const std::string& name);
   void AddGeometry(Geometry geometry);
@@ -123,7 +123,7 @@ class FclChecker : public CollisionChecker {
   Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);
   void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
 
-  std::vector<LinkGeometry> links_;
+  std::vector<LinkShapes> links_;
   std::optional<GeometryBound> geometry_bound_;
 
   // Of the scene set last.

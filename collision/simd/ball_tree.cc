@@ -11,12 +11,12 @@ namespace {
 /// often.
 constexpr std::size_t kMaxChildren = 4;
 
-Ball Enclosing(const std::vector<BallTree>& children) {
+Ball Enclosing(const std::vector<BallTree>& children, int num_steps) {
   std::vector<Ball> balls;
   for (const BallTree& child : children) {
     for (const Ball& leaf : child.Leaves()) balls.push_back(leaf);
   }
-  return EnclosingBall(balls);
+  return EnclosingBall(balls, num_steps);
 }
 
 /// Cuts balls into up to kMaxChildren groups, always the group with the largest enclosing ball.
@@ -69,8 +69,16 @@ BallTree::BallTree(std::vector<Ball> balls) {
   }
 }
 
-BallTree::BallTree(std::vector<BallTree> children) : children_(std::move(children)) {
-  ball_ = Enclosing(children_);
+BallTree::BallTree(std::vector<BallTree> children, int num_steps) : children_(std::move(children)) {
+  ball_ = Enclosing(children_, num_steps);
+}
+
+BallTree BallTree::In(const Pose& X_AB) const {
+  BallTree tree;
+  tree.ball_ = {X_AB * ball_.center, ball_.radius};
+  tree.cluster_ = cluster_;
+  for (const BallTree& child : children_) tree.children_.push_back(child.In(X_AB));
+  return tree;
 }
 
 int BallTree::Depth() const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "collision/balls.h"
+#include "collision/rigid_bodies.h"
 
 namespace planbench {
 
@@ -12,18 +13,28 @@ class BallTree {
  public:
   /// At least one ball. Balls that lie wholly inside another are left out.
   explicit BallTree(std::vector<Ball> balls);
-  /// Joins trees under one root.
-  explicit BallTree(std::vector<BallTree> children);
+  /// Joins trees under one root; for the steps see EnclosingBall.
+  explicit BallTree(std::vector<BallTree> children, int num_steps = 200);
+  /// A leaf that encloses a cluster of triangles, of that index in a list of the caller's.
+  BallTree(const Ball& ball, int cluster) : ball_(ball), cluster_(cluster) {}
+
+  /// The tree in a frame A, given in B.
+  BallTree In(const Pose& X_AB) const;
 
   const Ball& ball() const { return ball_; }
   const std::vector<BallTree>& children() const { return children_; }
+  /// Of a leaf; negative for a ball of no cluster.
+  int cluster() const { return cluster_; }
   /// Levels below and including this one.
   int Depth() const;
   /// The leaves, in tree order.
   std::vector<Ball> Leaves() const;
 
  private:
+  BallTree() = default;
+
   Ball ball_;
+  int cluster_ = -1;
   std::vector<BallTree> children_;
 };
 

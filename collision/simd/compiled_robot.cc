@@ -1,7 +1,10 @@
 #include "collision/simd/compiled_robot.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <utility>
@@ -21,6 +24,7 @@ constexpr double kBoundFactor = 1 + 1e-5;
 /// What is tried to prove that two trees never meet.
 constexpr int kMaxProofJoints = 3;
 constexpr int kMaxProofBoxes = 4000;
+constexpr std::size_t kMaxProofBalls = 64;  ///< Of a tree of meshes.
 
 double LeastDistance(std::span<const Ball> balls_a, const Pose& X_AB,
                      std::span<const Ball> balls_b) {
@@ -51,11 +55,12 @@ void SetVector(const Eigen::Vector3d& v, float* values) {
 
 CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
                              std::span<const double> base_positions,
-                             const std::vector<LinkSphere>& spheres)
+                             const std::vector<LinkSphere>& spheres, const RobotMeshes* meshes)
     : model_(&robot.model),
       group_(&group),
       base_positions_(base_positions.begin(), base_positions.end()),
-      rigid_bodies_(robot.model, group, base_positions) {
+      rigid_bodies_(robot.model, group, base_positions),
+      meshes_(meshes) {
   kernel.num_joints = group.space.size();
   kernel.bodies.resize(static_cast<std::size_t>(rigid_bodies_.size()));
   R_CG_.assign(kernel.bodies.size(), Eigen::Matrix3d::Identity());
@@ -80,23 +85,34 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     At(R_CG_, i) = R_GC.transpose();
   }
 
+  if (meshes_ != nullptr) {
+    PlaceTriangles();
+  }
   for (int i = 0; i < rigid_bodies_.size(); ++i) {
     std::vector<BallTree> trees;
     std::vector<CompiledTree> parts;
+    const auto add = [&](int link, BallTree tree) {
+      CompiledTree part;
+      part.link = link;
+      part.body = i;
+      part.reach_W = rigid_bodies_.Reach(0, i, tree.ball());
+      trees.push_back(std::move(tree));
+      parts.push_back(part);
+    };
     for (int link = 0; link < robot.model.num_links(); ++link) {
       if (rigid_bodies_.BodyOf(link) != i) continue;
+      if (meshes_ != nullptr) {
+        if (const LinkMeshes* of_link = MeshesOf(link)) {
+          add(link, of_link->tree.In(rigid_bodies_.X_GL(link)));
+        }
+        continue;
+      }
       std::vector<Ball> balls;
       for (const LinkSphere& sphere : spheres) {
         if (sphere.link != link) continue;
         balls.push_back({rigid_bodies_.X_GL(link) * sphere.p_LS, sphere.radius});
       }
-      if (balls.empty()) continue;
-      CompiledTree part;
-      part.link = link;
-      part.body = i;
-      trees.emplace_back(std::move(balls));
-      part.reach_W = rigid_bodies_.Reach(0, i, trees.back().ball());
-      parts.push_back(part);
+      if (!balls.empty()) add(link, BallTree(std::move(balls)));
     }
     if (parts.empty()) continue;
     // The trees of a body's links are the children of the body's.
@@ -114,12 +130,16 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
       Emit(tree, whole.link, whole.root);
       whole.reach_W = rigid_bodies_.Reach(0, i, tree.ball());
     }
-    for (CompiledTree& part : parts) part.reach = AddReachOfTree(part.root);
+    for (CompiledTree& part : parts) {
+      part.reach = AddReachOfTree(part.root);
+      if (meshes_ != nullptr) AddInsides(*MeshesOf(part.link), part.root);
+    }
     whole.link = -1;
     whole.reach = AddReachOfTree(whole.root);
     bodies.push_back(whole);
     links.insert(links.end(), parts.begin(), parts.end());
   }
+  if (meshes_ != nullptr) AddBoxes();
   std::sort(links.begin(), links.end(),
             [](const CompiledTree& a, const CompiledTree& b) { return a.link < b.link; });
 }
@@ -132,6 +152,10 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
   At(kernel.nodes, index).first_child = first;
   At(kernel.nodes, index).num_children = num;
   if (num == 0) At(kernel.nodes, index).reach = AddReach(tree.ball(), link);
+  if (tree.cluster() >= 0) {
+    At(kernel.nodes, index).triangles = tree.cluster();
+    AddReach(tree.ball(), link, tree.ball().radius);
+  }
   kernel.nodes.resize(kernel.nodes.size() + static_cast<std::size_t>(num));
   for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i);
 }
@@ -142,8 +166,77 @@ void CompiledRobot::SetBall(const Ball& ball_G, double padding, int link, int in
   node.radius = static_cast<float>(ball_G.radius + padding);
 }
 
-int CompiledRobot::AddReach(const Ball& ball_G, int link) {
-  const LinkSphere center{link, rigid_bodies_.X_GL(link).InverseTimes(ball_G.center), 0};
+const LinkMeshes* CompiledRobot::MeshesOf(int link) const {
+  const auto found = std::find_if(meshes_->links.begin(), meshes_->links.end(),
+                                  [&](const LinkMeshes& meshes) { return meshes.link == link; });
+  return found == meshes_->links.end() ? nullptr : &*found;
+}
+
+Pose CompiledRobot::PoseOfLink(int link) const {
+  const Pose turn{At(R_CG_, rigid_bodies_.BodyOf(link)), Eigen::Vector3d::Zero()};
+  return turn * rigid_bodies_.X_GL(link);
+}
+
+void CompiledRobot::PlaceTriangles() {
+  for (const auto& [link, triangles] : meshes_->clusters) {
+    const Pose X_CL = PoseOfLink(link);
+    kernels::TriangleGroup& group = triangles_.emplace_back();
+    group.count = static_cast<std::int32_t>(triangles.size());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kernels::kWide); ++i) {
+      // The places that are left repeat the first one.
+      Corners corners = triangles[i < triangles.size() ? i : 0];
+      for (Eigen::Vector3d& corner : corners) corner = X_CL * corner;
+      SetTriangle(corners, i, &group);
+    }
+  }
+  kernel.triangles = triangles_.data();
+}
+
+void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
+  const Pose X_CL = PoseOfLink(link.link);
+  const Pose X_LC = X_CL.Inverse();
+  Node& node = At(kernel.nodes, root);
+  node.first_inside = static_cast<std::int32_t>(kernel.insides.size());
+  node.num_insides = static_cast<std::int32_t>(link.closed.size());
+  for (const LinkMeshes::Closed& closed : link.closed) {
+    kernels::Inside inside{};
+    inside.body = rigid_bodies_.BodyOf(link.link);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : closed.vertices) box.extend(X_CL * vertex);
+    SetVector(box.min(), inside.low);
+    SetVector(box.max(), inside.high);
+    inside.extent = static_cast<float>(box.diagonal().norm());
+    inside.mesh = closed.mesh.get();
+    for (int i = 0; i < 9; ++i) inside.rotation[i] = X_LC.rotation(i / 3, i % 3);
+    for (int i = 0; i < 3; ++i) inside.position[i] = X_LC.translation[i];
+    kernel.insides.push_back(inside);
+  }
+}
+
+void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& in,
+                                   std::vector<kernels::InsideTest>* tests) const {
+  const Pose X_CL = PoseOfLink(of.link);
+  const Node& node = At(kernel.nodes, in.root);
+  for (int k = 0; k < node.num_insides; ++k) {
+    for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
+      kernels::InsideTest test{node.first_inside + k, of.body, {}, false};
+      SetVector(X_CL * point, test.point);
+      tests->push_back(test);
+    }
+  }
+}
+
+void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball) {
+  const Node& node = At(kernel.nodes, link.root);
+  for (int k = 0; k < node.num_insides; ++k) {
+    kernels::InsideTest test{node.first_inside + k, ball.body, {}, true};
+    std::copy_n(At(kernel.nodes, ball.root).center, 3, test.point);
+    kernel.inside_tests.push_back(test);
+  }
+}
+
+int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
+  const LinkSphere center{link, rigid_bodies_.X_GL(link).InverseTimes(ball_G.center), radius};
   const MotionBound bound(*model_, *group_, base_positions_, {&center, 1});
   const int offset = static_cast<int>(kernel.reaches.size());
   for (double reach : bound.reach()) {
@@ -154,15 +247,54 @@ int CompiledRobot::AddReach(const Ball& ball_G, int link) {
 
 int CompiledRobot::AddReachOfTree(int root) {
   const int offset = static_cast<int>(kernel.reaches.size());
-  kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
+  kernel.reaches.resize(kernel.reaches.size() + ReachSize(), 0.0f);
   for (const int leaf : LeavesBelow(root)) {
-    const int own = At(kernel.nodes, leaf).reach;
-    for (int j = 0; j < kernel.num_joints; ++j) {
-      float& reach = At(kernel.reaches, offset + j);
-      reach = std::max(reach, At(kernel.reaches, own + j));
+    const Node& node = At(kernel.nodes, leaf);
+    const int of_points = node.triangles >= 0 ? kernel.num_joints : 0;
+    for (int k = 0; k < static_cast<int>(ReachSize()); ++k) {
+      const int j = k % kernel.num_joints;
+      const int own = node.reach + (k < kernel.num_joints ? 0 : of_points) + j;
+      float& reach = At(kernel.reaches, offset + k);
+      reach = std::max(reach, At(kernel.reaches, own));
     }
   }
   return offset;
+}
+
+std::size_t CompiledRobot::ReachSize() const {
+  return static_cast<std::size_t>(meshes_ != nullptr ? 2 * kernel.num_joints : kernel.num_joints);
+}
+
+void CompiledRobot::AddBoxes() {
+  kernel.boxes.resize(kernel.nodes.size());
+  // Children stand behind their parents.
+  for (std::size_t i = kernel.nodes.size(); i-- > 0;) {
+    const Node& node = kernel.nodes[i];
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < node.num_children; ++k) {
+      const kernels::NodeBox& child = At(kernel.boxes, node.first_child + k);
+      const Eigen::Vector3d center = Eigen::Vector3f::Map(child.center).cast<double>();
+      const Eigen::Vector3d half_size = Eigen::Vector3f::Map(child.half_size).cast<double>();
+      box.extend(center - half_size).extend(center + half_size);
+    }
+    if (node.triangles >= 0) {
+      const kernels::TriangleGroup& group = At(triangles_, node.triangles);
+      for (int t = 0; t < group.count; ++t) {
+        for (const auto& corner : group.corner) {
+          box.extend(Eigen::Vector3d(corner[0][t], corner[1][t], corner[2][t]));
+        }
+      }
+      const Eigen::Vector3d padding = Eigen::Vector3d::Constant(2 * kRadiusPadding);
+      box = {box.min() - padding, box.max() + padding};
+    } else if (node.num_children == 0) {
+      const Eigen::Vector3d center = Eigen::Vector3f::Map(node.center).cast<double>();
+      const Eigen::Vector3d extent = Eigen::Vector3d::Constant(node.radius);
+      box = {center - extent, center + extent};
+    }
+    SetVector(box.center(), kernel.boxes[i].center);
+    // The rounding of the center, too.
+    SetVector(box.sizes() / 2 + Eigen::Vector3d::Constant(1e-6), kernel.boxes[i].half_size);
+  }
 }
 
 CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
@@ -174,14 +306,21 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   tree.reach = AddReach(ball_G, link);
   tree.reach_W = rigid_bodies_.Reach(0, tree.body, ball_G);
   kernel.nodes.emplace_back().reach = tree.reach;
+  // Attached objects are told from others by their balls alone, and have no points.
+  if (meshes_ != nullptr) {
+    kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints));
+    kernel.boxes.emplace_back();
+  }
   SetBall(ball_G, kRadiusPadding, link, tree.root);
   return tree;
 }
 
 void CompiledRobot::Truncate(const Extent& extent) {
   kernel.nodes.resize(extent.nodes);
+  if (meshes_ != nullptr) kernel.boxes.resize(extent.nodes);
   kernel.reaches.resize(extent.reaches);
   kernel.pairs.resize(extent.pairs);
+  kernel.inside_tests.resize(extent.inside_tests);
 }
 
 Ball CompiledRobot::BallOf(const Node& node, int body) const {
@@ -202,18 +341,26 @@ std::vector<int> CompiledRobot::LeavesBelow(int root) const {
   return leaves;
 }
 
-std::vector<Ball> CompiledRobot::LeavesOf(const CompiledTree& tree) const {
-  std::vector<Ball> leaves;
-  for (const int leaf : LeavesBelow(tree.root)) {
-    leaves.push_back(BallOf(At(kernel.nodes, leaf), tree.body));
+std::vector<Ball> CompiledRobot::BallsOf(const CompiledTree& tree) const {
+  std::vector<int> nodes = {tree.root};
+  for (std::size_t i = 0; i < nodes.size();) {
+    const Node& node = At(kernel.nodes, nodes[i]);
+    if (node.num_children == 0 || (meshes_ != nullptr && nodes.size() >= kMaxProofBalls)) {
+      ++i;
+      continue;
+    }
+    nodes[i] = node.first_child;
+    for (int k = 1; k < node.num_children; ++k) nodes.push_back(node.first_child + k);
   }
-  return leaves;
+  std::vector<Ball> balls;
+  for (const int node : nodes) balls.push_back(BallOf(At(kernel.nodes, node), tree.body));
+  return balls;
 }
 
 bool CompiledRobot::WithinReach(const CompiledTree& carrier, const CompiledTree& moving) const {
   if (!rigid_bodies_.Descends(moving.body, carrier.body)) return true;
-  const std::vector<Ball> fixed = LeavesOf(carrier);
-  for (const Ball& leaf : LeavesOf(moving)) {
+  const std::vector<Ball> fixed = BallsOf(carrier);
+  for (const Ball& leaf : BallsOf(moving)) {
     const Ball reach = rigid_bodies_.Reach(carrier.body, moving.body, leaf);
     for (const Ball& ball : fixed) {
       if ((ball.center - reach.center).norm() - kRadiusPadding <= ball.radius + reach.radius) {
@@ -240,8 +387,8 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
   }
   if (num_joints > kMaxProofJoints) return false;
 
-  const std::vector<Ball> balls_a = LeavesOf(a);
-  const std::vector<Ball> balls_b = LeavesOf(b);
+  const std::vector<Ball> balls_a = BallsOf(a);
+  const std::vector<Ball> balls_b = BallsOf(b);
   std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies_.size()));
   std::vector<Box> open = {all};
   for (int i = 0; i < kMaxProofBoxes && !open.empty(); ++i) {
@@ -270,11 +417,13 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
 void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful) {
   if (!WithinReach(a, b) || !WithinReach(b, a)) return;
   const int offset = static_cast<int>(kernel.reaches.size());
-  kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints), 0.0f);
+  kernel.reaches.resize(kernel.reaches.size() + ReachSize(), 0.0f);
   // The joints between each and the nearest body that carries both.
   for (const auto& [tree, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const int joint : rigid_bodies_.JointsBelowCommon(tree->body, other->body)) {
-      At(kernel.reaches, offset + joint) = At(kernel.reaches, tree->reach + joint);
+      for (int k = joint; k < static_cast<int>(ReachSize()); k += kernel.num_joints) {
+        At(kernel.reaches, offset + k) = At(kernel.reaches, tree->reach + k);
+      }
     }
   }
   const std::size_t num_pairs = kernel.pairs.size();
@@ -351,7 +500,7 @@ void CompiledRobot::AddPairs(
       pairs.emplace_back(&a, b);
       ++num_checked;
     }
-    if (num_checked < links_b.size()) {
+    if (num_checked < links_b.size() || meshes_ != nullptr) {
       checks_all = false;
     } else {
       // All of the other body's links: its own tree serves.
@@ -361,12 +510,24 @@ void CompiledRobot::AddPairs(
   }
   if (same) {
     for (const auto& [a, b] : pairs) {
-      *distance = std::min(*distance, LeastDistance(LeavesOf(*a), Pose(), LeavesOf(*b)));
+      *distance = std::min(*distance, LeastDistance(BallsOf(*a), Pose(), BallsOf(*b)));
+      if (meshes_ == nullptr) continue;
+      standing.pairs.push_back({a->root, b->root, a->body, b->body, false, a->reach});
+      AddInsideTests(*a, *b, &standing.inside_tests);
+      AddInsideTests(*b, *a, &standing.inside_tests);
     }
   } else if (checks_all) {
     AddPair(body_a, body_b, false);
   } else {
-    for (const auto& [a, b] : pairs) AddPair(*a, *b, false);
+    for (const auto& [a, b] : pairs) {
+      const std::size_t num_pairs = kernel.pairs.size();
+      AddPair(*a, *b, false);
+      if (meshes_ == nullptr) continue;
+      // Where their surfaces never meet one is in the other always or never.
+      auto* tests = kernel.pairs.size() > num_pairs ? &kernel.inside_tests : &standing.inside_tests;
+      AddInsideTests(*a, *b, tests);
+      AddInsideTests(*b, *a, tests);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "collision/rigid_bodies.h"
 #include "collision/simd/ball_tree.h"
 #include "collision/simd/kernels/sphere_kernel.h"
+#include "collision/simd/robot_meshes.h"
 #include "robot_model/robot_folder.h"
 
 namespace planbench {
@@ -24,20 +25,27 @@ struct CompiledTree {
   int reach = 0;  ///< Offset into SphereRobot::reaches of its motion bound relative to W.
 };
 
-/// A robot's spheres, sorted by link, as the kernels take them, with joints outside the group held.
+/// A robot's spheres or meshes, sorted by link, as the kernels take them, with joints outside the
+/// group held.
 struct CompiledRobot {
-  /// `base_positions`: full positions, at which joints outside the group are held.
+  /// `base_positions`: full positions, at which joints outside the group are held. `meshes`: which
+  /// take the place of the spheres, unless null; must outlive it.
   CompiledRobot(const Robot& robot, const PlanningGroup& group,
-                std::span<const double> base_positions, const std::vector<LinkSphere>& spheres);
+                std::span<const double> base_positions, const std::vector<LinkSphere>& spheres,
+                const RobotMeshes* meshes);
+  CompiledRobot(const CompiledRobot&) = delete;
+  CompiledRobot& operator=(const CompiledRobot&) = delete;
 
   /// How much of the kernel's robot there is.
   struct Extent {
     std::size_t nodes = 0;
     std::size_t reaches = 0;
     std::size_t pairs = 0;
+    std::size_t inside_tests = 0;
   };
   Extent extent() const {
-    return {kernel.nodes.size(), kernel.reaches.size(), kernel.pairs.size()};
+    return {kernel.nodes.size(), kernel.reaches.size(), kernel.pairs.size(),
+            kernel.inside_tests.size()};
   }
   /// Forgets the balls and pairs that were added since.
   void Truncate(const Extent& extent);
@@ -48,14 +56,23 @@ struct CompiledRobot {
 
   /// A pair of trees of different bodies, unless they can never meet within the joint limits.
   void AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful);
+  /// The middle of a tree of one ball, which is doubtful where it may be inside of a link's mesh.
+  void AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball);
   /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
   /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs
-  /// is stored there.
+  /// is stored there. Of meshes it is a lower bound; whether they collide the kernel has to be
+  /// asked of `standing`.
   void AddPairs(const CompiledTree& body_a, const CompiledTree& body_b,
                 const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks,
                 double* distance);
 
   kernels::SphereRobot kernel;
+  /// Of meshes: what does not move relative to each other, as pairs that hold at any configuration.
+  struct Standing {
+    std::vector<kernels::TreePair> pairs;
+    std::vector<kernels::InsideTest> inside_tests;
+  };
+  Standing standing;
   std::vector<CompiledTree> links;   ///< Of every link that has spheres, in link order.
   std::vector<CompiledTree> bodies;  ///< Of every body that has spheres, in body order.
 
@@ -63,13 +80,26 @@ struct CompiledRobot {
   /// Writes a tree whose root has its place already; `link`: one of the body's.
   void Emit(const BallTree& tree, int link, int index);
   void SetBall(const Ball& ball_G, double padding, int link, int index);
-  /// Both return the offset into SphereRobot::reaches.
-  int AddReach(const Ball& ball_G, int link);
+  /// Of the link's, if it has any.
+  const LinkMeshes* MeshesOf(int link) const;
+  Pose PoseOfLink(int link) const;  ///< X_CL
+  void PlaceTriangles();
+  /// Both return the offset into SphereRobot::reaches. Of points within `radius` of the centre.
+  int AddReach(const Ball& ball_G, int link, double radius = 0);
   int AddReachOfTree(int root);
+  /// Values of a tree's or a pair's bound: see TreePair.
+  std::size_t ReachSize() const;
+  void AddBoxes();
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
   std::vector<int> LeavesBelow(int root) const;  ///< Node indices.
-  std::vector<Ball> LeavesOf(const CompiledTree& tree) const;
+  /// Balls that together hold what the tree does: its leaves, of meshes larger ones.
+  std::vector<Ball> BallsOf(const CompiledTree& tree) const;
+  /// Closed meshes and points of a link.
+  void AddInsides(const LinkMeshes& link, int root);
+  /// Points of one link that may be inside of closed meshes of the other.
+  void AddInsideTests(const CompiledTree& of, const CompiledTree& in,
+                      std::vector<kernels::InsideTest>* tests) const;
   /// False if `moving` never comes near `carrier` whatever the joints between them do.
   bool WithinReach(const CompiledTree& carrier, const CompiledTree& moving) const;
   /// True if it is proven that the trees never meet within the limits: the joints between them are
@@ -87,6 +117,8 @@ struct CompiledRobot {
   std::vector<double> base_positions_;
   RigidBodies rigid_bodies_;
   std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
+  const RobotMeshes* meshes_;
+  std::vector<kernels::TriangleGroup> triangles_;  ///< By cluster.
 };
 
 }  // namespace planbench

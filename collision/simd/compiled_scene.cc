@@ -31,10 +31,20 @@ VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
 }  // namespace
 
 CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model)
+    : CompiledScene(robot, group, model,
+                    model == CollisionModel::kMeshes ? LoadLinkGeometry(robot)
+                                                     : std::vector<LinkGeometry>()) {}
+
+CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model,
+                             const std::vector<LinkGeometry>& geometry)
     : robot_(&robot),
       group_(&group),
       model_(model),
-      geometry_bound_(robot.model, group, ModelSpheres(robot, model)) {}
+      geometry_bound_(
+          robot.model, group,
+          model == CollisionModel::kMeshes ? CoverOf(geometry) : ModelSpheres(robot, model)) {
+  if (model == CollisionModel::kMeshes) meshes_.emplace(geometry);
+}
 
 void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions) {
   const PairRules rules(*robot_, scene);
@@ -48,7 +58,8 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   const bool robot_holds = held == held_;
   if (!robot_holds) {
     held_.clear();
-    compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_));
+    compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_),
+                            meshes_ ? &*meshes_ : nullptr);
     without_pairs_ = compiled_robot_->extent();
     if (model_ == CollisionModel::kVoxels) {
       field_ = std::make_unique<DistanceFieldBuilder>(
@@ -96,6 +107,7 @@ void CompiledScene::CompilePairs(const PairRules& rules) {
   }
 
   compiled_robot_->Truncate(without_pairs_);
+  compiled_robot_->standing = {};
   links_distance_ = kInfinity;
   const auto checks = [&](const CompiledTree& a, const CompiledTree& b) {
     return rules.ChecksLinks(a.link, b.link);
@@ -105,6 +117,24 @@ void CompiledScene::CompilePairs(const PairRules& rules) {
       if (b.body >= a.body) compiled_robot_->AddPairs(a, b, checks, &links_distance_);
     }
   }
+  links_collide_ = meshes_ ? StandingMeshesCollide() : links_distance_ <= 0;
+}
+
+bool CompiledScene::StandingMeshesCollide() const {
+  kernels::SphereRobot links = robot();
+  links.pairs = compiled_robot_->standing.pairs;
+  links.inside_tests = compiled_robot_->standing.inside_tests;
+  const kernels::SphereWorld nothing;
+  kernels::SphereScratch scratch;
+  scratch.Reset(links, nothing);
+  std::vector<float> q;
+  for (const JointSpace::Joint& joint : group_->space.joints()) {
+    q.insert(q.end(), kBlock, static_cast<float>((joint.lower + joint.upper) / 2));
+  }
+  kernels::BlockQuery query;
+  query.q = q.data();
+  query.lanes = 1;
+  return kernels::CheckBlock(links, nothing, &scratch, query).hits != 0;
 }
 
 void CompiledScene::AttachObjects(const PairRules& rules) {
@@ -119,6 +149,7 @@ void CompiledScene::AttachObjects(const PairRules& rules) {
     for (const CompiledTree& link : compiled_robot_->links) {
       if (link.body != tree.body && rules.ChecksAttachedWithLink(attached, link.link)) {
         compiled_robot_->AddPair(link, tree, true);
+        compiled_robot_->AddDoubtfulInside(link, tree);
       }
     }
     for (const CompiledTree& other : attached_) {
@@ -151,7 +182,7 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
     }
   };
 
-  standing_ = {links_distance_ <= 0, !attached_.empty(), links_distance_};
+  standing_ = {links_collide_, !attached_.empty(), links_distance_};
   if (field_ == nullptr) add_all(false);
   if (!world_.kernel.trees.empty()) {
     JudgeStandingTrees();
@@ -166,6 +197,8 @@ void CompiledScene::JudgeStandingTrees() {
   base_.num_joints = robot().num_joints;
   base_.bodies.assign(1, kernels::Body());
   base_.nodes = robot().nodes;
+  base_.triangles = robot().triangles;
+  base_.insides = robot().insides;
   base_.reaches = robot().reaches;
   base_scratch_.Reset(base_, world());
   const float no_joints[kBlock] = {};

@@ -9,10 +9,12 @@
 
 #include "collision/collision_model.h"
 #include "collision/geometry_bound.h"
+#include "collision/link_geometry.h"
 #include "collision/pair_rules.h"
 #include "collision/simd/compiled_robot.h"
 #include "collision/simd/compiled_world.h"
 #include "collision/simd/kernels/sphere_kernel.h"
+#include "collision/simd/robot_meshes.h"
 #include "collision/voxels/distance_field.h"
 #include "robot_model/robot_folder.h"
 #include "scene/scene.h"
@@ -31,7 +33,7 @@ class CompiledScene {
     double distance_m = 0;  ///< Of the nearest; at most CompiledWorld::kMaxDistance or infinite.
   };
 
-  /// `model`: any but kMeshes.
+  /// Throws InputError for a mesh that cannot be read; all shapes of the robot must be solid.
   CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model);
 
   /// Compiles anew; what depends on the held joints or the allowed-collision matrix alone is kept
@@ -45,7 +47,7 @@ class CompiledScene {
 
   const kernels::SphereRobot& robot() const { return compiled_robot_->kernel; }
   const kernels::SphereWorld& world() const { return world_.kernel; }
-  /// Of every link that has spheres, in link order.
+  /// Of every link that has spheres or meshes, in link order.
   const std::vector<CompiledTree>& links() const { return compiled_robot_->links; }
   const Standing& standing() const { return standing_; }
   /// By object of the scene: whether the kernels know no more than bounds of some of its shapes.
@@ -55,7 +57,11 @@ class CompiledScene {
   const MotionBound& motion_bound() const { return motion_bound_; }
 
  private:
+  CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model,
+                const std::vector<LinkGeometry>& geometry);
+
   void CompilePairs(const PairRules& rules);
+  bool StandingMeshesCollide() const;
   void AttachObjects(const PairRules& rules);
   void CompileTrees(const PairRules& rules);
   void JudgeStandingTrees();
@@ -65,6 +71,7 @@ class CompiledScene {
   const PlanningGroup* group_;
   CollisionModel model_;
   GeometryBound geometry_bound_;
+  std::optional<RobotMeshes> meshes_;  ///< Of that model.
 
   // Of the held positions.
   std::vector<double> held_;  ///< That the following are of.
@@ -79,7 +86,8 @@ class CompiledScene {
   std::optional<CompiledRobot::Extent> without_attached_;
   std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
   std::vector<CompiledTree> attached_;
-  double links_distance_ = 0;  ///< Of links that do not move relative to each other, m.
+  double links_distance_ = 0;   ///< Of links that do not move relative to each other, m.
+  bool links_collide_ = false;  ///< Some of these do.
   CompiledWorld world_;
   Standing standing_;
   MotionBound motion_bound_;

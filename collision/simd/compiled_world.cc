@@ -105,6 +105,7 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
   sources_.clear();
   meshes_before_ = std::move(meshes_);
   meshes_.clear();
+  cones_are_doubtful_ = robot.kernel.triangles != nullptr;
   std::vector<Ball> reaches;
   for (const CompiledTree& tree : robot.bodies) reaches.push_back(tree.reach_W);
   Ball reach = EnclosingBall(reaches);
@@ -157,11 +158,12 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
   const bool is_box = std::holds_alternative<Box>(shape);
   const bool large = !is_box && std::max(source.half_size.maxCoeff(),
                                          (source.center - reach.center).norm()) > kLargest;
-  if (is_box || large || mesh != nullptr) {
+  const bool doubtful = large || (cone != nullptr && cones_are_doubtful_);
+  if (is_box || doubtful || mesh != nullptr) {
     if (!CutBox(reach, source.R_WS, &source.center, &source.half_size)) return;
     Solid solid = MakeBox(source.center, source.R_WS, source.half_size);
-    solid.doubtful = large;
-    if (mesh != nullptr && !large) solid.mesh = AddMesh(mesh->triangles, X_WS);
+    solid.doubtful = doubtful;
+    if (mesh != nullptr && !doubtful) solid.mesh = AddMesh(mesh->triangles, X_WS);
     AddSolid(solid, source);
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     Solid solid{};
@@ -232,6 +234,7 @@ void CompiledWorld::AddHalfSpace(const Pose& X_WS, int object, const Ball& reach
 }
 
 void CompiledWorld::AddSolid(Solid solid, const Source& source) {
+  solid.extent = static_cast<float>(source.half_size.maxCoeff());
   kernel.solids.push_back(solid);
   sources_.push_back(source);
 }

@@ -25,7 +25,8 @@ class CompiledWorld {
   static constexpr double kMaxDistance = 0.5;
 
   /// Takes the objects of a scene. Throws InputError, naming the object, for a shape that is none.
-  /// Solids too large for single precision become doubtful boxes. Of meshes that the objects set
+  /// Solids too large for single precision become doubtful boxes; so do cones, where the robot is
+  /// meshes. Of meshes that the objects set
   /// before had, too, the trees are kept.
   void SetObjects(const Scene& scene, const CompiledRobot& robot);
 
@@ -55,7 +56,8 @@ class CompiledWorld {
   void BuildHierarchy();
   void BuildNode(int first, int last);
 
-  std::vector<Source> sources_;                          ///< By solid.
+  std::vector<Source> sources_;  ///< By solid.
+  bool cones_are_doubtful_ = false;
   std::vector<std::shared_ptr<const MeshTree>> meshes_;  ///< By mesh of the kernel's.
   std::vector<std::shared_ptr<const MeshTree>> meshes_before_;
 };

@@ -19,59 +19,11 @@ using Eigen::Vector3d;
 using kernels::BoxGroup;
 using kernels::kWide;
 using kernels::TriangleGroup;
-using Corners = std::array<Vector3d, 3>;
 
 /// Where the boxes and triangles are that there are not, m; its square is a number still.
 constexpr float kFarAway = 1e18f;
 /// Enlargement of boxes, m: what single precision rounds.
 constexpr double kBoxPadding = 5e-6;
-
-/// Writes a triangle into a place of a group.
-void SetTriangle(Corners corners, std::size_t i, TriangleGroup* group) {
-  // The longest edge comes first: the frame is as good as its direction, and a triangle of no area
-  // is a line along it.
-  std::size_t longest = 0;
-  double length = -1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double edge = (corners[(k + 1) % 3] - corners[k]).norm();
-    if (edge > length) {
-      length = edge;
-      longest = k;
-    }
-  }
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest),
-              corners.end());
-  const Vector3d x = length > 0 ? Vector3d((corners[1] - corners[0]) / length) : Vector3d::UnitX();
-  const Vector3d to_apex = corners[2] - corners[0];
-  const Vector3d across = to_apex - to_apex.dot(x) * x;
-  const double width = across.norm();
-  // Of a triangle of no width any plane through the edge will do.
-  const Vector3d y = width > 1e-12 * length && width > 0
-                         ? Vector3d((across / width - across.dot(x) / width * x).normalized())
-                         : x.unitOrthogonal();
-  Eigen::Matrix3d R_TM;
-  R_TM << x.transpose(), y.transpose(), x.cross(y).transpose();
-  const Vector3d p_TM = -(R_TM * corners[0]);
-  const Eigen::Vector2d apex(to_apex.dot(x), std::max(to_apex.dot(y), 0.0));
-  const Eigen::Vector2d edges[2] = {apex - Eigen::Vector2d(length, 0), -apex};
-
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      group->rotation[3 * row + column][i] = static_cast<float>(R_TM(row, column));
-    }
-    group->position[row][i] = static_cast<float>(p_TM[row]);
-  }
-  group->length[0][i] = static_cast<float>(length);
-  for (int k = 0; k < 2; ++k) {
-    group->apex[k][i] = static_cast<float>(apex[k]);
-    const double edge = edges[k].norm();
-    const Eigen::Vector2d along =
-        edge > 0 ? Eigen::Vector2d(edges[k] / edge) : Eigen::Vector2d(1, 0);
-    group->length[k + 1][i] = static_cast<float>(edge);
-    group->along[k][0][i] = static_cast<float>(along.x());
-    group->along[k][1][i] = static_cast<float>(along.y());
-  }
-}
 
 class Builder {
  public:
@@ -146,6 +98,7 @@ class Builder {
   int AddTriangles(int first, int last) {
     TriangleGroup& group = tree_.triangles.emplace_back();
     std::fill_n(group.position[2], kWide, kFarAway);
+    group.count = last - first;
     for (int place = first; place < last; ++place) {
       SetTriangle(TriangleAt(place), static_cast<std::size_t>(place - first), &group);
     }
@@ -165,9 +118,63 @@ class Builder {
 
 }  // namespace
 
+void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
+  Corners corners = triangle;
+  // The longest edge comes first: the frame is as good as its direction, and a triangle of no area
+  // is a line along it.
+  std::size_t longest = 0;
+  double length = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double edge = (corners[(k + 1) % 3] - corners[k]).norm();
+    if (edge > length) {
+      length = edge;
+      longest = k;
+    }
+  }
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest),
+              corners.end());
+  const Vector3d x = length > 0 ? Vector3d((corners[1] - corners[0]) / length) : Vector3d::UnitX();
+  const Vector3d to_apex = corners[2] - corners[0];
+  const Vector3d across = to_apex - to_apex.dot(x) * x;
+  const double width = across.norm();
+  // Of a triangle of no width any plane through the edge will do.
+  const Vector3d y = width > 1e-12 * length && width > 0
+                         ? Vector3d((across / width - across.dot(x) / width * x).normalized())
+                         : x.unitOrthogonal();
+  Eigen::Matrix3d R_TM;
+  R_TM << x.transpose(), y.transpose(), x.cross(y).transpose();
+  const Vector3d p_TM = -(R_TM * corners[0]);
+  const Eigen::Vector2d apex(to_apex.dot(x), std::max(to_apex.dot(y), 0.0));
+  const Eigen::Vector2d edges[2] = {apex - Eigen::Vector2d(length, 0), -apex};
+
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      group->corner[row][column][i] = static_cast<float>(At(corners, row)[column]);
+      group->rotation[3 * row + column][i] = static_cast<float>(R_TM(row, column));
+    }
+    group->position[row][i] = static_cast<float>(p_TM[row]);
+  }
+  group->length[0][i] = static_cast<float>(length);
+  for (int k = 0; k < 2; ++k) {
+    group->apex[k][i] = static_cast<float>(apex[k]);
+    const double edge = edges[k].norm();
+    const Eigen::Vector2d along =
+        edge > 0 ? Eigen::Vector2d(edges[k] / edge) : Eigen::Vector2d(1, 0);
+    group->length[k + 1][i] = static_cast<float>(edge);
+    group->along[k][0][i] = static_cast<float>(along.x());
+    group->along[k][1][i] = static_cast<float>(along.y());
+  }
+}
+
 MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
   Builder(mesh_, &tree_);
   tree_.solid = &solid_;
+  for (const Vector3d& point : solid_.component_points()) {
+    auto& p = tree_.points.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = static_cast<float>(point[static_cast<Eigen::Index>(k)] - tree_.origin[k]);
+    }
+  }
 }
 
 namespace kernels {

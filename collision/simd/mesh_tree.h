@@ -1,10 +1,20 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
 #include "collision/simd/kernels/triangle_tree.h"
 #include "geometry/shapes.h"
 #include "geometry/solid_mesh.h"
 
 namespace planbench {
+
+/// m, in the frame of a mesh or a body.
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Writes a triangle into a place of a group.
+void SetTriangle(const Corners& triangle, std::size_t i, kernels::TriangleGroup* group);
 
 /// A triangle mesh with what the kernels take of it. Immutable; any number of threads may use it.
 class MeshTree {

@@ -20,6 +20,9 @@ kernels::LaneMask FirstLanes(int num) {
   return static_cast<kernels::LaneMask>((std::uint64_t{1} << num) - 1);
 }
 
+/// Within this distance of contact, m, the verdict may err towards collision.
+constexpr double kBand_m = 1e-4;
+
 /// Joint position as the kernels take it: angles at most 2 pi.
 float Reduced(double position, bool slides) {
   if (std::abs(position) <= 2 * std::numbers::pi || slides) return static_cast<float>(position);
@@ -30,8 +33,8 @@ float Reduced(double position, bool slides) {
 
 SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
     : CollisionChecker(robot, group, model),
-      compiled_(robot, group, model),
-      exact_(robot, group, model) {
+      exact_(robot, group, model),
+      compiled_(robot, group, model) {
   const auto n = static_cast<std::size_t>(group.space.size());
   q_.resize(n * kBlock);
   half_widths_.resize(n * kBlock);
@@ -165,8 +168,8 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
 void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
                                   std::span<double> distances) {
   const auto n = static_cast<std::size_t>(space().size());
-  const double limit =
-      std::min({at_most, CompiledWorld::kMaxDistance, compiled_.standing().distance_m});
+  const double most = std::min(at_most, CompiledWorld::kMaxDistance);
+  const double limit = std::min(most, compiled_.standing().distance_m);
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
     const LaneMask unfit = SetLanes(qs.subspan(static_cast<std::size_t>(first) * n), count);
@@ -179,8 +182,17 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       distance = std::min(limit, static_cast<double>(block[lane]));
       if ((unfit >> lane & 1) != 0)
         distance = std::min(distance, Exact().FindClosest(q).distance_m);
+      if (model() == CollisionModel::kMeshes && distance < most) {
+        distance = MeshDistance(q, most);
+      }
     }
   }
+}
+
+double SimdChecker::MeshDistance(std::span<const double> q, double at_most) {
+  const double distance = std::min(at_most, Exact().FindClosest(q).distance_m);
+  // Next to contact the verdict decides the sign, so that the two never disagree.
+  return distance > 0 && distance < kBand_m && !DoIsFree(q) ? 0 : distance;
 }
 
 double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const double> q) {

@@ -13,14 +13,18 @@
 
 namespace planbench {
 
-/// The vectorised engine of the spheres, enclosing and voxels models: many configurations at once,
-/// one SIMD lane each, in single precision (kernels/sphere_kernel.h).
+/// The vectorised engine: many configurations at once, one SIMD lane each, in single precision
+/// (kernels/sphere_kernel.h).
 ///
 /// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
 /// kernels do not know (attached objects, prismatic joints far beyond their limits, objects of tens
-/// of metres that are not boxes) they pass on as doubts, which the FCL engine decides, over the
-/// pairs that are in doubt; it also names contacts and nearest pairs, in double precision.
+/// of metres that are not boxes, cones against meshes) they pass on as doubts, which the FCL engine
+/// decides, over the pairs that are in doubt; it also names contacts and nearest pairs, in double
+/// precision.
+///
+/// Meshes: balls around the triangles of a link stand for its spheres; where one touches, its
+/// triangles decide.
 ///
 /// Voxels: a sphere collides with the world if the distance field's value at its centre is less
 /// than its radius. A stretch of a motion is free if no cell that a sphere's centre can reach on it
@@ -30,8 +34,7 @@ namespace planbench {
 /// one that covers the robot's reach at 0.02 m.
 class SimdChecker : public CollisionChecker {
  public:
-  /// Throws InputError if the robot has none of the model's spheres, or for a grid that is too
-  /// large.
+  /// Throws InputError as FclChecker does, and for a grid that is too large.
   SimdChecker(const Robot& robot, const PlanningGroup& group,
               CollisionModel model = CollisionModel::kSpheres);
 
@@ -61,14 +64,16 @@ class SimdChecker : public CollisionChecker {
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact);
+  /// Balls around triangles are but a lower bound.
+  double MeshDistance(std::span<const double> q, double at_most);
   /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.
   double FieldDistance(const CompiledTree& tree, std::span<const double> q);
   std::pair<double, std::string> NearestToField(std::span<const double> q);
 
   kernels::Joints joints_;  ///< Limits with kLimitTolerance added; infinite for continuous ones.
+  FclChecker exact_;
   CompiledScene compiled_;
   bool always_collides_ = false;
-  FclChecker exact_;
   bool exact_is_set_ = false;  ///< exact_ has the scene.
 
   // Scratch.

@@ -261,6 +261,7 @@ INSTANTIATE_TEST_SUITE_P(Models, CertifiedEdges,
                          testing::Values(Combination{Engine::kFcl, CollisionModel::kSpheres},
                                          Combination{Engine::kFcl, CollisionModel::kMeshes},
                                          Combination{Engine::kSimd, CollisionModel::kSpheres},
+                                         Combination{Engine::kSimd, CollisionModel::kMeshes},
                                          Combination{Engine::kSimd, CollisionModel::kVoxels},
                                          Combination{Engine::kSimd, CollisionModel::kEnclosing}),
                          [](const auto& instance) {

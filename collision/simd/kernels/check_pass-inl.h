@@ -6,6 +6,7 @@
 #define PLANBENCH_KERNELS_CHECK_PASS_INL_H_
 #endif
 
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -13,9 +14,13 @@
 #include "collision/simd/kernels/nearby-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
+#include "collision/simd/kernels/triangles_solids-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
+
+/// Enlargement of the robot's triangles, m: what single precision rounds.
+inline constexpr float kTrianglePadding = 2e-5f;
 
 /// The verdict pass. kAround: with half widths.
 template <bool kAround>
@@ -47,6 +52,10 @@ class CheckPass {
       if (i > 0) std::swap(order[i], order[i - 1]);
       if ((query_.stop_at_first && !None(certain_)) || None(alive_)) return;
     }
+    for (const InsideTest& test : robot_.inside_tests) {
+      const Points p = placement_.PosesOf(test.body) * Fill(test.point);
+      if (TestInside(InsideAt(test.inside), p, 0, alive_, test.doubtful)) return;
+    }
   }
 
   LaneMask hits() const { return Bits(hits_); }
@@ -70,13 +79,13 @@ class CheckPass {
     return sum;
   }
 
-  /// The same of two balls relative to each other, by the joints that move their trees so: less, as
-  /// a tree's bound is that of its furthest balls.
-  HWY_INLINE V MotionBetween(const Node& a, const Node& b, int tree_reach) const {
+  /// The same of two balls or groups relative to each other, by the joints that move their trees
+  /// so: less, as a tree's bound is that of its furthest balls.
+  HWY_INLINE V MotionBetween(int reach_a, int reach_b, int tree_reach) const {
     V sum = Zero();
     const float* moves = robot_.reaches.data() + tree_reach;
-    const float* weights_a = robot_.reaches.data() + a.reach;
-    const float* weights_b = robot_.reaches.data() + b.reach;
+    const float* weights_a = robot_.reaches.data() + reach_a;
+    const float* weights_b = robot_.reaches.data() + reach_b;
     for (int j = 0; j < robot_.num_joints; ++j) {
       if (moves[j] != 0) sum = hn::MulAdd(Fill(weights_a[j] + weights_b[j]), HalfWidth(j), sum);
     }
@@ -109,6 +118,108 @@ class CheckPass {
     return query_.stop_at_first || None(alive_);
   }
 
+  /// Whose points move no further: of a sphere the centre, as its surface turns into itself.
+  int ReachOfPoints(const Node& leaf) const {
+    return leaf.triangles >= 0 ? leaf.reach + robot_.num_joints : leaf.reach;
+  }
+  const TriangleGroup& TrianglesOf(const Node& leaf) const {
+    return robot_.triangles[leaf.triangles];
+  }
+  const Inside& InsideAt(int index) const {
+    return robot_.insides[static_cast<std::size_t>(index)];
+  }
+
+  /// Takes note of what touches(lane, margin) in the lanes given; `motion` bounds that of all of
+  /// its points. Returns true to stop.
+  template <typename Touches>
+  bool NoteExact(M lanes, V motion, Touches touches) {
+    alignas(64) float margins[kBlock];
+    Store(hn::IfThenZeroElse(hits_, motion), margins);
+    LaneMask touching = 0;
+    LaneMask certain = 0;
+    for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
+      const int lane = std::countr_zero(open);
+      if (!touches(lane, margins[lane] + kTrianglePadding)) continue;
+      touching |= LaneMask{1} << lane;
+      if (margins[lane] > 0 && !touches(lane, kTrianglePadding)) continue;
+      certain |= LaneMask{1} << lane;
+      if (query_.stop_at_first) break;
+    }
+    if (touching == 0) return false;
+    hits_ = hn::Or(hits_, MaskOf(touching));
+    return Settle(certain);
+  }
+
+  /// Takes note of lanes that collide for certain. Returns true to stop.
+  bool Settle(LaneMask lanes) {
+    if (lanes == 0) return false;
+    const M certain = MaskOf(lanes);
+    hits_ = hn::Or(hits_, certain);
+    certain_ = hn::Or(certain_, certain);
+    alive_ = hn::AndNot(certain, alive_);
+    return query_.stop_at_first || None(alive_);
+  }
+
+  /// Points in W, or boxes of that extent about them, that collide where a closed mesh encloses
+  /// them, as nothing touches its surface. Returns true to stop.
+  bool TestInside(const Inside& inside, const Points& p_W, float extent, M lanes, bool doubtful) {
+    const Points p = placement_.PosesOf(inside.body).InverseTimes(p_W);
+    const auto within = [&](V value, int axis) {
+      return hn::And(hn::Ge(value, Fill(inside.low[axis] - extent)),
+                     hn::Le(value, Fill(inside.high[axis] + extent)));
+    };
+    lanes = hn::And(hn::And(lanes, within(p.x, 0)), hn::And(within(p.y, 1), within(p.z, 2)));
+    if (None(lanes)) return false;
+    if (doubtful) {
+      doubts_ = hn::Or(doubts_, lanes);
+      return false;
+    }
+    alignas(64) float x[kBlock], y[kBlock], z[kBlock];
+    Store(p.x, x);
+    Store(p.y, y);
+    Store(p.z, z);
+    LaneMask certain = 0;
+    for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
+      const int lane = std::countr_zero(open);
+      const float point[3] = {x[lane], y[lane], z[lane]};
+      if (Encloses(inside, point)) certain |= LaneMask{1} << lane;
+    }
+    return Settle(certain);
+  }
+
+  bool TestMeshInside(const Inside& inside, const WorldMesh& mesh) {
+    for (const auto& point : mesh.tree->points) {
+      float p_W[3];
+      for (int k = 0; k < 3; ++k) {
+        p_W[k] = mesh.position[k] + mesh.rotation[k] * point[0] + mesh.rotation[3 + k] * point[1] +
+                 mesh.rotation[6 + k] * point[2];
+      }
+      if (TestInside(inside, Fill(p_W), 0, alive_, false)) return true;
+    }
+    return false;
+  }
+
+  /// Solids of a list that may be inside of the meshes that a node encloses.
+  bool TestInsides(const Node& node, const std::int32_t* list, int num) {
+    for (int k = 0; k < node.num_insides; ++k) {
+      const Inside& inside = InsideAt(node.first_inside + k);
+      for (int i = 0; i < num; ++i) {
+        const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+        if (solid.extent > inside.extent) continue;
+        if (solid.mesh >= 0 && !solid.doubtful) {
+          if (TestMeshInside(inside, world_.meshes[static_cast<std::size_t>(solid.mesh)])) {
+            return true;
+          }
+          continue;
+        }
+        // Of what is in a bounding box no point is known: somewhere within it.
+        const float extent = solid.doubtful ? 2 * solid.extent : 0.0f;
+        if (TestInside(inside, Fill(solid.center), extent, alive_, solid.doubtful)) return true;
+      }
+    }
+    return false;
+  }
+
   bool TestWorld(const WorldTree& tree) {
     const bool on_grid = world_.grid && !tree.doubtful;
     if (tree.num_candidates == 0 && !on_grid) return false;
@@ -137,7 +248,11 @@ class CheckPass {
                   std::int32_t* free_list) {
     const Node& node = placement_.node(index);
     const Points p = placement_.Position(index);
-    if (node.num_children == 0) return TestLeaf(node, p, motion, list, num);
+    if (node.num_children == 0) {
+      const bool stops = node.triangles >= 0 ? TestTriangles(node, body, p, list, num)
+                                             : TestLeaf(node, p, motion, list, num);
+      return stops || TestInsides(node, list, num);
+    }
     const V grown = Grown(node.radius, motion);
     const V reach = Squared(grown);
     int num_near = 0;
@@ -154,6 +269,30 @@ class CheckPass {
                      free_list + num_near)) {
         return true;
       }
+    }
+    return TestInsides(node, free_list, num_near);
+  }
+
+  /// A group of triangles, where its ball comes near a solid.
+  bool TestTriangles(const Node& node, int body, const Points& p, const std::int32_t* list,
+                     int num) {
+    const TriangleGroup& group = TrianglesOf(node);
+    const GroupBall ball = {node.center, node.radius};
+    const V grown = Grown(node.radius, Motion(node.reach));
+    const V reach = Squared(grown);
+    for (int i = 0; i < num; ++i) {
+      const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
+      const M near = hn::And(alive_, hn::Le(SquaredDistance(solid, p), reach));
+      if (None(near)) continue;
+      if (solid.doubtful) {
+        doubts_ = hn::Or(doubts_, near);
+        continue;
+      }
+      const auto touches = [&](int lane, float margin) {
+        return MeetsSolid(group, ball, placement_.PosesOf(body).InLane(lane), world_, solid,
+                          margin);
+      };
+      if (NoteExact(near, Motion(ReachOfPoints(node)), touches)) return true;
     }
     return false;
   }
@@ -213,6 +352,7 @@ class CheckPass {
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     doubtful_ = pair.doubtful;
     pair_reach_ = pair.reach;
+    pair_body_a_ = pair.body_a;
     const V motion = Motion(pair.reach);
     const M before = certain_;
     const Node& node_a = placement_.node(pair.root_a);
@@ -220,14 +360,73 @@ class CheckPass {
     const float radius = node_a.radius + node_b.radius;
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    const M touching = Within(squared, Grown(radius, motion));
+    M touching = Within(squared, Grown(radius, motion));
     if (None(touching)) return false;
+    boxes_ = !robot_.boxes.empty() && !doubtful_;
+    if (boxes_) {
+      SetBoxFrames(pair);
+      touching = hn::AndNot(BoxesApart(pair.root_a, pair.root_b), touching);
+      if (None(touching)) return false;
+    }
     if (node_a.num_children == 0 && node_b.num_children == 0) {
-      NotePair(node_a, node_b, squared, radius, touching);
+      NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, radius, touching);
     } else {
       VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion);
     }
     return !None(hn::AndNot(before, certain_));
+  }
+
+  /// Of the pair at hand: from the frame of its body b to that of its body a.
+  void SetBoxFrames(const TreePair& pair) {
+    const Poses X_WA = placement_.PosesOf(pair.body_a);
+    const Poses X_WB = placement_.PosesOf(pair.body_b);
+    for (int c = 0; c < 3; ++c) {
+      const Points column = {X_WB.rotation(0, c), X_WB.rotation(1, c), X_WB.rotation(2, c)};
+      for (int row = 0; row < 3; ++row) {
+        const Points axis = {X_WA.rotation(0, row), X_WA.rotation(1, row), X_WA.rotation(2, row)};
+        frames_.rotation[row][c] = Dot(axis, column);
+        frames_.size[row][c] = hn::Abs(frames_.rotation[row][c]);
+      }
+    }
+    frames_.translation = X_WA.InverseTimes(X_WB.translation());
+    frames_.motion = Motion(pair.reach + robot_.num_joints);
+  }
+
+  /// Lanes in which a plane along a face of one of the boxes is between them. `a`: of body a.
+  HWY_INLINE M BoxesApart(int a, int b) const {
+    const NodeBox& box_a = robot_.boxes[static_cast<std::size_t>(a)];
+    const NodeBox& box_b = robot_.boxes[static_cast<std::size_t>(b)];
+    const auto& R = frames_.rotation;
+    const auto& size = frames_.size;
+    const V margin = kAround ? hn::IfThenZeroElse(hits_, frames_.motion) : Zero();
+    const Points b_center = Fill(box_b.center);
+    const V half_b[3] = {Fill(box_b.half_size[0]), Fill(box_b.half_size[1]),
+                         Fill(box_b.half_size[2])};
+    const auto row = [&](int i, V translation) {
+      return hn::MulAdd(
+          R[i][0], b_center.x,
+          hn::MulAdd(R[i][1], b_center.y, hn::MulAdd(R[i][2], b_center.z, translation)));
+    };
+    const V t[3] = {row(0, frames_.translation.x - Fill(box_a.center[0])),
+                    row(1, frames_.translation.y - Fill(box_a.center[1])),
+                    row(2, frames_.translation.z - Fill(box_a.center[2]))};
+    V gap = Fill(std::numeric_limits<float>::lowest());
+    for (int i = 0; i < 3; ++i) {
+      const V reach =
+          hn::MulAdd(size[i][0], half_b[0],
+                     hn::MulAdd(size[i][1], half_b[1],
+                                hn::MulAdd(size[i][2], half_b[2], Fill(box_a.half_size[i]))));
+      gap = hn::Max(gap, hn::Abs(t[i]) - reach);
+    }
+    for (int j = 0; j < 3; ++j) {
+      const V along = hn::MulAdd(R[0][j], t[0], hn::MulAdd(R[1][j], t[1], R[2][j] * t[2]));
+      const V reach =
+          hn::MulAdd(size[0][j], Fill(box_a.half_size[0]),
+                     hn::MulAdd(size[1][j], Fill(box_a.half_size[1]),
+                                hn::MulAdd(size[2][j], Fill(box_a.half_size[2]), half_b[j])));
+      gap = hn::Max(gap, hn::Abs(along) - reach);
+    }
+    return hn::Gt(gap, margin);
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
@@ -235,11 +434,39 @@ class CheckPass {
   }
 
   /// Two leaves that touch by the bound of their trees.
-  HWY_INLINE bool NotePair(const Node& a, const Node& b, V squared, float radius, M touching) {
+  HWY_INLINE bool NotePair(int index_a, int body_a, int index_b, int body_b, V squared,
+                           float radius, M touching) {
+    const Node& a = placement_.node(index_a);
+    const Node& b = placement_.node(index_b);
     if constexpr (kAround) {
-      touching = Within(squared, Grown(radius, MotionBetween(a, b, pair_reach_)));
+      touching = Within(squared, Grown(radius, MotionBetween(a.reach, b.reach, pair_reach_)));
     }
-    return Note(squared, radius, touching, doubtful_);
+    if (doubtful_ || (a.triangles < 0 && b.triangles < 0)) {
+      return Note(squared, radius, touching, doubtful_);
+    }
+    return a.triangles >= 0 ? NoteTriangles(a, body_a, index_b, body_b, touching)
+                            : NoteTriangles(b, body_b, index_a, body_a, touching);
+  }
+
+  /// A group of triangles and another leaf, whose balls touch.
+  bool NoteTriangles(const Node& node, int body, int other_index, int other_body, M touching) {
+    if (None(touching)) return false;
+    const Node& other = placement_.node(other_index);
+    const TriangleGroup& group = TrianglesOf(node);
+    const V motion =
+        kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other), pair_reach_) : Zero();
+    return NoteExact(touching, motion, [&](int lane, float margin) {
+      const Transform X_WC = placement_.PosesOf(body).InLane(lane);
+      if (other.triangles < 0) {
+        float center_W[3], center[3];
+        placement_.Position(other_index, lane, center_W);
+        X_WC.InverseTimes(center_W, center);
+        return TrianglesWithin(group, center, other.radius + margin) != 0;
+      }
+      const Transform X_WD = placement_.PosesOf(other_body).InLane(lane);
+      return GroupsMeet(group, {node.center, node.radius}, TrianglesOf(other), Between(X_WC, X_WD),
+                        margin + kTrianglePadding);
+    });
   }
 
   /// Two balls that touch, not both of them leaves. Returns true to stop.
@@ -262,10 +489,15 @@ class CheckPass {
       const Node& node = placement_.node(child);
       const float radius = node.radius + small.radius;
       const V squared = SquaredNorm(placement_.Position(child) - p);
-      const M touching = Within(squared, Grown(radius, motion));
+      M touching = Within(squared, Grown(radius, motion));
       if (None(touching)) continue;
+      if (boxes_) {
+        touching = hn::AndNot(body_a == pair_body_a_ ? BoxesApart(child, b) : BoxesApart(b, child),
+                              touching);
+        if (None(touching)) continue;
+      }
       if (node.num_children == 0 && small.num_children == 0) {
-        if (NotePair(node, small, squared, radius, touching)) return true;
+        if (NotePair(child, body_a, b, body_b, squared, radius, touching)) return true;
       } else if (VisitPair(child, body_a, b, body_b, motion)) {
         return true;
       }
@@ -286,6 +518,14 @@ class CheckPass {
   // Of the test at hand.
   bool doubtful_ = false;
   int pair_reach_ = 0;
+  int pair_body_a_ = 0;
+  bool boxes_ = false;
+  struct {
+    V rotation[3][3];
+    V size[3][3];  ///< Without its signs.
+    Points translation;
+    V motion;  ///< Of any point relative to the other body.
+  } frames_;
 };
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/simd/kernels/points-inl.h"
+#include "collision/simd/kernels/triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -25,40 +25,6 @@ HWY_INLINE V SquaredToBoxes(const BoxGroup& group, int first, const Points& p) {
         hn::Max(Load(group.low[axis] + first) - value, value - Load(group.high[axis] + first)));
   };
   return SquaredNorm({beyond(0, p.x), beyond(1, p.y), beyond(2, p.z)});
-}
-
-/// The same from triangles. In the frame of a triangle the height over its plane and the distance
-/// within the plane stand for themselves: the latter is 0 or that from the nearest edge.
-HWY_INLINE V SquaredToTriangles(const TriangleGroup& group, int first, const Points& p) {
-  const auto row = [&](int axis) {
-    return hn::MulAdd(Load(group.rotation[3 * axis] + first), p.x,
-                      hn::MulAdd(Load(group.rotation[3 * axis + 1] + first), p.y,
-                                 hn::MulAdd(Load(group.rotation[3 * axis + 2] + first), p.z,
-                                            Load(group.position[axis] + first))));
-  };
-  const V x = row(0);
-  const V y = row(1);
-  const V height = row(2);
-  const V length = Load(group.length[0] + first);
-  // What is left of all three edges, and over the longest: where a triangle is so thin that the
-  // sides of its edges are lost to rounding, that is still right within its width.
-  M inside = hn::And(hn::Gt(y, Zero()), hn::And(hn::Gt(x, Zero()), hn::Lt(x, length)));
-  const V beyond = x - hn::Min(Positive(x), length);
-  V least = hn::MulAdd(y, y, beyond * beyond);
-  V from_x = x - length;
-  V from_y = y;
-  for (int edge = 0; edge < 2; ++edge) {
-    const V along_x = Load(group.along[edge][0] + first);
-    const V along_y = Load(group.along[edge][1] + first);
-    const V t = hn::MulAdd(along_x, from_x, along_y * from_y);
-    const V side = hn::NegMulAdd(along_y, from_x, along_x * from_y);
-    const V off = t - hn::Min(Positive(t), Load(group.length[edge + 1] + first));
-    least = hn::Min(least, hn::MulAdd(side, side, off * off));
-    inside = hn::And(inside, hn::Gt(side, Zero()));
-    from_x = x - Load(group.apex[0] + first);
-    from_y = y - Load(group.apex[1] + first);
-  }
-  return hn::MulAdd(height, height, hn::IfThenZeroElse(inside, least));
 }
 
 /// Squared distance of a point (M) from the mesh's surface where it is at most `limit`, else

@@ -11,6 +11,7 @@
 #include "collision/simd/kernels/points-inl.h"
 #include "collision/simd/kernels/scratch.h"
 #include "collision/simd/kernels/sin_cos-inl.h"
+#include "collision/simd/kernels/transform-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -25,6 +26,18 @@ class Poses {
   void set_rotation(int row, int column, V value) { Store(value, At(3 * row + column)); }
   void set_translation(const Points& p) { Store(p, At(9)); }
 
+  /// Points given in W, in the body's frame.
+  HWY_INLINE Points InverseTimes(const Points& p_W) const {
+    const Points p = p_W - translation();
+    return {Dot(Column(0), p), Dot(Column(1), p), Dot(Column(2), p)};
+  }
+  /// The pose in one lane.
+  Transform InLane(int lane) const {
+    Transform X;
+    for (int i = 0; i < 9; ++i) X.rotation[i] = At(i)[lane];
+    for (int i = 0; i < 3; ++i) X.translation[i] = At(9 + i)[lane];
+    return X;
+  }
   /// Points given in the body's frame, in W.
   HWY_INLINE Points operator*(const Points& p_C) const {
     return {Row(0, p_C), Row(1, p_C), Row(2, p_C)};
@@ -32,6 +45,7 @@ class Poses {
 
  private:
   float* At(int k) const { return lanes_ + k * kBlock; }
+  HWY_INLINE Points Column(int c) const { return {rotation(0, c), rotation(1, c), rotation(2, c)}; }
   HWY_INLINE V Row(int row, const Points& p) const {
     V sum = hn::MulAdd(rotation(row, 0), p.x, Load(At(9 + row)));
     sum = hn::MulAdd(rotation(row, 1), p.y, sum);
@@ -57,6 +71,10 @@ class Placement {
 
   const Node& node(int index) const { return robot_.nodes[static_cast<std::size_t>(index)]; }
   Points Position(int node) const { return LoadPoints(PositionLanes(node)); }
+  void Position(int node, int lane, float* p) const {
+    for (int k = 0; k < 3; ++k) p[k] = PositionLanes(node)[k * kBlock + lane];
+  }
+  Poses PosesOf(int body) const { return Poses(buffers_.poses.get() + body * 12 * kBlock + lane_); }
 
   /// Positions the root of a tree.
   HWY_INLINE void PlaceRoot(int node, int body) {
@@ -77,7 +95,6 @@ class Placement {
 
  private:
   const Body& body(int index) const { return robot_.bodies[static_cast<std::size_t>(index)]; }
-  Poses PosesOf(int body) const { return Poses(buffers_.poses.get() + body * 12 * kBlock + lane_); }
   float* PositionLanes(int node) const {
     return buffers_.positions.get() + node * 3 * kBlock + lane_;
   }

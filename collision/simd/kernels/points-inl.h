@@ -30,6 +30,12 @@ HWY_INLINE LaneMask Bits(M mask) {
   hn::StoreMaskBits(Lanes(), mask, bits);
   return static_cast<LaneMask>(bits[0]) | static_cast<LaneMask>(bits[1]) << 8;
 }
+/// The mask of so many bits.
+HWY_INLINE M MaskOf(LaneMask lanes) {
+  alignas(64) const std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes),
+                                            static_cast<std::uint8_t>(lanes >> 8)};
+  return hn::LoadMaskBits(Lanes(), bits);
+}
 /// What of v is above 0.
 HWY_INLINE V Positive(V v) { return hn::Max(v, Zero()); }
 HWY_INLINE V Squared(V v) { return v * v; }
@@ -63,6 +69,10 @@ HWY_INLINE V Dot(const Points& a, const Points& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, a.z * b.z));
 }
 HWY_INLINE V SquaredNorm(const Points& p) { return Dot(p, p); }
+HWY_INLINE Points Cross(const Points& a, const Points& b) {
+  return {hn::MulSub(a.y, b.z, a.z * b.y), hn::MulSub(a.z, b.x, a.x * b.z),
+          hn::MulSub(a.x, b.y, a.y * b.x)};
+}
 /// p - t v.
 HWY_INLINE Points NegMulAdd(V t, const Points& v, const Points& p) {
   return {hn::NegMulAdd(t, v.x, p.x), hn::NegMulAdd(t, v.y, p.y), hn::NegMulAdd(t, v.z, p.z)};

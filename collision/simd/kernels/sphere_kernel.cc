@@ -23,9 +23,7 @@ void RunCheck(const SphereRobot& robot, const SphereWorld& world, SphereScratch:
   for (int lane = 0; lane < kBlock; lane += width) {
     const LaneMask lanes = (query.lanes >> lane) & ((LaneMask{1} << width) - 1);
     if (lanes == 0) continue;
-    alignas(64) std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes),
-                                        static_cast<std::uint8_t>(lanes >> 8)};
-    CheckPass<kAround> pass(robot, world, buffers, query, lane, hn::LoadMaskBits(d, bits));
+    CheckPass<kAround> pass(robot, world, buffers, query, lane, MaskOf(lanes));
     pass.Run();
     verdict->hits |= pass.hits() << lane;
     verdict->certain |= pass.certain() << lane;

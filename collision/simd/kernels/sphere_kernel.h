@@ -31,14 +31,46 @@ struct Body {
   float axis[3] = {0, 0, 1};                        ///< Of a prismatic joint, in P.
 };
 
-/// A ball of a tree, in its body's frame (m): a sphere of the robot if it has no children, else it
-/// encloses all of its descendants. Children stand next to each other.
+/// A ball of a tree, in its body's frame (m): if it has no children a sphere of the robot, or what
+/// encloses a group of triangles; else it encloses all of its descendants. Children stand next to
+/// each other.
 struct Node {
   float center[3];
   float radius;
   std::int32_t first_child;
   std::int32_t num_children;
-  int reach;  ///< Of one without children: its own, as in WorldTree.
+  /// Of one without children: its own, as in WorldTree; of a group of triangles that of all of
+  /// their points stands behind it.
+  int reach;
+  std::int32_t triangles = -1;  ///< Index into SphereRobot::triangles, if not negative.
+  /// Closed meshes that it encloses: from first_inside on in SphereRobot::insides.
+  std::int32_t first_inside = 0;
+  std::int32_t num_insides = 0;
+};
+
+/// A box around what a node encloses, along the axes of its body's frame, m.
+struct NodeBox {
+  float center[3];
+  float half_size[3];
+};
+
+/// What a closed mesh of the robot encloses.
+struct Inside {
+  int body;
+  float low[3], high[3];  ///< Bounding box, in the body's frame, m.
+  float extent;           ///< No part of it is longer, m.
+  const SolidMesh* mesh;
+  double rotation[9], position[3];  ///< From the body's frame to the mesh's: R row-major, m.
+};
+/// Whether it does enclose a point, given in the body's frame (m).
+bool Encloses(const Inside& inside, const float* p);
+
+/// A point of a body (m, in its frame) that collides if it is inside of a mesh.
+struct InsideTest {
+  int inside;  ///< Index into SphereRobot::insides.
+  int body;
+  float point[3];
+  bool doubtful;  ///< Where the point is in the bounding box is passed on as a doubt.
 };
 
 /// Two trees to test against each other.
@@ -47,7 +79,8 @@ struct TreePair {
   int body_a, body_b;
   bool doubtful;  ///< Hits are passed on as doubts.
   /// Joints that move the two relative to each other, as weights of half widths: num_joints values
-  /// at this offset of SphereRobot::reaches.
+  /// at this offset of SphereRobot::reaches, of the centres of balls; where there are boxes those
+  /// of all points stand behind them.
   int reach;
 };
 
@@ -56,7 +89,11 @@ struct SphereRobot {
   int num_joints = 0;
   std::vector<Body> bodies;  ///< Parents first; [0] is the base.
   std::vector<Node> nodes;
+  std::vector<NodeBox> boxes;  ///< By node, of meshes; none: of spheres balls are enough.
   std::vector<TreePair> pairs;
+  const TriangleGroup* triangles = nullptr;  ///< In their bodies' frames; its owner's to keep.
+  std::vector<Inside> insides;
+  std::vector<InsideTest> inside_tests;
   /// m/rad: how far the centres of balls move. A ball that turns about its centre stays where it
   /// is.
   std::vector<float> reaches;
@@ -79,6 +116,7 @@ struct Solid {
   bool doubtful;  ///< Hits are passed on as doubts: it stands for something inside it.
   float center[3];
   float v[12];    ///< See Kind.
+  float extent;   ///< Half its greatest size along its own axes, m.
   int mesh = -1;  ///< What it is a bound of, if not negative: index into SphereWorld::meshes.
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct alignas(64) TriangleGroup {
   /// Unit vectors along the second edge, from (length[0], 0) to the apex, and the third, from the
   /// apex to (0, 0).
   float along[2][2][kWide];
+  float corner[3][3][kWide];  ///< In M, by corner and axis, m.
+  std::int32_t count;         ///< Of those there are.
 };
 
 /// A bounding-volume hierarchy over the triangles of a mesh, in its frame M: parallel to the mesh's
@@ -39,8 +42,9 @@ struct alignas(64) TriangleGroup {
 struct TriangleTree {
   std::vector<BoxGroup> boxes;  ///< [0] is the root.
   std::vector<TriangleGroup> triangles;
-  double origin[3] = {0, 0, 0};      ///< Of M in the mesh's frame, m.
-  const SolidMesh* solid = nullptr;  ///< What is inside, in the mesh's frame.
+  std::vector<std::array<float, 3>> points;  ///< One of every connected part.
+  double origin[3] = {0, 0, 0};              ///< Of M in the mesh's frame, m.
+  const SolidMesh* solid = nullptr;          ///< What is inside, in the mesh's frame.
 };
 
 /// A mesh that stands in W.

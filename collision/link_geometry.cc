@@ -1,0 +1,50 @@
+#include "collision/link_geometry.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "collision/at.h"
+#include "common/error.h"
+
+namespace planbench {
+
+std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot) {
+  std::vector<LinkGeometry> links;
+  for (int link = 0; link < robot.model.num_links(); ++link) {
+    const Link& urdf_link = At(robot.model.links(), link);
+    if (urdf_link.collision.empty()) continue;
+    LinkGeometry geometry{link, urdf_link.collision};
+    for (PlacedShape& placed : geometry.shapes) {
+      auto* mesh = std::get_if<Mesh>(&placed.shape);
+      if (mesh == nullptr || !mesh->triangles.triangles.empty() || mesh->resource.empty()) continue;
+      try {
+        mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: collision mesh: {}", urdf_link.where, error.what()));
+      }
+    }
+    links.push_back(std::move(geometry));
+  }
+  return links;
+}
+
+std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links) {
+  std::vector<LinkSphere> balls;
+  for (const LinkGeometry& geometry : links) {
+    for (const PlacedShape& placed : geometry.shapes) {
+      if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+        for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
+          balls.push_back({geometry.link, placed.X_FS * vertex, 0});
+        }
+      } else {
+        const BoundingSphere bound = ComputeBoundingSphere(placed.shape);
+        balls.push_back({geometry.link, placed.X_FS * bound.center, bound.radius});
+      }
+    }
+  }
+  return balls;
+}
+
+}  // namespace planbench

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/shapes.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// The collision geometry of a link as its URDF has it, in the link's frame, meshes loaded.
+struct LinkGeometry {
+  int link;
+  std::vector<PlacedShape> shapes;
+};
+
+/// That of every link that has any, in link order. Throws InputError for a mesh that cannot be
+/// read.
+std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot);
+
+/// Balls that cover it, as bounds on its motion take them: vertices, bounding spheres.
+std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links);
+
+}  // namespace planbench

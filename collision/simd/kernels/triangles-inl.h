@@ -1,0 +1,230 @@
+// Included once per instruction set, see sphere_kernel.cc.
+#if defined(PLANBENCH_KERNELS_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANBENCH_KERNELS_TRIANGLES_INL_H_
+#undef PLANBENCH_KERNELS_TRIANGLES_INL_H_
+#else
+#define PLANBENCH_KERNELS_TRIANGLES_INL_H_
+#endif
+
+#include <bit>
+#include <limits>
+
+#include "collision/simd/kernels/transform-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planbench::kernels::HWY_NAMESPACE {
+
+// Distances of triangles from points, segments and each other, a triangle a lane. In the frame T of
+// a triangle (see TriangleGroup) the height over its plane and the distance within the plane stand
+// for themselves: the latter is 0 or that from the nearest edge.
+
+/// Triangles in their frames.
+struct InFrame {
+  V length[3];
+  V apex[2];
+  V along[2][2];
+};
+
+HWY_INLINE InFrame LoadInFrame(const TriangleGroup& group, int first) {
+  const auto load = [first](const float* lanes) { return Load(lanes + first); };
+  return {{load(group.length[0]), load(group.length[1]), load(group.length[2])},
+          {load(group.apex[0]), load(group.apex[1])},
+          {{load(group.along[0][0]), load(group.along[0][1])},
+           {load(group.along[1][0]), load(group.along[1][1])}}};
+}
+
+/// One triangle in all lanes.
+HWY_INLINE InFrame FillInFrame(const TriangleGroup& group, int i) {
+  const auto fill = [i](const float* lanes) { return Fill(lanes[i]); };
+  return {{fill(group.length[0]), fill(group.length[1]), fill(group.length[2])},
+          {fill(group.apex[0]), fill(group.apex[1])},
+          {{fill(group.along[0][0]), fill(group.along[0][1])},
+           {fill(group.along[1][0]), fill(group.along[1][1])}}};
+}
+
+/// Points of the group's frame in those of its triangles.
+HWY_INLINE Points ToFrames(const TriangleGroup& group, int first, const Points& p) {
+  const auto row = [&](int axis) {
+    return hn::MulAdd(Load(group.rotation[3 * axis] + first), p.x,
+                      hn::MulAdd(Load(group.rotation[3 * axis + 1] + first), p.y,
+                                 hn::MulAdd(Load(group.rotation[3 * axis + 2] + first), p.z,
+                                            Load(group.position[axis] + first))));
+  };
+  return {row(0), row(1), row(2)};
+}
+
+/// The pose X_TM of one of the frames.
+inline Transform FrameOf(const TriangleGroup& group, int i) {
+  Transform X;
+  for (int k = 0; k < 9; ++k) X.rotation[k] = group.rotation[k][i];
+  for (int k = 0; k < 3; ++k) X.translation[k] = group.position[k][i];
+  return X;
+}
+
+/// Squared distances of points, given in the frames of the triangles.
+HWY_INLINE V SquaredInFrame(const InFrame& t, const Points& p) {
+  // What is left of all three edges, and over the longest: where a triangle is so thin that the
+  // sides of its edges are lost to rounding, that is still right within its width.
+  M inside = hn::And(hn::Gt(p.y, Zero()), hn::And(hn::Gt(p.x, Zero()), hn::Lt(p.x, t.length[0])));
+  const V beyond = p.x - hn::Min(Positive(p.x), t.length[0]);
+  V least = hn::MulAdd(p.y, p.y, beyond * beyond);
+  V from_x = p.x - t.length[0];
+  V from_y = p.y;
+  for (int edge = 0; edge < 2; ++edge) {
+    const V along_x = t.along[edge][0];
+    const V along_y = t.along[edge][1];
+    const V s = hn::MulAdd(along_x, from_x, along_y * from_y);
+    const V side = hn::NegMulAdd(along_y, from_x, along_x * from_y);
+    const V off = s - hn::Min(Positive(s), t.length[edge + 1]);
+    least = hn::Min(least, hn::MulAdd(side, side, off * off));
+    inside = hn::And(inside, hn::Gt(side, Zero()));
+    from_x = p.x - t.apex[0];
+    from_y = p.y - t.apex[1];
+  }
+  return hn::MulAdd(p.z, p.z, hn::IfThenZeroElse(inside, least));
+}
+
+/// Squared distances of a point from triangles.
+HWY_INLINE V SquaredToTriangles(const TriangleGroup& group, int first, const Points& p) {
+  return SquaredInFrame(LoadInFrame(group, first), ToFrames(group, first, p));
+}
+
+/// Squared distances of segments from triangles as far as they are not those of an end of the one
+/// or a corner of the other: through the face, or between edges. Else something not less than that.
+HWY_INLINE V SquaredBetweenEdges(const InFrame& t, const Points& a, const Points& b) {
+  const Points v = b - a;
+  V least = Fill(std::numeric_limits<float>::max());
+  {  // Where it goes through the plane.
+    const M through = hn::Xor(hn::Lt(a.z, Zero()), hn::Lt(b.z, Zero()));
+    const V s = hn::IfThenElseZero(through, a.z / (a.z - b.z));
+    const V x = hn::MulAdd(s, v.x, a.x);
+    const V y = hn::MulAdd(s, v.y, a.y);
+    const V side_1 = hn::NegMulAdd(t.along[0][1], x - t.length[0], t.along[0][0] * y);
+    const V side_2 = hn::NegMulAdd(t.along[1][1], x - t.apex[0], t.along[1][0] * (y - t.apex[1]));
+    const M inside =
+        hn::And(hn::Ge(y, Zero()), hn::And(hn::Ge(side_1, Zero()), hn::Ge(side_2, Zero())));
+    least = hn::IfThenZeroElse(hn::And(through, inside), least);
+  }
+  // Of lines closer to parallel than this ends are as near as anything, up to 1e-4 of a length.
+  const V parallel = SquaredNorm(v) * Fill(1e-8f);
+  const V zero = Zero();
+  for (int edge = 0; edge < 3; ++edge) {
+    const V ux = edge == 0 ? Fill(1.0f) : t.along[edge == 0 ? 0 : edge - 1][0];
+    const V uy = edge == 0 ? zero : t.along[edge == 0 ? 0 : edge - 1][1];
+    const V ox = edge == 0 ? zero : edge == 1 ? t.length[0] : t.apex[0];
+    const V oy = edge == 2 ? t.apex[1] : zero;
+    const Points u = {ux, uy, zero};
+    const Points w = {a.x - ox, a.y - oy, a.z};
+    const Points n = Cross(u, v);
+    const V nn = SquaredNorm(n);
+    const V s = Dot(Cross(w, v), n);  // of the edge, times nn
+    const V r = Dot(Cross(w, u), n);  // of the segment, likewise
+    const M inner = hn::And(
+        hn::And(hn::Gt(nn, parallel), hn::And(hn::Ge(s, zero), hn::Le(s, t.length[edge] * nn))),
+        hn::And(hn::Ge(r, zero), hn::Le(r, nn)));
+    const V apart = Dot(w, n);
+    least = hn::IfThenElse(inner, hn::Min(least, apart * apart / nn), least);
+  }
+  return least;
+}
+
+/// Corners of triangles in a frame A.
+struct Triangles {
+  Points corner[3];
+};
+
+HWY_INLINE Triangles LoadCorners(const TriangleGroup& group, int first) {
+  Triangles t;
+  for (int k = 0; k < 3; ++k) {
+    t.corner[k] = {Load(group.corner[k][0] + first), Load(group.corner[k][1] + first),
+                   Load(group.corner[k][2] + first)};
+  }
+  return t;
+}
+
+HWY_INLINE Triangles CornersIn(const Transform& X_AM, const TriangleGroup& group, int first) {
+  Triangles t = LoadCorners(group, first);
+  for (Points& corner : t.corner) corner = X_AM * corner;
+  return t;
+}
+
+/// Which triangles of a group are within `reach` of a point, by bit.
+inline LaneMask TrianglesWithin(const TriangleGroup& group, const float* point, float reach) {
+  const int width = static_cast<int>(hn::Lanes(Lanes()));
+  const Points p = Fill(point);
+  LaneMask near = 0;
+  for (int first = 0; first < kWide; first += width) {
+    near |= Bits(hn::Le(SquaredToTriangles(group, first, p), Fill(reach * reach))) << first;
+  }
+  return near & ((LaneMask{1} << group.count) - 1);
+}
+
+/// Whether a triangle of group B is within `margin` of one of those of A. `corners_B` are those of
+/// A, a vector after another, in B's frame.
+inline bool MeetsTriangle(const TriangleGroup& a, const Triangles* corners_B,
+                          const TriangleGroup& b, int i, const Transform& X_AB, float margin) {
+  const int width = static_cast<int>(hn::Lanes(Lanes()));
+  const V reach = Fill(margin * margin);
+  float corner[3][3];
+  for (int k = 0; k < 3; ++k) {
+    const float p_B[3] = {b.corner[k][0][i], b.corner[k][1][i], b.corner[k][2][i]};
+    X_AB.Times(p_B, corner[k]);
+  }
+  const InFrame b_frame = FillInFrame(b, i);
+  const Transform X_TB = FrameOf(b, i);
+  for (int first = 0; first < kWide; first += width) {
+    const InFrame a_frame = LoadInFrame(a, first);
+    Points p[3];
+    for (int k = 0; k < 3; ++k) p[k] = ToFrames(a, first, Fill(corner[k]));
+    // Most are all on one side of the plane.
+    const V low = hn::Min(p[0].z, hn::Min(p[1].z, p[2].z));
+    const V high = hn::Max(p[0].z, hn::Max(p[1].z, p[2].z));
+    const M open = hn::Le(hn::Max(low, hn::Neg(high)), Fill(margin));
+    if (None(open)) continue;
+    Points t[3];
+    for (int k = 0; k < 3; ++k) t[k] = X_TB * corners_B[first / width].corner[k];
+    const V low_t = hn::Min(t[0].z, hn::Min(t[1].z, t[2].z));
+    const V high_t = hn::Max(t[0].z, hn::Max(t[1].z, t[2].z));
+    if (None(hn::And(open, hn::Le(hn::Max(low_t, hn::Neg(high_t)), Fill(margin))))) continue;
+    V least = Fill(std::numeric_limits<float>::max());
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      least = hn::Min(least, SquaredInFrame(a_frame, p[k]));
+      least = hn::Min(least, SquaredInFrame(b_frame, t[k]));
+      least = hn::Min(least, SquaredBetweenEdges(a_frame, p[k], p[next]));
+      least = hn::Min(least, SquaredBetweenEdges(b_frame, t[k], t[next]));
+    }
+    if (!None(hn::Le(least, reach))) return true;
+  }
+  return false;
+}
+
+/// A ball around a group of triangles, in their frame.
+struct GroupBall {
+  const float* center;
+  float radius;
+};
+
+/// Whether triangles of A, all in a ball, come within `margin` of those of B.
+inline bool GroupsMeet(const TriangleGroup& a, const GroupBall& ball_a, const TriangleGroup& b,
+                       const Transform& X_AB, float margin) {
+  const int width = static_cast<int>(hn::Lanes(Lanes()));
+  float center_B[3];
+  X_AB.InverseTimes(ball_a.center, center_B);
+  LaneMask near = TrianglesWithin(b, center_B, ball_a.radius + margin);
+  if (near == 0) return false;
+  Triangles corners_B[kWide];
+  const Transform X_BA = X_AB.Inverse();
+  for (int first = 0; first < kWide; first += width) {
+    corners_B[first / width] = CornersIn(X_BA, a, first);
+  }
+  for (; near != 0; near &= near - 1) {
+    if (MeetsTriangle(a, corners_B, b, std::countr_zero(near), X_AB, margin)) return true;
+  }
+  return false;
+}
+
+}  // namespace planbench::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

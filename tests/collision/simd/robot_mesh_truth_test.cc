@@ -1,0 +1,353 @@
+// The robot's own meshes in the vectorised engine against the exact one: a mesh that flies freely,
+// among solids of every kind and beside another link's mesh; wherever the exact distance is more
+// than 0.1 mm from zero the verdicts agree, nearer the vectorised engine errs towards collision.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/edge_checker.h"
+#include "collision/fcl/fcl_checker.h"
+#include "collision/link_geometry.h"
+#include "collision/simd/robot_meshes.h"
+#include "collision/simd/simd_checker.h"
+#include "geometry/polyhedra.h"
+#include "tests/contract/collision_oracle.h"
+#include "tests/contract/collision_test_worlds.h"
+#include "tests/support/generated_meshes.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/trials.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kBand_m = 1e-4;
+
+constexpr char kMeshGeometry[] = R"(<mesh filename="tool.obj"/>)";
+
+/// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
+/// angles.
+Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
+                const std::string& base_geometry = {}) {
+  folder.Write("tool.obj", MeshAsObj(tool));
+  const auto body = [](const std::string& name, const std::string& geometry) {
+    if (geometry.empty()) return "<link name=\"" + name + "\"/>";
+    return "<link name=\"" + name +
+           "\"> <collision> <origin xyz=\"0.01 0 0\" rpy=\"0.1 0.2 0.3\"/>" + "<geometry>" +
+           geometry + "</geometry> </collision> </link>";
+  };
+  std::string urdf = "<robot name=\"flyer\">" + body("base", base_geometry);
+  const std::vector<std::string> links = {"a", "b", "c", "d", "e", "tool"};
+  const std::vector<std::string> joints = {"x", "y", "z", "roll", "pitch", "yaw"};
+  const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    urdf += body(links[i], links[i] == "tool" ? kMeshGeometry : "");
+    urdf += "<joint name=\"" + joints[i] + "\" type=\"" + (i < 3 ? "prismatic" : "revolute") +
+            "\"> <parent link=\"" + (i == 0 ? "base" : links[i - 1]) + "\"/> <child link=\"" +
+            links[i] + "\"/> <axis xyz=\"" + axes[i % 3] +
+            "\"/> <limit lower=\"-2\" upper=\"2\" velocity=\"1\" effort=\"1\"/> </joint>";
+  }
+  Robot robot;
+  robot.name = "flyer";
+  robot.model = RobotModel::FromUrdf(urdf + "</robot>", "flyer.urdf");
+  robot.groups = {robot.model.MakeGroup("flyer", joints, "tool")};
+  robot.resources.base_folder = folder.path();
+  return robot;
+}
+
+struct GeneratedMesh {
+  std::string what;
+  TriangleMesh triangles;
+};
+
+/// Closed and open, convex and not, of many parts, large and small triangles, some but lines.
+std::vector<GeneratedMesh> ToolMeshes() {
+  TriangleMesh lines = BoxMesh({0.3, 0.2, 0.25});
+  lines.vertices.push_back((lines.vertices[0] + 3 * lines.vertices[1]) / 4);
+  const auto last = static_cast<std::uint32_t>(lines.vertices.size() - 1);
+  lines.triangles.insert(lines.triangles.begin() + 3, {{0, 1, last}, {last, last, last}});
+  const TriangleMesh torus = TorusMesh(0.25, 0.1, 16, 12);
+  return {{"box with lines", lines},
+          {"splinter", BoxMesh({0.002, 0.6, 0.001})},
+          {"crumb", BoxMesh({0.004, 0.004, 0.004})},
+          {"ball", SphereMesh(0.2, 24, 20)},
+          {"torus", TorusMesh(0.25, 0.1, 40, 25)},
+          {"torus inside out", TurnedInsideOut(torus)},
+          {"sheet", SheetMesh(0.2, 0.5, 20, 20)},
+          {"torus, ball and sheet", Joined(Joined(torus, SphereMesh(0.05, 12, 9), {0.4, 0, 0.1}),
+                                           SheetMesh(0.1, 0.2, 5, 5), {0, 0.1, 0.3})},
+          {"ball in a ball", Joined(SphereMesh(0.3, 20, 20),
+                                    TurnedInsideOut(SphereMesh(0.25, 20, 20)), {0, 0, 0.02})}};
+}
+
+Mesh MeshFrom(TriangleMesh triangles) {
+  Mesh mesh;
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+std::vector<Shape> SolidsOfEveryKind() {
+  return {Box{{0.4, 0.3, 0.2}},
+          Box{{0.01, 0.01, 0.01}},
+          Cylinder{0.15, 0.4},
+          Cylinder{0.4, 0.01},
+          Cylinder{0.003, 0.5},
+          Sphere{0.2},
+          Sphere{0.01},
+          Capsule{0.1, 0.3},
+          Capsule{0.02, 0.6},
+          Cone{0.2, 0.3},
+          HalfSpace{},
+          MeshFrom(TorusMesh(0.3, 0.15, 30, 20)),
+          MeshFrom(SheetMesh(0.3, 0.3, 8, 8)),
+          MeshFrom(BoxMesh({0.02, 0.02, 0.02})),
+          MeshFrom(BoxMesh({1.5, 1.5, 1.5}))};
+}
+
+class MeshComparison {
+ public:
+  explicit MeshComparison(const Robot& robot)
+      : exact_(robot, robot.groups.front(), CollisionModel::kMeshes),
+        fast_(robot, robot.groups.front(), CollisionModel::kMeshes) {}
+  void SetScene(const Scene& scene) {
+    const std::vector<double> base(6, 0.0);
+    exact_.SetScene(scene, base);
+    fast_.SetScene(scene, base);
+  }
+  SimdChecker& fast() { return fast_; }
+  FclChecker& exact() { return exact_; }
+
+  int num_free = 0;
+  int num_hit = 0;
+
+  /// By rows of 6.
+  void Judge(const std::vector<double>& qs) {
+    const auto num = qs.size() / 6;
+    std::vector<unsigned char> free(num);
+    fast_.CheckAll(qs, static_cast<int>(num), free);
+    for (std::size_t i = 0; i < num; ++i) {
+      const auto q = std::span(qs).subspan(6 * i, 6);
+      const bool exact_free = exact_.IsFree(q);
+      ++(exact_free ? num_free : num_hit);
+      EXPECT_EQ(fast_.IsFree(q), free[i] != 0) << "lanes matter";
+      if ((free[i] != 0) == exact_free) continue;
+      EXPECT_FALSE(free[i]) << "errs towards free";
+      EXPECT_LE(exact_.FindClosest(q).distance_m, kBand_m);
+    }
+  }
+
+  /// Random configurations, and of those that differ what is between them where contact begins.
+  void JudgeRandom(int num, std::mt19937_64* random) {
+    std::uniform_real_distribution<double> place(-0.7, 0.7);
+    std::uniform_real_distribution<double> angle(-2, 2);
+    std::vector<double> qs;
+    std::vector<double> free_q;
+    std::vector<double> hit_q;
+    for (int i = 0; i < num; ++i) {
+      std::vector<double> q;
+      for (int j = 0; j < 6; ++j) q.push_back(j < 3 ? place(*random) : angle(*random));
+      if (i % 4 == 1) q[0] = q[1] = q[2] = 0;
+      qs.insert(qs.end(), q.begin(), q.end());
+      (exact_.IsFree(q) ? free_q : hit_q) = q;
+      if (free_q.empty() || hit_q.empty()) continue;
+      double low = 0;
+      double high = 1;
+      for (int step = 0; step < 16; ++step) {
+        const double middle = (low + high) / 2;
+        (exact_.IsFree(Mix(free_q, hit_q, middle)) ? low : high) = middle;
+      }
+      for (const double beyond : {-1e-3, -1e-4, -1e-5, 1e-5, 1e-4, 1e-3}) {
+        const std::vector<double> touching = Mix(free_q, hit_q, low + beyond);
+        qs.insert(qs.end(), touching.begin(), touching.end());
+      }
+    }
+    Judge(qs);
+  }
+
+ private:
+  static std::vector<double> Mix(const std::vector<double>& a, const std::vector<double>& b,
+                                 double fraction) {
+    std::vector<double> q = a;
+    for (std::size_t j = 0; j < q.size(); ++j) q[j] += fraction * (b[j] - a[j]);
+    return q;
+  }
+
+  FclChecker exact_;
+  SimdChecker fast_;
+};
+
+TEST(RobotMeshTruthTest, AMeshAmongSolidsOfEveryKind) {
+  std::mt19937_64 random(21);
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    const TemporaryFolder folder;
+    const Robot robot = MakeFlyer(folder, mesh.triangles);
+    MeshComparison comparison(robot);
+    for (const Shape& solid : SolidsOfEveryKind()) {
+      SCOPED_TRACE(mesh.what + " and " + ShapeTypeName(solid));
+      Eigen::Isometry3d X_WO = RandomPose(&random, 0.2);
+      if (random() % 2 == 0) {  // upright ones have formulas of their own
+        X_WO.linear() =
+            Eigen::AngleAxisd(X_WO.linear()(0, 0), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      }
+      comparison.SetScene(SceneWith("thing", solid, X_WO));
+      comparison.JudgeRandom(Trials(6), &random);
+    }
+    EXPECT_GT(comparison.num_free, Trials(50)) << mesh.what;
+    EXPECT_GT(comparison.num_hit, Trials(50)) << mesh.what;
+  }
+}
+
+TEST(RobotMeshTruthTest, LinksBesideAndInsideEachOther) {
+  constexpr const char* kBases[] = {R"(<mesh filename="ring.obj"/>)",
+                                    R"(<cylinder radius="0.2" length="0.3"/>)",
+                                    R"(<sphere radius="0.25"/>)", R"(<box size="1.6 1.5 1.2"/>)"};
+  std::size_t next = 0;
+  std::mt19937_64 random(22);
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    const TemporaryFolder folder;
+    folder.Write("ring.obj", MeshAsObj(TorusMesh(0.35, 0.12, 30, 20)));
+    const char* base = kBases[next++ % std::size(kBases)];
+    SCOPED_TRACE(mesh.what + " and " + base);
+    const Robot robot = MakeFlyer(folder, mesh.triangles, base);
+    MeshComparison comparison(robot);
+    comparison.SetScene({});
+    comparison.JudgeRandom(Trials(8), &random);
+  }
+}
+
+TEST(RobotMeshTruthTest, CertifiedEdgesAreFreeAllAlong) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> unit(-0.6, 0.6);
+  int num_valid = 0;
+  int num_refused = 0;
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
+    const TemporaryFolder folder;
+    const Robot robot = MakeFlyer(folder, mesh.triangles, R"(<box size="0.3 0.1 0.2"/>)");
+    Scene scene;
+    int i = 0;
+    for (const Shape& solid : {Shape(Box{{0.2, 0.2, 0.1}}), Shape(Cylinder{0.05, 0.4}),
+                               Shape(MeshFrom(SphereMesh(0.1, 10, 8)))}) {
+      AddObject(&scene, "thing" + std::to_string(i++), solid, RandomPose(&random, 0.6));
+    }
+    MeshComparison comparison(robot);
+    comparison.SetScene(scene);
+    EdgeChecker certified(&comparison.fast(), 0.02, EdgeCheck::kCertified);
+    EdgeChecker fine(&comparison.exact(), 0.002, EdgeCheck::kFixed);
+    for (int k = 0; k < Trials(20); ++k) {
+      std::vector<double> from;
+      std::vector<double> to;
+      for (int j = 0; j < 6; ++j) {
+        from.push_back(unit(random));
+        to.push_back(from.back() + unit(random) / 3);
+      }
+      const bool valid = certified.IsValidEdge(from, to);
+      const bool free = fine.IsValidEdge(from, to);
+      EXPECT_TRUE(free || !valid);
+      num_valid += valid ? 1 : 0;
+      num_refused += free && !valid ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_valid, Trials(40));
+  EXPECT_LE(num_refused, num_valid / 10);
+}
+
+TEST(RobotMeshTruthTest, DistancesAreExact) {
+  std::mt19937_64 random(24);
+  const TemporaryFolder folder;
+  const Robot robot = MakeFlyer(folder, TorusMesh(0.25, 0.1, 20, 12), R"(<sphere radius="0.1"/>)");
+  MeshComparison comparison(robot);
+  comparison.SetScene(SceneWith("box", Box{{0.3, 0.3, 0.3}}, RandomPose(&random, 0.5)));
+  std::vector<double> qs;
+  for (int i = 0; i < 6 * 32; ++i) qs.push_back(1.5 * UniformFraction(&random) - 0.75);
+  std::vector<double> distances(32);
+  comparison.fast().FindDistances(qs, 32, 0.4, distances);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double exact =
+        std::min(0.4, comparison.exact().FindClosest(std::span(qs).subspan(6 * i, 6)).distance_m);
+    if (exact > 0) {
+      EXPECT_NEAR(distances[i], exact, kBand_m);
+    } else {
+      EXPECT_LE(distances[i], 0);
+    }
+  }
+}
+
+TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
+  const TemporaryFolder folder;
+  const Robot robot = MakeFlyer(folder, SphereMesh(0.1, 12, 10), R"(<box size="0.4 0.4 0.4"/>)");
+  SimdChecker checker(robot, robot.groups.front(), CollisionModel::kMeshes);
+  const std::vector<double> base(6, 0.0);
+  const std::vector<double> inside(6, 0.0);
+  std::vector<double> outside(6, 0.0);
+  outside[0] = 0.6;
+  checker.SetScene({}, base);
+  EXPECT_FALSE(checker.IsFree(inside));
+  EXPECT_EQ(checker.FindContact(inside)->body_b, "tool");
+  EXPECT_TRUE(checker.IsFree(outside));
+  Scene scene;
+  scene.allowed_collisions.SetEntry("base", "tool", true);
+  checker.SetScene(scene, base);
+  EXPECT_TRUE(checker.IsFree(inside));
+  // Something that stands in the base is in collision always.
+  checker.SetScene(SceneWith("crumb", Sphere{0.01}), base);
+  EXPECT_FALSE(checker.IsFree(outside));
+  // The hand holds something that is inside of the base, and touches none of its surface.
+  scene = {};
+  scene.attached = {{"tool",
+                     {"ball",
+                      Eigen::Isometry3d(Eigen::Translation3d(-0.6, 0, 0)),
+                      {{Sphere{0.02}, Eigen::Isometry3d::Identity()}}},
+                     {}}};
+  checker.SetScene(scene, base);
+  EXPECT_FALSE(checker.IsFree(outside));
+  outside[0] = 1.2;
+  EXPECT_TRUE(checker.IsFree(outside));
+}
+
+TEST(RobotMeshesTest, HoldEveryTriangleInABallOfTheTree) {
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
+    const RobotMeshes meshes(
+        {{0, {{Shape(MeshFrom(mesh.triangles)), Eigen::Isometry3d::Identity()}}}});
+    double area = 0;
+    std::vector<const BallTree*> open = {&meshes.links.front().tree};
+    while (!open.empty()) {
+      const BallTree& node = *open.back();
+      open.pop_back();
+      for (const Ball& leaf : node.Leaves()) {
+        EXPECT_LE((leaf.center - node.ball().center).norm() + leaf.radius,
+                  node.ball().radius + 1e-9);
+      }
+      for (const BallTree& child : node.children()) {
+        open.push_back(&child);
+      }
+      if (!node.children().empty()) continue;
+      ASSERT_GE(node.cluster(), 0);
+      const auto& cluster = meshes.clusters[static_cast<std::size_t>(node.cluster())].triangles;
+      EXPECT_LE(cluster.size(), 16u);
+      for (const auto& [a, b, c] : cluster) {
+        area += (b - a).cross(c - a).norm() / 2;
+        for (const Eigen::Vector3d& corner : {a, b, c}) {
+          EXPECT_LE((corner - node.ball().center).norm(), node.ball().radius + 1e-9);
+        }
+      }
+    }
+    double expected = 0;
+    for (const auto& [a, b, c] : mesh.triangles.triangles) {
+      const auto& v = mesh.triangles.vertices;
+      expected += (v[b] - v[a]).cross(v[c] - v[a]).norm() / 2;
+    }
+    EXPECT_NEAR(area, expected, 1e-9 * (1 + expected));
+  }
+}
+
+}  // namespace
+}  // namespace planbench
