@@ -16,7 +16,6 @@
 #include "common/random_id.h"
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
-#include "planning/path_library.h"
 
 namespace planbench {
 namespace {
@@ -26,21 +25,6 @@ constexpr double kWarmUpLimit = 1;  // s
 
 /// How often a run is made again because it was disturbed.
 constexpr int kMostRepeats = 2;
-
-/// What tables show of a record; the rest, most of it paths, would be some 10 kB a run. Of a path a
-/// waypoint stays, by which it counts as one.
-RunRecordMessage Kept(RunRecordMessage record) {
-  PlanResult& result = record.result.result;
-  if (!result.path.empty()) result.path = Path{result.path.front()};
-  result.simplified_path = {};
-  result.progress = {};
-  record.result.joint_names = {};
-  std::erase_if(record.settings, [](const auto& setting) { return setting.first != kLearnedFrom; });
-  record.request.start = {};
-  record.request.goal = {};
-  record.request.parameters = {};
-  return record;
-}
 
 }  // namespace
 
@@ -57,10 +41,7 @@ Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up
       earlier_(std::move(earlier)),
       start_utime_(NowUtime()),
       registry_(bus),
-      recorder_(bus, &registry_) {
-  for (RunRecordMessage& run : earlier_.runs) records_.push_back(Kept(std::move(run)));
-  earlier_.runs = {};
-}
+      recorder_(bus, &registry_) {}
 
 std::string Driver::Missing(bool need_logger) const {
   std::vector<std::string> missing;
@@ -89,14 +70,21 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   for (const SessionMessage& session : earlier_.sessions) {
     RequireSameConditions(session, Session(false));
   }
+  for (const ScheduledRun& run : schedule_) {
+    if (run.unless_solved) claims_[*run.unless_solved] = false;
+  }
   std::set<std::string> done;
-  for (const RunRecordMessage& record : records_) done.insert(record.request_id);
+  for (const RunRecordMessage& record : earlier_.runs) {
+    done.insert(record.request_id);
+    Keep(record);
+  }
+  earlier_ = {};
   std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
   CheckProblems(watch);
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
-  num_runs_ = static_cast<int>(records_.size() + schedule_.size());
+  num_runs_ = static_cast<int>(runs_.size() + schedule_.size());
 }
 
 void Driver::CheckProblems(const std::function<void()>& watch) {
@@ -232,11 +220,10 @@ SessionMessage Driver::Session(bool finished) const {
   return session;
 }
 
-bool Driver::Claimed(const std::string& request_id) {
-  const std::scoped_lock lock(mutex_);
-  return std::any_of(records_.rbegin(), records_.rend(), [&](const RunRecordMessage& record) {
-    return record.request_id == request_id && record.result.result.Solves();
-  });
+const RunRow& Driver::Keep(const RunRecordMessage& record) {
+  const auto claim = claims_.find(record.request_id);
+  if (claim != claims_.end()) claim->second = record.result.result.Solves();
+  return runs_.Add(record);
 }
 
 std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,
@@ -275,8 +262,8 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
         put_off_run(run);  // it is not known yet whether it is needed
         continue;
       }
-      if (run.unless_solved && Claimed(*run.unless_solved)) {
-        const std::scoped_lock lock(mutex_);
+      if (const std::scoped_lock lock(mutex_);
+          run.unless_solved && claims_.at(*run.unless_solved)) {
         --num_runs_;
         progress_->Drop();
         continue;
@@ -298,15 +285,14 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
       }
       recorder_.Record(*record);
       const std::scoped_lock lock(mutex_);
-      progress_->Add(*record);
-      records_.push_back(Kept(*std::move(record)));
+      progress_->Add(Keep(*record));
     }
     left = std::move(again);
   }
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ = std::make_unique<ProgressBar>(num_runs_, records_);
+  progress_ = std::make_unique<ProgressBar>(num_runs_, runs_);
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;

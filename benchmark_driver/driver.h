@@ -13,6 +13,7 @@
 #include "benchmark_driver/recorder.h"
 #include "benchmark_driver/resume.h"
 #include "benchmark_driver/run_executor.h"
+#include "benchmark_driver/run_rows.h"
 #include "benchmark_driver/schedule.h"
 #include "messaging/bus.h"
 #include "messaging/node_registry.h"
@@ -36,9 +37,8 @@ class Driver {
   /// recorded.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
-  /// All records so far, those of the resumed session included, without what no table shows: paths,
-  /// starts and goals, settings but what was learned from.
-  const std::vector<RunRecordMessage>& records() const { return records_; }
+  /// All runs so far, those of the resumed session included.
+  const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
   /// What is not recorded and why, in lines.
@@ -61,8 +61,7 @@ class Driver {
   /// The record of a run, nothing if interrupted.
   std::optional<RunRecordMessage> Make(const ScheduledRun& run, Clients* clients,
                                        const std::function<bool()>& interrupted);
-  /// Of an attempt that was made, whether the planner says that it found a path.
-  bool Claimed(const std::string& request_id);
+  const RunRow& Keep(const RunRecordMessage& record);
 
   Bus* bus_;
   DriverOptions options_;
@@ -79,7 +78,10 @@ class Driver {
 
   std::mutex mutex_;
   std::map<std::string, NodeStatusMessage> planners_;  // as last heard, by name
-  std::vector<RunRecordMessage> records_;
+  RunRows runs_;
+  /// Of attempts that others depend on, by request id: whether the planner found a path, by its own
+  /// word.
+  std::map<std::string, bool> claims_;
   std::unique_ptr<ProgressBar> progress_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,8 +17,6 @@
 namespace planbench {
 namespace {
 
-bool Confirmed(const RunRecordMessage& record) { return record.status == PlanStatus::kSolved; }
-
 /// A column of the table of effort and quality: a median over solved runs.
 struct EffortColumn {
   std::string heading;
@@ -24,7 +24,7 @@ struct EffortColumn {
   std::function<std::string(double)> format;
 };
 
-std::vector<EffortColumn> EffortColumns() {
+std::vector<EffortColumn> MakeEffortColumns() {
   using Record = RunRecordMessage;
   const auto decimals = [](int count) {
     return [count](double value) { return Number(value, count); };
@@ -73,17 +73,22 @@ std::vector<EffortColumn> EffortColumns() {
   return columns;
 }
 
+const std::vector<EffortColumn>& EffortColumns() {
+  static const std::vector<EffortColumn> columns = MakeEffortColumns();
+  return columns;
+}
+
 // What the mesh robot says of a number of paths.
 struct MeshVerdicts {
   int judged = 0;
   int valid = 0;
   ReasonCount reasons;  // Of those that are not.
 
-  void Add(const std::optional<PathVerdict>& verdict) {
+  void Add(std::optional<bool> verdict, const std::string& reason) {
     if (!verdict) return;
     ++judged;
-    valid += verdict->valid ? 1 : 0;
-    if (!verdict->valid) reasons.Add(verdict->reason);
+    valid += *verdict ? 1 : 0;
+    if (!*verdict) reasons.Add(reason);
   }
   void Add(const MeshVerdicts& others) {
     judged += others.judged;
@@ -94,21 +99,29 @@ struct MeshVerdicts {
 
 }  // namespace
 
+std::vector<double> EffortValues(const RunRecordMessage& record) {
+  std::vector<double> values;
+  values.reserve(EffortColumns().size());
+  for (const EffortColumn& column : EffortColumns()) {
+    values.push_back(column.read(record).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return values;
+}
+
 std::string EffortTable(const SessionResults& results) {
-  const std::vector<EffortColumn> columns = EffortColumns();
+  const std::vector<EffortColumn>& columns = EffortColumns();
   std::vector<std::string> header = {"set", "contestant"};
   for (const EffortColumn& column : columns) header.push_back(column.heading);
   TextTable table("Effort and quality over the confirmed runs, medians", std::move(header), 2);
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       std::vector<std::string> row = {set.name, one.contestant->name};
-      for (const EffortColumn& column : columns) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
         std::vector<double> values;
-        for (const RunRecordMessage* record : one.records) {
-          if (!Confirmed(*record)) continue;
-          if (const auto value = column.read(*record)) values.push_back(*value);
+        for (const RunRow* run : one.runs) {
+          if (run->confirmed() && !std::isnan(run->effort[i])) values.push_back(run->effort[i]);
         }
-        row.push_back(column.format(Summarize(std::move(values)).median));
+        row.push_back(columns[i].format(Summarize(std::move(values)).median));
       }
       table.Add(std::move(row));
     }
@@ -131,10 +144,10 @@ std::string MeshTable(const SessionResults& results) {
     for (const ContestantResults& one : set.contestants) {
       MeshVerdicts raw;
       MeshVerdicts simplified;
-      for (const RunRecordMessage* record : one.records) {
-        if (!Confirmed(*record)) continue;
-        raw.Add(record->path_check.mesh_verdict);
-        simplified.Add(record->simplified_check.mesh_verdict);
+      for (const RunRow* run : one.runs) {
+        if (!run->confirmed()) continue;
+        raw.Add(run->mesh_valid, *run->mesh_reason);
+        simplified.Add(run->mesh_valid_simple, "");
       }
       raw_of_all.Add(raw);
       simplified_of_all.Add(simplified);

@@ -24,12 +24,12 @@ std::string FailureSummary(const SessionResults& results) {
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       std::map<PlanStatus, Failures> by_status;
-      for (const RunRecordMessage* record : one.records) {
-        if (record->status == PlanStatus::kSolved) continue;
-        Failures& failures = by_status[record->status];
+      for (const RunRow* run : one.runs) {
+        if (run->confirmed()) continue;
+        Failures& failures = by_status[run->status];
         ++failures.num_runs;
-        ++failures.by_problem[record->problem_index];
-        failures.reasons.Add(record->message);
+        ++failures.by_problem[run->problem_index];
+        failures.reasons.Add(*run->message);
       }
       for (const auto& [status, failures] : by_status) {
         std::string line = fmt::format("  {}, {}: {} {}, problem{}", set.name, one.contestant->name,
@@ -53,13 +53,12 @@ std::string FailureList(const SessionResults& results) {
   bool any = false;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
-      for (const RunRecordMessage* record : one.records) {
-        if (record->status == PlanStatus::kSolved) continue;
+      for (const RunRow* run : one.runs) {
+        if (run->confirmed()) continue;
         any = true;
-        table.Add({set.name, fmt::format("{}", record->problem_index), one.contestant->name,
-                   std::string(EnumName(record->request.direction)),
-                   fmt::format("{}", record->trial), std::string(EnumName(record->status)),
-                   record->message});
+        table.Add({set.name, fmt::format("{}", run->problem_index), one.contestant->name,
+                   std::string(EnumName(run->direction)), fmt::format("{}", run->trial),
+                   std::string(EnumName(run->status)), *run->message});
       }
     }
   }

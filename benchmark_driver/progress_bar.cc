@@ -4,20 +4,20 @@
 
 namespace planbench {
 
-ProgressBar::ProgressBar(int num_runs, const std::vector<RunRecordMessage>& earlier)
+ProgressBar::ProgressBar(int num_runs, const RunRows& earlier)
     : line_(num_runs, static_cast<int>(earlier.size())) {
-  for (const RunRecordMessage& record : earlier) Count(record);
+  for (const RunRow& run : earlier.rows()) Count(run);
 }
 
-void ProgressBar::Count(const RunRecordMessage& record) {
+void ProgressBar::Count(const RunRow& run) {
   ++num_done_;
-  Tally& tally = tallies_[record.planner];
+  Tally& tally = tallies_[*run.planner];
   ++tally.done;
-  tally.solved += record.status == PlanStatus::kSolved;
+  tally.solved += run.confirmed();
 }
 
-void ProgressBar::Add(const RunRecordMessage& record) {
-  Count(record);
+void ProgressBar::Add(const RunRow& run) {
+  Count(run);
   std::string text;
   for (const auto& [name, tally] : tallies_) {
     text += fmt::format("{}{} {}/{}", text.empty() ? "" : "  ", name, tally.solved, tally.done);

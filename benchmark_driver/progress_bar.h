@@ -2,10 +2,9 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
+#include "benchmark_driver/run_rows.h"
 #include "common/progress_line.h"
-#include "messaging/messages.h"
 
 namespace planbench {
 
@@ -13,9 +12,9 @@ namespace planbench {
 class ProgressBar {
  public:
   /// `earlier`: runs of an earlier part of the session, which count among the `num_runs`.
-  ProgressBar(int num_runs, const std::vector<RunRecordMessage>& earlier);
+  ProgressBar(int num_runs, const RunRows& earlier);
 
-  void Add(const RunRecordMessage& record);
+  void Add(const RunRow& run);
   /// A run that turned out not to be needed.
   void Drop() { line_.Drop(); }
 
@@ -24,7 +23,7 @@ class ProgressBar {
     int solved = 0;
     int done = 0;
   };
-  void Count(const RunRecordMessage& record);
+  void Count(const RunRow& run);
 
   int num_done_ = 0;
   std::map<std::string, Tally> tallies_;  // by planner

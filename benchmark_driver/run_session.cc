@@ -154,9 +154,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (supervisor) supervisor->ThrowIfHopeless();
   });
 
-  const int num_missing = driver.num_runs() - static_cast<int>(driver.records().size());
+  const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
   const SessionTables tables =
-      MakeTables(driver.conditions(), driver.records(), references, num_missing);
+      MakeTables(driver.conditions(), driver.runs(), references, num_missing);
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);

@@ -9,26 +9,23 @@
 namespace planbench {
 namespace {
 
-Attempt AttemptOf(const RunRecordMessage& record) {
-  const PlanResult& result = record.result.result;
+Attempt AttemptOf(const RunRow& run) {
   Attempt attempt;
-  attempt.problem_set = record.problem_set;
-  attempt.problem_index = record.problem_index;
-  attempt.contestant = record.contestant;
-  attempt.trial = record.trial;
-  attempt.direction = record.request.direction;
-  attempt.status = record.status;
-  attempt.claimed = result.Solves();
-  attempt.time_s =
-      record.status == PlanStatus::kNoAnswer ? record.roundtrip_time_s : result.planning_time_s;
-  attempt.time_limit_s = record.request.time_limit_s;
+  attempt.problem_set = *run.problem_set;
+  attempt.problem_index = run.problem_index;
+  attempt.contestant = *run.contestant;
+  attempt.trial = run.trial;
+  attempt.direction = run.direction;
+  attempt.status = run.status;
+  attempt.claimed = run.claimed;
+  attempt.time_s = run.time_s;
+  attempt.time_limit_s = run.time_limit_s;
   return attempt;
 }
 
 }  // namespace
 
-SessionResults::SessionResults(const SessionConditions& conditions,
-                               const std::vector<RunRecordMessage>& records,
+SessionResults::SessionResults(const SessionConditions& conditions, const RunRows& runs,
                                const std::vector<Attempt>& references)
     : contestants_(conditions.contestants) {
   const auto add_contestant = [this](const std::string& planner, const std::string& name) {
@@ -38,14 +35,14 @@ SessionResults::SessionResults(const SessionConditions& conditions,
     contestant.planner = planner;
     contestant.name = name;
   };
-  std::vector<const RunRecordMessage*> ordered;
+  std::vector<const RunRow*> ordered;
   std::vector<Attempt> attempts;
   std::set<std::pair<std::string, int>> problems;
-  for (const RunRecordMessage& record : records) {
-    ordered.push_back(&record);
-    attempts.push_back(AttemptOf(record));
-    problems.emplace(record.problem_set, record.problem_index);
-    add_contestant(record.planner, record.contestant);
+  for (const RunRow& run : runs.rows()) {
+    ordered.push_back(&run);
+    attempts.push_back(AttemptOf(run));
+    problems.emplace(*run.problem_set, run.problem_index);
+    add_contestant(*run.planner, *run.contestant);
   }
   std::set<std::string> reference_names;
   for (const Attempt& attempt : references) {
@@ -54,8 +51,8 @@ SessionResults::SessionResults(const SessionConditions& conditions,
     reference_names.insert(attempt.contestant);
     add_contestant("", attempt.contestant);
   }
-  const auto key = [](const RunRecordMessage* record) {
-    return std::tie(record->problem_index, record->trial, record->request.direction);
+  const auto key = [](const RunRow* run) {
+    return std::tie(run->problem_index, run->trial, run->direction);
   };
   std::sort(ordered.begin(), ordered.end(),
             [&](const auto* a, const auto* b) { return key(a) < key(b); });
@@ -70,9 +67,9 @@ SessionResults::SessionResults(const SessionConditions& conditions,
       one.contestant = &contestant;
       one.is_reference = reference_names.contains(contestant.name);
       one.outcomes = std::move(found->second);
-      std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(one.records),
-                   [&](const RunRecordMessage* record) {
-                     return record->problem_set == set && record->contestant == contestant.name;
+      std::copy_if(ordered.begin(), ordered.end(), std::back_inserter(one.runs),
+                   [&](const RunRow* run) {
+                     return *run->problem_set == set && *run->contestant == contestant.name;
                    });
     }
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark_driver/run_rows.h"
 #include "messaging/messages.h"
 #include "results/outcomes.h"
 
@@ -14,7 +15,7 @@ struct ContestantResults {
   const Contestant* contestant = nullptr;
   bool is_reference = false;  ///< Results from elsewhere, which no referee has seen.
   Outcomes outcomes;
-  std::vector<const RunRecordMessage*> records;  ///< By problem, trial and direction.
+  std::vector<const RunRow*> runs;  ///< By problem, trial and direction.
 };
 
 /// One set: its contestants in the order of the line-up.
@@ -23,13 +24,13 @@ struct SetResults {
   std::vector<ContestantResults> contestants;
 };
 
-/// The records of a session, by set (ascending) and contestant.
+/// The runs of a session, by set (ascending) and contestant.
 class SessionResults {
  public:
-  /// Contestants of records that the conditions do not know (of an earlier part of the session)
+  /// Contestants of runs that the conditions do not know (of an earlier part of the session)
   /// come last, after these those of `references`, of which the problems that the session has are
-  /// kept. The records must outlive this.
-  SessionResults(const SessionConditions& conditions, const std::vector<RunRecordMessage>& records,
+  /// kept. `runs` must outlive this.
+  SessionResults(const SessionConditions& conditions, const RunRows& runs,
                  const std::vector<Attempt>& references);
   SessionResults(const SessionResults&) = delete;
   SessionResults& operator=(const SessionResults&) = delete;

@@ -11,7 +11,6 @@
 #include "benchmark_driver/published_study.h"
 #include "benchmark_driver/session_results.h"
 #include "benchmark_driver/text_table.h"
-#include "planning/path_library.h"
 #include "results/comparison.h"
 
 namespace planbench {
@@ -34,11 +33,9 @@ std::string PublishedName(const PublishedFigures& row) {
 
 /// True if the contestant's experience is of the very set that it is tried on.
 bool IsTrainedOn(const SetResults& set, const ContestantResults& one) {
-  if (one.records.empty()) return false;
-  const auto& settings = one.records.front()->settings;
-  const auto sets = settings.find(kLearnedFrom);
-  return sets != settings.end() &&
-         (", " + sets->second + ", ").find(", " + set.name + ", ") != std::string::npos;
+  return !one.runs.empty() &&
+         (", " + *one.runs.front()->learned_from + ", ").find(", " + set.name + ", ") !=
+             std::string::npos;
 }
 
 std::string Count(int count) { return fmt::format("{}", count); }
@@ -195,12 +192,10 @@ std::string DirectionTable(const SessionResults& results) {
       for (const Direction direction : EnumValues<Direction>()) {
         int attempts = 0;
         std::vector<double> times;
-        for (const RunRecordMessage* record : one.records) {
-          if (record->request.direction != direction) continue;
+        for (const RunRow* run : one.runs) {
+          if (run->direction != direction) continue;
           ++attempts;
-          if (record->status == PlanStatus::kSolved) {
-            times.push_back(record->result.result.planning_time_s);
-          }
+          if (run->confirmed()) times.push_back(run->time_s);
         }
         if (attempts == 0) continue;
         const Summary s = Summarize(std::move(times));
@@ -220,8 +215,8 @@ std::map<std::string, std::string> ClassesIfSeveral(const SessionResults& result
   std::set<std::string> distinct;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
-      if (one.records.empty()) continue;
-      const std::string& planner_class = one.records.front()->planner_class;
+      if (one.runs.empty()) continue;
+      const std::string& planner_class = *one.runs.front()->planner_class;
       classes[one.contestant->name] = planner_class;
       distinct.insert(planner_class);
     }
@@ -235,15 +230,10 @@ std::string Disturbances(const SessionResults& results) {
   int runs = 0, disturbed = 0, repeated = 0;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& contestant : set.contestants) {
-      for (const RunRecordMessage* record : contestant.records) {
-        const std::map<std::string, double>& counters = record->result.result.counters;
-        const auto is_counted = [&](const char* name) {
-          const auto found = counters.find(name);
-          return found != counters.end() && found->second > 0;
-        };
+      for (const RunRow* run : contestant.runs) {
         ++runs;
-        disturbed += is_counted("disturbed");
-        repeated += is_counted("repeats");
+        disturbed += run->disturbed;
+        repeated += run->repeated;
       }
     }
   }
@@ -285,17 +275,16 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
 
 }  // namespace
 
-SessionTables MakeTables(const SessionConditions& conditions,
-                         const std::vector<RunRecordMessage>& records,
+SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing) {
   const std::string missing =
       num_missing == 0
           ? ""
           : fmt::format(
                 "{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.\n\n",
-                num_missing, static_cast<int>(records.size()) + num_missing);
-  if (records.empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
-  const SessionResults results(conditions, records, references);
+                num_missing, static_cast<int>(runs.size()) + num_missing);
+  if (runs.empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
+  const SessionResults results(conditions, runs, references);
   const std::uint64_t seed = conditions.request.seed;
   const std::string begin =
       missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);

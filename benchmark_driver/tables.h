@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark_driver/run_rows.h"
 #include "messaging/messages.h"
 #include "results/outcomes.h"
 
@@ -17,12 +18,11 @@ struct SessionTables {
   std::string full;
 };
 
-/// Tables of the records, which may come in any order; contestants in that of the conditions.
+/// Tables of the runs, which may come in any order; contestants in that of the conditions.
 /// Beside a contestant that asks for it stand the figures that the study published
 /// (published_study.h). Runs that were to be made and were not (`num_missing`) are told of before
 /// everything else. Definitions stand below each table and in docs/tables.md.
-SessionTables MakeTables(const SessionConditions& conditions,
-                         const std::vector<RunRecordMessage>& records,
+SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references = {}, int num_missing = 0);
 
 }  // namespace planbench

@@ -73,18 +73,19 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   Driver driver(&bus_, Options(), LineUp({"arm"}), {{"key", "value"}});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
-  ASSERT_EQ(driver.records().size(), 4u);
-  const RunRecordMessage& first = driver.records()[0];
+  const RunRecordMessage first = logger.records().messages().at(0);
   EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
   EXPECT_EQ(first.status, PlanStatus::kSolved);
   EXPECT_EQ(first.algorithm, "Fake*");
-  EXPECT_EQ(logger.records().messages().at(0).settings.at("step"), "5");
+  EXPECT_EQ(first.settings.at("step"), "5");
   EXPECT_EQ(first.request.edge_resolution_m, 0.02);  // the robot's
-  // Logged whole, kept without what no table shows.
-  EXPECT_EQ(logger.records().messages().at(0).result.result.path, FakePath());
-  EXPECT_TRUE(first.result.result.Solves());
-  EXPECT_EQ(first.result.result.path.size(), 1u);
-  EXPECT_EQ(first.settings, (std::map<std::string, std::string>{{"learned_from", "books"}}));
+  EXPECT_EQ(first.result.result.path, FakePath());
+  ASSERT_EQ(driver.runs().size(), 4u);
+  const RunRow& row = driver.runs().rows().front();
+  EXPECT_EQ(*row.contestant, "Fake*");
+  EXPECT_EQ(*row.learned_from, "books");
+  EXPECT_TRUE(row.claimed);
+  EXPECT_TRUE(row.confirmed());
 
   EXPECT_EQ(Ids(logger.records()).size(), 4u);
   const auto sessions = logger.sessions().messages();
@@ -182,7 +183,7 @@ TEST_F(DriverTest, DisturbedRunsAreMadeAgainAtTheEnd) {
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   std::vector<std::string> told;
-  for (const RunRecordMessage& record : driver.records()) {
+  for (const RunRecordMessage& record : logger.records().messages()) {
     const auto& counters = record.result.result.counters;
     told.push_back(fmt::format("{} disturbed {} after {}", record.request_id,
                                counters.at("disturbed"), counters.at("repeats")));
@@ -215,13 +216,14 @@ TEST_F(DriverTest, DisturbedRunsAreMarkedWhereTheyAreNotRepeated) {
   FakePlanner planner(&bus_);
   const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
   const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.kernel = machine.folders();
   Driver driver(&bus_, options, LineUp({"arm"}), {});
-  driver.Discover(false, Idle);
-  driver.Run([&] { return driver.records().size() == 4; }, Idle);
-  ASSERT_FALSE(driver.records().empty());
-  const RunRecordMessage& first = driver.records().front();
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_TRUE(driver.runs().rows().front().disturbed);
+  const RunRecordMessage first = logger.records().messages().at(0);
   EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
   EXPECT_DOUBLE_EQ(first.result.result.counters.at("waiting_time"), 1000);
   EXPECT_EQ(first.result.result.counters.at("disturbed"), 1);
@@ -253,16 +255,17 @@ TEST_F(DriverTest, ContestantsOfOneAlgorithmAreToldApart) {
 TEST_F(DriverTest, ContestantsHaveConditionsOfTheirOwn) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
   std::vector<LineUpEntry> line_up = LineUp({"arm"});
   line_up[0].contestant.edge_resolution_m = 0.05;
   line_up[0].contestant.edge_check = EdgeCheck::kCertified;
   line_up[0].contestant.name = "Arm (coarse)";
   line_up[0].directions = Directions::kForward;
   Driver driver(&bus_, Options(), line_up, {});
-  driver.Discover(false, Idle);
-  driver.Run(Never, Idle);
-  ASSERT_EQ(driver.records().size(), 2u);
-  const RunRecordMessage& record = driver.records()[0];
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.runs().size(), 2u);
+  const RunRecordMessage record = logger.records().messages().at(0);
   EXPECT_EQ(record.contestant, "Arm (coarse)");
   EXPECT_EQ(record.request.edge_resolution_m, 0.05);
   EXPECT_EQ(record.request.edge_check, EdgeCheck::kCertified);
@@ -279,7 +282,7 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   Driver driver(&bus_, options, LineUp({"arm", "leg"}), {});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
-  EXPECT_EQ(driver.records().size(), 8u);
+  EXPECT_EQ(driver.runs().size(), 8u);
   EXPECT_EQ(Ids(logger.records()).size(), 8u);
 }
 
@@ -289,7 +292,7 @@ TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
   Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   driver.Discover(false, Idle);
   EXPECT_FALSE(driver.Run(Never, Idle));
-  EXPECT_EQ(driver.records().size(), 4u);
+  EXPECT_EQ(driver.runs().size(), 4u);
 }
 
 TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
@@ -303,7 +306,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
     Driver driver(&bus_, options, LineUp({"arm"}), {});
     driver.Discover(true, Idle);
     EXPECT_TRUE(driver.Run(Never, Idle));
-    earlier = {logger.sessions().messages(), driver.records()};
+    earlier = {logger.sessions().messages(), logger.records().messages()};
   }
   const std::set<std::string> recorded_before = Ids(logger.records());
   options.problem_indices = {1};  // no longer 2
@@ -314,7 +317,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   std::set<std::string> recorded = Ids(logger.records());
   for (const std::string& id : recorded_before) recorded.erase(id);
   EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
-  EXPECT_EQ(driver.records().size(), 3u);
+  EXPECT_EQ(driver.runs().size(), 3u);
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
 
   options.conditions.request.time_limit_s = 7;
@@ -337,7 +340,7 @@ TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
   Driver driver(&bus_, Options(), LineUp({"arm"}), {});
   driver.Discover(true, Idle);
   EXPECT_FALSE(driver.Run([&] { return Ids(planner.requests()).size() >= 3; }, Idle));
-  EXPECT_EQ(driver.records().size(), 1u);
+  EXPECT_EQ(driver.runs().size(), 1u);
   EXPECT_FALSE(logger.sessions().messages().back().finished);
 }
 
@@ -375,10 +378,11 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
     }
   });
   EXPECT_TRUE(driver.Run(Never, Idle));
-  ASSERT_EQ(driver.records().size(), 1u);
-  EXPECT_EQ(driver.records()[0].status, PlanStatus::kNoAnswer);
-  EXPECT_EQ(driver.records()[0].algorithm, "Fake*");
-  EXPECT_EQ(logger.records().messages().at(0).settings.at("step"), "5");
+  EXPECT_EQ(driver.runs().size(), 1u);
+  const RunRecordMessage record = logger.records().messages().at(0);
+  EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
+  EXPECT_EQ(record.algorithm, "Fake*");
+  EXPECT_EQ(record.settings.at("step"), "5");
 }
 
 TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {

@@ -16,12 +16,14 @@ RunRecordMessage Record(const std::string& planner, PlanStatus status) {
 TEST(ProgressBarTest, CountsRunsAndSuccessesByPlanner) {
   testing::internal::CaptureStderr();
   {
-    ProgressBar bar(8, {Record("ara", PlanStatus::kSolved)});
-    bar.Add(Record("ara", PlanStatus::kTimedOut));
-    bar.Add(Record("rrtc", PlanStatus::kSolved));
+    RunRows runs;
+    runs.Add(Record("ara", PlanStatus::kSolved));
+    ProgressBar bar(8, runs);
+    bar.Add(runs.Add(Record("ara", PlanStatus::kTimedOut)));
+    bar.Add(runs.Add(Record("rrtc", PlanStatus::kSolved)));
     RunRecordMessage backward = Record("rrtc", PlanStatus::kInvalidPath);
     backward.request.direction = Direction::kBackward;
-    bar.Add(backward);
+    bar.Add(runs.Add(backward));
     bar.Drop();
   }
   EXPECT_THAT(testing::internal::GetCapturedStderr(),

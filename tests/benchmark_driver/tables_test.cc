@@ -69,11 +69,17 @@ SessionConditions Conditions() {
   return conditions;
 }
 
+RunRows Rows(const std::vector<RunRecordMessage>& records) {
+  RunRows rows;
+  for (const RunRecordMessage& record : records) rows.Add(record);
+  return rows;
+}
+
 std::string Brief(const std::vector<RunRecordMessage>& records) {
-  return MakeTables(Conditions(), records).brief;
+  return MakeTables(Conditions(), Rows(records)).brief;
 }
 std::string Full(const std::vector<RunRecordMessage>& records) {
-  return MakeTables(Conditions(), records).full;
+  return MakeTables(Conditions(), Rows(records)).full;
 }
 
 /// The lines of the table of that title, words joined by single blanks: header, rule, rows, notes.
@@ -225,10 +231,10 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
   auto session = FourProblems();
-  const SessionTables tables = MakeTables(Conditions(), session);
+  const SessionTables tables = MakeTables(Conditions(), Rows(session));
   std::reverse(session.begin(), session.end());
-  EXPECT_EQ(MakeTables(Conditions(), session).brief, tables.brief);
-  EXPECT_EQ(MakeTables(Conditions(), session).full, tables.full);
+  EXPECT_EQ(MakeTables(Conditions(), Rows(session)).brief, tables.brief);
+  EXPECT_EQ(MakeTables(Conditions(), Rows(session)).full, tables.full);
 }
 
 PathVerdict Valid(MeasuredValues measures) {
@@ -349,7 +355,7 @@ TEST(TablesTest, ContestantsAreExplained) {
   SessionConditions conditions = Conditions();
   EXPECT_THAT(text, Not(HasSubstr("UNDER LOAD")));
   conditions.parallel = true;
-  EXPECT_THAT(MakeTables(conditions, FourProblems()).brief, HasSubstr("UNDER LOAD"));
+  EXPECT_THAT(MakeTables(conditions, Rows(FourProblems())).brief, HasSubstr("UNDER LOAD"));
 }
 
 TEST(TablesTest, DisturbedRunsAreCounted) {
@@ -396,13 +402,13 @@ TEST(TablesTest, PublishedFiguresStandBesideWhoAsksForThem) {
   conditions.contestants[1].published = "ARA*";
   auto session = FourProblems();
   for (RunRecordMessage& record : session) record.problem_set = "shelf_height_rot_test";
-  std::string text = MakeTables(conditions, session).brief;
+  std::string text = MakeTables(conditions, Rows(session)).brief;
   EXPECT_EQ(Row(text, kSuccess, "published ARA*"), "100 86 - 86.0 [77.9, 91.5] 43 43 6 8");
   EXPECT_EQ(Row(text, kTimes, "of the solving attempt"), "2 70.0 70.0 97.0 -");
   EXPECT_EQ(Row(text, kTimes, "published ARA*"), "86 ~170.0 - - -");
   EXPECT_EQ(Row(text, kSuccess, "published RRT-Connect"), "");
   EXPECT_THAT(text, HasSubstr("arXiv 2406.09623"));
-  text = MakeTables(conditions, FourProblems()).brief;  // not a set of the study's
+  text = MakeTables(conditions, Rows(FourProblems())).brief;  // not a set of the study's
   EXPECT_THAT(text, Not(HasSubstr("published ARA*")));
 }
 
@@ -412,7 +418,7 @@ TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
     references.push_back({"box", problem, "published", 1, Direction::kForward, PlanStatus::kSolved,
                           true, 1.0 * problem, 60});
   }
-  const std::string text = MakeTables(Conditions(), FourProblems(), references).brief;
+  const std::string text = MakeTables(Conditions(), Rows(FourProblems()), references).brief;
   EXPECT_EQ(Row(text, kSuccess, "published"), "4 4 - 100.0 [51.0, 100.0] 4 0 0 0");
   EXPECT_EQ(Row(text, kTimes, "published"), "4 2500 2500 3850 2500");
   EXPECT_NE(Row(text, kPairs, "published RRT-Connect"), "");
@@ -421,11 +427,12 @@ TEST(TablesTest, ReferencesStandBesideOnTheSessionsProblems) {
 TEST(TablesTest, NoRuns) { EXPECT_EQ(Brief({}), "No runs.\n"); }
 
 TEST(TablesTest, SayHowManyRunsAreMissing) {
-  const SessionTables tables = MakeTables(Conditions(), FourProblems(), {}, 3);
+  const SessionTables tables = MakeTables(Conditions(), Rows(FourProblems()), {}, 3);
   EXPECT_THAT(tables.brief, testing::StartsWith("3 OF "));
   EXPECT_THAT(tables.full, testing::StartsWith("3 OF "));
   EXPECT_THAT(MakeTables(Conditions(), {}, {}, 3).brief, HasSubstr("3 OF 3 RUNS ARE MISSING"));
-  EXPECT_THAT(MakeTables(Conditions(), FourProblems()).brief, testing::Not(HasSubstr("MISSING")));
+  EXPECT_THAT(MakeTables(Conditions(), Rows(FourProblems())).brief,
+              testing::Not(HasSubstr("MISSING")));
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#include "benchmark_driver/run_rows.h"
+
+#include "benchmark_driver/effort_table.h"
+#include "planning/path_library.h"
+
+namespace planbench {
+
+const RunRow& RunRows::Add(const RunRecordMessage& record) {
+  const PlanResult& result = record.result.result;
+  const auto is_counted = [&](const char* name) {
+    const auto found = result.counters.find(name);
+    return found != result.counters.end() && found->second > 0;
+  };
+  const auto learned_from = record.settings.find(kLearnedFrom);
+  const auto& mesh_verdict = record.path_check.mesh_verdict;
+  RunRow& row = rows_.emplace_back();
+  row.problem_set = Shared(record.problem_set);
+  row.planner = Shared(record.planner);
+  row.contestant = Shared(record.contestant);
+  row.planner_class = Shared(record.planner_class);
+  row.learned_from = Shared(learned_from == record.settings.end() ? "" : learned_from->second);
+  row.message = Shared(record.message);
+  row.problem_index = record.problem_index;
+  row.trial = record.trial;
+  row.direction = record.request.direction;
+  row.status = record.status;
+  row.claimed = result.Solves();
+  row.disturbed = is_counted("disturbed");
+  row.repeated = is_counted("repeats");
+  if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
+  row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
+  if (const auto& simple = record.simplified_check.mesh_verdict) {
+    row.mesh_valid_simple = simple->valid;
+  }
+  row.time_s =
+      record.status == PlanStatus::kNoAnswer ? record.roundtrip_time_s : result.planning_time_s;
+  row.time_limit_s = record.request.time_limit_s;
+  if (row.confirmed()) row.effort = EffortValues(record);
+  return row;
+}
+
+}  // namespace planbench
