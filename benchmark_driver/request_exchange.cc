@@ -60,6 +60,7 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
              result && Ours(result->message.request_id)) {
     Answer answer = End(Outcome::kResult, "", result->arrival);
     if (!interrupted_) answer.result = result->message;
+    answer.overdue = cancelled_.has_value();
     return answer;
   } else if (const auto* unusable = std::get_if<UnusableResult>(&event)) {
     if (Ours(unusable->request_id)) {

@@ -31,6 +31,7 @@ class RequestExchange {
   struct Answer {
     Outcome outcome = Outcome::kNoAnswer;
     PlanResultMessage result = {};  ///< kResult only.
+    bool overdue = false;           ///< It came after the request had been cancelled for that.
     std::string message = {};       ///< Why, for kRefused and kNoAnswer.
     double roundtrip_time_s = 0;    ///< Request sent -> result arrived, or given up.
   };

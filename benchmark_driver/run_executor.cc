@@ -210,6 +210,14 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   record.status = answer.result.result.status;
   record.message = answer.result.result.message;
   if (record.status != PlanStatus::kSolved) return record;
+  if (answer.overdue) {  // whatever it says of its time
+    record.status = PlanStatus::kTimedOut;
+    record.message =
+        fmt::format("a path came {:.1f} s after it was asked for, the limit being {} s",
+                    answer.roundtrip_time_s, record.request.time_limit_s);
+    spdlog::warn("{}: {}", run.request_id, record.message);
+    return record;
+  }
 
   const auto check =
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);

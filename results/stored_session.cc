@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "common/error.h"
@@ -279,7 +281,12 @@ class Reader {
 StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
   std::filesystem::path file = folder_or_file;
   if (IsFolder(file)) file /= "results.sqlite";
-  if (!IsFile(file)) throw InputError(file.string() + " does not exist");
+  if (!IsFile(file)) {
+    std::error_code ignored;
+    throw InputError(file.string() + (std::filesystem::exists(file, ignored)
+                                          ? " is neither a session folder nor a file"
+                                          : " does not exist"));
+  }
   try {
     return Reader(file).Read();
   } catch (const InputError& error) {

@@ -46,7 +46,8 @@ std::string TextOf(const Exchange::Step& step) {
   switch (step.answer->outcome) {
     case Exchange::Outcome::kResult:
       EXPECT_EQ(step.answer->result.request_id, "r");
-      return fmt::format("result after {:.2f}", step.answer->roundtrip_time_s);
+      return fmt::format("{}result after {:.2f}", step.answer->overdue ? "overdue " : "",
+                         step.answer->roundtrip_time_s);
     case Exchange::Outcome::kRefused:
       return "refused: " + step.answer->message;
     case Exchange::Outcome::kNoAnswer:
@@ -166,7 +167,7 @@ TEST(RequestExchange, OverdueRequestIsCancelledUntilItsResultComes) {
       std::vector<Line>{{0, kTick, "request"}, {0, Working(), ""}} +
       Repeated(0.25, 25.1, Working(), "request") +
       std::vector<Line>{{25.1, kTick, "cancel"}, {25.2, Working(), ""}, {25.35, kTick, "cancel"}};
-  Play(overdue + std::vector<Line>{{25.4, Result(25.4), "result after 25.40"}});
+  Play(overdue + std::vector<Line>{{25.4, Result(25.4), "overdue result after 25.40"}});
   Play(overdue + Repeated(25.6, 40.1, Working(), "cancel") +
        std::vector<Line>{
            {40.2, kTick,

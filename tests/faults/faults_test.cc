@@ -55,9 +55,12 @@ class FaultsTest : public PipelineTest {
 
   /// A launched session on this test's bus.
   ChildProcess* StartSession(const std::vector<std::string>& flags) {
-    std::vector<std::string> all = {"--lcm-url",    url(),     "--time",         "5",
-                                    "--directions", "forward", "--no-clearance", "--no-simplify"};
+    std::vector<std::string> all = {"--lcm-url",      url(),          "--directions", "forward",
+                                    "--no-clearance", "--no-simplify"};
     all.insert(all.end(), flags.begin(), flags.end());
+    if (std::find(flags.begin(), flags.end(), "--time") == flags.end()) {
+      all.insert(all.end(), {"--time", "5"});
+    }
     return StartLaunchedDriver(Session(), all);
   }
   long long NumRuns() const { return Query(Session(), "SELECT count(*) FROM runs"); }
@@ -180,6 +183,31 @@ TEST_F(FaultsTest, APlannerThatMisbehavesHasOneTrueRecordOfEveryRun) {
   ASSERT_EQ(reasons.size(), 2u);
   EXPECT_THAT(reasons, testing::Contains(HasSubstr("no acknowledgement")));
   EXPECT_THAT(reasons, testing::Contains(HasSubstr("session 'another'")));
+}
+
+TEST_F(FaultsTest, AValidPathThatComesTwiceOrLateCountsOnceOrNotAtAll) {
+  ChildProcess* honest = StartLaunchedDriver(
+      folder() / "honest",
+      {"--planners", "rrtc", "--problems-range", "1-4", "--directions", "forward"});
+  ASSERT_EQ(honest->Wait(), 0) << honest->Errors();
+  std::map<int, PlanResultMessage> paths;
+  for (const RunRecordMessage& run : ReadRecords(folder() / "honest" / "honest.lcmlog").runs) {
+    ASSERT_EQ(run.status, PlanStatus::kSolved) << run.request_id;
+    paths[run.problem_index] = run.result;
+  }
+  ChildProcess* driver = StartSession({"--planners", "mine", "--planner-command", "mine=sleep 600",
+                                       "--problems-range", "1-4", "--time", "0.5"});
+  const MisbehavingPlanner planner(url(), paths);
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  ExpectOneRecordOfEach(4);
+  EXPECT_EQ(Query(Session(), fmt::format("SELECT count(*) FROM runs WHERE time = {} AND status = 0 "
+                                         "AND problem_index < 4",
+                                         MisbehavingPlanner::kTime)),
+            3);
+  const auto late = Rows(Session(), "SELECT status, message FROM runs WHERE problem_index = 4", 2);
+  ASSERT_EQ(late.size(), 1u);
+  EXPECT_THAT(late[0], testing::AllOf(testing::StartsWith("1"), HasSubstr("a path came 1")));
+  EXPECT_THAT(driver->Output(), HasSubstr("shelf_demo, Mine: 1 TIMED_OUT, problem 4"));
 }
 
 TEST_F(FaultsTest, ADiskThatIsFullForAWhileCostsNoRun) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 
 #include "messaging/bus.h"
 #include "messaging/channels.h"
@@ -14,13 +14,15 @@ namespace planbench {
 
 /// A planner, named `mine`, that treats its requests after their problem's index:
 /// 1: answers late; 2: twice, and differently; 3: another request first; 4: never, though live;
-/// 5: is busy first; 6: for another session. Its verdict is EXHAUSTED, after kTime.
+/// 5: is busy first; 6: for another session. Its verdict is EXHAUSTED, after kTime; of problems
+/// that it is given a path of, that path, and 4 is then answered when the driver cancels it.
 class MisbehavingPlanner {
  public:
   static constexpr double kTime = 0.015625;  ///< s
 
   /// Waits for the scene server, whose robot it takes.
-  explicit MisbehavingPlanner(const std::string& url);
+  explicit MisbehavingPlanner(const std::string& url,
+                              std::map<int, PlanResultMessage> paths_by_problem = {});
 
  private:
   void OnRequest(const PlanRequest& request);
@@ -28,11 +30,14 @@ class MisbehavingPlanner {
 
   Bus bus_;
   NodeRegistry registry_;
+  std::map<int, PlanResultMessage> paths_;
   PlannerChannels channels_{"mine"};
   std::string late_;  // request that has been asked for once
   int num_asked_ = 0;
   std::unique_ptr<NodeAnnouncer> announcer_;
+  std::optional<PlanRequest> overdue_;  // bus thread only
   Subscription requests_;
+  Subscription cancels_;
 };
 
 }  // namespace planbench

@@ -113,6 +113,8 @@ TEST_F(ReadSessionsTest, WhatIsNoResultsDatabaseIsRefusedInOneLine) {
                      {database().filename().string(), reason});
   };
   ExpectInputError([&] { ReadSessions(folder_ / "none"); }, {"none", "does not exist"});
+  ExpectInputError([&] { ReadSessions("/dev/null"); },
+                   {"/dev/null is neither a session folder nor a file"});
   std::filesystem::create_directories(folder_ / "one");
   expect_refused("does not exist");
   folder_.Write("one/results.sqlite", "");
