@@ -77,6 +77,7 @@ BallTree BallTree::In(const Pose& X_AB) const {
   BallTree tree;
   tree.ball_ = {X_AB * ball_.center, ball_.radius};
   tree.cluster_ = cluster_;
+  tree.has_box_ = has_box_;
   for (const BallTree& child : children_) tree.children_.push_back(child.In(X_AB));
   return tree;
 }
@@ -88,7 +89,7 @@ int BallTree::Depth() const {
 }
 
 std::vector<Ball> BallTree::Leaves() const {
-  if (children_.empty()) return {ball_};
+  if (children_.empty() || has_box_) return {ball_};
   std::vector<Ball> leaves;
   for (const BallTree& child : children_) {
     for (const Ball& leaf : child.Leaves()) leaves.push_back(leaf);

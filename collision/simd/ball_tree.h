@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "collision/balls.h"
@@ -16,7 +17,10 @@ class BallTree {
   /// Joins trees under one root; for the steps see EnclosingBall.
   explicit BallTree(std::vector<BallTree> children, int num_steps = 200);
   /// A leaf that encloses a cluster of triangles, of that index in a list of the caller's.
-  BallTree(const Ball& ball, int cluster) : ball_(ball), cluster_(cluster) {}
+  BallTree(const Ball& ball, int cluster) : ball_(ball), cluster_(cluster), has_box_(true) {}
+  /// Clusters under a ball that encloses them.
+  BallTree(const Ball& ball, std::vector<BallTree> children)
+      : ball_(ball), has_box_(true), children_(std::move(children)) {}
 
   /// The tree in a frame A, given in B.
   BallTree In(const Pose& X_AB) const;
@@ -25,9 +29,11 @@ class BallTree {
   const std::vector<BallTree>& children() const { return children_; }
   /// Of a leaf; negative for a ball of no cluster.
   int cluster() const { return cluster_; }
+  /// True if a box around its clusters tells more than the ball does.
+  bool has_box() const { return has_box_; }
   /// Levels below and including this one.
   int Depth() const;
-  /// The leaves, in tree order.
+  /// The balls that those above enclose, in tree order: the leaves, and what encloses clusters.
   std::vector<Ball> Leaves() const;
 
  private:
@@ -35,6 +41,7 @@ class BallTree {
 
   Ball ball_;
   int cluster_ = -1;
+  bool has_box_ = false;
   std::vector<BallTree> children_;
 };
 

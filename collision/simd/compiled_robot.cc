@@ -24,6 +24,8 @@ constexpr double kBoundFactor = 1 + 1e-5;
 /// What is tried to prove that two trees never meet.
 constexpr int kMaxProofJoints = 3;
 constexpr int kMaxProofBoxes = 4000;
+/// Node::reach of a ball of balls.
+constexpr int kNoReach = -1;
 constexpr std::size_t kMaxProofBalls = 64;  ///< Of a tree of meshes.
 
 double LeastDistance(std::span<const Ball> balls_a, const Pose& X_AB,
@@ -151,7 +153,9 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
   SetBall(tree.ball(), num == 0 ? kRadiusPadding : 2 * kRadiusPadding, link, index);
   At(kernel.nodes, index).first_child = first;
   At(kernel.nodes, index).num_children = num;
-  if (num == 0) At(kernel.nodes, index).reach = AddReach(tree.ball(), link);
+  At(kernel.nodes, index).has_box = tree.has_box();
+  At(kernel.nodes, index).reach =
+      num == 0 || tree.has_box() ? AddReach(tree.ball(), link) : kNoReach;
   if (tree.cluster() >= 0) {
     At(kernel.nodes, index).triangles = tree.cluster();
     AddReach(tree.ball(), link, tree.ball().radius);
@@ -215,24 +219,20 @@ void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
 
 void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& in,
                                    std::vector<kernels::InsideTest>* tests) const {
+  if (At(kernel.nodes, in.root).num_insides == 0) return;
   const Pose X_CL = PoseOfLink(of.link);
-  const Node& node = At(kernel.nodes, in.root);
-  for (int k = 0; k < node.num_insides; ++k) {
-    for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
-      kernels::InsideTest test{node.first_inside + k, of.body, {}, false};
-      SetVector(X_CL * point, test.point);
-      tests->push_back(test);
-    }
+  kernels::InsideTest test{in.root, in.body, of.root, of.body, {}, false};
+  for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
+    SetVector(X_CL * point, test.points.emplace_back().data());
   }
+  tests->push_back(std::move(test));
 }
 
 void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball) {
-  const Node& node = At(kernel.nodes, link.root);
-  for (int k = 0; k < node.num_insides; ++k) {
-    kernels::InsideTest test{node.first_inside + k, ball.body, {}, true};
-    std::copy_n(At(kernel.nodes, ball.root).center, 3, test.point);
-    kernel.inside_tests.push_back(test);
-  }
+  if (At(kernel.nodes, link.root).num_insides == 0) return;
+  const float* center = At(kernel.nodes, ball.root).center;
+  kernel.inside_tests.push_back(
+      {link.root, link.body, ball.root, ball.body, {{center[0], center[1], center[2]}}, true});
 }
 
 int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
@@ -248,14 +248,15 @@ int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
 int CompiledRobot::AddReachOfTree(int root) {
   const int offset = static_cast<int>(kernel.reaches.size());
   kernel.reaches.resize(kernel.reaches.size() + ReachSize(), 0.0f);
-  for (const int leaf : LeavesBelow(root)) {
-    const Node& node = At(kernel.nodes, leaf);
-    const int of_points = node.triangles >= 0 ? kernel.num_joints : 0;
+  for (const int index : NodesBelow(root)) {
+    const Node& node = At(kernel.nodes, index);
+    if (node.reach == kNoReach) continue;
     for (int k = 0; k < static_cast<int>(ReachSize()); ++k) {
-      const int j = k % kernel.num_joints;
-      const int own = node.reach + (k < kernel.num_joints ? 0 : of_points) + j;
+      const bool of_points = k >= kernel.num_joints;
+      if (of_points && node.num_children > 0) break;
+      const int own = of_points && node.triangles < 0 ? k - kernel.num_joints : k;
       float& reach = At(kernel.reaches, offset + k);
-      reach = std::max(reach, At(kernel.reaches, own));
+      reach = std::max(reach, At(kernel.reaches, node.reach + own));
     }
   }
   return offset;
@@ -328,17 +329,13 @@ Ball CompiledRobot::BallOf(const Node& node, int body) const {
   return {At(R_CG_, body).transpose() * p_C, node.radius};
 }
 
-std::vector<int> CompiledRobot::LeavesBelow(int root) const {
-  std::vector<int> leaves;
-  std::vector<int> open = {root};
-  while (!open.empty()) {
-    const int index = open.back();
-    open.pop_back();
-    const Node& node = At(kernel.nodes, index);
-    for (int i = 0; i < node.num_children; ++i) open.push_back(node.first_child + i);
-    if (node.num_children == 0) leaves.push_back(index);
+std::vector<int> CompiledRobot::NodesBelow(int root) const {
+  std::vector<int> nodes = {root};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Node& node = At(kernel.nodes, nodes[i]);
+    for (int k = 0; k < node.num_children; ++k) nodes.push_back(node.first_child + k);
   }
-  return leaves;
+  return nodes;
 }
 
 std::vector<Ball> CompiledRobot::BallsOf(const CompiledTree& tree) const {
@@ -491,7 +488,7 @@ void CompiledRobot::AddPairs(
     if (link.body == body_b.body) links_b.push_back(&link);
   }
   bool checks_all = true;
-  std::vector<std::pair<const CompiledTree*, const CompiledTree*>> pairs;
+  LinkPairs pairs;
   for (const CompiledTree& a : links) {
     if (a.body != body_a.body) continue;
     std::size_t num_checked = 0;
@@ -500,7 +497,7 @@ void CompiledRobot::AddPairs(
       pairs.emplace_back(&a, b);
       ++num_checked;
     }
-    if (num_checked < links_b.size() || meshes_ != nullptr) {
+    if (num_checked < links_b.size()) {
       checks_all = false;
     } else {
       // All of the other body's links: its own tree serves.
@@ -517,16 +514,26 @@ void CompiledRobot::AddPairs(
       AddInsideTests(*b, *a, &standing.inside_tests);
     }
   } else if (checks_all) {
-    AddPair(body_a, body_b, false);
+    AddLinkPairs(body_a, body_b, pairs);
   } else {
-    for (const auto& [a, b] : pairs) {
-      const std::size_t num_pairs = kernel.pairs.size();
-      AddPair(*a, *b, false);
-      if (meshes_ == nullptr) continue;
-      // Where their surfaces never meet one is in the other always or never.
-      auto* tests = kernel.pairs.size() > num_pairs ? &kernel.inside_tests : &standing.inside_tests;
-      AddInsideTests(*a, *b, tests);
-      AddInsideTests(*b, *a, tests);
+    for (const auto& pair : pairs) AddLinkPairs(*pair.first, *pair.second, {pair});
+  }
+}
+
+void CompiledRobot::AddLinkPairs(const CompiledTree& a, const CompiledTree& b,
+                                 const LinkPairs& links_of) {
+  const std::size_t num_pairs = kernel.pairs.size();
+  AddPair(a, b, false);
+  if (meshes_ == nullptr) return;
+  // Where their surfaces never meet one is in the other always or never.
+  auto* tests = kernel.pairs.size() > num_pairs ? &kernel.inside_tests : &standing.inside_tests;
+  for (const auto& [link_a, others] : links_of) {
+    for (const CompiledTree& link_b : links) {
+      const bool is_other =
+          others->link < 0 ? link_b.body == others->body : link_b.link == others->link;
+      if (!is_other) continue;
+      AddInsideTests(*link_a, link_b, tests);
+      AddInsideTests(link_b, *link_a, tests);
     }
   }
 }

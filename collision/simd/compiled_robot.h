@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "collision/rigid_bodies.h"
@@ -92,7 +93,11 @@ struct CompiledRobot {
   void AddBoxes();
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
-  std::vector<int> LeavesBelow(int root) const;  ///< Node indices.
+  std::vector<int> NodesBelow(int root) const;  ///< Indices, its own first.
+  /// A link and another link of a body, or all of these: the body's own tree.
+  using LinkPairs = std::vector<std::pair<const CompiledTree*, const CompiledTree*>>;
+  /// A pair of trees that stands for pairs of links.
+  void AddLinkPairs(const CompiledTree& a, const CompiledTree& b, const LinkPairs& links_of);
   /// Balls that together hold what the tree does: its leaves, of meshes larger ones.
   std::vector<Ball> BallsOf(const CompiledTree& tree) const;
   /// Closed meshes and points of a link.

@@ -43,7 +43,11 @@ CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, Col
       geometry_bound_(
           robot.model, group,
           model == CollisionModel::kMeshes ? CoverOf(geometry) : ModelSpheres(robot, model)) {
-  if (model == CollisionModel::kMeshes) meshes_.emplace(geometry);
+  if (model == CollisionModel::kMeshes) {
+    // Spheres that enclose a link are about as close to it as so many can be.
+    meshes_.emplace(geometry,
+                    robot.enclosing_spheres.empty() ? robot.spheres : robot.enclosing_spheres);
+  }
 }
 
 void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions) {
@@ -61,6 +65,8 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_),
                             meshes_ ? &*meshes_ : nullptr);
     without_pairs_ = compiled_robot_->extent();
+    base_ = robot();
+    base_.bodies.resize(1);
     if (model_ == CollisionModel::kVoxels) {
       field_ = std::make_unique<DistanceFieldBuilder>(
           robot_->voxels ? *robot_->voxels : VoxelsWithinReach(*compiled_robot_));
@@ -194,12 +200,6 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
 }
 
 void CompiledScene::JudgeStandingTrees() {
-  base_.num_joints = robot().num_joints;
-  base_.bodies.assign(1, kernels::Body());
-  base_.nodes = robot().nodes;
-  base_.triangles = robot().triangles;
-  base_.insides = robot().insides;
-  base_.reaches = robot().reaches;
   base_scratch_.Reset(base_, world());
   const float no_joints[kBlock] = {};
   kernels::BlockQuery query;

@@ -13,7 +13,9 @@ namespace planbench {
 
 /// The collision geometry of a link as the vectorised engine takes it, in the link's frame: spheres
 /// stay what they are, all else is triangles, cylinders as prisms of so many sides that nothing of
-/// them is further than 0.02 mm outside of the cylinder.
+/// them is further than 0.02 mm outside of the cylinder. The triangles stand under balls about
+/// given middles, those of a sphere model of the link: balls about its surface reach further beyond
+/// it.
 struct LinkMeshes {
   int link;
   BallTree tree;  ///< Its leaves are spheres, and balls around clusters of triangles.
@@ -27,7 +29,9 @@ struct LinkMeshes {
 };
 
 struct RobotMeshes {
-  explicit RobotMeshes(const std::vector<LinkGeometry>& geometry);
+  /// `middles`: spheres of the links. Balls are made about their centres, and enclose triangles
+  /// whatever their radii are.
+  RobotMeshes(const std::vector<LinkGeometry>& geometry, const std::vector<LinkSphere>& middles);
 
   std::vector<LinkMeshes> links;
   struct Cluster {

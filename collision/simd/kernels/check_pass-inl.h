@@ -53,8 +53,7 @@ class CheckPass {
       if ((query_.stop_at_first && !None(certain_)) || None(alive_)) return;
     }
     for (const InsideTest& test : robot_.inside_tests) {
-      const Points p = placement_.PosesOf(test.body) * Fill(test.point);
-      if (TestInside(InsideAt(test.inside), p, 0, alive_, test.doubtful)) return;
+      if (TestPoints(test)) return;
     }
   }
 
@@ -122,8 +121,9 @@ class CheckPass {
   int ReachOfPoints(const Node& leaf) const {
     return leaf.triangles >= 0 ? leaf.reach + robot_.num_joints : leaf.reach;
   }
-  const TriangleGroup& TrianglesOf(const Node& leaf) const {
-    return robot_.triangles[leaf.triangles];
+  BoxedGroup GroupOf(int leaf) const {
+    return {robot_.triangles[placement_.node(leaf).triangles],
+            robot_.boxes[static_cast<std::size_t>(leaf)]};
   }
   const Inside& InsideAt(int index) const {
     return robot_.insides[static_cast<std::size_t>(index)];
@@ -185,6 +185,27 @@ class CheckPass {
       if (Encloses(inside, point)) certain |= LaneMask{1} << lane;
     }
     return Settle(certain);
+  }
+
+  /// Returns true to stop.
+  bool TestPoints(const InsideTest& test) {
+    placement_.PlaceRoot(test.root_in, test.body_in);
+    placement_.PlaceRoot(test.root_of, test.body_of);
+    const Node& in = placement_.node(test.root_in);
+    const V reach = Fill(in.radius + placement_.node(test.root_of).radius);
+    const V squared =
+        SquaredNorm(placement_.Position(test.root_in) - placement_.Position(test.root_of));
+    const M touching = hn::Le(squared, Squared(reach));
+    if (None(hn::And(alive_, touching))) return false;
+    const Poses X_WC = placement_.PosesOf(test.body_of);
+    for (const auto& point : test.points) {
+      const Points p = X_WC * Fill(point.data());
+      for (int k = 0; k < in.num_insides; ++k) {
+        const M lanes = hn::And(alive_, touching);
+        if (TestInside(InsideAt(in.first_inside + k), p, 0, lanes, test.doubtful)) return true;
+      }
+    }
+    return false;
   }
 
   bool TestMeshInside(const Inside& inside, const WorldMesh& mesh) {
@@ -249,7 +270,7 @@ class CheckPass {
     const Node& node = placement_.node(index);
     const Points p = placement_.Position(index);
     if (node.num_children == 0) {
-      const bool stops = node.triangles >= 0 ? TestTriangles(node, body, p, list, num)
+      const bool stops = node.triangles >= 0 ? TestTriangles(index, body, p, list, num)
                                              : TestLeaf(node, p, motion, list, num);
       return stops || TestInsides(node, list, num);
     }
@@ -274,10 +295,9 @@ class CheckPass {
   }
 
   /// A group of triangles, where its ball comes near a solid.
-  bool TestTriangles(const Node& node, int body, const Points& p, const std::int32_t* list,
-                     int num) {
-    const TriangleGroup& group = TrianglesOf(node);
-    const GroupBall ball = {node.center, node.radius};
+  bool TestTriangles(int index, int body, const Points& p, const std::int32_t* list, int num) {
+    const Node& node = placement_.node(index);
+    const BoxedGroup group = GroupOf(index);
     const V grown = Grown(node.radius, Motion(node.reach));
     const V reach = Squared(grown);
     for (int i = 0; i < num; ++i) {
@@ -289,8 +309,7 @@ class CheckPass {
         continue;
       }
       const auto touches = [&](int lane, float margin) {
-        return MeetsSolid(group, ball, placement_.PosesOf(body).InLane(lane), world_, solid,
-                          margin);
+        return MeetsSolid(group, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
       };
       if (NoteExact(near, Motion(ReachOfPoints(node)), touches)) return true;
     }
@@ -360,14 +379,10 @@ class CheckPass {
     const float radius = node_a.radius + node_b.radius;
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    M touching = Within(squared, Grown(radius, motion));
+    const M touching = Within(squared, Grown(radius, motion));
     if (None(touching)) return false;
     boxes_ = !robot_.boxes.empty() && !doubtful_;
-    if (boxes_) {
-      SetBoxFrames(pair);
-      touching = hn::AndNot(BoxesApart(pair.root_a, pair.root_b), touching);
-      if (None(touching)) return false;
-    }
+    if (boxes_) SetBoxFrames(pair);
     if (node_a.num_children == 0 && node_b.num_children == 0) {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, radius, touching);
     } else {
@@ -392,13 +407,15 @@ class CheckPass {
     frames_.motion = Motion(pair.reach + robot_.num_joints);
   }
 
-  /// Lanes in which a plane along a face of one of the boxes is between them. `a`: of body a.
-  HWY_INLINE M BoxesApart(int a, int b) const {
+  /// Lanes in which a plane along a face of one of the boxes is between them, and would be if they
+  /// moved so far.
+  HWY_INLINE M BoxesApart(int a, int body_a, int b, V motion) const {
+    if (body_a != pair_body_a_) std::swap(a, b);
     const NodeBox& box_a = robot_.boxes[static_cast<std::size_t>(a)];
     const NodeBox& box_b = robot_.boxes[static_cast<std::size_t>(b)];
     const auto& R = frames_.rotation;
     const auto& size = frames_.size;
-    const V margin = kAround ? hn::IfThenZeroElse(hits_, frames_.motion) : Zero();
+    const V margin = kAround ? hn::IfThenZeroElse(hits_, motion) : Zero();
     const Points b_center = Fill(box_b.center);
     const V half_b[3] = {Fill(box_b.half_size[0]), Fill(box_b.half_size[1]),
                          Fill(box_b.half_size[2])};
@@ -444,15 +461,16 @@ class CheckPass {
     if (doubtful_ || (a.triangles < 0 && b.triangles < 0)) {
       return Note(squared, radius, touching, doubtful_);
     }
-    return a.triangles >= 0 ? NoteTriangles(a, body_a, index_b, body_b, touching)
-                            : NoteTriangles(b, body_b, index_a, body_a, touching);
+    return a.triangles >= 0 ? NoteTriangles(index_a, body_a, index_b, body_b, touching)
+                            : NoteTriangles(index_b, body_b, index_a, body_a, touching);
   }
 
   /// A group of triangles and another leaf, whose balls touch.
-  bool NoteTriangles(const Node& node, int body, int other_index, int other_body, M touching) {
+  bool NoteTriangles(int index, int body, int other_index, int other_body, M touching) {
     if (None(touching)) return false;
+    const Node& node = placement_.node(index);
     const Node& other = placement_.node(other_index);
-    const TriangleGroup& group = TrianglesOf(node);
+    const BoxedGroup group = GroupOf(index);
     const V motion =
         kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other), pair_reach_) : Zero();
     return NoteExact(touching, motion, [&](int lane, float margin) {
@@ -461,10 +479,11 @@ class CheckPass {
         float center_W[3], center[3];
         placement_.Position(other_index, lane, center_W);
         X_WC.InverseTimes(center_W, center);
-        return TrianglesWithin(group, center, other.radius + margin) != 0;
+        return TrianglesWithin(group.triangles, center, other.radius + margin) != 0;
       }
       const Transform X_WD = placement_.PosesOf(other_body).InLane(lane);
-      return GroupsMeet(group, {node.center, node.radius}, TrianglesOf(other), Between(X_WC, X_WD),
+      const BoxedGroup others = GroupOf(other_index);
+      return GroupsMeet(group, others.triangles, &others.box, Between(X_WC, X_WD),
                         margin + kTrianglePadding);
     });
   }
@@ -489,16 +508,41 @@ class CheckPass {
       const Node& node = placement_.node(child);
       const float radius = node.radius + small.radius;
       const V squared = SquaredNorm(placement_.Position(child) - p);
-      M touching = Within(squared, Grown(radius, motion));
+      const M touching = Within(squared, Grown(radius, motion));
       if (None(touching)) continue;
-      if (boxes_) {
-        touching = hn::AndNot(body_a == pair_body_a_ ? BoxesApart(child, b) : BoxesApart(b, child),
-                              touching);
-        if (None(touching)) continue;
+      if (boxes_ && node.has_box && small.has_box) {
+        if (VisitBoxes(child, body_a, b, body_b, touching)) return true;
+        continue;
       }
       if (node.num_children == 0 && small.num_children == 0) {
         if (NotePair(child, body_a, b, body_b, squared, radius, touching)) return true;
       } else if (VisitPair(child, body_a, b, body_b, motion)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Two nodes with boxes, of triangles alone, in lanes in which all above them touch. Returns true
+  /// to stop.
+  bool VisitBoxes(int a, int body_a, int b, int body_b, M lanes) {
+    lanes = hn::AndNot(BoxesApart(a, body_a, b, frames_.motion), hn::And(lanes, alive_));
+    if (None(lanes)) return false;
+    const Node& node_a = placement_.node(a);
+    const Node& node_b = placement_.node(b);
+    if (node_a.num_children == 0 && node_b.num_children == 0) {
+      if constexpr (kAround) {
+        const V motion = MotionBetween(ReachOfPoints(node_a), ReachOfPoints(node_b), pair_reach_);
+        lanes = hn::AndNot(BoxesApart(a, body_a, b, motion), lanes);
+      }
+      return NoteTriangles(a, body_a, b, body_b, lanes);
+    }
+    const bool split_a =
+        node_b.num_children == 0 || (node_a.num_children != 0 && node_a.radius >= node_b.radius);
+    const Node& large = split_a ? node_a : node_b;
+    for (int child = large.first_child; child < large.first_child + large.num_children; ++child) {
+      if (split_a ? VisitBoxes(child, body_a, b, body_b, lanes)
+                  : VisitBoxes(a, body_a, child, body_b, lanes)) {
         return true;
       }
     }

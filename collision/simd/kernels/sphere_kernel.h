@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -40,8 +41,9 @@ struct Node {
   std::int32_t first_child;
   std::int32_t num_children;
   /// Of one without children: its own, as in WorldTree; of a group of triangles that of all of
-  /// their points stands behind it.
+  /// their points stands behind it. Others are CompiledRobot's.
   int reach;
+  bool has_box = false;         ///< One that tells more than the ball does.
   std::int32_t triangles = -1;  ///< Index into SphereRobot::triangles, if not negative.
   /// Closed meshes that it encloses: from first_inside on in SphereRobot::insides.
   std::int32_t first_inside = 0;
@@ -65,12 +67,13 @@ struct Inside {
 /// Whether it does enclose a point, given in the body's frame (m).
 bool Encloses(const Inside& inside, const float* p);
 
-/// A point of a body (m, in its frame) that collides if it is inside of a mesh.
+/// Points of a body that collide if they are inside of meshes of another, where two balls touch:
+/// the one around these meshes, and one around the points.
 struct InsideTest {
-  int inside;  ///< Index into SphereRobot::insides.
-  int body;
-  float point[3];
-  bool doubtful;  ///< Where the point is in the bounding box is passed on as a doubt.
+  int root_in, body_in;  ///< Nodes: the balls.
+  int root_of, body_of;
+  std::vector<std::array<float, 3>> points;  ///< In the frame of body_of, m.
+  bool doubtful;  ///< Where a point is in a mesh's bounding box is passed on as a doubt.
 };
 
 /// Two trees to test against each other.

@@ -199,27 +199,63 @@ inline bool MeetsTriangle(const TriangleGroup& a, const Triangles* corners_B,
   return false;
 }
 
-/// A ball around a group of triangles, in their frame.
-struct GroupBall {
-  const float* center;
-  float radius;
+/// Which triangles of a group come, by their bounding boxes, within `margin` of a box, by bit; all
+/// in the frame of the corners, a vector after another.
+inline LaneMask TrianglesNear(const Triangles* corners, int count, const NodeBox& box,
+                              float margin) {
+  const int width = static_cast<int>(hn::Lanes(Lanes()));
+  LaneMask near = 0;
+  for (int first = 0; first < kWide; first += width) {
+    const Points* c = corners[first / width].corner;
+    const auto along = [&](V a, V b, V d, int axis) {
+      const float reach = box.half_size[axis] + margin;
+      return hn::And(hn::Le(hn::Min(a, hn::Min(b, d)), Fill(box.center[axis] + reach)),
+                     hn::Ge(hn::Max(a, hn::Max(b, d)), Fill(box.center[axis] - reach)));
+    };
+    near |=
+        Bits(hn::And(along(c[0].x, c[1].x, c[2].x, 0),
+                     hn::And(along(c[0].y, c[1].y, c[2].y, 1), along(c[0].z, c[1].z, c[2].z, 2))))
+        << first;
+  }
+  return near & ((LaneMask{1} << count) - 1);
+}
+
+/// A group of triangles and a box around it, in the frame of the triangles.
+struct BoxedGroup {
+  const TriangleGroup& triangles;
+  const NodeBox& box;
 };
 
-/// Whether triangles of A, all in a ball, come within `margin` of those of B.
-inline bool GroupsMeet(const TriangleGroup& a, const GroupBall& ball_a, const TriangleGroup& b,
+/// Whether triangles of A come within `margin` of those of B, around which no box needs to be
+/// known.
+inline bool GroupsMeet(const BoxedGroup& a, const TriangleGroup& b, const NodeBox* box_b,
                        const Transform& X_AB, float margin) {
   const int width = static_cast<int>(hn::Lanes(Lanes()));
-  float center_B[3];
-  X_AB.InverseTimes(ball_a.center, center_B);
-  LaneMask near = TrianglesWithin(b, center_B, ball_a.radius + margin);
-  if (near == 0) return false;
-  Triangles corners_B[kWide];
-  const Transform X_BA = X_AB.Inverse();
+  Triangles corners[kWide];
   for (int first = 0; first < kWide; first += width) {
-    corners_B[first / width] = CornersIn(X_BA, a, first);
+    corners[first / width] = CornersIn(X_AB, b, first);
   }
-  for (; near != 0; near &= near - 1) {
-    if (MeetsTriangle(a, corners_B, b, std::countr_zero(near), X_AB, margin)) return true;
+  LaneMask near_b = TrianglesNear(corners, b.count, a.box, margin);
+  if (near_b == 0) return false;
+  const Transform X_BA = X_AB.Inverse();
+  Triangles corners_B[kWide];
+  for (int first = 0; first < kWide; first += width) {
+    corners_B[first / width] = CornersIn(X_BA, a.triangles, first);
+  }
+  if (box_b != nullptr) {
+    LaneMask near_a = TrianglesNear(corners_B, a.triangles.count, *box_b, margin);
+    if (std::popcount(near_a) < std::popcount(near_b)) {
+      for (; near_a != 0; near_a &= near_a - 1) {
+        const int i = std::countr_zero(near_a);
+        if (MeetsTriangle(b, corners, a.triangles, i, X_BA, margin)) return true;
+      }
+      return false;
+    }
+  }
+  for (; near_b != 0; near_b &= near_b - 1) {
+    if (MeetsTriangle(a.triangles, corners_B, b, std::countr_zero(near_b), X_AB, margin)) {
+      return true;
+    }
   }
   return false;
 }

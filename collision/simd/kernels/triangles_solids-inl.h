@@ -174,19 +174,24 @@ inline void RotationToZ(const float* axis, float* rows) {
   }
 }
 
-/// Whether triangles of the robot, all in a ball, come within `margin` of a mesh.
-inline bool MeetsMesh(const TriangleGroup& group, const GroupBall& ball, const Transform& X_WC,
-                      const WorldMesh& mesh, float margin) {
+/// Whether triangles of the robot come within `margin` of a mesh.
+inline bool MeetsMesh(const BoxedGroup& group, const Transform& X_WC, const WorldMesh& mesh,
+                      float margin) {
   constexpr int kMostOpen = kWide * 8;
   const TriangleTree& tree = *mesh.tree;
   const int width = static_cast<int>(hn::Lanes(Lanes()));
   const Transform X_MC = FromFrame(mesh.rotation, mesh.position, X_WC);
   const Transform X_CM = X_MC.Inverse();
+  // The group's box in M, along the axes there.
   float center[3];
-  X_MC.Times(ball.center, center);
-  const Points p = Fill(center);
-  const float radius = ball.radius + margin;
-  const V reach = Fill(radius * radius);
+  X_MC.Times(group.box.center, center);
+  float reach[3];
+  for (int row = 0; row < 3; ++row) {
+    reach[row] = margin;
+    for (int c = 0; c < 3; ++c) {
+      reach[row] += std::abs(X_MC.rotation[3 * row + c]) * group.box.half_size[c];
+    }
+  }
   std::int32_t open[kMostOpen];
   int size = 0;
   open[size++] = 0;
@@ -194,30 +199,35 @@ inline bool MeetsMesh(const TriangleGroup& group, const GroupBall& ball, const T
     const std::int32_t child = open[--size];
     if (child < 0) {
       const TriangleGroup& other = tree.triangles[static_cast<std::size_t>(~child)];
-      if (GroupsMeet(group, ball, other, X_CM, margin)) return true;
+      if (GroupsMeet(group, other, nullptr, X_CM, margin)) return true;
       continue;
     }
     const BoxGroup& boxes = tree.boxes[static_cast<std::size_t>(child)];
     for (int first = 0; first < kWide; first += width) {
-      for (LaneMask near = Bits(hn::Le(SquaredToBoxes(boxes, first, p), reach)); near != 0;
+      const auto along = [&](int axis) {
+        return hn::And(hn::Le(Load(boxes.low[axis] + first), Fill(center[axis] + reach[axis])),
+                       hn::Ge(Load(boxes.high[axis] + first), Fill(center[axis] - reach[axis])));
+      };
+      for (LaneMask near = Bits(hn::And(along(0), hn::And(along(1), along(2)))); near != 0;
            near &= near - 1) {
         open[size++] = boxes.child[first + std::countr_zero(near)];
       }
     }
   }
-  const float corner_C[3] = {group.corner[0][0][0], group.corner[0][1][0], group.corner[0][2][0]};
+  const auto& first_corner = group.triangles.corner[0];
+  const float corner_C[3] = {first_corner[0][0], first_corner[1][0], first_corner[2][0]};
   float corner[3];
   X_MC.Times(corner_C, corner);
   return Encloses(tree, corner);
 }
 
-/// Whether triangles of the robot, all in a ball, come within `margin` of a solid. X_WC: of their
-/// body.
-inline bool MeetsSolid(const TriangleGroup& group, const GroupBall& ball, const Transform& X_WC,
-                       const SphereWorld& world, const Solid& solid, float margin) {
+/// Whether triangles of the robot come within `margin` of a solid. X_WC: of their body.
+inline bool MeetsSolid(const BoxedGroup& boxed, const Transform& X_WC, const SphereWorld& world,
+                       const Solid& solid, float margin) {
   if (solid.mesh >= 0) {
-    return MeetsMesh(group, ball, X_WC, world.meshes[static_cast<std::size_t>(solid.mesh)], margin);
+    return MeetsMesh(boxed, X_WC, world.meshes[static_cast<std::size_t>(solid.mesh)], margin);
   }
+  const TriangleGroup& group = boxed.triangles;
   const int width = static_cast<int>(hn::Lanes(Lanes()));
   const float* v = solid.v;
   const auto any = [&](auto meets) {

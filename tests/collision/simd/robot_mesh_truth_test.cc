@@ -35,7 +35,7 @@ constexpr char kMeshGeometry[] = R"(<mesh filename="tool.obj"/>)";
 /// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
 /// angles.
 Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
-                const std::string& base_geometry = {}) {
+                const std::string& base_geometry = {}, bool with_middles = false) {
   folder.Write("tool.obj", MeshAsObj(tool));
   const auto body = [](const std::string& name, const std::string& geometry) {
     if (geometry.empty()) return "<link name=\"" + name + "\"/>";
@@ -59,6 +59,10 @@ Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
   robot.model = RobotModel::FromUrdf(urdf + "</robot>", "flyer.urdf");
   robot.groups = {robot.model.MakeGroup("flyer", joints, "tool")};
   robot.resources.base_folder = folder.path();
+  if (with_middles) {
+    const int link = robot.model.FindLink("tool");
+    robot.enclosing_spheres = {{link, {0.2, 0, 0}, 0.15}, {link, {-0.2, 0.1, 0.1}, 0.2}};
+  }
   return robot;
 }
 
@@ -215,7 +219,7 @@ TEST(RobotMeshTruthTest, LinksBesideAndInsideEachOther) {
     folder.Write("ring.obj", MeshAsObj(TorusMesh(0.35, 0.12, 30, 20)));
     const char* base = kBases[next++ % std::size(kBases)];
     SCOPED_TRACE(mesh.what + " and " + base);
-    const Robot robot = MakeFlyer(folder, mesh.triangles, base);
+    const Robot robot = MakeFlyer(folder, mesh.triangles, base, next % 2 == 0);
     MeshComparison comparison(robot);
     comparison.SetScene({});
     comparison.JudgeRandom(Trials(8), &random);
@@ -230,7 +234,7 @@ TEST(RobotMeshTruthTest, CertifiedEdgesAreFreeAllAlong) {
   for (const GeneratedMesh& mesh : ToolMeshes()) {
     SCOPED_TRACE(mesh.what);
     const TemporaryFolder folder;
-    const Robot robot = MakeFlyer(folder, mesh.triangles, R"(<box size="0.3 0.1 0.2"/>)");
+    const Robot robot = MakeFlyer(folder, mesh.triangles, R"(<box size="0.3 0.1 0.2"/>)", true);
     Scene scene;
     int i = 0;
     for (const Shape& solid : {Shape(Box{{0.2, 0.2, 0.1}}), Shape(Cylinder{0.05, 0.4}),
@@ -312,40 +316,42 @@ TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
   EXPECT_TRUE(checker.IsFree(outside));
 }
 
-TEST(RobotMeshesTest, HoldEveryTriangleInABallOfTheTree) {
-  for (const GeneratedMesh& mesh : ToolMeshes()) {
-    SCOPED_TRACE(mesh.what);
-    const RobotMeshes meshes(
-        {{0, {{Shape(MeshFrom(mesh.triangles)), Eigen::Isometry3d::Identity()}}}});
-    double area = 0;
-    std::vector<const BallTree*> open = {&meshes.links.front().tree};
-    while (!open.empty()) {
-      const BallTree& node = *open.back();
-      open.pop_back();
-      for (const Ball& leaf : node.Leaves()) {
-        EXPECT_LE((leaf.center - node.ball().center).norm() + leaf.radius,
-                  node.ball().radius + 1e-9);
-      }
-      for (const BallTree& child : node.children()) {
-        open.push_back(&child);
-      }
-      if (!node.children().empty()) continue;
-      ASSERT_GE(node.cluster(), 0);
-      const auto& cluster = meshes.clusters[static_cast<std::size_t>(node.cluster())].triangles;
-      EXPECT_LE(cluster.size(), 16u);
-      for (const auto& [a, b, c] : cluster) {
-        area += (b - a).cross(c - a).norm() / 2;
-        for (const Eigen::Vector3d& corner : {a, b, c}) {
-          EXPECT_LE((corner - node.ball().center).norm(), node.ball().radius + 1e-9);
-        }
+/// Every triangle below is in the ball of each node above it; returns their area.
+double AreaBelow(const RobotMeshes& meshes, const BallTree& node,
+                 std::vector<const BallTree*> above) {
+  above.push_back(&node);
+  double area = 0;
+  for (const BallTree& child : node.children()) area += AreaBelow(meshes, child, above);
+  if (node.cluster() < 0) return area;
+  const auto& cluster = meshes.clusters[static_cast<std::size_t>(node.cluster())].triangles;
+  EXPECT_LE(cluster.size(), 16u);
+  for (const auto& [a, b, c] : cluster) {
+    area += (b - a).cross(c - a).norm() / 2;
+    for (const Eigen::Vector3d& corner : {a, b, c}) {
+      for (const BallTree* outer : above) {
+        EXPECT_LE((corner - outer->ball().center).norm(), outer->ball().radius + 1e-9);
       }
     }
+  }
+  return area;
+}
+
+TEST(RobotMeshesTest, HoldEveryTriangleInEveryBallAboveIt) {
+  const std::vector<LinkSphere> middles = {
+      {0, {0.2, 0, 0}, 0.15}, {0, {-0.2, 0.1, 0}, 0.1}, {0, {0, 0, 0.1}, 0.3}};
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
     double expected = 0;
     for (const auto& [a, b, c] : mesh.triangles.triangles) {
       const auto& v = mesh.triangles.vertices;
       expected += (v[b] - v[a]).cross(v[c] - v[a]).norm() / 2;
     }
-    EXPECT_NEAR(area, expected, 1e-9 * (1 + expected));
+    const LinkGeometry link{0, {{Shape(MeshFrom(mesh.triangles)), Eigen::Isometry3d::Identity()}}};
+    for (const bool with_middles : {false, true}) {
+      const RobotMeshes meshes({link}, with_middles ? middles : std::vector<LinkSphere>());
+      EXPECT_NEAR(AreaBelow(meshes, meshes.links.front().tree, {}), expected,
+                  1e-9 * (1 + expected));
+    }
   }
 }
 
