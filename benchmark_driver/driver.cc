@@ -13,8 +13,11 @@
 
 #include "benchmark_driver/await_nodes.h"
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/random_id.h"
+#include "common/sibling_program.h"
 #include "common/utime.h"
+#include "common/version.h"
 #include "messaging/node_announcer.h"
 
 namespace planbench {
@@ -25,6 +28,20 @@ constexpr double kWarmUpLimit = 1;  // s
 
 /// How often a run is made again because it was disturbed.
 constexpr int kMostRepeats = 2;
+
+/// Throws InputError if a process is not of the driver's build: on one machine or on several, a
+/// session compares planners, not versions of what is around them.
+void RequireSameBuild(const NodeStatusMessage& node) {
+  if (node.version == Version() && node.commit == Commit()) return;
+  throw InputError(fmt::format("the {} '{}' on {} is of another build: {} ({}) against {} ({})",
+                               EnumName(node.kind), node.name, node.host, node.version, node.commit,
+                               Version(), Commit()));
+}
+
+/// Planbench's own, not one that a command starts, or somebody else's.
+bool IsOwn(const LineUpEntry& entry) {
+  return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
+}
 
 }  // namespace
 
@@ -59,6 +76,9 @@ std::string Driver::Missing(bool need_logger) const {
 void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   AwaitNodes(
       &registry_, options_.discovery_timeout_s, [&] { return Missing(need_logger); }, watch);
+  for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
+    for (const NodeStatusMessage& node : registry_.Live(kind)) RequireSameBuild(node);
+  }
   served_ = *registry_.ProblemSets();
   CompleteConditions();
   schedule_ = MakeSchedule(options_, Entrants(), served_);
@@ -145,6 +165,7 @@ void Driver::AddContestant(const LineUpEntry& entry) {
   const std::string& name = entry.contestant.planner;
   const auto planner = registry_.Find(name, NodeKind::kPlanner);
   if (!planner) throw InputError("the planner '" + name + "' has left the bus");
+  if (IsOwn(entry)) RequireSameBuild(*planner);
   if (planner->robot_id != served_.robot_id) {
     throw InputError(fmt::format(
         "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
@@ -170,6 +191,15 @@ void Driver::AddContestant(const LineUpEntry& entry) {
   if (!planner->can_anytime && request.anytime) {
     throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
   }
+  if (const std::string& first = contestant.first_path_of; !first.empty()) {
+    if (!planner->can_improve) {
+      throw InputError(fmt::format("first_path_of: the planner '{}' does not improve paths", name));
+    }
+    if (options_.conditions.parallel) {
+      throw InputError(fmt::format(
+          "--parallel: '{}' cannot search for '{}' and for itself at the same time", first, name));
+    }
+  }
   // Of planners that are one algorithm, each also has the name that tells it apart.
   if (contestant.name.empty()) {
     contestant.name = planner->algorithm;
@@ -191,8 +221,16 @@ std::vector<Entrant> Driver::Entrants() const {
   std::vector<Entrant> entrants;
   for (const LineUpEntry& entry : line_up_) {
     const NodeStatusMessage& planner = planners_.at(entry.contestant.planner);
-    entrants.push_back({planner.name, entry.directions.value_or(options_.directions),
-                        planner.can_backward, planner.bidirectional, planner.deterministic});
+    Entrant entrant = {planner.name, entry.directions.value_or(options_.directions),
+                       planner.can_backward, planner.bidirectional, planner.deterministic};
+    if (!entry.contestant.first_path_of.empty()) {
+      // Whether there is a path at all is the other's matter.
+      const NodeStatusMessage& first = planners_.at(entry.contestant.first_path_of);
+      entrant.can_backward = entrant.can_backward && first.can_backward;
+      entrant.bidirectional = first.bidirectional;
+      entrant.deterministic = entrant.deterministic && first.deterministic;
+    }
+    entrants.push_back(std::move(entrant));
   }
   return entrants;
 }
@@ -228,12 +266,17 @@ const RunRow& Driver::Keep(const RunRecordMessage& record) {
 
 std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,
                                              const std::function<bool()>& interrupted) {
-  std::unique_ptr<PlannerClient>& client = (*clients)[run.planner];
-  if (!client) {
-    client = std::make_unique<PlannerClient>(bus_, &registry_, run.planner);
-    if (!executor_->WarmUp(run, kWarmUpLimit, client.get(), interrupted)) return std::nullopt;
+  const std::vector<ScheduledRun> requests = executor_->RequestsOf(run);
+  std::vector<PlannerClient*> asked;
+  for (const ScheduledRun& request : requests) {
+    std::unique_ptr<PlannerClient>& client = (*clients)[request.planner];
+    if (!client) {
+      client = std::make_unique<PlannerClient>(bus_, &registry_, request.planner);
+      if (!executor_->WarmUp(request, kWarmUpLimit, client.get(), interrupted)) return std::nullopt;
+    }
+    asked.push_back(client.get());
   }
-  std::optional<RunRecordMessage> record = executor_->Execute(run, client.get(), interrupted);
+  std::optional<RunRecordMessage> record = executor_->Execute(run, asked, interrupted);
   if (!record) return std::nullopt;
   // One that died is described as it was when last heard.
   const std::scoped_lock lock(mutex_);

@@ -61,7 +61,8 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
                                         const std::filesystem::path& file,
                                         const std::optional<std::filesystem::path>& robot_folder) {
   node.AllowOnly({"name", "about", "published", "program", "command", "config", "set", "sweep",
-                  "collision_model", "edge_resolution", "edge_check", "directions"});
+                  "collision_model", "edge_resolution", "edge_check", "directions",
+                  "first_path_of"});
   if (!IsNodeName(planner)) node.Fail(kNodeNameRule);
   LineUpEntry entry;
   Contestant& contestant = entry.contestant;
@@ -70,6 +71,7 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   contestant.about = node.StringOr("about", "");
   contestant.published = node.StringOr("published", "");
   contestant.command = node.StringOr("command", "");
+  contestant.first_path_of = node.StringOr("first_path_of", "");
   entry.program = node.StringOr("program", contestant.command.empty() ? planner : "");
   if (const auto model = node.Find("collision_model")) {
     contestant.collision_model = model->Enum<CollisionModel>();
@@ -169,6 +171,21 @@ void RequireDistinct(const std::vector<LineUpEntry>& entries) {
   }
 }
 
+/// Who is given a path is given one that another finds by itself.
+void RequireFirstPaths(std::vector<LineUpEntry> entries) {
+  for (const LineUpEntry& entry : entries) {
+    const std::string& first = entry.contestant.first_path_of;
+    if (first.empty()) continue;
+    const LineUpEntry* other = Find(&entries, first);
+    if (other == nullptr || other->contestant.planner == entry.contestant.planner ||
+        !other->contestant.first_path_of.empty()) {
+      throw InputError(fmt::format(
+          "the planner '{}': first_path_of: '{}' {}", entry.contestant.planner, first,
+          other == nullptr ? "is not among the planners" : "does not find a path by itself"));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
@@ -198,6 +215,7 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
     }
   }
   RequireDistinct(entries);
+  RequireFirstPaths(entries);
   for (const auto& [planner, command] : flags.commands) {
     LineUpEntry& entry = Chosen(&entries, planner, "--planner-command");
     if (!entry.contestant.command.empty()) {

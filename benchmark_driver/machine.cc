@@ -56,8 +56,8 @@ std::map<std::string, std::string> DescribeMachine(const KernelFolders& kernel) 
   return machine;
 }
 
-DisturbanceMeter::DisturbanceMeter(std::optional<pid_t> pid, KernelFolders kernel)
-    : kernel_(std::move(kernel)), pid_(pid) {
+DisturbanceMeter::DisturbanceMeter(std::vector<pid_t> pids, KernelFolders kernel)
+    : kernel_(std::move(kernel)), pids_(std::move(pids)) {
   double load = 0;
   if (std::istringstream(FirstLine(kernel_.proc / "loadavg")) >> load) load_ = load;
   waiting_s_ = WaitingByThread();
@@ -81,14 +81,15 @@ void DisturbanceMeter::Read(std::map<std::string, double>* counters) const {
 
 std::map<std::string, double> DisturbanceMeter::WaitingByThread() const {
   std::map<std::string, double> waiting;
-  if (!pid_) return waiting;
   std::error_code none;
-  const auto threads = kernel_.proc / fmt::format("{}", *pid_) / "task";
-  for (const auto& thread : std::filesystem::directory_iterator(threads, none)) {
-    double running_ns = 0, waiting_ns = 0;
-    std::istringstream line(FirstLine(thread.path() / "schedstat"));
-    if (line >> running_ns >> waiting_ns) {
-      waiting[thread.path().filename().string()] = waiting_ns * 1e-9;
+  for (const pid_t pid : pids_) {
+    const auto threads = kernel_.proc / fmt::format("{}", pid) / "task";
+    for (const auto& thread : std::filesystem::directory_iterator(threads, none)) {
+      double running_ns = 0, waiting_ns = 0;
+      std::istringstream line(FirstLine(thread.path() / "schedstat"));
+      if (line >> running_ns >> waiting_ns) {
+        waiting[thread.path().filename().string()] = waiting_ns * 1e-9;
+      }
     }
   }
   return waiting;

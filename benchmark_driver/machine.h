@@ -21,16 +21,16 @@ struct KernelFolders {
 /// left out.
 std::map<std::string, std::string> DescribeMachine(const KernelFolders& kernel = {});
 
-/// What kept a process from working while something was measured, from construction on.
+/// What kept processes from working while something was measured, from construction on.
 class DisturbanceMeter {
  public:
-  /// `pid`: nothing if the process is on another machine: then it is not known what it waits for.
-  DisturbanceMeter(std::optional<pid_t> pid, KernelFolders kernel);
+  /// `pids`: none if a process is on another machine: then it is not known what it waits for.
+  DisturbanceMeter(std::vector<pid_t> pids, KernelFolders kernel);
 
   /// Adds, as far as the kernel tells:
   ///   load_before: load average of the minute before, this session's own included;
-  ///   waiting_time: s in which threads of the process could have run and had no processor, summed;
-  ///   steal_time: s that the hypervisor took, mean over the processors, in steps of 10 ms.
+  ///   waiting_time: s in which threads of the processes could have run and had no processor,
+  ///   summed; steal_time: s that the hypervisor took, mean over the processors, in steps of 10 ms.
   void Read(std::map<std::string, double>* counters) const;
 
  private:
@@ -38,7 +38,7 @@ class DisturbanceMeter {
   std::optional<double> Steal() const;
 
   KernelFolders kernel_;
-  std::optional<pid_t> pid_;
+  std::vector<pid_t> pids_;
   std::optional<double> load_;
   std::map<std::string, double> waiting_s_;  // at the beginning, by thread
   std::optional<double> steal_s_;

@@ -19,8 +19,12 @@
 namespace planbench {
 namespace {
 
-/// A run whose problem could not be had is no request to its planner.
-bool WasAsked(const RunRecordMessage& run) { return !run.request.scene_id.empty(); }
+/// A run whose problem could not be had is no request to its planner, nor is one that lacked the
+/// path that the planner was to improve.
+bool WasAsked(const RunRecordMessage& run) {
+  const std::string& answered = run.result.planner;
+  return !run.request.scene_id.empty() && (answered.empty() || answered == run.planner);
+}
 
 std::string PathDifference(const std::string& what, const Path& then, const Path& now) {
   if (then == now) return "";
@@ -163,7 +167,10 @@ bool Replay::Run(const std::function<bool()>& interrupted,
       tell(run.request_id + ": " + difference);
     } else {
       ++tally.num_equal;
-      const double then_s = run.result.result.planning_time_s;
+      const auto& counters = run.result.result.counters;
+      const auto first_path = counters.find("first_path_time");
+      const double then_s = run.result.result.planning_time_s -
+                            (first_path == counters.end() ? 0 : first_path->second);
       if (run.result.result.Solves() && then_s > 0) {
         tally.time_ratios.push_back(answer.result.result.planning_time_s / then_s);
       }

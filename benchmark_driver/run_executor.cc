@@ -28,6 +28,19 @@ std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
   };
 }
 
+/// What it took to find the path that a result began with.
+void AddBefore(const PlanResult& first, PlanResult* result) {
+  result->planning_time_s += first.planning_time_s;
+  result->total_time_s += first.planning_time_s;
+  for (PlanProgress& progress : result->progress) progress.elapsed_s += first.planning_time_s;
+  for (double PhaseTimes::*const phase : {&PhaseTimes::setup_s, &PhaseTimes::collision_s,
+                                          &PhaseTimes::guidance_s, &PhaseTimes::search_s}) {
+    result->phases.*phase += first.phases.*phase;
+  }
+  for (const auto& [name, count] : first.counters) result->counters[name] += count;
+  result->peak_memory_mb = std::max(result->peak_memory_mb, first.peak_memory_mb);
+}
+
 }  // namespace
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
@@ -117,11 +130,52 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
 }
 
-std::optional<pid_t> RunExecutor::PidOf(const std::string& planner) const {
-  const auto node = registry_->Find(planner, NodeKind::kPlanner);
+std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {
   static const std::string host = MakeNodeStatus("driver", NodeKind::kDriver).host;
-  if (!node || node->host != host) return std::nullopt;
-  return static_cast<pid_t>(node->pid);
+  std::vector<pid_t> pids;
+  for (const PlannerClient* planner : planners) {
+    const auto node = registry_->Find(planner->planner(), NodeKind::kPlanner);
+    if (!node || node->host != host) return {};
+    pids.push_back(static_cast<pid_t>(node->pid));
+  }
+  return pids;
+}
+
+std::vector<ScheduledRun> RunExecutor::RequestsOf(const ScheduledRun& run) const {
+  std::vector<ScheduledRun> requests = {run};
+  if (const std::string& first = ContestantOf(run).first_path_of; !first.empty()) {
+    requests.insert(requests.begin(), run);
+    requests.front().planner = first;
+    requests.front().request_id += "/first-path";
+  }
+  return requests;
+}
+
+PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMessage& problem,
+                                       const std::vector<PlannerClient*>& planners,
+                                       PlanRequest* request,
+                                       const std::function<bool()>& interrupted) const {
+  if (planners.size() == 1) return planners[0]->Solve(*request, interrupted);
+  PlanRequest first_request = RequestOf(RequestsOf(run).front(), problem);
+  first_request.simplify = first_request.anytime = false;
+  PlannerClient::Answer first = planners[0]->Solve(first_request, interrupted);
+  PlanResult& found = first.result.result;
+  if (first.outcome != PlannerClient::Outcome::kResult || !found.Solves()) {
+    for (std::string* message : {&first.message, &found.message}) {
+      if (!message->empty()) *message = planners[0]->planner() + ": " + *message;
+    }
+    return first;
+  }
+  found.counters["first_path_time"] = found.planning_time_s;
+  PlanRequest rest = *request;
+  rest.time_limit_s -= found.planning_time_s;
+  if (!(rest.time_limit_s > 0)) return first;
+  request->initial_joint_names = rest.initial_joint_names = first.result.joint_names;
+  request->initial_path = rest.initial_path = found.path;
+  PlannerClient::Answer answer = planners[1]->Solve(rest, interrupted);
+  answer.roundtrip_time_s += first.roundtrip_time_s;
+  if (answer.outcome == PlannerClient::Outcome::kResult) AddBefore(found, &answer.result.result);
+  return answer;
 }
 
 const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
@@ -162,7 +216,7 @@ bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerCl
 }
 
 std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
-                                                     PlannerClient* planner,
+                                                     const std::vector<PlannerClient*>& planners,
                                                      const std::function<bool()>& interrupted) {
   // The server's answer also hands out the scene. Once is enough: a planner that has come up since
   // asks for it, and sending it again before each request would be in the request's way.
@@ -186,8 +240,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
     return record;
   }
 
-  const DisturbanceMeter meter(PidOf(run.planner), kernel_);
-  const PlannerClient::Answer answer = planner->Solve(record.request, interrupted);
+  const DisturbanceMeter meter(PidsOf(planners), kernel_);
+  const PlannerClient::Answer answer = Ask(run, *problem, planners, &record.request, interrupted);
   switch (answer.outcome) {
     case PlannerClient::Outcome::kInterrupted:
       return std::nullopt;

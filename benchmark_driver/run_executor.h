@@ -26,10 +26,15 @@ class RunExecutor {
   /// `interrupted`. The server also hands out the scene.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
-  /// The finished record, what kept the planner from working among the answer's counters; nothing
-  /// if `interrupted`. Where the scene server denies the problem, which it had when the session
-  /// began, the record says so.
-  std::optional<RunRecordMessage> Execute(const ScheduledRun& run, PlannerClient* planner,
+  /// Whom a run asks, one after the other: the contestant whose path its planner improves, if it
+  /// does, and its planner.
+  std::vector<ScheduledRun> RequestsOf(const ScheduledRun& run) const;
+  /// The finished record, what kept the planners from working among the answer's counters; nothing
+  /// if `interrupted`. `planners`: those of RequestsOf(run). Of several the answer is the last
+  /// one's, times and counters are sums. Where the scene server denies the problem, which it had
+  /// when the session began, the record says so.
+  std::optional<RunRecordMessage> Execute(const ScheduledRun& run,
+                                          const std::vector<PlannerClient*>& planners,
                                           const std::function<bool()>& interrupted);
   /// Has a planner answer a first request, within `time_limit_s`, that is neither judged nor
   /// recorded: what a process does only once is then no part of any run. False if `interrupted`.
@@ -48,8 +53,12 @@ class RunExecutor {
                                  std::chrono::milliseconds retry_period,
                                  const std::function<bool()>& interrupted);
 
-  /// Of a planner on this machine.
-  std::optional<pid_t> PidOf(const std::string& planner) const;
+  /// The answer to a run's request, which gets the path that is to be improved.
+  PlannerClient::Answer Ask(const ScheduledRun& run, const ProblemMessage& problem,
+                            const std::vector<PlannerClient*>& planners, PlanRequest* request,
+                            const std::function<bool()>& interrupted) const;
+  /// Of planners on this machine; none if one is elsewhere.
+  std::vector<pid_t> PidsOf(const std::vector<PlannerClient*>& planners) const;
   const Contestant& ContestantOf(const ScheduledRun& run) const;
   PlanRequest RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const;
 

@@ -38,6 +38,7 @@ Json NodeJson(const NodeStatusMessage& node) {
     json["planner_class"] = node.planner_class;
     json["backward"] = node.can_backward;
     json["anytime"] = node.can_anytime;
+    json["improve"] = node.can_improve;
     json["bidirectional"] = node.bidirectional;
     json["deterministic"] = node.deterministic;
     json["collision_models"] = node.collision_models;

@@ -116,6 +116,7 @@ struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
     io.Field("planner_class", v.planner_class, w.planner_class);
     io.Field("can_backward", v.can_backward, w.can_backward);
     io.Field("can_anytime", v.can_anytime, w.can_anytime);
+    io.Field("can_improve", v.can_improve, w.can_improve);
     io.Field("bidirectional", v.bidirectional, w.bidirectional);
     io.Field("deterministic", v.deterministic, w.deterministic);
     io.List("collision_model", v.collision_models, w.collision_model, w.num_collision_models,
@@ -228,6 +229,8 @@ struct Fields<PlanRequest> : On<lcmt_plan_request> {
     io.Field("edge_check", v.edge_check, w.edge_check);
     io.Field("anytime", v.anytime, w.anytime);
     io.Field("simplify", v.simplify, w.simplify);
+    NamedPath initial{v.initial_joint_names, v.initial_path};
+    io.Field("initial_path", initial, w.initial_path);
     io.List("parameter", v.parameters, w.parameter, w.num_parameters);
   }
 };
@@ -447,6 +450,7 @@ struct Fields<Contestant> : On<lcmt_contestant> {
     io.Field("about", v.about, w.about);
     io.Field("published", v.published, w.published);
     io.Field("command", v.command, w.command);
+    io.Field("first_path_of", v.first_path_of, w.first_path_of);
     io.Field("collision_model", v.collision_model, w.collision_model);
     io.Field("edge_resolution_m", v.edge_resolution_m, w.edge_resolution_m, kNonNegative);
     io.Field("edge_check", v.edge_check, w.edge_check);

@@ -47,6 +47,7 @@ struct NodeStatusMessage {
   std::string planner_class;
   bool can_backward = false;
   bool can_anytime = false;
+  bool can_improve = false;
   bool bidirectional = false;
   bool deterministic = false;
   std::vector<std::string> collision_models;
@@ -223,11 +224,12 @@ struct PathCheckReplyMessage {
 
 /// One of those that a session compares: a planner on the bus, and the conditions of its requests.
 struct Contestant {
-  std::string planner;    ///< Its name on the bus.
-  std::string name;       ///< In tables and results.
-  std::string about;      ///< What it is, in a line; may be empty.
-  std::string published;  ///< Algorithm of the reference study whose figures stand beside it.
-  std::string command;    ///< How it is started; empty: planbench's own.
+  std::string planner;        ///< Its name on the bus.
+  std::string name;           ///< In tables and results.
+  std::string about;          ///< What it is, in a line; may be empty.
+  std::string published;      ///< Algorithm of the reference study whose figures stand beside it.
+  std::string command;        ///< How it is started; empty: planbench's own.
+  std::string first_path_of;  ///< Whose path it is given to improve (planner); empty: nobody's.
   std::optional<CollisionModel> collision_model;  ///< None, here and below: the session's.
   std::optional<double> edge_resolution_m;
   std::optional<EdgeCheck> edge_check;

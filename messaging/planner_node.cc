@@ -34,6 +34,7 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
   status_.planner_class = EnumName(description_.planner_class);
   status_.can_backward = description_.backward;
   status_.can_anytime = description_.anytime;
+  status_.can_improve = description_.improve;
   status_.bidirectional = description_.bidirectional;
   status_.deterministic = description_.deterministic;
   for (const CollisionModel model : description_.collision_models) {
@@ -106,6 +107,9 @@ std::string PlannerNode::ReasonToRefuse(const PlanRequest& request) const {
   }
   if (request.anytime && !description_.anytime) {
     return description_.algorithm + " is no anytime planner";
+  }
+  if (!request.initial_path.empty() && !description_.improve) {
+    return description_.algorithm + " does not improve paths";
   }
   return "";
 }

@@ -34,8 +34,11 @@ Trajectory InitialGuesses::DrawByWayOf(int num_points) {
 }
 
 Trajectory InitialGuesses::Next() {
-  if (count_++ == 0) return Through(space_, {start_, goal_}, num_inner_);
-  const int num_points = 1 + count_ % kMostPoints;
+  const int num_given = given_.empty() ? 0 : 1;
+  const int num_before = count_++ - num_given;
+  if (num_before < 0) return Through(space_, given_, num_inner_);
+  if (num_before == 0) return Through(space_, {start_, goal_}, num_inner_);
+  const int num_points = 1 + (num_before + 1) % kMostPoints;
   const Eigen::Index num_rows = num_inner_ + 2;
   Trajectory candidates(kCandidates * num_rows, space_.size());
   for (int k = 0; k < kCandidates; ++k) {

@@ -20,8 +20,7 @@ void JointBounds::Clamp(Eigen::Ref<Trajectory> rows) const {
   }
 }
 
-Trajectory Through(const JointSpace& space, const std::vector<Configuration>& points,
-                   int num_inner) {
+Trajectory Corners(const JointSpace& space, const std::vector<Configuration>& points) {
   Trajectory corners(static_cast<Eigen::Index>(points.size()), space.size());
   for (int j = 0; j < space.size(); ++j) {
     const auto joint = static_cast<std::size_t>(j);
@@ -32,7 +31,12 @@ Trajectory Through(const JointSpace& space, const std::vector<Configuration>& po
           corners(row - 1, j) + space.Difference(j, points[k - 1][joint], points[k][joint]);
     }
   }
-  return SpacedEvenly(corners, num_inner);
+  return corners;
+}
+
+Trajectory Through(const JointSpace& space, const std::vector<Configuration>& points,
+                   int num_inner) {
+  return SpacedEvenly(Corners(space, points), num_inner);
 }
 
 Trajectory SpacedEvenly(const Trajectory& corners, int num_inner) {

@@ -37,6 +37,9 @@ class JointBounds {
   Eigen::RowVectorXd upper_;
 };
 
+/// The points themselves, a row each.
+Trajectory Corners(const JointSpace& space, const std::vector<Configuration>& points);
+
 /// Straight motions from point to point, continuous joints the short way round, SpacedEvenly. At
 /// least two points.
 Trajectory Through(const JointSpace& space, const std::vector<Configuration>& points,

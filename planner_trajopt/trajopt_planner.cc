@@ -28,7 +28,8 @@ double Length(const Trajectory& trajectory) {
   return (trajectory.bottomRows(moves) - trajectory.topRows(moves)).rowwise().norm().sum();
 }
 
-/// One search: guess after guess is optimised until one is free, or, anytime, until the end.
+/// One search: guess after guess is optimised until one is free, or, anytime, until the end. A path
+/// that is given is optimised as long as that helps, free or not.
 class TrajectorySearch {
  public:
   TrajectorySearch(const TrajoptSettings& settings, SearchQuery* query)
@@ -36,8 +37,8 @@ class TrajectorySearch {
         query_(query),
         cost_(&query->edges(), settings.clearance, settings.smoothness),
         // Another seed than the optimiser's, lest guesses and noise be the same numbers.
-        guesses_(query->space(), query->start(), query->goal().nominal, settings, &cost_,
-                 ~query->seed()) {
+        guesses_(query->space(), query->start(), query->goal().nominal, query->initial_path(),
+                 settings, &cost_, ~query->seed()) {
     if (settings.algorithm == TrajoptAlgorithm::kStomp) {
       optimiser_ = std::make_unique<Stomp>(query->space(), settings, &cost_, query->seed());
     } else {
@@ -46,6 +47,13 @@ class TrajectorySearch {
   }
 
   SearchResult Run() {
+    if (!query_->initial_path().empty()) {
+      KeepInitialPath();
+      is_given_ = true;
+      Trajectory trajectory = guesses_.Next();
+      Optimise(&trajectory);
+      is_given_ = false;
+    }
     while (MayGoOn() && !(settings_.guesses && guesses_.count() == *settings_.guesses)) {
       Trajectory trajectory = guesses_.Next();
       Optimise(&trajectory);
@@ -64,14 +72,28 @@ class TrajectorySearch {
       result.status = query_->ShouldStop() ? PlanStatus::kTimedOut : PlanStatus::kExhausted;
       result.message = fmt::format(
           "in collision all the same: {} optimised from {}", EnumName(settings_.algorithm),
-          guesses_.count() == 1 ? "the straight motion"
-                                : fmt::format("{} guesses", guesses_.count()));
+          guesses_.count() > 1             ? fmt::format("{} guesses", guesses_.count())
+          : query_->initial_path().empty() ? "the straight motion"
+                                           : "the path given");
     }
     return result;
   }
 
  private:
-  bool MayGoOn() const { return !query_->ShouldStop() && (path_.empty() || query_->anytime()); }
+  bool MayGoOn() const {
+    return !query_->ShouldStop() && (path_.empty() || is_given_ || query_->anytime());
+  }
+
+  void KeepInitialPath() {
+    const Path& path = query_->initial_path();
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      if (!query_->edges().IsValidEdge(path[i - 1], path[i], /*from_is_free=*/i > 1)) return;
+    }
+    path_ = path;
+    length_ = Length(Corners(query_->space(), path));
+    query_->HoldPath();
+    if (query_->anytime()) query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+  }
 
   void Optimise(Trajectory* trajectory) {
     optimiser_->Restart();
@@ -127,6 +149,7 @@ class TrajectorySearch {
   std::unique_ptr<Optimiser> optimiser_;
   std::vector<double> distances_;  ///< Of the trajectory at hand.
   std::int64_t num_iterations_ = 0;
+  bool is_given_ = false;  ///< What is optimised is the path given.
   Path path_;
   double length_ = 0;
 };
@@ -141,6 +164,7 @@ class TrajoptPlanner final : public Planner {
     description.algorithm = settings_.VariantName();
     description.planner_class = PlannerClass::kTrajectoryOptimisation;
     description.anytime = true;
+    description.improve = true;
     description.deterministic =
         settings_.algorithm == TrajoptAlgorithm::kChomp && settings_.guesses == 1;
     description.collision_models = EnumValues<CollisionModel>();

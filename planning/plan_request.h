@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision/collision_model.h"
-#include "planning/plan_status.h"
+#include "planning/plan_result.h"
 #include "robot_model/edge_check.h"
 #include "scene/problem.h"
 
@@ -30,6 +30,10 @@ struct PlanRequest {
   std::optional<EdgeCheck> edge_check;      ///< None: the robot's.
   bool anytime = false;  ///< Keep improving until the time limit; else stop at the first solution.
   bool simplify = true;  ///< Run the shared shortcutting pass on the path.
+  /// From start to goal, for a planner that can improve one; empty: none. Names every joint of the
+  /// group once, in the order of the waypoints' positions.
+  std::vector<std::string> initial_joint_names;
+  Path initial_path;
   std::map<std::string, std::string> parameters;  ///< Planner settings for this request only.
   bool operator==(const PlanRequest&) const = default;
 };

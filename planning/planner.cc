@@ -52,6 +52,9 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
   if (request.direction == Direction::kBackward && !description.backward) {
     throw InputError(fmt::format("{}: {} cannot search backward", origin, description.algorithm));
   }
+  if (!request.initial_path.empty() && !description.improve) {
+    throw InputError(fmt::format("{}: {} does not improve paths", origin, description.algorithm));
+  }
 }
 
 GoalBox PointGoal(const Configuration& q) { return {q, q, q}; }
@@ -189,10 +192,12 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
     const PlanningGroup& group = robot_->Group(request.group);
     const ResolvedQuery resolved =
         ResolveQuery(*robot_, group, request.start, request.goal, origin);
+    const Path initial = ResolveInitialPath(group, resolved, request.initial_joint_names,
+                                            request.initial_path, origin);
     Compile(group, request.collision_model, scene, resolved.base_positions);
     PlanControl unwatched;
     clock = Stopwatch();
-    PlanInScene(request, resolved, scene, control != nullptr ? control : &unwatched, clock,
+    PlanInScene(request, resolved, initial, scene, control != nullptr ? control : &unwatched, clock,
                 &result);
   } catch (const InputError& error) {
     result = Unsearched(PlanStatus::kInvalidRequest, error.what(), clock);
@@ -204,7 +209,7 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
 }
 
 SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Configuration& start,
-                                   bool backward, SearchQuery* query) {
+                                   const Path& initial, bool backward, SearchQuery* query) {
   const std::string algorithm = Describe().algorithm;
   EdgeChecker& edges = query->edges();
   SearchResult found;
@@ -212,6 +217,14 @@ SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Conf
     const std::size_t num_left = goals.size() - i;
     query->start_ = backward ? goals[i].nominal : start;
     query->goal_ = backward ? PointGoal(start) : goals[i];
+    query->initial_path_ = {};
+    if (!initial.empty() && goals[i].Contains(edges.space(), initial.back())) {
+      query->initial_path_ = initial;
+      if (backward) {
+        query->start_ = initial.back();
+        std::reverse(query->initial_path_.begin(), query->initial_path_.end());
+      }
+    }
     if (num_left > 1) {
       query->turn_ends_s_ = query->time_limit_s_ - query->RemainingSeconds() *
                                                        static_cast<double>(num_left - 1) /
@@ -245,8 +258,8 @@ SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Conf
 }
 
 void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resolved,
-                          const Scene& scene, PlanControl* control, const Stopwatch& clock,
-                          PlanResult* result) {
+                          const Path& initial, const Scene& scene, PlanControl* control,
+                          const Stopwatch& clock, PlanResult* result) {
   const PlannerDescription description = Describe();
   const PlanningGroup& group = robot_->Group(request.group);
   CollisionChecker& checker = CheckerFor(group, request.collision_model);
@@ -288,7 +301,7 @@ void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resol
     found.status = PlanStatus::kGoalInvalid;
     found.message = std::move(fault);
   } else {
-    found = SearchInTurn(goals, resolved.start, backward, &query);
+    found = SearchInTurn(goals, resolved.start, initial, backward, &query);
   }
 
   result->total_time_s = clock.seconds();

@@ -30,6 +30,7 @@ struct PlannerDescription {
   PlannerClass planner_class = PlannerClass::kSampleThenSearch;
   bool backward = true;  ///< Can search backward.
   bool anytime = false;  ///< Keeps improving when asked.
+  bool improve = false;  ///< Takes the initial path of a request, and improves it.
   /// Searches from both ends at once (a roadmap has no direction at all): a backward request is the
   /// same experiment as a forward one.
   bool bidirectional = false;

@@ -13,6 +13,10 @@
 namespace planbench {
 namespace {
 
+/// How far the start of a path may be from the asked one (rad or m), the rounding of
+/// interpolation.
+constexpr double kStartRounding = 1e-9;
+
 void RequireFinite(double value, const std::string& origin, const std::string& what,
                    const std::string& joint) {
   if (!std::isfinite(value)) {
@@ -106,6 +110,45 @@ ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const
                               : fmt::format("{}: alternative {} of the goal", origin, i + 1)));
   }
   return query;
+}
+
+Path ResolveInitialPath(const PlanningGroup& group, const ResolvedQuery& query,
+                        const std::vector<std::string>& joint_names, const Path& path,
+                        const std::string& origin) {
+  if (path.empty()) return {};
+  const JointSpace& space = group.space;
+  const auto n = static_cast<std::size_t>(space.size());
+  std::vector<std::size_t> column(n, n);  // by joint of the group
+  for (std::size_t i = 0; i < joint_names.size(); ++i) {
+    const int j = space.Find(joint_names[i]);
+    if (j < 0 || column[static_cast<std::size_t>(j)] != n) {
+      throw InputError(
+          fmt::format("{}: initial_path names joint '{}'{}", origin, joint_names[i],
+                      j < 0 ? ", which is not in group '" + group.name + "'" : " twice"));
+    }
+    column[static_cast<std::size_t>(j)] = i;
+  }
+  Path resolved;
+  for (const Configuration& waypoint : path) {
+    if (joint_names.size() != n || waypoint.size() != n) {
+      throw InputError(fmt::format(
+          "{}: initial_path has {} joints and waypoints of {}, group '{}' has {} joints", origin,
+          joint_names.size(), waypoint.size(), group.name, n));
+    }
+    Configuration& q = resolved.emplace_back(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      q[k] = waypoint[column[k]];
+      RequireFinite(q[k], origin, "initial_path", joint_names[column[k]]);
+    }
+  }
+  if (!(space.Distance(resolved.front(), query.start) <= kStartRounding)) {
+    throw InputError(origin + ": initial_path does not begin at the start");
+  }
+  if (std::none_of(query.goals.begin(), query.goals.end(),
+                   [&](const GoalBox& goal) { return goal.Contains(space, resolved.back()); })) {
+    throw InputError(origin + ": initial_path does not end in a goal");
+  }
+  return resolved;
 }
 
 }  // namespace planbench

@@ -24,4 +24,11 @@ struct ResolvedQuery {
 ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
                            const std::vector<JointGoal>& goal, const std::string& origin);
 
+/// A path given by name in the group's coordinates; empty if it is. Throws InputError (prefixed by
+/// `origin`) if it does not name every joint of the group once, or a waypoint has another size or
+/// values that are not finite, or it does not lead from the start into a goal of `query`.
+Path ResolveInitialPath(const PlanningGroup& group, const ResolvedQuery& query,
+                        const std::vector<std::string>& joint_names, const Path& path,
+                        const std::string& origin);
+
 }  // namespace planbench

@@ -30,6 +30,8 @@ class SearchQuery {
   EdgeChecker& edges() const { return *edges_; }
   std::uint64_t seed() const { return seed_; }
   bool anytime() const { return anytime_; }
+  /// A path from `start` into `goal` to be improved, not checked yet; empty: none.
+  const Path& initial_path() const { return initial_path_; }
   /// Settings of this request, to be applied over the planner's own (see YamlNode::Override).
   const std::map<std::string, std::string>& parameters() const { return *parameters_; }
 
@@ -54,6 +56,7 @@ class SearchQuery {
   EdgeChecker* edges_ = nullptr;
   std::uint64_t seed_ = 0;
   bool anytime_ = false;
+  Path initial_path_;
   const std::map<std::string, std::string>* parameters_ = nullptr;
   PlanControl* control_ = nullptr;
   Stopwatch clock_;

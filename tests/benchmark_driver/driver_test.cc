@@ -419,6 +419,38 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   ExpectNotDiscovered(Options(), {"'arm'", "robot-2", kFakeRobotId});
 }
 
+TEST_F(DriverTest, OneWhoIsGivenAPathMustImproveItAndNotAtTheSameTime) {
+  FakePlanner planner(&bus_);
+  const FakePlanner first(&bus_, "first");
+  const FakeSceneServer server(&bus_);
+  std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
+  line_up[0].contestant.first_path_of = "first";
+  DriverOptions options = Options();
+  const auto expect_refused = [&](const std::vector<std::string>& parts) {
+    Driver driver(&bus_, options, line_up, {});
+    ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
+  };
+  expect_refused({"first_path_of", "'arm' does not improve paths"});
+  planner.status.can_improve = true;
+  Reannounce(&planner);
+  options.conditions.parallel = true;
+  expect_refused({"--parallel", "'first'", "arm"});
+}
+
+TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {
+  const FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  NodeStatusMessage status = MakeNodeStatus("store", NodeKind::kLogger);
+  status.commit = "older";
+  const NodeAnnouncer logger(&bus_, [status] { return status; });
+  NodeRegistry registry(&bus_);
+  ASSERT_TRUE(
+      registry.WaitUntil([&] { return !registry.Live(NodeKind::kLogger).empty(); }, kTestPatience));
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  ExpectInputError([&] { driver.Discover(true, Idle); },
+                   {"logger 'store'", "another build", "older"});
+}
+
 TEST_F(DriverTest, BadProblemsEndTheSessionBeforeItsFirstRun) {
   FakePlanner planner(&bus_);
   FakeSceneServer server(&bus_);

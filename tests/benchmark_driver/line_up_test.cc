@@ -160,5 +160,25 @@ TEST_F(LineUpTest, CommandsAndSettingsAreOfThosePicked) {
   ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--set", "'x'"});
 }
 
+TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
+  const std::string text = R"(contestants:
+  chomp: {program: trajopt, first_path_of: rrtc}
+  rrtc: {}
+  stomp: {program: trajopt, first_path_of: chomp}
+  self: {program: trajopt, first_path_of: self}
+)";
+  LineUpFlags flags = Flags(text);
+  flags.planners = {"chomp", "rrtc"};
+  EXPECT_EQ(MakeLineUp(flags, robot()).at(0).contestant.first_path_of, "rrtc");
+  const auto expect_refused = [&](const std::vector<std::string>& planners,
+                                  const std::vector<std::string>& parts) {
+    flags.planners = planners;
+    ExpectInputError([&] { MakeLineUp(flags, robot()); }, parts);
+  };
+  expect_refused({"chomp"}, {"'chomp'", "first_path_of", "'rrtc' is not among the planners"});
+  expect_refused({"stomp", "chomp", "rrtc"}, {"'stomp'", "'chomp' does not find a path by itself"});
+  expect_refused({"self"}, {"'self' does not find a path by itself"});
+}
+
 }  // namespace
 }  // namespace planbench

@@ -42,7 +42,7 @@ TEST_F(MachineTest, IsDescribedAsFarAsItTells) {
 TEST_F(MachineTest, AMeterTellsWhatHappenedSinceItBegan) {
   folder_.Write("proc/loadavg", "0.50 1.00 2.00 1/99 7\n");
   Write(1'000'000'000, 2'000'000'000, 300);
-  const DisturbanceMeter meter(7, Kernel());
+  const DisturbanceMeter meter({7}, Kernel());
   Write(1'250'000'000, 2'500'000'000, 300 + sysconf(_SC_CLK_TCK) * sysconf(_SC_NPROCESSORS_ONLN));
   folder_.Write("proc/7/task/9/schedstat", "0 125000000 1\n");  // came meanwhile
   folder_.Write("proc/loadavg", "3.00 1.00 2.00 1/99 7\n");
@@ -56,16 +56,16 @@ TEST_F(MachineTest, AMeterTellsWhatHappenedSinceItBegan) {
 TEST_F(MachineTest, OfAnotherMachineNothingIsKnown) {
   Write(1, 2, 3);
   std::map<std::string, double> counters;
-  DisturbanceMeter(std::nullopt, Kernel()).Read(&counters);
+  DisturbanceMeter({}, Kernel()).Read(&counters);
   EXPECT_EQ(counters, (std::map<std::string, double>{{"steal_time", 0}}));
   counters.clear();
-  DisturbanceMeter(7, {folder_ / "none", folder_ / "none"}).Read(&counters);
+  DisturbanceMeter({7}, {folder_ / "none", folder_ / "none"}).Read(&counters);
   EXPECT_TRUE(counters.empty());
 }
 
 TEST_F(MachineTest, TheKernelTellsOfThisProcess) {
   std::map<std::string, double> counters;
-  DisturbanceMeter(getpid(), {}).Read(&counters);
+  DisturbanceMeter({getpid()}, {}).Read(&counters);
   EXPECT_GE(counters.at("load_before"), 0);
   EXPECT_GE(counters.at("waiting_time"), 0);
   EXPECT_GE(counters.at("steal_time"), 0);

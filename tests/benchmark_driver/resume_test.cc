@@ -49,6 +49,12 @@ class FieldChanger {
   void Beside(const char*, Values& values, Wires&, std::int32_t&, Rule = {}) {
     if (changed_ == "joint_name") values.emplace_back();  // as long as the list before
   }
+  template <typename Values>
+  void Rows(const char* name, Values& values, auto&, std::int32_t&, std::int32_t&) {
+    if (next_ - 1 == which_) values.push_back({0});  // as wide as the list before is long
+    if (Chosen(name)) values.emplace_back();
+  }
+  void Require(bool, const char*, const char*) {}
 
  private:
   bool Chosen(const char* name) {

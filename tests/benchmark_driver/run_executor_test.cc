@@ -49,7 +49,7 @@ class RunExecutorTest : public testing::Test {
     return run;
   }
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run = Scheduled()) {
-    return executor_.Execute(run, &client_, [this] { return interrupted_.load(); });
+    return executor_.Execute(run, {&client_}, [this] { return interrupted_.load(); });
   }
   void AnswerWith(const PlanResult& result) {
     planner_.OnRequest([this, result](const PlanRequest& request) {
@@ -260,6 +260,106 @@ TEST_F(RunExecutorTest, WarmsUpWithARequestThatIsNotJudged) {
   EXPECT_TRUE(server.path_checks().messages().empty());
   ASSERT_TRUE(Execute());
   EXPECT_NE(planner_.requests().messages().back().request_id, request.request_id);
+}
+
+/// "arm" improves what "first" finds.
+class FirstPathTest : public RunExecutorTest {
+ protected:
+  FirstPathTest() {
+    SessionConditions conditions = Conditions();
+    conditions.contestants[0].first_path_of = "first";
+    Contestant first = conditions.contestants[0];
+    first.planner = first.name = "first";
+    first.first_path_of = "";
+    first.collision_model = CollisionModel::kSpheres;
+    conditions.contestants.push_back(first);
+    conditions.request.simplify = conditions.request.anytime = true;
+    executor_.emplace(&bus_, &registry_, conditions);
+  }
+  std::optional<RunRecordMessage> Execute() {
+    return executor_->Execute(Scheduled(), {&first_client_, &client_}, [] { return false; });
+  }
+  void FirstAnswers(const PlanResult& result) {
+    first_.OnRequest([this, result](const PlanRequest& request) {
+      first_.SendResult(request.request_id, result);
+    });
+  }
+  static PlanResult Found(double planning_time_s) {
+    PlanResult result = FakePlanner::SolvedResult();
+    result.path = {{0, 0}, {0.5, 2}, {1, 0.5}};
+    result.planning_time_s = result.total_time_s = planning_time_s;
+    result.phases.search_s = planning_time_s;
+    result.counters = {{"edges_checked", 5}, {"samples", 7}};
+    return result;
+  }
+
+  FakeSceneServer server_{&bus_};
+  FakePlanner first_{&bus_, "first"};
+  PlannerClient first_client_{&bus_, &registry_, "first"};
+  std::optional<RunExecutor> executor_;
+};
+
+TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) {
+  FirstAnswers(Found(2));
+  PlanResult better = FakePlanner::SolvedResult();
+  better.planning_time_s = 0.5;
+  better.total_time_s = 1;
+  better.phases.search_s = 1;
+  better.progress = {{0.5, 0, 3, 1}};
+  better.counters = {{"edges_checked", 10}};
+  AnswerWith(better);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
+  EXPECT_EQ(record->result.result.path, FakePath());
+  EXPECT_EQ(record->result.result.planning_time_s, 2.5);
+  EXPECT_EQ(record->result.result.total_time_s, 3);
+  EXPECT_EQ(record->result.result.phases.search_s, 3);
+  EXPECT_EQ(record->result.result.progress.at(0).elapsed_s, 2.5);
+  const auto& counters = record->result.result.counters;
+  EXPECT_EQ(counters.at("edges_checked"), 15);
+  EXPECT_EQ(counters.at("samples"), 7);
+  EXPECT_EQ(counters.at("first_path_time"), 2);
+
+  const PlanRequest asked_first = first_.requests().messages().at(0);
+  EXPECT_THAT(asked_first.request_id, testing::StartsWith("run/cans/2/arm/backward/3/first-path@"));
+  EXPECT_EQ(asked_first.collision_model, CollisionModel::kSpheres);
+  EXPECT_EQ(asked_first.seed, 9u);
+  EXPECT_EQ(asked_first.time_limit_s, 7);
+  EXPECT_FALSE(asked_first.simplify || asked_first.anytime) << "the path is not the answer yet";
+  EXPECT_TRUE(asked_first.initial_path.empty());
+  const PlanRequest asked = planner_.requests().messages().at(0);
+  EXPECT_EQ(asked.initial_path, Found(2).path);
+  EXPECT_EQ(asked.initial_joint_names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(asked.collision_model, CollisionModel::kVoxels);
+  EXPECT_EQ(asked.time_limit_s, 5);
+  EXPECT_TRUE(asked.simplify && asked.anytime);
+  PlanRequest recorded = asked;
+  recorded.time_limit_s = 7;
+  EXPECT_EQ(record->request, recorded);
+}
+
+TEST_F(FirstPathTest, WithoutOneThereIsNothingToImprove) {
+  PlanResult failed;
+  failed.status = PlanStatus::kTimedOut;
+  failed.message = "too hard";
+  FirstAnswers(failed);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
+  EXPECT_EQ(record->message, "first: too hard");
+  EXPECT_TRUE(record->request.initial_path.empty());
+  EXPECT_TRUE(planner_.requests().messages().empty());
+}
+
+TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {
+  FirstAnswers(Found(7));
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved);
+  EXPECT_EQ(record->result.result.path, Found(7).path);
+  EXPECT_EQ(record->result.result.planning_time_s, 7);
+  EXPECT_TRUE(planner_.requests().messages().empty());
 }
 
 }  // namespace

@@ -339,4 +339,24 @@ TEST_P(PlannerContract, AnAnytimePlannerReportsItsSolutions) {
   }
 }
 
+TEST_P(PlannerContract, AnInitialPathIsImprovedOrRefused) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  const PlanResult found = planner->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(found.status, PlanStatus::kSolved) << found.message;
+  request.initial_joint_names = {"shoulder", "elbow", "wrist"};
+  request.initial_path = found.path;
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    request.direction = direction;
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    if (!planner->Describe().improve) {
+      EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+      continue;
+    }
+    ExpectSolved(planar_, request, PostsScene(), result);
+    const JointSpace& space = planar_.groups.front().space;
+    EXPECT_LE(PathLength(space, result.path), PathLength(space, found.path) + 1e-9);
+  }
+}
+
 }  // namespace planbench

@@ -20,8 +20,10 @@ std::string ValueText(const SqliteValue& value) {
 
 }  // namespace
 
-PipelineTest::PipelineTest()
-    : url_(PrivateUdpUrl()), mark_("PLANBENCH_TEST=" + folder_.path().string()) {}
+PipelineTest::PipelineTest() : PipelineTest(PrivateUdpUrl()) {}
+
+PipelineTest::PipelineTest(std::string url)
+    : url_(std::move(url)), mark_("PLANBENCH_TEST=" + folder_.path().string()) {}
 
 PipelineTest::~PipelineTest() {
   processes_.clear();

@@ -19,6 +19,7 @@ namespace planbench {
 class PipelineTest : public ::testing::Test {
  protected:
   PipelineTest();
+  explicit PipelineTest(std::string url);
   ~PipelineTest() override;
 
   static std::string Program(const std::string& name);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner_trajopt/trajopt_settings.h"
+#include "planning/path_measures.h"
 #include "tests/contract/planner_contract.h"
 #include "tests/contract/random_robots_contract.h"
 #include "tests/support/expect_input_error.h"
@@ -148,6 +149,25 @@ TEST_F(TrajoptPlannerTest, SeedsDecideThePath) {
     const Path one = Solve(settings, PostsScene(), 1).path;
     EXPECT_EQ(Solve(settings, PostsScene(), 1).path, one) << settings;
     EXPECT_NE(Solve(settings, PostsScene(), 2).path, one) << settings;
+  }
+}
+
+TEST_F(TrajoptPlannerTest, APathThatIsGivenIsImproved) {
+  const Path detour = {{0.6, 0, 0},    {1.2, 1, 1},  {1.2, 2.2, 1},
+                       {-1.2, 2.2, 1}, {-1.2, 1, 1}, {-0.6, 0, 0}};
+  for (const std::string algorithm : {"STOMP", "CHOMP"}) {
+    SCOPED_TRACE(algorithm);
+    PlanRequest request = MakeRequest(robot_, detour.front(), detour.back());
+    request.initial_joint_names = {"shoulder", "elbow", "wrist"};
+    request.initial_path = detour;
+    const auto planner =
+        MakeTrajoptPlanner(robot_, Settings("{guesses: 1, algorithm: " + algorithm + "}"));
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_EQ(result.counters.at("guesses"), 1);
+    EXPECT_GT(result.counters.at("iterations"), 0);
+    const JointSpace& space = robot_.groups.front().space;
+    EXPECT_LT(PathLength(space, result.path), 0.9 * PathLength(space, detour));
   }
 }
 

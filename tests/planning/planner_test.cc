@@ -81,6 +81,29 @@ TEST_F(PlannerTest, BackwardSearchesFromTheNominalGoalToTheStartPoint) {
   EXPECT_EQ(result.path, (Path{start_, {0.5, 2.0, 1.0}, goal_}));
 }
 
+TEST_F(PlannerTest, AnInitialPathRunsFromWhereTheSearchBegins) {
+  const Path path = {start_, {0.5, 2.0, 1.0}, {-0.55, 0.05, 0}};
+  PlannerDescription able = ScriptedPlanner::Able();
+  able.improve = true;
+  ScriptedPlanner planner(
+      robot_,
+      [](SearchQuery& query) {
+        EXPECT_EQ(query.initial_path().front(), query.start());
+        EXPECT_TRUE(query.goal().Contains(query.space(), query.initial_path().back()));
+        return Solved(query.initial_path());
+      },
+      able);
+  PlanRequest request = Request(0.1);
+  request.initial_joint_names = {"wrist", "shoulder", "elbow"};
+  for (const Configuration& q : path) request.initial_path.push_back({q[2], q[0], q[1]});
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    request.direction = direction;
+    const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_EQ(result.path, path);
+  }
+}
+
 TEST_F(PlannerTest, EndsGetTheirExactValues) {
   PlanRequest request = Request();
   request.start.positions[0] += 2 * M_PI;

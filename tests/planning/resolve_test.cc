@@ -131,5 +131,33 @@ TEST(GoalBoxTest, ComparesContinuousJointsTheShortWay) {
   EXPECT_FALSE(box.Contains(space, Configuration{std::nan(""), 0, 0}));
 }
 
+TEST_F(ResolveTest, AnInitialPathNamesItsJointsAndLeadsIntoTheGoal) {
+  const PlanningGroup& group = robot_.groups.front();
+  const ResolvedQuery query = Resolve(start_, goal_);
+  std::vector<std::string> names = {"wrist", "shoulder", "elbow"};
+  Path path = {{0.3, 0.1, 0.2}, {1, 1, 1}, {2.5, 3.1, 1.2}};
+  const auto resolve = [&] { return ResolveInitialPath(group, query, names, path, "test"); };
+  EXPECT_EQ(resolve(), (Path{{0.1, 0.2, 0.3}, {1, 1, 1}, {3.1, 1.2, 2.5}}));
+  EXPECT_EQ(ResolveInitialPath(group, query, {}, {}, "test"), Path());
+
+  const auto expect_refused = [&](const std::string& what) {
+    ExpectInputError([&] { resolve(); }, {"test: initial_path", what});
+  };
+  path[2][1] += 1;
+  expect_refused("does not end in a goal");
+  path[0][1] += 1;
+  expect_refused("does not begin at the start");
+  path[1][2] = kInfinity;
+  expect_refused("of joint 'elbow' is inf");
+  path[1] = {1, 1};
+  expect_refused("waypoints of 2");
+  names[1] = "wrist";
+  expect_refused("'wrist' twice");
+  names[1] = "lift";
+  expect_refused("'lift', which is not in group");
+  names = {"wrist"};
+  expect_refused("1 joints");
+}
+
 }  // namespace
 }  // namespace planbench

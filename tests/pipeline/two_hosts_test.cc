@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "messaging/lcm_url.h"
+#include "tests/pipeline/pipeline_fixture.h"
+
+namespace planbench {
+namespace {
+
+/// Two hosts on a wire: network namespaces, each with a name and, if the test wants, clocks of its
+/// own.
+class TwoHosts : public PipelineTest {
+ protected:
+  TwoHosts()
+      : PipelineTest(
+            fmt::format("udpm://239.255.76.67:{}?ttl=1&recv_buf_size=4194304", FreeUdpPort())) {}
+  ~TwoHosts() override {
+    for (const char* host : kHosts) Shell("ip netns del " + Namespace(host));
+  }
+
+  void SetUp() override {
+    std::string commands;
+    for (const char* host : kHosts) commands += fmt::format("ip netns add {} && ", Namespace(host));
+    commands += fmt::format("ip -n {0} link add wire type veth peer name wire netns {1}",
+                            Namespace(kHosts[0]), Namespace(kHosts[1]));
+    for (const char* host : kHosts) {
+      commands += fmt::format(
+          " && ip -n {0} link set lo up && ip -n {0} link set wire up && ip -n {0} address add "
+          "10.9.8.{1}/24 dev wire && ip -n {0} route add 224.0.0.0/4 dev wire",
+          Namespace(host), host == kHosts[0] ? 1 : 2);
+    }
+    if (!Shell(commands)) GTEST_SKIP() << "needs root and network namespaces";
+  }
+
+  ChildProcess* StartOn(const std::string& host, const std::vector<std::string>& arguments,
+                        const std::vector<std::string>& clock = {}) {
+    std::vector<std::string> command = {"ip", "netns", "exec", Namespace(host), "unshare", "--uts"};
+    command.insert(command.end(), clock.begin(), clock.end());
+    command.insert(command.end(),
+                   {"sh", "-c", "echo $0 >/proc/sys/kernel/hostname; exec \"$@\"", host});
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return Start(command);
+  }
+
+  static std::vector<std::string> SceneServer() {
+    return {Program("scene_server"), "--robot", RobotFolder(), "--problems", ProblemFolder()};
+  }
+  static bool IsSanitized() { return !std::string(PLANBENCH_SANITIZED).empty(); }
+
+  static constexpr std::array kHosts = {"office", "robot"};
+
+ private:
+  static std::string Namespace(const std::string& host) {
+    return fmt::format("{}-{}", host, getpid());
+  }
+  static bool Shell(const std::string& commands) {
+    return std::system(("exec 2>/dev/null; " + commands).c_str()) == 0;
+  }
+};
+
+TEST_F(TwoHosts, ASessionRunsOverBothAndMixesNoClocks) {
+  // Steady clocks eleven days apart, the time of day one hour.
+  const std::vector<std::string> another_clock = {"--time", "--fork", "--kill-child",
+                                                  "--monotonic=1000000"};
+  const std::string another_time =
+      "LD_PRELOAD=" + std::string(IsSanitized() ? "" : PLANBENCH_ANOTHER_TIME);
+  const auto session = folder() / "session";
+  for (const std::string kind : {"ara", "rrtc"}) {
+    StartOn("robot", {"env", another_time, Program("planner_" + kind), "--robot", RobotFolder()},
+            another_clock);
+  }
+  StartOn("office", SceneServer());
+  StartOn("office", {Program("logger"), "--out", session.string()});
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") == 0; }));
+  ChildProcess* driver = StartOn("office", {Program("benchmark_driver"), "--discovery-timeout",
+                                            "60", "--problems-range", "1-2", "--time", "30"});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  for (const int pid : LeftRunning()) kill(pid, SIGINT);
+  EXPECT_TRUE(WaitUntil([&] { return LeftRunning().empty(); }));
+
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved AND referee_valid"), 4);
+  EXPECT_EQ(Query(session,
+                  "SELECT count(*) FROM runs WHERE time BETWEEN 0 AND roundtrip_time AND "
+                  "roundtrip_time < 30"),
+            4);
+  // What a process on the other host waits for cannot be seen from here.
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE waiting_time IS NOT NULL"), 0);
+  std::map<std::string, std::string> hosts;
+  const auto info = nlohmann::json::parse(std::ifstream(session / "run.json"));
+  for (const auto& node : info.at("sessions").at(0).at("nodes"))
+    hosts[node.at("name")] = node.at("host");
+  EXPECT_EQ(hosts["ara"], "robot");
+  EXPECT_EQ(hosts["rrtc"], "robot");
+  EXPECT_EQ(hosts["scene_server"], "office");
+}
+
+TEST_F(TwoHosts, AnotherRobotOnOneOfThemIsRefused) {
+  StartOn("robot", {Program("planner_rrtc"), "--robot",
+                    std::string(PLANBENCH_SOURCE_DIR) + "/robots/panda"});
+  StartOn("office", SceneServer());
+  ExpectBadInput(StartOn("office", {Program("benchmark_driver"), "--discovery-timeout", "60",
+                                    "--planners", "rrtc"}),
+                 "another robot than the scene server");
+}
+
+}  // namespace
+}  // namespace planbench
