@@ -21,8 +21,8 @@
 namespace planbench {
 namespace {
 
-/// Random shortcuts tried on every path, whatever planner found it.
-constexpr int kShortcutAttempts = 200;
+/// Of shortcutting, on every path, whatever planner found it.
+constexpr int kShortcutRounds = 4;
 
 /// Ends of a path may differ from the asked ones by this much (rad or m), the rounding of
 /// interpolation.
@@ -333,7 +333,7 @@ void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resol
   if (!request.simplify) return;
   const Stopwatch simplification;
   edges.StopWhen([&query] { return query.Cancelled(); });
-  result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutAttempts,
+  result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutRounds,
                                          [&query] { return query.Cancelled(); });
   result->phases.simplification_s = simplification.seconds();
 }

@@ -7,10 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "common/random.h"
 #include "planning/path_measures.h"
 
 namespace planbench {
 namespace {
+
+/// Random shortcuts tried in a round.
+constexpr int kAttempts = 20;
 
 /// A path whose edges are the input's, or were found valid since.
 struct CheckedPath {
@@ -53,6 +57,7 @@ class MeasuredPath {
 
   const Path& waypoints() const { return path_.waypoints; }
   bool FoundValid(std::size_t segment) const { return path_.found_valid[segment]; }
+  double EdgeLength(std::size_t segment) const { return lengths_[segment]; }
   double TotalLength() const { return std::accumulate(lengths_.begin(), lengths_.end(), 0.0); }
 
   PathPoint At(double length) const {
@@ -109,42 +114,81 @@ class MeasuredPath {
   std::vector<double> lengths_;
 };
 
+/// Tries shortcuts between points of a path, and takes those that are valid.
+class Shortener {
+ public:
+  Shortener(EdgeChecker* edges, CheckedPath path)
+      : edges_(edges), path_(edges->space(), std::move(path)) {}
+
+  const MeasuredPath& path() const { return path_; }
+
+  /// Between the points at two lengths from the start, `from` <= `to`. True if it was taken.
+  bool Try(double from, double to) {
+    const PathPoint a = path_.At(from);
+    const PathPoint b = path_.At(to);
+    if (a.segment == b.segment) return false;
+    const double gain = path_.Between(a, b) - edges_->space().Distance(a.q, b.q);
+    if (gain < kLeastGain * path_.TotalLength()) return false;
+    const Path& waypoints = path_.waypoints();
+    if (!edges_->IsValidEdge(a.q, b.q) || !IsPartValid(a.segment, waypoints[a.segment], a.q) ||
+        !IsPartValid(b.segment, b.q, waypoints[b.segment + 1])) {
+      return false;
+    }
+    path_.Replace(a, b);
+    return true;
+  }
+
+  /// Across each corner, between the points that far from it, as fractions of the edges on either
+  /// side.
+  void CutCorners(double fraction) {
+    double at = 0;  // of waypoint i
+    for (std::size_t i = 1; i + 1 < path_.waypoints().size(); ++i) {
+      const double before = path_.EdgeLength(i - 1);
+      const double after = path_.EdgeLength(i);
+      at += before;
+      if (!Try(at - fraction * before, at + fraction * after)) continue;
+      // Two corners stand for it: on from the second.
+      at += path_.EdgeLength(i) - fraction * before;
+      ++i;
+    }
+  }
+
+ private:
+  /// What a shortcut gains at least, of the path's length: less is not worth checking an edge, nor
+  /// two more waypoints.
+  static constexpr double kLeastGain = 3e-3;
+
+  /// Part of a proven edge needs no proof. The samples of part of a sampled edge lie elsewhere than
+  /// those of the whole; and how the input's edges were found valid is not known here.
+  bool IsPartValid(std::size_t segment, const Configuration& from, const Configuration& to) {
+    return (edges_->method() == EdgeCheck::kCertified && path_.FoundValid(segment)) ||
+           edges_->IsValidEdge(from, to);
+  }
+
+  EdgeChecker* edges_;
+  MeasuredPath path_;
+};
+
 }  // namespace
 
-Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int attempts,
+Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int rounds,
                   const std::function<bool()>& should_stop) {
   if (path.size() < 3) return path;
-  const JointSpace& space = edges->space();
-  MeasuredPath measured(space, BypassWaypoints(edges, path, should_stop));
-
+  Shortener shortener(edges, BypassWaypoints(edges, path, should_stop));
   std::mt19937_64 generator(seed);
-  // Not std::uniform_real_distribution: its values differ between standard libraries.
-  const auto uniform01 = [&generator] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-
-  // Part of a proven edge needs no proof. The samples of part of a sampled edge lie elsewhere than
-  // those of the whole; and how the input's edges were found valid is not known here.
-  const auto part_is_valid = [&](std::size_t segment, const Configuration& from,
-                                 const Configuration& to) {
-    return (edges->method() == EdgeCheck::kCertified && measured.FoundValid(segment)) ||
-           edges->IsValidEdge(from, to);
-  };
-  for (int attempt = 0; attempt < attempts && measured.waypoints().size() > 2; ++attempt) {
-    if (should_stop()) break;
-    const double total = measured.TotalLength();
-    const double at_1 = uniform01() * total;
-    const double at_2 = uniform01() * total;
-    const PathPoint a = measured.At(std::min(at_1, at_2));
-    const PathPoint b = measured.At(std::max(at_1, at_2));
-    if (a.segment == b.segment) continue;
-    // Less is not worth checking an edge, nor two more waypoints.
-    constexpr double kLeastGain = 1e-3;  // of the path's length
-    if (space.Distance(a.q, b.q) > measured.Between(a, b) - kLeastGain * total) continue;
-    if (!edges->IsValidEdge(a.q, b.q)) continue;
-    if (!part_is_valid(a.segment, measured.waypoints()[a.segment], a.q)) continue;
-    if (!part_is_valid(b.segment, b.q, measured.waypoints()[b.segment + 1])) continue;
-    measured.Replace(a, b);
+  for (int round = 0; round < rounds; ++round) {
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (should_stop() || shortener.path().waypoints().size() == 2) {
+        return shortener.path().waypoints();
+      }
+      const double total = shortener.path().TotalLength();
+      const double at_1 = UniformFraction(&generator) * total;
+      const double at_2 = UniformFraction(&generator) * total;
+      shortener.Try(std::min(at_1, at_2), std::max(at_1, at_2));
+    }
+    for (const double fraction : {0.5, 0.25}) shortener.CutCorners(fraction);
   }
-  return measured.waypoints();
+  return shortener.path().waypoints();
 }
 
 }  // namespace planbench
