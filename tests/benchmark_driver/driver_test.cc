@@ -1,5 +1,6 @@
 #include "benchmark_driver/driver.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

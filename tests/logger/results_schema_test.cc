@@ -1,5 +1,6 @@
 #include "logger/results_schema.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
