@@ -182,8 +182,7 @@ void CheckUnitEdges(benchmark::State& state, Workload& work) {
 Mesh MakePebble(const Eigen::Vector3d& size) {
   constexpr int kRows = 26;
   constexpr int kColumns = 40;
-  Mesh pebble;
-  TriangleMesh& mesh = pebble.triangles;
+  TriangleMesh mesh;
   mesh.vertices = {{0, 0, -size.z() / 2}, {0, 0, size.z() / 2}};
   const auto at = [](int row, int column) {
     return static_cast<std::uint32_t>(2 + (row - 1) * kColumns + column % kColumns);
@@ -206,7 +205,7 @@ Mesh MakePebble(const Eigen::Vector3d& size) {
       mesh.triangles.push_back({at(row, column), at(row + 1, column + 1), at(row + 1, column)});
     }
   }
-  return pebble;
+  return {"", Eigen::Vector3d::Ones(), std::move(mesh)};
 }
 
 /// The same number of boxes, or of pebbles of their sizes, in every cubic metre around the robot,

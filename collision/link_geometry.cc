@@ -18,7 +18,8 @@ std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot) {
     LinkGeometry geometry{link, urdf_link.collision};
     for (PlacedShape& placed : geometry.shapes) {
       auto* mesh = std::get_if<Mesh>(&placed.shape);
-      if (mesh == nullptr || !mesh->triangles.triangles.empty() || mesh->resource.empty()) continue;
+      if (mesh == nullptr || !mesh->triangles->triangles.empty() || mesh->resource.empty())
+        continue;
       try {
         mesh->triangles = LoadMesh(robot.resources.Resolve(mesh->resource), mesh->scale);
       } catch (const InputError& error) {
@@ -35,7 +36,7 @@ std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links) {
   for (const LinkGeometry& geometry : links) {
     for (const PlacedShape& placed : geometry.shapes) {
       if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
-        for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
+        for (const Eigen::Vector3d& vertex : mesh->triangles->vertices) {
           balls.push_back({geometry.link, placed.X_FS * vertex, 0});
         }
       } else {

@@ -22,24 +22,10 @@ void RequireSizes(const std::string& owner, const Shape& shape,
 }
 
 void RequireTriangles(const std::string& owner, const Mesh& mesh) {
-  const TriangleMesh& m = mesh.triangles;
-  const std::string name = mesh.resource.empty() ? "a mesh" : "mesh " + mesh.resource;
-  if (m.triangles.empty()) {
-    throw InputError(fmt::format("'{}': {} has no triangles", owner, name));
-  }
-  for (const auto& triangle : m.triangles) {
-    for (std::uint32_t index : triangle) {
-      if (index >= m.vertices.size()) {
-        throw InputError(fmt::format("'{}': {} has {} vertices, a triangle names vertex {}", owner,
-                                     name, m.vertices.size(), index));
-      }
-    }
-  }
-  for (const Eigen::Vector3d& vertex : m.vertices) {
-    if (!vertex.allFinite()) {
-      throw InputError(fmt::format("'{}': {} has a vertex that is not finite", owner, name));
-    }
-  }
+  const std::string& fault = mesh.triangles.fault();
+  if (fault.empty()) return;
+  throw InputError(fmt::format("'{}': {} {}", owner,
+                               mesh.resource.empty() ? "a mesh" : "mesh " + mesh.resource, fault));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "geometry/shapes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/error.h"
 
@@ -82,7 +85,7 @@ struct BoundingSphereOf {
   }
 
   BoundingSphere operator()(const Mesh& mesh) const {
-    if (mesh.triangles.vertices.empty()) {
+    if (mesh.triangles->vertices.empty()) {
       throw InputError("mesh '" + mesh.resource + "': has no vertices (not loaded?)");
     }
     const BoundingSphere by_box = BoxCentredSphere(mesh.triangles);
@@ -90,6 +93,21 @@ struct BoundingSphereOf {
     return by_ritter.radius < by_box.radius ? by_ritter : by_box;
   }
 };
+
+std::string FaultOf(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return "has no triangles";
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index < mesh.vertices.size()) continue;
+      return fmt::format("has {} vertices, a triangle names vertex {}", mesh.vertices.size(),
+                         index);
+    }
+  }
+  for (const Vector3d& vertex : mesh.vertices) {
+    if (!vertex.allFinite()) return "has a vertex that is not finite";
+  }
+  return "";
+}
 
 struct TypeNameOf {
   std::string operator()(const Box&) const { return "box"; }
@@ -102,6 +120,27 @@ struct TypeNameOf {
 };
 
 }  // namespace
+
+SharedMesh::SharedMesh() {
+  static const SharedMesh empty = TriangleMesh();
+  content_ = empty.content_;
+}
+
+SharedMesh::SharedMesh(TriangleMesh mesh) {
+  Content content;
+  content.fault = FaultOf(mesh);
+  if (content.fault.empty()) {
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t index : triangle) content.box.extend(mesh.vertices[index]);
+    }
+  }
+  content.mesh = std::move(mesh);
+  content_ = std::make_shared<const Content>(std::move(content));
+}
+
+bool SharedMesh::operator==(const SharedMesh& other) const {
+  return content_ == other.content_ || content_->mesh == other.content_->mesh;
+}
 
 std::string ShapeTypeName(const Shape& shape) { return std::visit(TypeNameOf{}, shape); }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -45,6 +46,33 @@ struct HalfSpace {};
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;                ///< m, in the shape's frame.
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into vertices.
+  bool operator==(const TriangleMesh&) const = default;
+};
+
+/// A mesh that its copies share and that nobody changes; without triangles by default.
+class SharedMesh {
+ public:
+  SharedMesh();
+  SharedMesh(TriangleMesh mesh);  // NOLINT(google-explicit-constructor): it is the same mesh
+
+  operator const TriangleMesh&() const { return content_->mesh; }  // NOLINT: as above
+  const TriangleMesh* operator->() const { return &content_->mesh; }
+
+  /// Around its triangles; empty if anything is wrong with it.
+  const Eigen::AlignedBox3d& box() const { return content_->box; }
+  /// What is wrong with it, as "has no triangles"; empty if all is well.
+  const std::string& fault() const { return content_->fault; }
+
+  bool operator==(const SharedMesh& other) const;
+
+ private:
+  struct Content {
+    TriangleMesh mesh;
+    Eigen::AlignedBox3d box;
+    std::string fault;
+  };
+
+  std::shared_ptr<const Content> content_;
 };
 
 /// A mesh, named by resource or given inline.
@@ -52,7 +80,7 @@ struct Mesh {
   std::string resource;  ///< URI (package://, file://) or path; empty for an inline mesh.
   Eigen::Vector3d scale =
       Eigen::Vector3d::Ones();  ///< Applied to the resource's vertices, per axis.
-  TriangleMesh
+  SharedMesh
       triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
 };
 

@@ -48,11 +48,11 @@ Json ShapeJson(const Shape& shape) {
   round(std::get_if<Capsule>(&shape));
   if (const auto* mesh = std::get_if<Mesh>(&shape)) {
     json["vertices"] = Json::array();
-    for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
+    for (const Eigen::Vector3d& vertex : mesh->triangles->vertices) {
       for (const double value : vertex) json["vertices"].push_back(RoundedPosition(value));
     }
     json["triangles"] = Json::array();
-    for (const auto& triangle : mesh->triangles.triangles) {
+    for (const auto& triangle : mesh->triangles->triangles) {
       for (const std::uint32_t vertex : triangle) json["triangles"].push_back(vertex);
     }
   }

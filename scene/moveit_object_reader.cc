@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/error.h"
 #include "geometry/octomap.h"
@@ -65,12 +66,12 @@ Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
   if (const std::optional<YamlNode> uri = node.Find("resource")) {
     return LoadMeshResource(*uri, ReadScale(node), resources);
   }
-  Mesh mesh;
+  TriangleMesh mesh;
   const YamlNode vertices = node.At("vertices");
   for (const YamlNode& vertex : vertices.Elements()) {
-    mesh.triangles.vertices.push_back(ReadVector3(vertex));
+    mesh.vertices.push_back(ReadVector3(vertex));
   }
-  const auto num_vertices = static_cast<long long>(mesh.triangles.vertices.size());
+  const auto num_vertices = static_cast<long long>(mesh.vertices.size());
   const YamlNode triangles = node.At("triangles");
   for (const YamlNode& triangle : triangles.Elements()) {
     const YamlNode indices = triangle.IsMap() ? triangle.At("vertex_indices") : triangle;
@@ -85,10 +86,10 @@ Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
       }
       corners[i] = static_cast<std::uint32_t>(value);
     }
-    mesh.triangles.triangles.push_back(corners);
+    mesh.triangles.push_back(corners);
   }
-  if (mesh.triangles.triangles.empty()) triangles.Fail("the mesh has no triangles");
-  return mesh;
+  if (mesh.triangles.empty()) triangles.Fail("the mesh has no triangles");
+  return {"", Eigen::Vector3d::Ones(), std::move(mesh)};
 }
 
 // Pose of the half-space below shape_msgs/Plane's a x + b y + c z + d = 0.

@@ -66,11 +66,11 @@ struct ShapeWriter {
                          Vector(mesh.scale));
     }
     std::vector<std::string> vertices;
-    for (const Eigen::Vector3d& vertex : mesh.triangles.vertices) {
+    for (const Eigen::Vector3d& vertex : mesh.triangles->vertices) {
       vertices.push_back(Vector(vertex));
     }
     std::vector<std::string> triangles;
-    for (const auto& corners : mesh.triangles.triangles) {
+    for (const auto& corners : mesh.triangles->triangles) {
       triangles.push_back(fmt::format("[{}]", fmt::join(corners, ", ")));
     }
     return fmt::format("vertices: [{}]\n{}triangles: [{}]\n", fmt::join(vertices, ", "), indent,

@@ -41,7 +41,7 @@ struct ShapeHasher {
   }
   void operator()(const HalfSpace&) const {}
   void operator()(const Mesh& mesh) const {
-    if (mesh.triangles.triangles.empty()) {
+    if (mesh.triangles->triangles.empty()) {
       throw std::invalid_argument("SceneId: the mesh '" + mesh.resource + "' is not loaded");
     }
     hash->Add(MeshId(mesh.triangles));

@@ -173,14 +173,8 @@ FclShape::FclShape(const Shape& shape, const std::string& owner)
           [&](const Mesh& mesh) {
             geometry_->fcl = MakeMesh(mesh.triangles);
             geometry_->shape = SolidMesh(mesh.triangles);
-            Eigen::AlignedBox3d box;
-            for (const auto& triangle : mesh.triangles.triangles) {
-              for (std::uint32_t index : triangle) {
-                box.extend(mesh.triangles.vertices[index]);
-              }
-            }
-            box_center_ = box.center();
-            box_half_size_ = box.sizes() / 2;
+            box_center_ = mesh.triangles.box().center();
+            box_half_size_ = mesh.triangles.box().sizes() / 2;
           },
       },
       shape);

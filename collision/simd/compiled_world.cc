@@ -144,14 +144,8 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
   } else if (capsule != nullptr) {
     source.half_size << capsule->radius, capsule->radius, capsule->length / 2 + capsule->radius;
   } else {
-    Eigen::Vector3d low = mesh->triangles.vertices.front();
-    Eigen::Vector3d high = low;
-    for (const Eigen::Vector3d& vertex : mesh->triangles.vertices) {
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
-    }
-    source.center = X_WS * ((low + high) / 2);
-    source.half_size = (high - low) / 2;
+    source.center = X_WS * mesh->triangles.box().center();
+    source.half_size = mesh->triangles.box().sizes() / 2;
   }
   if (!BoxWithin(source.center, source.R_WS, source.half_size, reach)) return;
 
@@ -190,12 +184,11 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
   }
 }
 
-int CompiledWorld::AddMesh(const TriangleMesh& mesh, const Pose& X_WS) {
+int CompiledWorld::AddMesh(const SharedMesh& mesh, const Pose& X_WS) {
   const auto find = [&](const std::vector<std::shared_ptr<const MeshTree>>& meshes) {
     const auto found = std::find_if(
-        meshes.begin(), meshes.end(), [&](const std::shared_ptr<const MeshTree>& tree) {
-          return tree->mesh().triangles == mesh.triangles && tree->mesh().vertices == mesh.vertices;
-        });
+        meshes.begin(), meshes.end(),
+        [&](const std::shared_ptr<const MeshTree>& tree) { return tree->mesh() == mesh; });
     return found == meshes.end() ? nullptr : *found;
   };
   std::shared_ptr<const MeshTree> tree = find(meshes_);

@@ -50,7 +50,7 @@ class CompiledWorld {
 
   void AddShape(const Shape& shape, const Pose& X_WS, int object, const Ball& reach);
   /// Returns its index in the kernel's world.
-  int AddMesh(const TriangleMesh& mesh, const Pose& X_WS);
+  int AddMesh(const SharedMesh& mesh, const Pose& X_WS);
   void AddHalfSpace(const Pose& X_WS, int object, const Ball& reach);
   void AddSolid(kernels::Solid solid, const Source& source);
   void BuildHierarchy();

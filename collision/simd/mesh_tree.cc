@@ -166,7 +166,7 @@ void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
   }
 }
 
-MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
+MeshTree::MeshTree(SharedMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
   Builder(mesh_, &tree_);
   tree_.solid = &solid_;
   for (const Vector3d& point : solid_.component_points()) {

@@ -20,15 +20,15 @@ void SetTriangle(const Corners& triangle, std::size_t i, kernels::TriangleGroup*
 class MeshTree {
  public:
   /// At least one triangle; indices must be valid, vertices finite.
-  explicit MeshTree(TriangleMesh mesh);
+  explicit MeshTree(SharedMesh mesh);
   MeshTree(const MeshTree&) = delete;
   MeshTree& operator=(const MeshTree&) = delete;
 
-  const TriangleMesh& mesh() const { return mesh_; }
+  const SharedMesh& mesh() const { return mesh_; }
   const kernels::TriangleTree& tree() const { return tree_; }
 
  private:
-  TriangleMesh mesh_;
+  SharedMesh mesh_;
   SolidMesh solid_;
   kernels::TriangleTree tree_;
 };

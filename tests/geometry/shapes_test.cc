@@ -81,29 +81,30 @@ TEST(BoundingSphere, OfMeshesHoldsEveryVertexAndIsNotMuchTooLarge) {
   for (int trial = 0; trial < 50; ++trial) {
     // Vertices on a sphere of radius 2 that is somewhere: the smallest sphere is known.
     const Vector3d center(uniform(random), uniform(random), uniform(random));
-    Mesh mesh;
+    TriangleMesh mesh;
     for (int i = 0; i < 500; ++i) {
       const Vector3d direction(uniform(random), uniform(random), uniform(random));
-      mesh.triangles.vertices.push_back(center + 2 * direction.normalized());
+      mesh.vertices.push_back(center + 2 * direction.normalized());
     }
-    mesh.triangles.triangles.push_back({0, 1, 2});
-    const BoundingSphere sphere = ComputeBoundingSphere(mesh);
-    EXPECT_LE(FarthestDistance(mesh.triangles.vertices, sphere.center), sphere.radius + 1e-12);
+    mesh.triangles.push_back({0, 1, 2});
+    const BoundingSphere sphere = ComputeBoundingSphere(Mesh{"", Vector3d::Ones(), mesh});
+    EXPECT_LE(FarthestDistance(mesh.vertices, sphere.center), sphere.radius + 1e-12);
     EXPECT_LE(sphere.radius, 2 * 1.05);
   }
 }
 
 TEST(BoundingSphere, OfAMeshTakesTheBetterOfTwoMethods) {
   // The corners of a cube: centre of the box is exact there.
-  Mesh cube;
+  TriangleMesh cube;
   for (int i = 0; i < 8; ++i) {
-    cube.triangles.vertices.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+    cube.vertices.emplace_back(i & 1, (i >> 1) & 1, (i >> 2) & 1);
   }
-  EXPECT_NEAR(ComputeBoundingSphere(cube).radius, std::sqrt(3) / 2, 1e-12);
+  EXPECT_NEAR(ComputeBoundingSphere(Mesh{"", Vector3d::Ones(), cube}).radius, std::sqrt(3) / 2,
+              1e-12);
 
   // A lone point on a face pulls the box' centre away from nowhere, a single vertex has radius 0.
   Mesh point;
-  point.triangles.vertices = {Vector3d(1, 2, 3)};
+  point.triangles = TriangleMesh{{Vector3d(1, 2, 3)}, {}};
   EXPECT_EQ(ComputeBoundingSphere(point).center, Vector3d(1, 2, 3));
   EXPECT_EQ(ComputeBoundingSphere(point).radius, 0);
 }

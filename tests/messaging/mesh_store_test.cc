@@ -49,7 +49,7 @@ TEST_F(MeshStore, ResourcesGoThroughTheStoreToo) {
   const auto decoded = Decode<SceneMessage>(Encode(message), "CH");
   const Mesh& received = std::get<Mesh>(decoded.scene.objects[1].shapes[0].shape);
   EXPECT_EQ(received.resource, StoreMesh(mesh.triangles));
-  EXPECT_EQ(received.triangles.vertices, mesh.triangles.vertices);
+  EXPECT_EQ(received.triangles->vertices, mesh.triangles->vertices);
 }
 
 TEST_F(MeshStore, MissingAndChangedFilesAreNoticed) {

@@ -109,7 +109,7 @@ TEST_F(RobotModelTest, ReadsCollisionGeometry) {
   const Mesh& mesh = std::get<Mesh>(branch.collision[0].shape);
   EXPECT_EQ(mesh.resource, "package://tree/meshes/branch.stl");
   EXPECT_EQ(mesh.scale, Vector3d(0.001, 0.002, 0.003));
-  EXPECT_TRUE(mesh.triangles.vertices.empty());
+  EXPECT_TRUE(mesh.triangles->vertices.empty());
   const Link& twig = model_.links()[4];
   EXPECT_EQ(std::get<Sphere>(twig.collision.at(0).shape).radius, 0.2);
 }

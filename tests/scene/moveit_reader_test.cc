@@ -63,8 +63,8 @@ TEST(MoveItReader, ReadsEveryField) {
   EXPECT_TRUE(p_WC.isApprox(Eigen::Vector3d(0, 0.5, 1), 1e-12)) << p_WC.transpose();
 
   const auto& wedge = std::get<Mesh>(scene.objects[2].shapes[0].shape);
-  EXPECT_EQ(wedge.triangles.vertices.size(), 4);
-  EXPECT_THAT(wedge.triangles.triangles[2], ElementsAre(1, 2, 3));
+  EXPECT_EQ(wedge.triangles->vertices.size(), 4);
+  EXPECT_THAT(wedge.triangles->triangles[2], ElementsAre(1, 2, 3));
 
   ASSERT_EQ(scene.attached.size(), 1);
   EXPECT_EQ(scene.attached[0].link, "gripper_link");
@@ -198,9 +198,9 @@ TEST_F(MeshFile, LoadsResourceAndAppliesScale) {
   const auto& mesh = std::get<Mesh>(scene.objects[0].shapes[0].shape);
   EXPECT_EQ(mesh.resource, "package://things/meshes/tri.obj");
   EXPECT_EQ(mesh.scale, Eigen::Vector3d(2, 3, 1));
-  ASSERT_EQ(mesh.triangles.triangles.size(), 1);
+  ASSERT_EQ(mesh.triangles->triangles.size(), 1);
   Eigen::Vector3d top = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& vertex : mesh.triangles.vertices) top = top.cwiseMax(vertex);
+  for (const Eigen::Vector3d& vertex : mesh.triangles->vertices) top = top.cwiseMax(vertex);
   EXPECT_EQ(top, Eigen::Vector3d(2, 3, 0));
 
   Problem problem;

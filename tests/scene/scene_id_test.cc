@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "scene/pose.h"
 #include "tests/scene/problem_texts.h"
@@ -30,6 +31,12 @@ Shape& ShapeOf(Scene* scene, int object, int shape) {
       .shape;
 }
 Mesh& Wedge(Scene* scene) { return std::get<Mesh>(ShapeOf(scene, 2, 0)); }
+
+void Reshape(Scene* scene, const std::function<void(TriangleMesh*)>& change) {
+  TriangleMesh mesh = Wedge(scene).triangles;
+  change(&mesh);
+  Wedge(scene).triangles = std::move(mesh);
+}
 void Turn(Eigen::Isometry3d* pose, double angle_rad) {
   pose->rotate(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(1, 2, 3).normalized()));
 }
@@ -60,10 +67,14 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"CapsuleForCylinder",
                [](Scene* s) { ShapeOf(s, 1, 0) = Capsule{.radius = 0.03, .length = 0.14}; }},
         Change{"HalfSpaceAdded", [](Scene* s) { s->objects[0].shapes.push_back({HalfSpace{}}); }},
-        Change{"MeshVertex", [](Scene* s) { Wedge(s).triangles.vertices[3].z() = 1.5; }},
+        Change{
+            "MeshVertex",
+            [](Scene* s) { Reshape(s, [](TriangleMesh* mesh) { mesh->vertices[3].z() = 1.5; }); }},
         Change{"MeshTriangle",
                [](Scene* s) {
-                 std::swap(Wedge(s).triangles.triangles[0][0], Wedge(s).triangles.triangles[0][1]);
+                 Reshape(s, [](TriangleMesh* mesh) {
+                   std::swap(mesh->triangles[0][0], mesh->triangles[0][1]);
+                 });
                }},
         Change{"AttachedLink", [](Scene* s) { s->attached[0].link = "wrist"; }},
         Change{"AttachedPose",

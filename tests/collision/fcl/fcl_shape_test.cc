@@ -172,11 +172,14 @@ TEST(FclShapeTest, RefusesWhatIsNoShape) {
   Mesh named;
   named.resource = "package://robot/hand.stl";
   ExpectInputError([&] { FclShape(named, "hand"); }, {"hand", named.resource, "no triangles"});
-  Mesh broken = Cuboid({1, 1, 1});
-  broken.triangles.triangles[3][1] = 8;
+  Mesh broken;
+  TriangleMesh cube = BoxMesh({1, 1, 1});
+  cube.triangles[3][1] = 8;
+  broken.triangles = cube;
   ExpectInputError([&] { FclShape(broken, "vase"); }, {"vase", "vertex 8"});
-  broken = Cuboid({1, 1, 1});
-  broken.triangles.vertices[2].y() = kInfinity;
+  cube = BoxMesh({1, 1, 1});
+  cube.vertices[2].y() = kInfinity;
+  broken.triangles = cube;
   ExpectInputError([&] { FclShape(broken, "vase"); }, {"vase", "not finite"});
 }
 

@@ -192,10 +192,9 @@ TEST(VoxelGrid, ClosedMeshesAreSolid) {
 }
 
 TEST(VoxelGrid, OpenMeshesAreSurfaces) {
-  Mesh mesh;
-  mesh.triangles = BoxMesh({0.9, 0.8, 0.7});
-  mesh.triangles.triangles.pop_back();
-  const TriangleMesh& m = mesh.triangles;
+  TriangleMesh m = BoxMesh({0.9, 0.8, 0.7});
+  m.triangles.pop_back();
+  const Mesh mesh{"", Vector3d::Ones(), m};
   std::mt19937_64 generator(7);
   for (int round = 0; round < 2; ++round) {
     const Eigen::Isometry3d X_WS = RandomPose(&generator, 0.4);
