@@ -18,7 +18,9 @@
 #include <thread>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "messaging/bus.h"
 #include "messaging/event_log_reader.h"
 #include "messaging/lcm_url.h"
@@ -64,7 +66,7 @@ void Count(const std::string& event_log) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Loads a bus, and counts what a logger has of it.");
+  CLI::App app("Loads a bus, and counts what a logger has of it.", "bus_load");
   std::string url;
   std::string event_log;
   double rate = 20000;
@@ -77,16 +79,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seconds", seconds, "how long")->capture_default_str();
   app.add_option("--count", event_log, "event log to count in; sends nothing");
-  CLI11_PARSE(app, argc, argv);
-  try {
+  return planbench::RunCommand(&app, argc, argv, [&] {
     if (event_log.empty()) {
       Send(planbench::ResolveLcmUrl(url), rate, num_bytes, seconds);
     } else {
       Count(event_log);
     }
-  } catch (const planbench::InputError& error) {
-    fmt::print(stderr, "bus_load: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+    return planbench::kExitOk;
+  });
 }

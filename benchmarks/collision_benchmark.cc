@@ -26,7 +26,9 @@
 #include <vector>
 
 #include "collision/edge_checker.h"
+#include "common/command_line.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
@@ -334,47 +336,38 @@ int Main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::string problems;
   std::string robot = PLANBENCH_SOURCE_DIR "/robots/fetch";
-  std::string model_name = "spheres";
+  CollisionModel model = CollisionModel::kSpheres;
   int index = 1;
-  CLI::App app("Throughput of collision checking on one problem");
+  CLI::App app("Throughput of collision checking on one problem", "collision_benchmark");
   app.add_option("--problems", problems, "Folder of a problem set")->required();
   app.add_option("--index", index, "Number of the problem")->capture_default_str();
   app.add_option("--robot", robot, "Robot folder")->capture_default_str();
-  app.add_option("--model", model_name, "Collision model")->capture_default_str();
+  app.add_option("--model", model, "Collision model; default: spheres")
+      ->transform(OneOf<CollisionModel>());
   std::string engine = "fast";
-  std::string edge_check = "fixed";
+  EdgeCheck edge_check = EdgeCheck::kFixed;
   std::size_t num_spheres = 0;
   app.add_option("--engine", engine, "fast or exact")
       ->check(CLI::IsMember({"fast", "exact"}))
       ->capture_default_str();
-  app.add_option("--edge-check", edge_check, "fixed or certified")
-      ->check(CLI::IsMember({"fixed", "certified"}))
-      ->capture_default_str();
+  app.add_option("--edge-check", edge_check, "Method; default: fixed")
+      ->transform(OneOf<EdgeCheck>());
   app.add_option("--spheres", num_spheres, "Reduce the robot's spheres to this many");
-  CLI11_PARSE(app, argc, argv);
-
-  const auto model = ParseEnum<CollisionModel>(model_name);
-  if (!model) throw InputError(fmt::format("--model: unknown collision model '{}'", model_name));
-  Workload work = Prepare(robot, problems, index);
-  if (num_spheres > 0) ReduceSpheres(&work.robot, num_spheres);
-  work.edge_check = *ParseEnum<EdgeCheck>(edge_check);
-  AddConfigurations(&work, *model, engine == "exact");
-  benchmark::AddCustomContext("problem", fmt::format("{} {}", problems, index));
-  benchmark::AddCustomContext("engine", std::string(work.checker->EngineName()));
-  benchmark::AddCustomContext("model", model_name);
-  Register(&work);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return RunCommand(&app, argc, argv, [&] {
+    Workload work = Prepare(robot, problems, index);
+    if (num_spheres > 0) ReduceSpheres(&work.robot, num_spheres);
+    work.edge_check = edge_check;
+    AddConfigurations(&work, model, engine == "exact");
+    benchmark::AddCustomContext("problem", fmt::format("{} {}", problems, index));
+    benchmark::AddCustomContext("engine", std::string(work.checker->EngineName()));
+    benchmark::AddCustomContext("model", std::string(EnumName(model)));
+    Register(&work);
+    benchmark::RunSpecifiedBenchmarks();
+    return kExitOk;
+  });
 }
 
 }  // namespace
 }  // namespace planbench
 
-int main(int argc, char** argv) {
-  try {
-    return planbench::Main(argc, argv);
-  } catch (const planbench::InputError& error) {
-    std::fprintf(stderr, "collision_benchmark: %s\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return planbench::Main(argc, argv); }

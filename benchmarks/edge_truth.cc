@@ -18,7 +18,9 @@
 #include <vector>
 
 #include "collision/edge_checker.h"
+#include "common/command_line.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
@@ -87,90 +89,79 @@ int Main(int argc, char** argv) {
   long long num_edges = 1'000'000;
   double length = 0.5;
   CLI::App app(
-      "Compares the fast engine with the exact one, rechecks accepted edges 64 times finer");
+      "Compares the fast engine with the exact one, rechecks accepted edges 64 times finer",
+      "edge_truth");
   app.add_option("--problems", problems, "Folder of a problem set")->required();
   app.add_option("--index", index, "Number of the problem")->capture_default_str();
   app.add_option("--robot", robot_folder, "Robot folder")->capture_default_str();
-  app.add_option_function<std::string>(
-      "--model",
-      [&model](const std::string& name) {
-        const auto named = ParseEnum<CollisionModel>(name);
-        if (!named) throw CLI::ValidationError("--model", name);
-        model = *named;
-      },
-      "Collision model: " + EnumChoices<CollisionModel>());
+  app.add_option("--model", model, "Collision model; default: spheres")
+      ->transform(OneOf<CollisionModel>());
   app.add_option("--configurations", num_configurations, "Random configurations to compare")
       ->capture_default_str();
   app.add_option("--edges", num_edges, "Certified edges to accept")->capture_default_str();
   app.add_option("--length", length, "Longest edge, rad and m")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  return RunCommand(&app, argc, argv, [&] {
+    const Robot robot = LoadRobot(robot_folder);
+    const ProblemSet set = ListProblemSet(problems);
+    const ProblemFiles* files = set.Find(index);
+    if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));
+    const Problem problem = ReadProblem(files->scene, files->request, robot);
+    const auto base = FullPositions(robot.model, problem.start.names, problem.start.positions,
+                                    files->request.string());
+    const PlanningGroup& group = robot.Group(problem.group);
+    const auto fast = MakeCollisionChecker(robot, group, model);
+    const auto exact = MakeReferenceChecker(robot, group, model);
+    fast->SetScene(problem.scene, base);
+    exact->SetScene(problem.scene, base);
+    EdgeChecker certified(fast.get(), robot.edge_resolution_m, EdgeCheck::kCertified);
+    EdgeChecker fixed(fast.get(), robot.edge_resolution_m, EdgeCheck::kFixed);
+    EdgeChecker fine(fast.get(), robot.edge_resolution_m / 64, EdgeCheck::kFixed);
 
-  const Robot robot = LoadRobot(robot_folder);
-  const ProblemSet set = ListProblemSet(problems);
-  const ProblemFiles* files = set.Find(index);
-  if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));
-  const Problem problem = ReadProblem(files->scene, files->request, robot);
-  const auto base = FullPositions(robot.model, problem.start.names, problem.start.positions,
-                                  files->request.string());
-  const PlanningGroup& group = robot.Group(problem.group);
-  const auto fast = MakeCollisionChecker(robot, group, model);
-  const auto exact = MakeReferenceChecker(robot, group, model);
-  fast->SetScene(problem.scene, base);
-  exact->SetScene(problem.scene, base);
-  EdgeChecker certified(fast.get(), robot.edge_resolution_m, EdgeCheck::kCertified);
-  EdgeChecker fixed(fast.get(), robot.edge_resolution_m, EdgeCheck::kFixed);
-  EdgeChecker fine(fast.get(), robot.edge_resolution_m / 64, EdgeCheck::kFixed);
-
-  std::mt19937_64 generator(1);
-  const JointSpace& space = group.space;
-  CompareConfigurations(fast.get(), exact.get(), num_configurations, &generator);
-  Tally tallies[2];
-  std::vector<double> from(group.joints.size());
-  std::vector<double> to(group.joints.size());
-  while (tallies[0].accepted < num_edges) {
-    for (std::size_t j = 0; j < from.size(); ++j) {
-      const JointSpace::Joint& joint = space.joint(static_cast<int>(j));
-      std::uniform_real_distribution<double> position(joint.lower, joint.upper);
-      from[j] = position(generator);
-      to[j] = position(generator);
+    std::mt19937_64 generator(1);
+    const JointSpace& space = group.space;
+    CompareConfigurations(fast.get(), exact.get(), num_configurations, &generator);
+    Tally tallies[2];
+    std::vector<double> from(group.joints.size());
+    std::vector<double> to(group.joints.size());
+    while (tallies[0].accepted < num_edges) {
+      for (std::size_t j = 0; j < from.size(); ++j) {
+        const JointSpace::Joint& joint = space.joint(static_cast<int>(j));
+        std::uniform_real_distribution<double> position(joint.lower, joint.upper);
+        from[j] = position(generator);
+        to[j] = position(generator);
+      }
+      space.Interpolate(from, to, std::min(1.0, length / space.Distance(from, to)), to);
+      EdgeChecker* const methods[] = {&certified, &fixed};
+      for (int m = 0; m < 2; ++m) {
+        if (!methods[m]->IsValidEdge(from, to)) continue;
+        ++tallies[m].accepted;
+        if (fine.IsValidEdge(from, to)) continue;
+        // The fast engine errs towards collision by up to 0.1 mm.
+        const double depth = Depth(fine, exact.get(), from, to);
+        if (depth == 0) continue;
+        ++tallies[m].colliding;
+        tallies[m].deepest_m = std::max(tallies[m].deepest_m, depth);
+      }
     }
-    space.Interpolate(from, to, std::min(1.0, length / space.Distance(from, to)), to);
-    EdgeChecker* const methods[] = {&certified, &fixed};
     for (int m = 0; m < 2; ++m) {
-      if (!methods[m]->IsValidEdge(from, to)) continue;
-      ++tallies[m].accepted;
-      if (fine.IsValidEdge(from, to)) continue;
-      // The fast engine errs towards collision by up to 0.1 mm.
-      const double depth = Depth(fine, exact.get(), from, to);
-      if (depth == 0) continue;
-      ++tallies[m].colliding;
-      tallies[m].deepest_m = std::max(tallies[m].deepest_m, depth);
+      fmt::print(
+          "{:9} accepted {:8}  colliding when rechecked {:6} ({:.4f} %)  deepest {:.2f} mm\n",
+          EnumName(m == 0 ? EdgeCheck::kCertified : EdgeCheck::kFixed), tallies[m].accepted,
+          tallies[m].colliding,
+          100.0 * static_cast<double>(tallies[m].colliding) /
+              static_cast<double>(tallies[m].accepted),
+          1000 * tallies[m].deepest_m);
     }
-  }
-  for (int m = 0; m < 2; ++m) {
-    fmt::print("{:9} accepted {:8}  colliding when rechecked {:6} ({:.4f} %)  deepest {:.2f} mm\n",
-               EnumName(m == 0 ? EdgeCheck::kCertified : EdgeCheck::kFixed), tallies[m].accepted,
-               tallies[m].colliding,
-               100.0 * static_cast<double>(tallies[m].colliding) /
-                   static_cast<double>(tallies[m].accepted),
-               1000 * tallies[m].deepest_m);
-  }
-  fmt::print("configurations an edge: certified {:.1f}, fixed {:.1f}\n",
-             static_cast<double>(certified.counters().configurations) /
-                 static_cast<double>(certified.counters().edges),
-             static_cast<double>(fixed.counters().configurations) /
-                 static_cast<double>(fixed.counters().edges));
-  return 0;
+    fmt::print("configurations an edge: certified {:.1f}, fixed {:.1f}\n",
+               static_cast<double>(certified.counters().configurations) /
+                   static_cast<double>(certified.counters().edges),
+               static_cast<double>(fixed.counters().configurations) /
+                   static_cast<double>(fixed.counters().edges));
+    return kExitOk;
+  });
 }
 
 }  // namespace
 }  // namespace planbench
 
-int main(int argc, char** argv) {
-  try {
-    return planbench::Main(argc, argv);
-  } catch (const planbench::InputError& error) {
-    std::fprintf(stderr, "edge_truth: %s\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return planbench::Main(argc, argv); }

@@ -24,7 +24,9 @@
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
 #include "planner_trajopt/trajopt_planner.h"
@@ -66,14 +68,6 @@ struct Run {
   bool referee_valid = false;
   bool simplified_valid = false;
 };
-
-/// The names of an enum, for flags that take one.
-template <typename Enum>
-std::map<std::string, Enum> ByName() {
-  std::map<std::string, Enum> values;
-  for (const Enum value : EnumValues<Enum>()) values.emplace(EnumName(value), value);
-  return values;
-}
 
 double Quantile(std::vector<double> values, double q) {
   if (values.empty()) return std::nan("");
@@ -245,7 +239,7 @@ void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& dir
 
 int Main(int argc, char** argv) {
   Flags flags;
-  CLI::App app("One planner over problem sets, without the bus");
+  CLI::App app("One planner over problem sets, without the bus", "planner_benchmark");
   app.add_option("--problems", flags.problems, "Folders of problem sets")->required();
   app.add_option("--robot", flags.robot, "Robot folder")->capture_default_str();
   app.add_option("--planner", flags.planner, "Which to run")
@@ -258,12 +252,12 @@ int Main(int argc, char** argv) {
       ->check(CLI::IsMember({"forward", "backward", "both"}))
       ->capture_default_str();
   app.add_option("--model", flags.model, "Collision model; default: spheres")
-      ->transform(CLI::CheckedTransformer(ByName<CollisionModel>()));
+      ->transform(OneOf<CollisionModel>());
   app.add_option("--time", flags.time_limit_s, "Limit of a request, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--edge-check", flags.edge_check, "Method; default: the robot's")
-      ->transform(CLI::CheckedTransformer(ByName<EdgeCheck>()));
+      ->transform(OneOf<EdgeCheck>());
   app.add_option("--edge-resolution", flags.edge_resolution_m, "m; default: the robot's");
   app.add_option("--seed", flags.seed, "Seed of every request")->capture_default_str();
   app.add_option("--first", flags.first, "First problem's number")->capture_default_str();
@@ -279,48 +273,41 @@ int Main(int argc, char** argv) {
                "Simplify the paths, and tell of it in a line of its own");
   app.add_flag("--counters", flags.counters, "Also print the planner's own counts");
   app.add_option("--csv", flags.csv, "File for a line a run");
-  CLI11_PARSE(app, argc, argv);
-
-  const Robot robot = LoadRobot(flags.robot);
-  const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
-  std::ofstream csv;
-  if (!flags.csv.empty()) {
-    csv.open(flags.csv);
-    if (!csv) throw InputError(flags.csv + ": cannot be written");
-    csv << "set,direction,problem,status,referee_valid,planning_ms,collision_ms,waypoints,"
-           "solutions,epsilon,cost,counters\n";
-  }
-  PrintHeader();
-  const JointSpace& space = robot.groups.front().space;
-  for (const Direction direction : EnumValues<Direction>()) {
-    const std::string name(EnumName(direction));
-    if (flags.directions != "both" && flags.directions != name) continue;
-    std::vector<Run> all;
-    for (const std::string& folder : flags.problems) {
-      const ProblemSet set = ListProblemSet(folder);
-      std::vector<Run> runs = RunSet(flags, robot, set, direction, planner.get());
-      if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
-      PrintRow(set.name, name, runs, space, flags.counters);
-      if (flags.simplify) PrintSimplification(runs, space);
-      if (csv.is_open()) WriteCsv(&csv, set.name, name, runs);
-      std::move(runs.begin(), runs.end(), std::back_inserter(all));
+  return RunCommand(&app, argc, argv, [&] {
+    const Robot robot = LoadRobot(flags.robot);
+    const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
+    std::ofstream csv;
+    if (!flags.csv.empty()) {
+      csv.open(flags.csv);
+      if (!csv) throw InputError(flags.csv + ": cannot be written");
+      csv << "set,direction,problem,status,referee_valid,planning_ms,collision_ms,waypoints,"
+             "solutions,epsilon,cost,counters\n";
     }
-    if (flags.problems.size() > 1) {
-      PrintRow("all", name, all, space, flags.counters);
-      if (flags.simplify) PrintSimplification(all, space);
+    PrintHeader();
+    const JointSpace& space = robot.groups.front().space;
+    for (const Direction direction : EnumValues<Direction>()) {
+      const std::string name(EnumName(direction));
+      if (flags.directions != "both" && flags.directions != name) continue;
+      std::vector<Run> all;
+      for (const std::string& folder : flags.problems) {
+        const ProblemSet set = ListProblemSet(folder);
+        std::vector<Run> runs = RunSet(flags, robot, set, direction, planner.get());
+        if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
+        PrintRow(set.name, name, runs, space, flags.counters);
+        if (flags.simplify) PrintSimplification(runs, space);
+        if (csv.is_open()) WriteCsv(&csv, set.name, name, runs);
+        std::move(runs.begin(), runs.end(), std::back_inserter(all));
+      }
+      if (flags.problems.size() > 1) {
+        PrintRow("all", name, all, space, flags.counters);
+        if (flags.simplify) PrintSimplification(all, space);
+      }
     }
-  }
-  return 0;
+    return kExitOk;
+  });
 }
 
 }  // namespace
 }  // namespace planbench
 
-int main(int argc, char** argv) {
-  try {
-    return planbench::Main(argc, argv);
-  } catch (const planbench::InputError& error) {
-    std::fprintf(stderr, "planner_benchmark: %s\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return planbench::Main(argc, argv); }

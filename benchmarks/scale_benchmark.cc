@@ -20,11 +20,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/command_line.h"
 #include "common/error.h"
+#include "common/exit_codes.h"
 #include "common/random.h"
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
 #include "planning/planner_settings.h"
+#include "results/statistics.h"
 #include "tests/support/generated_meshes.h"
 #include "tests/support/planning_problems.h"
 #include "tests/support/random_robot.h"
@@ -37,12 +40,6 @@ struct Flags {
   int num_queries = 20;
   double time_limit_s = 2;
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double Between(double lower, double upper, std::mt19937_64* random) {
   return lower + UniformFraction(random) * (upper - lower);
@@ -81,8 +78,9 @@ class Costs {
   }
   void Print(const std::string& what, std::int64_t size) const {
     fmt::print("{:<28} {:>9} {:>4}/{:<4} {:>9.3f} {:>10.3f} {:>10.0f} {:>8.3f}\n", what, size,
-               num_solved_, setup_ms_.size(), Median(setup_ms_), Median(planning_ms_),
-               Median(checked_), 1e6 * collision_s_ / num_checked_);
+               num_solved_, setup_ms_.size(), Summarize(setup_ms_).median,
+               Summarize(planning_ms_).median, Summarize(checked_).median,
+               1e6 * collision_s_ / num_checked_);
     std::fflush(stdout);
   }
 
@@ -173,7 +171,7 @@ void Measure(const Flags& flags) {
 
 int Main(int argc, char** argv) {
   Flags flags;
-  CLI::App app("What a request costs as the problem grows");
+  CLI::App app("What a request costs as the problem grows", "scale_benchmark");
   app.add_option("--planner", flags.planner, "rrtc or ara")
       ->check(CLI::IsMember({"rrtc", "ara"}))
       ->capture_default_str();
@@ -183,19 +181,13 @@ int Main(int argc, char** argv) {
   app.add_option("--time", flags.time_limit_s, "Time limit of a query, s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  Measure(flags);
-  return 0;
+  return RunCommand(&app, argc, argv, [&] {
+    Measure(flags);
+    return kExitOk;
+  });
 }
 
 }  // namespace
 }  // namespace planbench
 
-int main(int argc, char** argv) {
-  try {
-    return planbench::Main(argc, argv);
-  } catch (const planbench::InputError& error) {
-    fmt::print(stderr, "scale_benchmark: {}\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return planbench::Main(argc, argv); }

@@ -2,11 +2,23 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <map>
+#include <string>
+
+#include "common/enum_names.h"
 
 namespace planbench {
 
 /// --version: name, version and commit.
 void AddVersionFlag(CLI::App* app);
+
+/// For a flag that takes an enum's value by its name.
+template <typename Enum>
+CLI::CheckedTransformer OneOf() {
+  std::map<std::string, Enum> values;
+  for (const Enum value : EnumValues<Enum>()) values.emplace(EnumName(value), value);
+  return CLI::CheckedTransformer(values);
+}
 
 /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
 /// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on
