@@ -89,19 +89,16 @@ void NodeRegistry::OnProblemSets(const ProblemSetsMessage& sets, const PacketSen
 }
 
 std::vector<NodeStatusMessage> NodeRegistry::Live() const {
-  const std::scoped_lock lock(mutex_);
-  const auto now = Clock::now();
   std::vector<NodeStatusMessage> live;
-  for (const auto& [key, unsettled] : nodes_) {
-    const Entry* entry = Settle(key, now);
-    if (now - entry->holder.last < kLostAfter) live.push_back(entry->holder.node.status);
+  for (const NodeKind kind : EnumValues<NodeKind>()) {
+    for (NodeStatusMessage& status : Live(kind)) live.push_back(std::move(status));
   }
   return live;
 }
 
 std::vector<NodeStatusMessage> NodeRegistry::Live(NodeKind kind) const {
-  std::vector<NodeStatusMessage> live = Live();
-  std::erase_if(live, [kind](const NodeStatusMessage& status) { return status.kind != kind; });
+  std::vector<NodeStatusMessage> live;
+  for (Node& node : LiveNodes(kind)) live.push_back(std::move(node.status));
   return live;
 }
 

@@ -190,15 +190,14 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
         request.request_id.empty() ? "request" : "request " + request.request_id;
     RequireValid(request, Describe(), origin);
     const PlanningGroup& group = robot_->Group(request.group);
-    const ResolvedQuery resolved =
-        ResolveQuery(*robot_, group, request.start, request.goal, origin);
-    const Path initial = ResolveInitialPath(group, resolved, request.initial_joint_names,
-                                            request.initial_path, origin);
+    ResolvedQuery resolved = ResolveQuery(*robot_, group, request.start, request.goal, origin);
+    resolved.initial_path = ResolveInitialPath(group, resolved, request.initial_joint_names,
+                                               request.initial_path, origin);
     Compile(group, request.collision_model, scene, resolved.base_positions);
     PlanControl unwatched;
     clock = Stopwatch();
-    PlanInScene(request, resolved, initial, scene, control != nullptr ? control : &unwatched, clock,
-                &result);
+    PlanInScene(request, std::move(resolved), scene, control != nullptr ? control : &unwatched,
+                clock, &result);
   } catch (const InputError& error) {
     result = Unsearched(PlanStatus::kInvalidRequest, error.what(), clock);
   } catch (const std::bad_alloc&) {
@@ -208,15 +207,17 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
   return result;
 }
 
-SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Configuration& start,
-                                   const Path& initial, bool backward, SearchQuery* query) {
+SearchResult Planner::SearchInTurn(const ResolvedQuery& resolved, bool backward,
+                                   SearchQuery* query) {
+  const std::vector<GoalBox>& goals = resolved.goals;
+  const Path& initial = resolved.initial_path;
   const std::string algorithm = Describe().algorithm;
   EdgeChecker& edges = query->edges();
   SearchResult found;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const std::size_t num_left = goals.size() - i;
-    query->start_ = backward ? goals[i].nominal : start;
-    query->goal_ = backward ? PointGoal(start) : goals[i];
+    query->start_ = backward ? goals[i].nominal : resolved.start;
+    query->goal_ = backward ? PointGoal(resolved.start) : goals[i];
     query->initial_path_ = {};
     if (!initial.empty() && goals[i].Contains(edges.space(), initial.back())) {
       query->initial_path_ = initial;
@@ -257,9 +258,8 @@ SearchResult Planner::SearchInTurn(const std::vector<GoalBox>& goals, const Conf
   return found;
 }
 
-void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resolved,
-                          const Path& initial, const Scene& scene, PlanControl* control,
-                          const Stopwatch& clock, PlanResult* result) {
+void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
+                          PlanControl* control, const Stopwatch& clock, PlanResult* result) {
   const PlannerDescription description = Describe();
   const PlanningGroup& group = robot_->Group(request.group);
   CollisionChecker& checker = CheckerFor(group, request.collision_model);
@@ -286,22 +286,21 @@ void Planner::PlanInScene(const PlanRequest& request, const ResolvedQuery& resol
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
-  std::vector<GoalBox> goals = resolved.goals;
   if (std::string fault = FindFault(&edges, resolved.start, "start"); !fault.empty()) {
     found.status = PlanStatus::kStartInvalid;
     found.message = std::move(fault);
-  } else if (std::any_of(goals.begin(), goals.end(), [&](const GoalBox& goal) {
+  } else if (std::any_of(resolved.goals.begin(), resolved.goals.end(), [&](const GoalBox& goal) {
                return goal.Contains(group.space, resolved.start);
              })) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
-  } else if (fault = KeepFreeGoals(&edges, resolved.start, &goals,
+  } else if (fault = KeepFreeGoals(&edges, resolved.start, &resolved.goals,
                                    [&query] { return query.ShouldStop(); });
              !fault.empty()) {
     found.status = PlanStatus::kGoalInvalid;
     found.message = std::move(fault);
   } else {
-    found = SearchInTurn(goals, resolved.start, initial, backward, &query);
+    found = SearchInTurn(resolved, backward, &query);
   }
 
   result->total_time_s = clock.seconds();

@@ -10,11 +10,12 @@
 
 namespace planbench {
 
-/// Start and goal in a group's coordinates.
+/// What is asked, in a group's coordinates.
 struct ResolvedQuery {
   std::vector<double> base_positions;  ///< Full positions at the start.
   Configuration start;                 ///< n joints, group order.
   std::vector<GoalBox> goals;          ///< Alternatives, one at least.
+  Path initial_path;                   ///< From the start into a goal, to improve; may be empty.
 };
 
 /// Resolves named start and goal. Throws InputError (prefixed by `origin`) for unknown joints,
@@ -24,7 +25,7 @@ struct ResolvedQuery {
 ResolvedQuery ResolveQuery(const Robot& robot, const PlanningGroup& group, const JointState& start,
                            const std::vector<JointGoal>& goal, const std::string& origin);
 
-/// A path given by name in the group's coordinates; empty if it is. Throws InputError (prefixed by
+/// The initial path of `query`, given by name; empty if it is. Throws InputError (prefixed by
 /// `origin`) if it does not name every joint of the group once, or a waypoint has another size or
 /// values that are not finite, or it does not lead from the start into a goal of `query`.
 Path ResolveInitialPath(const PlanningGroup& group, const ResolvedQuery& query,
