@@ -98,6 +98,20 @@ class FaultsTest : public PipelineTest {
     EXPECT_EQ(ReadRecords(Session() / "session.lcmlog").runs.size(),
               static_cast<std::size_t>(num_runs));
   }
+  /// Kills a child and waits until there is another of its name and a further run is recorded.
+  /// Seconds that took; nothing if the session ended meanwhile.
+  std::optional<double> KillAndAwait(ChildProcess* driver, const Child& victim) {
+    const auto begin = std::chrono::steady_clock::now();
+    const long long num_runs = NumRuns();
+    kill(victim.pid, SIGKILL);
+    const auto back = [&] {
+      const std::optional<int> pid = PidOf(driver, victim.name);
+      return pid && *pid != victim.pid && NumRuns() > num_runs;
+    };
+    EXPECT_TRUE(WaitUntil([&] { return back() || !driver->Running(); })) << victim.name;
+    if (!driver->Running()) return std::nullopt;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
   std::optional<int> PidOf(ChildProcess* driver, const std::string& name) {
     for (const Child& child : ChildrenOf(driver->pid())) {
       if (child.name == name) return child.pid;
@@ -118,6 +132,7 @@ TEST_F(FaultsTest, ProcessesAreKilledAndStoppedAtRandomMoments) {
   std::mt19937_64 random(seed_);
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds_);
   int num_faults = 0;
+  std::vector<double> recoveries_s;
   Killer killer;
   while (driver->Running() && std::chrono::steady_clock::now() < end) {
     std::this_thread::sleep_for(milliseconds(300 + random() % 900));
@@ -126,8 +141,7 @@ TEST_F(FaultsTest, ProcessesAreKilledAndStoppedAtRandomMoments) {
     const Child& victim = children[random() % children.size()];
     ++num_faults;
     if (random() % 2 == 0 && killer.Kills(victim.name)) {
-      kill(victim.pid, SIGKILL);
-      std::this_thread::sleep_for(milliseconds(1300));  // for it to be back
+      if (const auto took_s = KillAndAwait(driver, victim)) recoveries_s.push_back(*took_s);
     } else {
       kill(victim.pid, SIGSTOP);
       std::this_thread::sleep_for(milliseconds(random() % 2000));
@@ -136,6 +150,12 @@ TEST_F(FaultsTest, ProcessesAreKilledAndStoppedAtRandomMoments) {
   }
   ASSERT_EQ(driver->Wait(std::chrono::seconds(120 + seconds_ * 4)), 0) << driver->Errors();
   EXPECT_GE(num_faults, 1);
+  if (!recoveries_s.empty()) {
+    std::sort(recoveries_s.begin(), recoveries_s.end());
+    fmt::print(
+        "killed {} times; back and recording after {:.2f} s in the median, {:.2f} s at most\n",
+        recoveries_s.size(), recoveries_s[recoveries_s.size() / 2], recoveries_s.back());
+  }
   ExpectOneRecordOfEach(trials);
   // What was hit says so, everything else is as ever.
   EXPECT_EQ(Query(Session(), "SELECT count(*) FROM runs WHERE status NOT IN (0, 7)"), 0)
