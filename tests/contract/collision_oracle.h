@@ -14,6 +14,9 @@
 
 namespace planbench {
 
+/// Within this distance of contact a verdict of the vectorised engine may err towards collision, m.
+inline constexpr double kBand_m = 1e-4;
+
 /// Signed distance of a point from a solid shape, negative inside, by formulas written for the
 /// tests alone. A mesh must be closed.
 double OracleDistance(const Shape& shape, const Eigen::Vector3d& point);

@@ -24,8 +24,6 @@
 namespace planbench {
 namespace {
 
-constexpr double kBand_m = 1e-4;
-
 constexpr char kGantryUrdf[] = R"(<robot name="gantry">
   <link name="base"/> <link name="x"/> <link name="y"/> <link name="tool"/>
   <joint name="along_x" type="prismatic">
@@ -133,9 +131,9 @@ Shape AsShape(TriangleMesh triangles) {
   return mesh;
 }
 
-class Comparison {
+class SceneMeshComparison {
  public:
-  Comparison(const Robot& robot, const Scene& scene)
+  SceneMeshComparison(const Robot& robot, const Scene& scene)
       : exact_(robot, robot.groups.front(), CollisionModel::kSpheres),
         fast_(robot, robot.groups.front()) {
     const std::vector<double> base(3, 0.0);
@@ -188,7 +186,7 @@ TEST(MeshTruthTest, BallsAnywhereAndAtTheSurface) {
     for (const double radius : {0.001, 0.02, 0.15}) {
       const Robot robot = MakeGantry(radius);
       const Eigen::Isometry3d X_WO = RandomPose(&random, 0.5);
-      Comparison comparison(robot, SceneWith("thing", AsShape(mesh.triangles), X_WO));
+      SceneMeshComparison comparison(robot, SceneWith("thing", AsShape(mesh.triangles), X_WO));
       std::vector<double> qs;
       const auto add = [&](const Eigen::Vector3d& p) {
         if (p.cwiseAbs().maxCoeff() < 3) qs.insert(qs.end(), p.data(), p.data() + 3);
@@ -224,7 +222,7 @@ TEST(MeshTruthTest, DistancesAreThoseOfTheOracle) {
   for (const TriangleMesh& mesh :
        {TorusMesh(0.4, 0.2, 25, 20), SphereMesh(0.5, 9, 7), BoxMesh({0.5, 0.2, 0.9})}) {
     const Shape shape = AsShape(mesh);
-    Comparison comparison(robot, SceneWith("thing", shape));
+    SceneMeshComparison comparison(robot, SceneWith("thing", shape));
     std::vector<double> qs;
     for (int i = 0; i < 160 * 3; ++i) qs.push_back(coordinate(random));
     std::vector<double> distances(160);
@@ -276,7 +274,7 @@ TEST(MeshTruthTest, ManyMeshesObjectsOfSeveralAndAllowedPairs) {
       scene.objects.back().shapes.push_back({AsShape(small), RandomPose(&random, 0.3)});
     }
     scene.allowed_collisions.SetEntry("tool", "thing1", true);
-    Comparison comparison(robot, scene);
+    SceneMeshComparison comparison(robot, scene);
     std::vector<double> qs;
     for (int i = 0; i < Trials(400) * 3; ++i) qs.push_back(coordinate(random));
     comparison.Judge(qs);
@@ -294,7 +292,7 @@ TEST(MeshTruthTest, CertifiedEdgesAreFreeAllAlong) {
   for (const NamedMesh& mesh : Meshes()) {
     if (mesh.what == "hall") continue;
     SCOPED_TRACE(mesh.what);
-    Comparison comparison(robot, SceneWith("thing", AsShape(mesh.triangles)));
+    SceneMeshComparison comparison(robot, SceneWith("thing", AsShape(mesh.triangles)));
     EdgeChecker certified(&comparison.fast(), 0.02, EdgeCheck::kCertified);
     EdgeChecker fine(&comparison.exact(), 0.001, EdgeCheck::kFixed);
     for (int i = 0; i < Trials(30); ++i) {

@@ -28,9 +28,7 @@
 namespace planbench {
 namespace {
 
-constexpr double kBand_m = 1e-4;
-
-constexpr char kMeshGeometry[] = R"(<mesh filename="tool.obj"/>)";
+constexpr char kToolGeometry[] = R"(<mesh filename="tool.obj"/>)";
 
 /// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
 /// angles.
@@ -48,7 +46,7 @@ Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
   const std::vector<std::string> joints = {"x", "y", "z", "roll", "pitch", "yaw"};
   const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
   for (std::size_t i = 0; i < links.size(); ++i) {
-    urdf += body(links[i], links[i] == "tool" ? kMeshGeometry : "");
+    urdf += body(links[i], links[i] == "tool" ? kToolGeometry : "");
     urdf += "<joint name=\"" + joints[i] + "\" type=\"" + (i < 3 ? "prismatic" : "revolute") +
             "\"> <parent link=\"" + (i == 0 ? "base" : links[i - 1]) + "\"/> <child link=\"" +
             links[i] + "\"/> <axis xyz=\"" + axes[i % 3] +

@@ -22,8 +22,6 @@
 namespace planbench {
 namespace {
 
-constexpr double kBand_m = 1e-4;
-
 class Comparison {
  public:
   Comparison(const Robot& robot, const Scene& scene, std::span<const double> base_positions)
