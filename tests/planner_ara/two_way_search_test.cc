@@ -15,7 +15,7 @@
 namespace planbench {
 namespace {
 
-const auto kNever = [] { return false; };
+const auto kGoOn = [] { return false; };
 const auto kSilent = [](double) {};
 
 // The planar arm between its two posts.
@@ -95,7 +95,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
     double last_cost = kInfinity;
     double last_bound = kInfinity;
     for (const double epsilon : {50.0, 3.0, 1.5, 1.2, 1.0}) {
-      ASSERT_EQ(search.Improve(epsilon, kNever, kSilent), ImproveOutcome::kConverged);
+      ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
       const double bound = search.ProveBound();
       EXPECT_LE(bound, epsilon + 1e-12);
       EXPECT_GE(bound, 1);
@@ -112,7 +112,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
 
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
   TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, false);
-  ASSERT_EQ(search.Improve(1, kNever, kSilent), ImproveOutcome::kConverged);
+  ASSERT_EQ(search.Improve(1, kGoOn, kSilent), ImproveOutcome::kConverged);
   EXPECT_NEAR(search.cost(), Optimum(kLeft_, kRight_), 1e-9);
   EXPECT_FALSE(search.found_backward());
 }
@@ -124,7 +124,7 @@ TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
     costs.push_back(search.cost());
     EXPECT_EQ(bound, search.ProveBound());
   };
-  for (const double epsilon : {50.0, 2.0, 1.0}) search.Improve(epsilon, kNever, note);
+  for (const double epsilon : {50.0, 2.0, 1.0}) search.Improve(epsilon, kGoOn, note);
   ASSERT_FALSE(costs.empty());
   for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_LT(costs[i], costs[i - 1]);
   EXPECT_EQ(costs.back(), search.cost());
@@ -135,7 +135,7 @@ TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
   const Configuration left = {1.57, 0, 0};
   const Configuration right = {-1.57, 0, 0};
   TwoWaySearch search(edges_.get(), left, PointGoal(right), options_, true);
-  EXPECT_EQ(search.Improve(50, kNever, kSilent), ImproveOutcome::kExhausted);
+  EXPECT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kExhausted);
   EXPECT_TRUE(search.path().empty());
   EXPECT_EQ(search.ProveBound(), kInfinity);
 }
@@ -143,7 +143,7 @@ TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
 TEST_F(TwoWaySearchTest, GoesOnWhereItWasStopped) {
   TwoWaySearch at_once(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   TwoWaySearch in_steps(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
-  ASSERT_EQ(at_once.Improve(50, kNever, kSilent), ImproveOutcome::kConverged);
+  ASSERT_EQ(at_once.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
   int num_stops = 0;
   for (int budget = 20;; budget = 20, ++num_stops) {
     const ImproveOutcome outcome = in_steps.Improve(

@@ -172,6 +172,37 @@ TEST(Structure, WireTypesStayWhereLcmIs) {
   }
 }
 
+TEST(Structure, ARoomsFilesNameDifferentThingsDifferently) {
+  // So that a room can be compiled as one file; of several programs only the mains are apart.
+  static const std::regex type_or_constant(
+      R"(^(?:(?:class|struct|enum class) (\w+)\b[^;(]*\{|(?:inline |static )*const(?:expr)?\b[^=;(]*?\b(k[A-Z]\w*)(?:\[[^\]]*\])* ?[={]).*)");
+  const fs::path root = PLANBENCH_SOURCE_DIR;
+  std::vector<fs::path> rooms;
+  for (const std::string& room : RoomsOfTheTree()) rooms.push_back(root / room);
+  for (const auto& entry : fs::directory_iterator(root / "tests")) {
+    if (entry.is_directory()) rooms.push_back(entry.path());
+  }
+  int num_names = 0;
+  for (const fs::path& room : rooms) {
+    std::map<std::string, fs::path> definitions;
+    for (const auto& entry : fs::recursive_directory_iterator(room)) {
+      if (entry.path().extension() != ".cc" || entry.path().stem().string().ends_with("main")) {
+        continue;
+      }
+      std::ifstream file(entry.path());
+      std::smatch match;
+      for (std::string line; std::getline(file, line);) {
+        if (!std::regex_match(line, match, type_or_constant)) continue;
+        const auto [first, is_new] =
+            definitions.emplace(match[1].str() + match[2].str(), entry.path());
+        num_names += is_new ? 1 : 0;
+        EXPECT_EQ(first->second, entry.path()) << first->first;
+      }
+    }
+  }
+  EXPECT_GT(num_names, 500);
+}
+
 TEST(Structure, FclStaysOutOfHeaders) {
   for (const Source& source : Sources()) {
     if (source.path.extension() != ".h") continue;
