@@ -12,7 +12,7 @@ namespace planbench {
 namespace {
 
 /// Times of the trials of each problem, infinite where it failed.
-Outcomes Of(const std::vector<std::vector<double>>& times) {
+Outcomes OutcomesOf(const std::vector<std::vector<double>>& times) {
   Outcomes outcomes;
   outcomes.time_limit_s = 10;
   for (std::size_t problem = 0; problem < times.size(); ++problem) {
@@ -34,7 +34,7 @@ Outcomes Drawn(std::mt19937_64* random, int num_problems, int num_trials) {
       trials.push_back(u < 0.2 ? kInfinity : std::ceil(20 * u) / 2);
     }
   }
-  return Of(times);
+  return OutcomesOf(times);
 }
 
 TEST(SolvedOverTimeTest, IsTheShareOfTrialsSolvedByThenProblemByProblem) {
@@ -64,7 +64,7 @@ TEST(SolvedOverTimeTest, IsTheShareOfTrialsSolvedByThenProblemByProblem) {
 }
 
 TEST(SolvedOverTimeTest, NothingSolvedHasNoSteps) {
-  EXPECT_TRUE(SolvedOverTime(Of({{kInfinity}})).empty());
+  EXPECT_TRUE(SolvedOverTime(OutcomesOf({{kInfinity}})).empty());
   EXPECT_TRUE(SolvedOverTime({}).empty());
 }
 
@@ -93,8 +93,8 @@ TEST(PerformanceProfilesTest, CountsProblemsWithinTheRatioOfTheFastest) {
 }
 
 TEST(PerformanceProfilesTest, WhatNobodySolvedCountsAgainstAll) {
-  const auto profiles =
-      PerformanceProfiles({{"A", Of({{1}, {kInfinity}})}, {"B", Of({{4}, {kInfinity}})}});
+  const auto profiles = PerformanceProfiles(
+      {{"A", OutcomesOf({{1}, {kInfinity}})}, {"B", OutcomesOf({{4}, {kInfinity}})}});
   ASSERT_EQ(profiles.at("A").size(), 1u);
   EXPECT_EQ(profiles.at("A")[0].ratio, 1);
   EXPECT_EQ(profiles.at("A")[0].share, 0.5);
