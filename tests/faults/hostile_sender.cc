@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <iterator>
 
 #include "messaging/channels.h"
 #include "messaging/multicast_receiver.h"
@@ -20,13 +21,14 @@ std::vector<std::uint8_t> OddPacket(std::mt19937_64* random) {
   std::vector<std::uint8_t> packet((*random)() % 200);
   for (std::uint8_t& byte : packet) byte = static_cast<std::uint8_t>((*random)());
   const std::string magic = (*random)() % 2 == 0 ? "LC02" : "LC03";
-  const std::size_t kept = (*random)() % 3 == 0 ? 0 : magic.size();
-  if (packet.size() < 20 || kept == 0) return packet;
+  // A fragment, the first of many, of a message of 256 MB; its place is behind magic and number.
+  constexpr std::uint8_t kFragment[] = {0x0f, 0xff, 0xff, 0xff, 0,    0,   0,
+                                        0,    0,    0,    0x0f, 0xff, 'A', 0};
+  constexpr std::size_t kPlace = 8;
+  if (packet.size() < kPlace + std::size(kFragment) || (*random)() % 3 == 0) return packet;
   std::copy(magic.begin(), magic.end(), packet.begin());
   if (magic == "LC03") {
-    // A fragment, the first of many, of a message of 256 MB.
-    const std::uint8_t header[] = {0x0f, 0xff, 0xff, 0xff, 0, 0, 0, 0, 0, 0, 0x0f, 0xff, 'A', 0};
-    std::copy(std::begin(header), std::end(header), packet.begin() + 8);
+    std::copy(std::begin(kFragment), std::end(kFragment), packet.begin() + kPlace);
   }
   return packet;
 }
