@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
   planbench::AddDriverFlags(&program.app(), &options);
   return program.Run(argc, argv, [&] {
     return planbench::RunSession(options, planbench::FlagsOf(program.app()), program.lcm_url(),
-                                 program.lcm_url_given(), planbench::StopRequested);
+                                 program.lcm_url_given(), planbench::AwaitStopSignals());
   });
 }

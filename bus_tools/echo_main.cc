@@ -81,7 +81,8 @@ int Main(int argc, char** argv) {
         },
         kQueueCapacity);
     bus.Start();
-    for (Clock::time_point then = Clock::now(); !StopRequested() && num_shown < last;) {
+    const auto stop = AwaitStopSignals();
+    for (Clock::time_point then = Clock::now(); !stop() && num_shown < last;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       const double seconds = std::chrono::duration<double>(Clock::now() - then).count();
       if (!rates || seconds < 1) continue;

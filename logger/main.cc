@@ -29,6 +29,6 @@ int main(int argc, char** argv) {
     Bus bus(program.lcm_url());
     LoggerNode logger(&bus, options);
     bus.Start();
-    return logger.Run(StopRequested) ? kExitOk : kExitFailed;
+    return logger.Run(AwaitStopSignals()) ? kExitOk : kExitFailed;
   });
 }

@@ -38,7 +38,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
     PlannerNode node(&bus, name, std::move(solver));
     bus.Start();
     spdlog::info("planner '{}' is live on {}", name, bus.url());
-    node.Run(StopRequested);
+    node.Run(AwaitStopSignals());
     return kExitOk;
   });
 }

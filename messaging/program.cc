@@ -16,14 +16,7 @@ namespace {
 std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void OnSignal(int) { stop_requested = true; }
-
-void InstallSignalHandlers() {
-  struct sigaction action = {};
-  action.sa_handler = OnSignal;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void IgnoreSignalsThatWritingRaises() {
   // A reader of our output that has gone must not kill a benchmark.
   std::signal(SIGPIPE, SIG_IGN);
   // Nor a file that may not grow any more: writing it fails, and that is told.
@@ -32,7 +25,14 @@ void InstallSignalHandlers() {
 
 }  // namespace
 
-bool StopRequested() { return stop_requested; }
+std::function<bool()> AwaitStopSignals() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { stop_requested = true; };
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return [] { return stop_requested.load(); };
+}
 
 Program::Program(const std::string& name, const std::string& description)
     : name_(name), app_(description, name) {
@@ -53,7 +53,7 @@ int Program::Run(int argc, char** argv, const std::function<int()>& work) {
   log->set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
   spdlog::set_default_logger(log);
   return RunCommand(&app_, argc, argv, [&] {
-    InstallSignalHandlers();
+    IgnoreSignalsThatWritingRaises();
     return work();
   });
 }

@@ -30,7 +30,8 @@ class Program {
   std::string lcm_url_flag_;
 };
 
-/// True once SIGINT or SIGTERM arrived (handlers are installed by Program::Run).
-bool StopRequested();
+/// SIGINT and SIGTERM end a process at once, whatever it prepares; from this call on they only ask
+/// it to stop. Returns whether one of them has come.
+std::function<bool()> AwaitStopSignals();
 
 }  // namespace planbench

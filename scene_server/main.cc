@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     for (const auto& set : node.problem_sets().sets) {
       spdlog::info("serving problem set '{}': {} problems", set.name, set.indices.size());
     }
-    node.Run(StopRequested);
+    node.Run(AwaitStopSignals());
     return kExitOk;
   });
 }

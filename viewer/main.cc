@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
     const LiveServer server(&bus, robot, port);
     bus.Start();
     std::cout << "viewer: " << server.url() << " shows " << bus.url() << std::endl;
-    while (!StopRequested()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto stop = AwaitStopSignals();
+    while (!stop()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return kExitOk;
   });
 }

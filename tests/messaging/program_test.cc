@@ -116,10 +116,21 @@ TEST_F(ProgramTest, LcmUrlIsTheDefaultIfNot) {
 
 TEST_F(ProgramTest, TerminationIsARequestToStop) {
   Run({}, [] {
+    const auto stop = AwaitStopSignals();
+    EXPECT_FALSE(stop());
     raise(SIGTERM);
-    EXPECT_TRUE(StopRequested());
+    EXPECT_TRUE(stop());
     return 0;
   });
+}
+
+TEST_F(ProgramTest, TerminationEndsWhatIsNotYetReady) {
+  EXPECT_EXIT(Run({},
+                  [] {
+                    raise(SIGTERM);
+                    return 0;
+                  }),
+              testing::KilledBySignal(SIGTERM), "");
 }
 
 TEST_F(ProgramTest, PackagePathsMayBeGivenSeveralTimes) {
