@@ -10,6 +10,7 @@
 
 #include "messaging/channels.h"
 #include "messaging/multicast_receiver.h"
+#include "messaging/node_announcer.h"
 
 namespace planbench {
 namespace {
@@ -58,9 +59,11 @@ void HostileSender::OnMessage(const ReceivedMessage& heard) {
   const auto is = [&](const char* channel) { return heard.channel == channel; };
   if (is(channel::kNodeStatus)) {
     auto status = Decode<NodeStatusMessage>(heard.bytes, heard.channel);
+    if (status.instance == "forged") return;
     // A process that has just come gives way to whoever seems to have its name.
-    if (status.instance == "forged" || std::chrono::steady_clock::now() < begin_of_statuses_)
-      return;
+    const auto now = std::chrono::steady_clock::now();
+    const auto first = first_heard_.emplace(status.instance, now).first->second;
+    if (now < first + NodeAnnouncer::kNewcomer + std::chrono::seconds(2)) return;
     status.instance = "forged";
     status.start_utime = 0;
     Forge(heard.channel, status);

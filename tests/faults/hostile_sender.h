@@ -2,13 +2,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "messaging/bus.h"
-#include "messaging/node_announcer.h"
 
 namespace planbench {
 
@@ -32,8 +32,8 @@ class HostileSender {
   void OnMessage(const ReceivedMessage& message);
   void SendPackets(const std::string& url, std::uint64_t seed);
 
-  const std::chrono::steady_clock::time_point begin_of_statuses_ =
-      std::chrono::steady_clock::now() + NodeAnnouncer::kNewcomer + std::chrono::seconds(2);
+  /// By instance, in the bus's thread.
+  std::map<std::string, std::chrono::steady_clock::time_point> first_heard_;
   Bus bus_;
   std::atomic<std::int64_t> num_forged_ = 0;
   std::atomic<bool> stopping_ = false;

@@ -125,12 +125,10 @@ TEST_F(ProgramTest, TerminationIsARequestToStop) {
 }
 
 TEST_F(ProgramTest, TerminationEndsWhatIsNotYetReady) {
-  EXPECT_EXIT(Run({},
-                  [] {
-                    raise(SIGTERM);
-                    return 0;
-                  }),
-              testing::KilledBySignal(SIGTERM), "");
+  char name[] = "loading";
+  char* arguments[] = {name};
+  const auto run = [&] { Program(name, "").Run(1, arguments, [] { return raise(SIGTERM); }); };
+  EXPECT_EXIT(run(), testing::KilledBySignal(SIGTERM), "");
 }
 
 TEST_F(ProgramTest, PackagePathsMayBeGivenSeveralTimes) {
