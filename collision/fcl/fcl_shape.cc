@@ -354,11 +354,13 @@ double FclShape::Depth(const FclShape& other, const Pose& X_SO) const {
   for (const Eigen::Matrix3d& axes :
        {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Eigen::Matrix3d(X_SO.rotation)}) {
     for (int code = 0; code < 27; ++code) {
-      const Eigen::Vector3d corner(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+      const int x = code % 3 - 1, y = code / 3 % 3 - 1, z = code / 9 - 1;
+      const Eigen::Vector3d corner(x, y, z);
       if (code != 13) try_direction(axes * corner.normalized());
     }
   }
   for (double tilt = 0.3; tilt > 0.01; tilt /= 2) {
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): try_direction changes `best`
     const Eigen::Vector3d around = best;
     const Eigen::Vector3d side = around.unitOrthogonal();
     const Eigen::Vector3d other_side = around.cross(side);

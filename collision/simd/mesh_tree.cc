@@ -27,16 +27,14 @@ constexpr double kBoxPadding = 5e-6;
 
 class Builder {
  public:
-  Builder(const TriangleMesh& mesh, kernels::TriangleTree* tree) : tree_(*tree) {
-    Eigen::AlignedBox3d box;
-    for (const auto& triangle : mesh.triangles) {
-      for (const std::uint32_t corner : triangle) box.extend(mesh.vertices[corner]);
-    }
-    const Vector3d origin = box.center();
+  explicit Builder(kernels::TriangleTree* tree) : tree_(*tree) {}
+
+  void Build(const SharedMesh& mesh) {
+    const Vector3d origin = mesh.box().center();
     for (int k = 0; k < 3; ++k) tree_.origin[k] = origin[k];
-    for (const auto& triangle : mesh.triangles) {
+    for (const auto& triangle : mesh->triangles) {
       Corners& corners = triangles_.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.vertices[triangle[k]] - origin;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh->vertices[triangle[k]] - origin;
     }
     order_.resize(triangles_.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -167,7 +165,7 @@ void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
 }
 
 MeshTree::MeshTree(SharedMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
-  Builder(mesh_, &tree_);
+  Builder(&tree_).Build(mesh_);
   tree_.solid = &solid_;
   for (const Vector3d& point : solid_.component_points()) {
     auto& p = tree_.points.emplace_back();
