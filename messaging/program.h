@@ -8,7 +8,7 @@
 
 namespace planbench {
 
-/// What every main() has in common: --help, --version, --lcm-url, log set-up, signals, and errors
+/// What every main() has in common: --help, --version, --lcm-url, log set-up, and errors
 /// as one line and an exit code. Usage: construct, add flags to `app()`, return Run(argc, argv,
 /// work).
 class Program {
@@ -21,7 +21,7 @@ class Program {
   /// True if --lcm-url was given on the command line.
   bool lcm_url_given() const { return !lcm_url_flag_.empty(); }
 
-  /// RunCommand (common/command_line.h) with log and signals set up.
+  /// RunCommand (common/command_line.h) with the log set up; failing writes raise no signals.
   int Run(int argc, char** argv, const std::function<int()>& work);
 
  private:
