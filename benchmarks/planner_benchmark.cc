@@ -93,18 +93,26 @@ std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
   return MakeTrajoptPlanner(robot, settings);
 }
 
-bool RefereeAccepts(const Robot& robot, const PlanRequest& request, const Scene& scene,
-                    const Path& path) {
-  const PlanningGroup& group = robot.Group(request.group);
-  const ResolvedQuery query = ResolveQuery(robot, group, request.start, request.goal, "referee");
-  const auto checker = MakeCollisionChecker(robot, group, request.collision_model);
-  checker->SetScene(scene, query.base_positions);
-  const double resolution_m = request.edge_resolution_m.value_or(robot.edge_resolution_m);
-  return JudgePath(checker.get(), path, query.start, query.goals, resolution_m / 2, false).valid;
-}
+class Referee {
+ public:
+  explicit Referee(const Robot& robot) : robot_(robot) {}
+  bool Accepts(const PlanRequest& request, const Scene& scene, const Path& path) {
+    const PlanningGroup& group = robot_.Group(request.group);
+    const ResolvedQuery query = ResolveQuery(robot_, group, request.start, request.goal, "referee");
+    std::unique_ptr<CollisionChecker>& checker = checkers_[group.name];
+    if (checker == nullptr) checker = MakeCollisionChecker(robot_, group, request.collision_model);
+    checker->SetScene(scene, query.base_positions);
+    const double resolution_m = request.edge_resolution_m.value_or(robot_.edge_resolution_m);
+    return JudgePath(checker.get(), path, query.start, query.goals, resolution_m / 2, false).valid;
+  }
+
+ private:
+  const Robot& robot_;
+  std::map<std::string, std::unique_ptr<CollisionChecker>> checkers_;  // by group
+};
 
 std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet& set,
-                        Direction direction, Planner* planner) {
+                        Direction direction, Planner* planner, Referee* referee) {
   std::vector<Run> runs;
   for (const ProblemFiles& files : set.problems) {
     if (files.index < flags.first || files.index > flags.last) continue;
@@ -130,10 +138,9 @@ std::vector<Run> RunSet(const Flags& flags, const Robot& robot, const ProblemSet
     }
     if (run.result.status == PlanStatus::kInvalidRequest) throw InputError(run.result.message);
     if (run.result.status == PlanStatus::kSolved) {
-      run.referee_valid = RefereeAccepts(robot, request, problem.scene, run.result.path);
+      run.referee_valid = referee->Accepts(request, problem.scene, run.result.path);
       if (flags.simplify) {
-        run.simplified_valid =
-            RefereeAccepts(robot, request, problem.scene, run.result.simplified_path);
+        run.simplified_valid = referee->Accepts(request, problem.scene, run.result.simplified_path);
       }
     }
     runs.push_back(std::move(run));
@@ -276,6 +283,7 @@ int Main(int argc, char** argv) {
   return RunCommand(&app, argc, argv, [&] {
     const Robot robot = LoadRobot(flags.robot);
     const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
+    Referee referee(robot);
     std::ofstream csv;
     if (!flags.csv.empty()) {
       csv.open(flags.csv);
@@ -291,7 +299,7 @@ int Main(int argc, char** argv) {
       std::vector<Run> all;
       for (const std::string& folder : flags.problems) {
         const ProblemSet set = ListProblemSet(folder);
-        std::vector<Run> runs = RunSet(flags, robot, set, direction, planner.get());
+        std::vector<Run> runs = RunSet(flags, robot, set, direction, planner.get(), &referee);
         if (runs.empty()) throw InputError(folder + ": no problem in the range asked for");
         PrintRow(set.name, name, runs, space, flags.counters);
         if (flags.simplify) PrintSimplification(runs, space);

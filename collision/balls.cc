@@ -6,18 +6,19 @@ namespace planbench {
 
 Ball EnclosingBall(std::span<const Ball> balls, int num_steps) {
   Ball enclosing = balls.front();
-  const auto farthest = [&](const Eigen::Vector3d& center) {
-    return std::max_element(balls.begin(), balls.end(), [&](const Ball& a, const Ball& b) {
-      return (a.center - center).norm() + a.radius < (b.center - center).norm() + b.radius;
-    });
-  };
   Eigen::Vector3d center = enclosing.center;
   enclosing.radius = -1;
   for (int i = 0; i < num_steps; ++i) {
-    const Ball& far = *farthest(center);
-    const Eigen::Vector3d to_far = far.center - center;
-    const double distance = to_far.norm();
-    const double radius = distance + far.radius;
+    const Ball* far = &balls.front();
+    double radius = -1;
+    for (const Ball& ball : balls) {
+      const double reach = (ball.center - center).norm() + ball.radius;
+      if (reach <= radius) continue;
+      far = &ball;
+      radius = reach;
+    }
+    const Eigen::Vector3d to_far = far->center - center;
+    const double distance = radius - far->radius;
     if (enclosing.radius < 0 || radius < enclosing.radius) enclosing = {center, radius};
     if (distance < 1e-12) break;
     // Towards the far side of the farthest ball.

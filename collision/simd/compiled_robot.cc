@@ -27,12 +27,15 @@ constexpr int kMaxProofBoxes = 4000;
 /// Node::reach of a ball of balls.
 constexpr int kNoReach = -1;
 constexpr std::size_t kMaxProofBalls = 64;  ///< Of a tree of meshes.
+constexpr int kNumSamples = 64;
 
-double LeastDistance(std::span<const Ball> balls_a, const Pose& X_AB,
+/// `around_a` encloses the balls of A.
+double LeastDistance(const Ball& around_a, std::span<const Ball> balls_a, const Pose& X_AB,
                      std::span<const Ball> balls_b) {
   double distance = std::numeric_limits<double>::infinity();
   for (const Ball& b : balls_b) {
     const Eigen::Vector3d center = X_AB * b.center;
+    if ((around_a.center - center).norm() - around_a.radius - b.radius >= distance) continue;
     for (const Ball& a : balls_a) {
       distance = std::min(distance, (a.center - center).norm() - a.radius - b.radius);
     }
@@ -87,6 +90,7 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     At(R_CG_, i) = R_GC.transpose();
   }
 
+  SamplePoses();
   if (meshes_ != nullptr) {
     PlaceTriangles();
   }
@@ -386,6 +390,14 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
 
   const std::vector<Ball> balls_a = BallsOf(a);
   const std::vector<Ball> balls_b = BallsOf(b);
+  const Ball around_a = BallOf(At(kernel.nodes, a.root), a.body);
+  const auto touch = [&](const std::vector<Pose>& X_WG) {
+    return RootsTouch(a, b, X_WG) &&
+           LeastDistance(around_a, balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body),
+                         balls_b) <= 0;
+  };
+  // Most of what does meet is told by the samples, before any box is tried.
+  if (std::any_of(samples_.begin(), samples_.end(), touch)) return false;
   std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies_.size()));
   std::vector<Box> open = {all};
   for (int i = 0; i < kMaxProofBoxes && !open.empty(); ++i) {
@@ -393,7 +405,7 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
     open.pop_back();
     rigid_bodies_.ComputePoses(box.center, X_WG);
     const double distance =
-        LeastDistance(balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body), balls_b);
+        LeastDistance(around_a, balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body), balls_b);
     if (distance <= 0) return false;
     double motion = 0;
     std::size_t widest = 0;
@@ -458,25 +470,31 @@ void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b, int 
   }
 }
 
-bool CompiledRobot::UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const {
-  const Ball ball_a = BallOf(At(kernel.nodes, a.root), a.body);
-  const Ball ball_b = BallOf(At(kernel.nodes, b.root), b.body);
+void CompiledRobot::SamplePoses() {
   std::mt19937_64 generator(1);
   std::vector<double> q(static_cast<std::size_t>(group_->space.size()));
-  std::vector<Pose> X_WG(static_cast<std::size_t>(rigid_bodies_.size()));
-  constexpr int kNumSamples = 64;
-  int num_touching = 0;
   for (int i = 0; i < kNumSamples; ++i) {
     for (std::size_t j = 0; j < q.size(); ++j) {
       const JointSpace::Joint& joint = group_->space.joint(static_cast<int>(j));
       q[j] = joint.lower + UniformFraction(&generator) * (joint.upper - joint.lower);
     }
-    rigid_bodies_.ComputePoses(q, X_WG);
-    const double distance =
-        (At(X_WG, a.body) * ball_a.center - At(X_WG, b.body) * ball_b.center).norm();
-    num_touching += distance <= ball_a.radius + ball_b.radius ? 1 : 0;
+    rigid_bodies_.ComputePoses(
+        q, samples_.emplace_back(static_cast<std::size_t>(rigid_bodies_.size())));
   }
-  return num_touching > kNumSamples / 2;
+}
+
+bool CompiledRobot::RootsTouch(const CompiledTree& a, const CompiledTree& b,
+                               const std::vector<Pose>& X_WG) const {
+  const Ball ball_a = BallOf(At(kernel.nodes, a.root), a.body);
+  const Ball ball_b = BallOf(At(kernel.nodes, b.root), b.body);
+  return (At(X_WG, a.body) * ball_a.center - At(X_WG, b.body) * ball_b.center).norm() <=
+         ball_a.radius + ball_b.radius;
+}
+
+bool CompiledRobot::UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const {
+  return std::count_if(samples_.begin(), samples_.end(), [&](const std::vector<Pose>& X_WG) {
+           return RootsTouch(a, b, X_WG);
+         }) > kNumSamples / 2;
 }
 
 void CompiledRobot::AddPairs(
@@ -507,7 +525,8 @@ void CompiledRobot::AddPairs(
   }
   if (same) {
     for (const auto& [a, b] : pairs) {
-      *distance = std::min(*distance, LeastDistance(BallsOf(*a), Pose(), BallsOf(*b)));
+      const Ball around_a = BallOf(At(kernel.nodes, a->root), a->body);
+      *distance = std::min(*distance, LeastDistance(around_a, BallsOf(*a), Pose(), BallsOf(*b)));
       if (meshes_ == nullptr) continue;
       standing.pairs.push_back({a->root, b->root, a->body, b->body, false, a->reach});
       AddInsideTests(*a, *b, &standing.inside_tests);

@@ -112,6 +112,9 @@ struct CompiledRobot {
   /// they are apart.
   bool ProvenApart(const CompiledTree& a, const CompiledTree& b,
                    std::span<const float> reach) const;
+  void SamplePoses();
+  bool RootsTouch(const CompiledTree& a, const CompiledTree& b,
+                  const std::vector<Pose>& X_WG) const;
   /// True if the trees' root balls touch at most configurations.
   bool UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const;
   /// Adds what of a pair is not proven apart; `reach`: offset, see TreePair.
@@ -121,7 +124,8 @@ struct CompiledRobot {
   const PlanningGroup* group_;
   std::vector<double> base_positions_;
   RigidBodies rigid_bodies_;
-  std::vector<Eigen::Matrix3d> R_CG_;  ///< By body: from RigidBodies' frame to the kernel's.
+  std::vector<std::vector<Pose>> samples_;  ///< X_WG at configurations all over the limits.
+  std::vector<Eigen::Matrix3d> R_CG_;       ///< By body: from RigidBodies' frame to the kernel's.
   const RobotMeshes* meshes_;
   std::vector<kernels::TriangleGroup> triangles_;  ///< By cluster.
 };

@@ -194,6 +194,7 @@ void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& mi
       std::size_t best = 0;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < middles.size(); ++i) {
+        if ((piece[0] - middles[i].center).norm() - middles[i].radius >= least) continue;
         const double beyond = Farthest(piece, middles[i].center) - middles[i].radius;
         if (beyond >= least) continue;
         least = beyond;
