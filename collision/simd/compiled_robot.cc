@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -224,19 +225,35 @@ void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
 void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& in,
                                    std::vector<kernels::InsideTest>* tests) const {
   if (At(kernel.nodes, in.root).num_insides == 0) return;
-  const Pose X_CL = PoseOfLink(of.link);
-  kernels::InsideTest test{in.root, in.body, of.root, of.body, {}, false};
-  for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
-    SetVector(X_CL * point, test.points.emplace_back().data());
+  // One test for all links of a body.
+  auto test = std::find_if(tests->begin(), tests->end(), [&](const kernels::InsideTest& other) {
+    return other.root_in == in.root && other.body_of == of.body;
+  });
+  if (test == tests->end()) {
+    test = tests->insert(test, {in.root, in.body, of.body, false, {}, {}, 0});
   }
-  tests->push_back(std::move(test));
+  const Pose X_CL = PoseOfLink(of.link);
+  for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
+    SetVector(X_CL * point, test->points.emplace_back().data());
+  }
+  std::vector<Ball> points;
+  for (const auto& point : test->points) points.push_back({{point[0], point[1], point[2]}, 0});
+  const Ball ball = EnclosingBall(points);
+  SetVector(ball.center, test->center);
+  test->radius = static_cast<float>(ball.radius + kRadiusPadding);
 }
 
 void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball) {
   if (At(kernel.nodes, link.root).num_insides == 0) return;
   const float* center = At(kernel.nodes, ball.root).center;
-  kernel.inside_tests.push_back(
-      {link.root, link.body, ball.root, ball.body, {{center[0], center[1], center[2]}}, true});
+  const std::array<float, 3> point = {center[0], center[1], center[2]};
+  kernel.inside_tests.push_back({link.root,
+                                 link.body,
+                                 ball.body,
+                                 true,
+                                 {point},
+                                 {point[0], point[1], point[2]},
+                                 kRadiusPadding});
 }
 
 int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {

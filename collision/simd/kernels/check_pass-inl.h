@@ -190,14 +190,11 @@ class CheckPass {
   /// Returns true to stop.
   bool TestPoints(const InsideTest& test) {
     placement_.PlaceRoot(test.root_in, test.body_in);
-    placement_.PlaceRoot(test.root_of, test.body_of);
     const Node& in = placement_.node(test.root_in);
-    const V reach = Fill(in.radius + placement_.node(test.root_of).radius);
-    const V squared =
-        SquaredNorm(placement_.Position(test.root_in) - placement_.Position(test.root_of));
-    const M touching = hn::Le(squared, Squared(reach));
-    if (None(hn::And(alive_, touching))) return false;
     const Poses X_WC = placement_.PosesOf(test.body_of);
+    const V squared = SquaredNorm(X_WC * Fill(test.center) - placement_.Position(test.root_in));
+    const M touching = hn::Le(squared, Squared(Fill(in.radius + test.radius)));
+    if (None(hn::And(alive_, touching))) return false;
     for (const auto& point : test.points) {
       const Points p = X_WC * Fill(point.data());
       for (int k = 0; k < in.num_insides; ++k) {

@@ -67,13 +67,15 @@ struct Inside {
 /// Whether it does enclose a point, given in the body's frame (m).
 bool Encloses(const Inside& inside, const float* p);
 
-/// Points of a body that collide if they are inside of meshes of another, where two balls touch:
-/// the one around these meshes, and one around the points.
+/// Points of a body that collide if they are inside of meshes of another.
 struct InsideTest {
-  int root_in, body_in;  ///< Nodes: the balls.
-  int root_of, body_of;
-  std::vector<std::array<float, 3>> points;  ///< In the frame of body_of, m.
+  int root_in, body_in;  ///< Node: a ball around these meshes.
+  int body_of;
   bool doubtful;  ///< Where a point is in a mesh's bounding box is passed on as a doubt.
+  std::vector<std::array<float, 3>> points;  ///< In the frame of body_of, m.
+  /// A ball around the points.
+  float center[3];
+  float radius;
 };
 
 /// Two trees to test against each other.
