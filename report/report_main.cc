@@ -108,7 +108,8 @@ int Run(Flags flags) {
     throw InputError("session is required: a session folder, or --import FILE --as NAME");
   }
   if (!flags.merge.empty()) {
-    std::cout << "report: " << MergeSessions(flags.sessions, flags.merge) << "\n";
+    const std::string merged = MergeSessions(flags.sessions, flags.merge);
+    std::cout << "report: " << merged << "\n";
     flags.sessions = {flags.merge};
   }
   std::vector<StoredSession> sessions = ReadAll(flags);

@@ -75,10 +75,9 @@ public class StraightLine implements LCMSubscriber {
     lcmt_collision_request q = new lcmt_collision_request();
     q.utime = utime(); q.request_id = name + "-" + UUID.randomUUID();
     q.scene_id = request.scene_id; q.group = request.group; q.state = request.start;
-    q.collision_model = request.collision_model;
-    q.edge_check = request.edge_check; q.edge_resolution_m = request.edge_resolution_m;
-    q.position = new double[0][]; q.num_joints = n; q.num_edges = 1;
-    q.edge_from = new double[][] {line[0]}; q.edge_to = new double[][] {line[1]};
+    q.collision_model = request.collision_model; q.edge_check = request.edge_check;
+    q.edge_resolution_m = request.edge_resolution_m; q.num_joints = n; q.num_edges = 1;
+    q.position = new double[0][]; q.edge_from = new double[][] {line[0]}; q.edge_to = new double[][] {line[1]};
     lcmt_collision_reply reply = null;
     while (reply == null && System.nanoTime() - begin < request.time_limit_s * 1e9) {
       lcm.publish("COLLISION_REQUEST", q);  // again until it is answered
@@ -110,8 +109,7 @@ public class StraightLine implements LCMSubscriber {
       planner.announce();
       lcmt_plan_request request = planner.work.poll(500, TimeUnit.MILLISECONDS);
       lcmt_plan_result result = request == null ? null : planner.plan(request);
-      if (result == null) continue;
-      synchronized (planner) {
+      if (result != null) synchronized (planner) {
         planner.results.put(request.request_id, result);
         planner.current = null;
         planner.send(result);

@@ -62,8 +62,7 @@ class StraightLine:
         if self.sets is None:
             return  # the robot's id is the scene server's
         current, status = self.current, pb.lcmt_node_status()
-        status.utime, status.start_utime, status.name = self.utime(), self.start, self.name
-        status.instance = self.instance
+        status.utime, status.start_utime, status.instance, status.name = self.utime(), self.start, self.instance, self.name
         status.kind, status.state = status.KIND_PLANNER, status.STATE_BUSY if current else status.STATE_IDLE
         status.request_id = current.request_id if current else ""
         status.host, status.pid, status.version, status.commit = "localhost", os.getpid(), "example", "example"
