@@ -28,7 +28,7 @@ constexpr int kMaxProofBoxes = 4000;
 /// Node::reach of a ball of balls.
 constexpr int kNoReach = -1;
 constexpr std::size_t kMaxProofBalls = 64;  ///< Of a tree of meshes.
-constexpr int kNumSamples = 64;
+constexpr int kNumSamples = 64;             ///< Configurations.
 
 /// `around_a` encloses the balls of A.
 double LeastDistance(const Ball& around_a, std::span<const Ball> balls_a, const Pose& X_AB,
@@ -350,6 +350,10 @@ Ball CompiledRobot::BallOf(const Node& node, int body) const {
   return {At(R_CG_, body).transpose() * p_C, node.radius};
 }
 
+Ball CompiledRobot::RootBall(const CompiledTree& tree) const {
+  return BallOf(At(kernel.nodes, tree.root), tree.body);
+}
+
 std::vector<int> CompiledRobot::NodesBelow(int root) const {
   std::vector<int> nodes = {root};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -407,7 +411,7 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
 
   const std::vector<Ball> balls_a = BallsOf(a);
   const std::vector<Ball> balls_b = BallsOf(b);
-  const Ball around_a = BallOf(At(kernel.nodes, a.root), a.body);
+  const Ball around_a = RootBall(a);
   const auto touch = [&](const std::vector<Pose>& X_WG) {
     return RootsTouch(a, b, X_WG) &&
            LeastDistance(around_a, balls_a, At(X_WG, a.body).Inverse() * At(X_WG, b.body),
@@ -502,8 +506,8 @@ void CompiledRobot::SamplePoses() {
 
 bool CompiledRobot::RootsTouch(const CompiledTree& a, const CompiledTree& b,
                                const std::vector<Pose>& X_WG) const {
-  const Ball ball_a = BallOf(At(kernel.nodes, a.root), a.body);
-  const Ball ball_b = BallOf(At(kernel.nodes, b.root), b.body);
+  const Ball ball_a = RootBall(a);
+  const Ball ball_b = RootBall(b);
   return (At(X_WG, a.body) * ball_a.center - At(X_WG, b.body) * ball_b.center).norm() <=
          ball_a.radius + ball_b.radius;
 }
@@ -542,8 +546,8 @@ void CompiledRobot::AddPairs(
   }
   if (same) {
     for (const auto& [a, b] : pairs) {
-      const Ball around_a = BallOf(At(kernel.nodes, a->root), a->body);
-      *distance = std::min(*distance, LeastDistance(around_a, BallsOf(*a), Pose(), BallsOf(*b)));
+      *distance =
+          std::min(*distance, LeastDistance(RootBall(*a), BallsOf(*a), Pose(), BallsOf(*b)));
       if (meshes_ == nullptr) continue;
       standing.pairs.push_back({a->root, b->root, a->body, b->body, false, a->reach});
       AddInsideTests(*a, *b, &standing.inside_tests);

@@ -93,6 +93,7 @@ struct CompiledRobot {
   void AddBoxes();
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
+  Ball RootBall(const CompiledTree& tree) const;
   std::vector<int> NodesBelow(int root) const;  ///< Indices, its own first.
   /// A link and another link of a body, or all of these: the body's own tree.
   using LinkPairs = std::vector<std::pair<const CompiledTree*, const CompiledTree*>>;
