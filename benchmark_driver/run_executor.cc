@@ -14,9 +14,9 @@
 namespace planbench {
 namespace {
 
-constexpr std::chrono::milliseconds kProblemRetry{500};
-// A check with clearance takes tens of milliseconds; a repeated request is not judged twice.
-constexpr std::chrono::milliseconds kPathCheckRetry{1000};
+// Short, for a scene server that has just been started again; a repeated request is not worked on
+// twice.
+constexpr std::chrono::milliseconds kServerRetry{250};
 constexpr std::chrono::seconds kServerPatience{10};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
@@ -56,10 +56,9 @@ RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions con
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
                                             const Request& request,
-                                            std::chrono::milliseconds retry_period,
                                             const std::function<bool()>& interrupted) {
   while (!interrupted()) {
-    if (auto reply = client->Call(request, retry_period, kServerPatience, interrupted)) {
+    if (auto reply = client->Call(request, kServerRetry, kServerPatience, interrupted)) {
       return reply;
     }
     if (interrupted()) break;
@@ -76,8 +75,7 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
   request.request_id = UniqueId(fmt::format("{}/{}/{}", conditions_.request.run_id, set, index));
   request.problem_set = set;
   request.problem_index = index;
-  std::optional<ProblemMessage> problem =
-      AskServer(&problems_, request, kProblemRetry, interrupted);
+  std::optional<ProblemMessage> problem = AskServer(&problems_, request, interrupted);
   if (problem && problem->ok && (problem->problem_set != set || problem->problem_index != index)) {
     problem->ok = false;
     problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
@@ -120,14 +118,13 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   request.collision_model = record.request.collision_model;
   request.step_m = conditions_.referee_step_m.value();
   request.with_clearance = conditions_.with_clearance;
-  std::optional<PathCheckReplyMessage> reply =
-      AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
+  std::optional<PathCheckReplyMessage> reply = AskServer(&path_checks_, request, interrupted);
   if (!reply || reply->ok) return reply;
   // A scene server that was restarted meanwhile does not know the scene: asking for the problem
   // loads it again.
   if (!AskForProblem(run.problem_set, run.problem_index, interrupted)) return std::nullopt;
   request.request_id = UniqueId(check_id);
-  return AskServer(&path_checks_, request, kPathCheckRetry, interrupted);
+  return AskServer(&path_checks_, request, interrupted);
 }
 
 std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {

@@ -50,7 +50,6 @@ class RunExecutor {
                                              const std::function<bool()>& interrupted);
   template <typename Request, typename Reply>
   std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
-                                 std::chrono::milliseconds retry_period,
                                  const std::function<bool()>& interrupted);
 
   /// The answer to a run's request, which gets the path that is to be improved.
