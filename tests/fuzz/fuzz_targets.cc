@@ -25,6 +25,7 @@
 #include "scene/moveit_yaml.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/messaging/message_examples.h"
+#include "tests/scene/problem_texts.h"
 #include "tests/support/session_database.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,11 +66,6 @@ std::pair<std::string, std::string> Divided(Input input) {
 }
 Bytes Joined(const Bytes& first, const Bytes& second) {
   return BytesOf(TextOf(first) + std::string(kDivision) + TextOf(second));
-}
-
-const Robot& Fetch() {
-  static const Robot robot = LoadRobot(kSource / "robots/fetch");
-  return robot;
 }
 
 template <typename... Messages>
@@ -171,30 +167,64 @@ FuzzTarget DatabaseTarget() {
 }
 
 FuzzTarget ProblemTarget() {
-  FuzzTarget target{"problem", nullptr, {}, 250};
-  for (int i = 1; i <= 3; ++i) {
-    target.seeds.push_back(
-        Joined(ReadFile(kSource / fmt::format("problems/shelf_demo/scene000{}.yaml", i)),
-               ReadFile(kSource / fmt::format("problems/shelf_demo/request000{}.yaml", i))));
-  }
-  target.read = [](Input input) {
-    const auto [scene, request] = Divided(input);
-    ParseProblem(YamlNode::Parse(scene, "scene.yaml"), YamlNode::Parse(request, "request.yaml"),
-                 Fetch(), Fetch().resources);
-  };
-  return target;
+  static const Robot robot = TextRobot();
+  const std::string poses = R"(group_name: arm
+goal_constraints:
+  - position_constraints:
+      - link_name: gripper_link
+        constraint_region:
+          primitives: [{type: 2, dimensions: [0.001]}]
+          primitive_poses: [{position: [0, 1, 3], orientation: [0, 0, 0, 1]}]
+    orientation_constraints:
+      - {link_name: gripper_link, orientation: [0, 0, 0.6, 0.8], absolute_z_axis_tolerance: 0.1}
+)";
+  const std::string octomap = R"(robot_model_name: fetch
+robot_state: {multi_dof_joint_state: {joint_names: [], transforms: []}}
+world:
+  octomap:
+    header: {frame_id: base_link}
+    origin: {position: [0, 2, 0], orientation: [0, 0, 0, 1]}
+    octomap: {binary: true, id: OcTree, resolution: 0.1, data: [0, -128]}
+)";
+  return {"problem",
+          [](Input input) {
+            const auto [scene, request] = Divided(input);
+            ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
+                         YamlNode::Parse(request, "request.yaml"), robot, {});
+          },
+          {Joined(BytesOf(kFullScene), BytesOf(kFullRequest)),
+           Joined(BytesOf(octomap), BytesOf(poses))},
+          250};
 }
 
 FuzzTarget RobotFolderTarget() {
-  FuzzTarget target{"robot_folder", nullptr, {}, 250};
-  const Bytes urdf = ReadFile(kSource / "robots/panda/panda.urdf");
-  Scratch().Write("robot/panda.urdf", TextOf(urdf));
-  target.seeds = {ReadFile(kSource / "robots/panda/robot.yaml")};
-  target.read = [](Input input) {
-    Written("robot/robot.yaml", input);
-    LoadRobot(Scratch() / "robot");
-  };
-  return target;
+  for (const char* name : {"planar3.urdf", "spheres.yaml"}) {
+    Scratch().Write(std::string("robot/") + name,
+                    TextOf(ReadFile(kSource / "tests/data/planar3" / name)));
+  }
+  return {"robot_folder",
+          [](Input input) {
+            Written("robot/robot.yaml", input);
+            LoadRobot(Scratch() / "robot");
+          },
+          {BytesOf(R"(name: planar3
+urdf: planar3.urdf
+spheres: spheres.yaml
+enclosing_spheres: spheres.yaml
+edge_resolution_m: 0.02
+edge_check: certified
+groups:
+  - name: arm
+    joints: [shoulder, elbow, wrist]
+    tip_link: tip
+    states: {bent: [0, 1.5, -1.5]}
+allowed_pairs:
+  - [column, forearm]
+links_without_spheres: [base]
+planners: {rrtc: rrtc.yaml}
+voxels: {resolution_m: 0.02, lower: [-1, -1, 0], upper: [1, 1, 2], walls: true, hollow: true}
+)")},
+          250};
 }
 
 FuzzTarget UrdfTarget() {
