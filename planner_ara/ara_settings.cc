@@ -64,6 +64,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "tip_guide",
                   "cost",
                   "evaluation",
+                  "refine",
                   "wrap_heuristic",
                   "fit_cells",
                   "edge_weights",
@@ -77,6 +78,7 @@ void AraSettings::Apply(const YamlNode& node) {
   if (const std::optional<YamlNode> value = node.Find("evaluation")) {
     evaluation = value->Enum<Evaluation>();
   }
+  refine = node.BoolOr("refine", refine);
   wrap_heuristic = node.BoolOr("wrap_heuristic", wrap_heuristic);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -135,6 +137,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"tip_guide", fmt::format("{}", tip_guide)},
       {"cost", std::string(EnumName(cost))},
       {"evaluation", std::string(EnumName(evaluation))},
+      {"refine", fmt::format("{}", refine)},
       {"wrap_heuristic", fmt::format("{}", wrap_heuristic)},
       {"fit_cells", fmt::format("{}", fit_cells)},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},

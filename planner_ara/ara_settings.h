@@ -70,6 +70,9 @@ struct AraSettings {
   /// When the edges out of a state are checked: as its neighbours' turn comes, or all as it is
   /// expanded.
   Evaluation evaluation = Evaluation::kLazy;
+  /// Whether a search whose moves lead nowhere any more goes on with finer ones: short moves
+  /// everywhere and halves of the long ones, then halves of those, down to single cells.
+  bool refine = true;
   /// Whether the heuristic takes continuous joints the short way round. If not, a state is as far
   /// round as the motion that reached it first, the heuristic is no lower bound of the cost, and no
   /// bound is reported.

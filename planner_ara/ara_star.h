@@ -22,8 +22,8 @@ struct CandidateEdge {
 
 /// An implicit graph. State ids are dense: they are handed out from 0 upwards as states become
 /// known.
-/// - CandidateEdges(s, &edges) appends the edges out of s; the same at every call, but for their
-/// guides.
+/// - CandidateEdges(s, &edges) appends the edges out of s: those of the call before, but for their
+/// guides, and perhaps more (AraStar::ExpandAgain).
 /// - Target(s, action) is the state an edge leads to.
 /// - IsValidEdge(s, action) decides about an edge; asked only when it is the most promising one.
 /// The heuristic h is a lower bound of the cost to the goal, 0 at the goal, and consistent: h(s) <=
@@ -101,6 +101,16 @@ class AraStar {
     if (best_cost() == kInfinity) return ImproveOutcome::kExhausted;
     if (!ends_at_first) RaiseLowerBound(best_cost() / epsilon);
     return outcome;
+  }
+
+  /// Takes in the edges that the graph has got since its states were expanded. What was proven of
+  /// the optimum does not hold any more; a new iteration begins.
+  void ExpandAgain() {
+    lower_bound_ = 0;
+    epsilon_ = 0;
+    for (StateId state = 0; state < nodes_.size(); ++state) {
+      if (nodes_[state].closed_in != 0) PushEdges(state);
+    }
   }
 
   /// Says that a path of this cost is known from elsewhere: from now on edges that cannot lie on a
@@ -189,13 +199,17 @@ class AraStar {
 
   void Expand(StateId state) {
     ++num_expansions_;
-    Node& node = nodes_[state];
-    node.closed_in = iteration_;
+    nodes_[state].closed_in = iteration_;
+    PushEdges(state);
+  }
+
+  void PushEdges(StateId state) {
+    const double g = nodes_[state].g;
     edges_.clear();
     graph_->CandidateEdges(state, &edges_);
     num_edges_generated_ += static_cast<std::int64_t>(edges_.size());
     for (const CandidateEdge& edge : edges_) {
-      const EdgeHeap::Entry entry{node.g + edge.cost, edge.target_heuristic, edge.guide, state,
+      const EdgeHeap::Entry entry{g + edge.cost, edge.target_heuristic, edge.guide, state,
                                   edge.action};
       if (CanImproveGoal(entry)) open_.Push(entry);
     }

@@ -15,6 +15,7 @@ class ChunkedArray {
   explicit ChunkedArray(std::size_t width = 1) : width_(width) {}
 
   std::size_t size() const { return size_; }
+  std::size_t width() const { return width_; }
   /// The first element of record i < size().
   T* Record(std::size_t i) { return &chunks_[i >> kShift][(i & kMask) * width_]; }
   const T* Record(std::size_t i) const { return &chunks_[i >> kShift][(i & kMask) * width_]; }

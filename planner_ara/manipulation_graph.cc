@@ -48,6 +48,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
   options.evaluation = settings.evaluation;
+  options.refine = settings.refine;
   options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
@@ -73,13 +74,14 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       from_(start.size()),
       to_(start.size()),
       target_(start.size()) {
-  AddMoves(options_.primitives.long_moves, true);
-  AddMoves(options_.primitives.short_moves, false);
-  double longest = 0;
-  for (const Move& move : moves_) longest = std::max(longest, move.cost);
+  const MotionPrimitives& primitives = options_.primitives;
+  AddMoves(primitives.long_moves, true);
+  AddMoves(primitives.short_moves, false);
+  finest_moves_ = primitives.long_moves.empty() ? primitives.short_moves : primitives.long_moves;
   if (options_.cost == MoveCost::kUniform) {
-    unit_ = 1 / std::max(1.0, longest);
-    for (Move& move : moves_) move.cost = 1;
+    double longest = 1;
+    for (const Move& move : moves_) longest = std::max(longest, LengthOf(move.cells));
+    unit_ = 1 / longest;
   }
   moves_depend_on_place_ =
       options_.long_moves_beyond > 0 || std::isfinite(options_.short_moves_within);
@@ -96,7 +98,7 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       to_start.push_back(from_start * from_start);
     }
   }
-  known_edges_ = ChunkedArray<std::uint64_t>((2 * (kFirstMove + moves_.size()) + 63) / 64);
+  MakeRoomForKnowledge();
   if (options_.crowding > 0) {
     visits_.resize(kCrowdSlots);
     crowd_cells_.assign(start.size(), 0);
@@ -117,10 +119,51 @@ void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double
   tip_weight_ = weight;
 }
 
+bool ManipulationGraph::Refine() {
+  if (!options_.refine) return false;
+  std::vector<std::vector<int>> halves;
+  for (std::vector<int> row : finest_moves_) {
+    if (std::any_of(row.begin(), row.end(), [](int cells) { return std::abs(cells) == 1; }))
+      continue;
+    for (int& cells : row) cells /= 2;
+    halves.push_back(std::move(row));
+  }
+  if (halves.empty()) return false;
+  finest_moves_ = halves;
+  std::erase_if(halves, [this](const std::vector<int>& row) {
+    return std::any_of(moves_.begin(), moves_.end(),
+                       [&](const Move& move) { return move.cells == row; });
+  });
+  AddMoves(halves, false);
+  MakeRoomForKnowledge();
+  options_.short_moves_within = kInfinity;
+  moves_depend_on_place_ = options_.long_moves_beyond > 0;
+  return true;
+}
+
+// Of one record a state, which is wide enough for all of its edges.
+void ManipulationGraph::MakeRoomForKnowledge() {
+  const std::size_t words = (2 * (kFirstMove + moves_.size()) + 63) / 64;
+  if (words <= known_edges_.width()) return;
+  ChunkedArray<std::uint64_t> wider(words);
+  for (std::size_t state = 0; state < known_edges_.size(); ++state) {
+    std::copy_n(known_edges_.Record(state), known_edges_.width(), wider.Append());
+  }
+  known_edges_ = std::move(wider);
+}
+
+double ManipulationGraph::LengthOf(const std::vector<int>& row) const {
+  double sum = 0;
+  for (std::size_t j = 0; j < row.size(); ++j) {
+    const double weighted = options_.weights[j] * row[j] * lattice_.step(static_cast<int>(j));
+    sum += weighted * weighted;
+  }
+  return std::sqrt(sum);
+}
+
 void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool are_long) {
   const JointSpace& space = edges_->space();
   for (const std::vector<int>& row : rows) {
-    double sum = 0;
     for (int j = 0; j < space.size(); ++j) {
       const auto i = static_cast<std::size_t>(j);
       const double motion = row[i] * lattice_.step(j);
@@ -129,13 +172,12 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
             "motion primitive moves the continuous joint {} by {} cells, half a turn or more",
             space.joint(j).name, row[i]));
       }
-      const double weighted = options_.weights[i] * motion;
-      sum += weighted * weighted;
     }
     std::vector<int> opposite = row;
     for (int& cells : opposite) cells = -cells;
-    moves_.push_back({row, std::sqrt(sum), are_long});
-    moves_.push_back({std::move(opposite), std::sqrt(sum), are_long});
+    const double cost = options_.cost == MoveCost::kUniform ? 1 : LengthOf(row);
+    moves_.push_back({row, cost, are_long});
+    moves_.push_back({std::move(opposite), cost, are_long});
   }
 }
 

@@ -29,6 +29,7 @@ struct ManipulationGraphOptions {
   double short_moves_within = std::numeric_limits<double>::infinity();
   MoveCost cost = MoveCost::kDistance;
   Evaluation evaluation = Evaluation::kLazy;
+  bool refine = true;                ///< See AraSettings::refine.
   bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
@@ -63,6 +64,9 @@ class ManipulationGraph {
   void CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates);
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
+  /// Gives the states further edges: short moves everywhere, and moves of half the length of the
+  /// finest. False, and nothing happens, if they are single cells already or it is not allowed.
+  bool Refine();
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
   /// Joint distance to the goal box in the unit of the costs.
@@ -91,7 +95,9 @@ class ManipulationGraph {
     bool is_long;
   };
 
+  double LengthOf(const std::vector<int>& row) const;
   void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
+  void MakeRoomForKnowledge();
   /// Squared weighted distance to the goal that the heuristic is made of; `turns`: by joint, see
   /// turns_.
   double SquaredGoalDistance(std::span<const Lattice::Coordinate> coordinates,
@@ -117,7 +123,8 @@ class ManipulationGraph {
   LatticePoints points_;
   GoalDistance goal_distance_;
   std::vector<Move> moves_;
-  double unit_ = 1;  // cost of a motion of weighted length 1
+  std::vector<std::vector<int>> finest_moves_;  // that Refine halves, one of each two senses
+  double unit_ = 1;                             // cost of a motion of weighted length 1
   bool moves_depend_on_place_ = false;
   // Squared weighted distance by joint and cell, to the goal box and to the start.
   std::vector<std::vector<double>> goal_terms_;

@@ -83,6 +83,10 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
         },
         order);
     side->work += work();
+    if (outcome == ImproveOutcome::kExhausted && side->graph.Refine()) {
+      side->search.ExpandAgain();
+      continue;
+    }
     // In the order of the guide a search that has a path is at its end, but has proven nothing yet.
     side->converged = outcome == ImproveOutcome::kExhausted ||
                       (outcome == ImproveOutcome::kConverged && order == EdgeOrder::kHeuristic);

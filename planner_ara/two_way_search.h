@@ -18,7 +18,8 @@ namespace planbench {
 /// has the lattice anchored at its own root, with the other end as its goal; the one that has done
 /// less work goes next, so that the better direction finds its path in twice the work it would need
 /// alone, whichever it is. Neither follows edges that cannot lead to a path cheaper than the best
-/// of both.
+/// of both. Where a lattice holds no path, its search goes on with finer moves
+/// (ManipulationGraph::Refine), the states kept.
 class TwoWaySearch {
  public:
   /// What the searches have done, both together.

@@ -141,7 +141,8 @@ TEST_F(AraPlannerTest, ParametersServeTheirRequestOnly) {
 
 TEST_F(AraPlannerTest, ProvesThatTheLatticeHoldsNoPath) {
   PlanRequest request = ThroughTheWalls();
-  request.parameters["discretization"] = "{shoulder: 0.4, elbow: 0.4, wrist: 0.4}";
+  request.parameters = {{"discretization", "{shoulder: 0.4, elbow: 0.4, wrist: 0.4}"},
+                        {"refine", "false"}};
   const PlanResult result = Make(kPlanarSettings)->Plan(request, WallsScene(), nullptr);
   EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.message;
   EXPECT_FALSE(result.message.empty());

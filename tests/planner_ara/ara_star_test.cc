@@ -36,6 +36,40 @@ void ExpectNoneTwice(const std::vector<StateId>& expanded) {
   EXPECT_EQ(std::set<StateId>(expanded.begin(), expanded.end()).size(), expanded.size());
 }
 
+TEST(AraStar, TakesInEdgesThatCameLater) {
+  int num_solved_later = 0;
+  for (unsigned seed = 0; seed < kNumGraphs; ++seed) {
+    SCOPED_TRACE(seed);
+    const ExplicitGraph whole = RandomGraph(seed, kGoal);
+    ExplicitGraph graph = whole;
+    for (std::size_t s = 0; s < graph.edges.size(); ++s) {
+      graph.edges[s].resize(graph.edges[s].size() * (seed % 4) / 4);
+    }
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    search.ImprovePath(1 + seed % 3, kNever,
+                       seed % 2 == 0 ? EdgeOrder::kGuide : EdgeOrder::kHeuristic);
+    search.ProveLowerBound();
+    const bool was_solved = search.goal_cost() < kInfinity;
+
+    graph.edges = whole.edges;
+    search.ExpandAgain();
+    const double optimum = TrueCosts(graph, kStart, false)[kGoal];
+    for (const double epsilon : {1.0 + seed % 3, 1.0}) {
+      const ImproveOutcome outcome = search.ImprovePath(epsilon, kNever);
+      if (optimum == kInfinity) {
+        EXPECT_EQ(outcome, ImproveOutcome::kExhausted);
+        continue;
+      }
+      ASSERT_EQ(outcome, ImproveOutcome::kConverged);
+      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+      EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
+      EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
+    }
+    num_solved_later += !was_solved && optimum < kInfinity ? 1 : 0;
+  }
+  EXPECT_GT(num_solved_later, kNumGraphs / 10);
+}
+
 TEST(AraStar, KeepsItsPromiseAtEveryEpsilon) {
   int num_solvable = 0;
   int num_improved = 0;

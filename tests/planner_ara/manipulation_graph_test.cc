@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "collision/collision_checker.h"
@@ -102,6 +104,59 @@ TEST_F(ManipulationGraphTest, MovesLeadFromLatticePointToLatticePoint) {
   }
   EXPECT_GT(num_valid, 100);
   EXPECT_GT(graph.num_goal_connections_tried(), 0);
+}
+
+TEST_F(ManipulationGraphTest, RefinesItsMovesDownToSingleCells) {
+  ManipulationGraphOptions options = Options(0.05);
+  options.primitives = {{{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {4, 4, 0}, {4, -4, 0}, {6, 0, 3}},
+                        {{2, 0, 0}}};
+  options.short_moves_within = 0.01;
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
+  const StateId state = graph.Target(ManipulationGraph::kStart, EdgesOf(&graph, 1)[1].action);
+  ASSERT_NE(state, ManipulationGraph::kGoal);
+  const auto cells_moved = [&](const CandidateEdge& edge) {
+    Configuration from(3);
+    Configuration to(3);
+    graph.ConfigurationOf(state, from);
+    graph.ConfigurationOf(graph.Target(state, edge.action), to);
+    std::vector<int> cells;
+    for (int j = 0; j < 3; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      const double motion = space_.Difference(j, from[i], to[i]);
+      cells.push_back(static_cast<int>(std::lround(motion / graph.lattice().step(j))));
+    }
+    return cells;
+  };
+  // What a level adds, without opposites.
+  const std::vector<std::vector<std::vector<int>>> levels = {
+      {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {4, 4, 0}, {4, -4, 0}, {6, 0, 3}},
+      {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {2, 2, 0}, {2, -2, 0}, {3, 0, 1}},
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}}};
+  std::multiset<std::vector<int>> expected;
+  std::map<std::uint16_t, bool> verdicts;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    if (level > 0) ASSERT_TRUE(graph.Refine());
+    for (std::vector<int> row : levels[level]) {
+      expected.insert(row);
+      for (int& cells : row) cells = -cells;
+      expected.insert(row);
+    }
+    std::multiset<std::vector<int>> moves;
+    for (const CandidateEdge& edge : EdgesOf(&graph, state)) {
+      if (graph.Target(state, edge.action) != ManipulationGraph::kGoal) {
+        moves.insert(cells_moved(edge));
+      }
+      const auto checked = edges_->counters().edges;
+      const bool valid = graph.IsValidEdge(state, edge.action);
+      const auto [known, is_new] = verdicts.emplace(edge.action, valid);
+      EXPECT_EQ(known->second, valid);
+      EXPECT_EQ(edges_->counters().edges - checked, is_new ? 1 : 0) << "a verdict was forgotten";
+    }
+    EXPECT_EQ(moves, expected);
+  }
+  EXPECT_FALSE(graph.Refine());
+  options.refine = false;
+  EXPECT_FALSE(Graph(PointGoal(kRight), options).Refine());
 }
 
 TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {

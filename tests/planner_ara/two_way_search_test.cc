@@ -140,6 +140,23 @@ TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
   EXPECT_EQ(search.ProveBound(), kInfinity);
 }
 
+TEST_F(TwoWaySearchTest, GoesOnWithFinerMovesWhereTheLatticeHoldsNoPath) {
+  options_.discretization.assign(3, 0.1);
+  // The arm has to bend, but the elbow's limits leave no room for 3 rad.
+  options_.primitives = {{{9, 0, 0}, {0, 30, 0}, {0, 0, 9}}, {}};
+  for (const bool two_way : {false, true}) {
+    options_.refine = false;
+    TwoWaySearch coarse(edges_.get(), kLeft_, PointGoal(kRight_), options_, two_way);
+    ASSERT_EQ(coarse.Improve(50, kGoOn, kSilent), ImproveOutcome::kExhausted);
+    options_.refine = true;
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, two_way);
+    ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
+    ExpectJoins(search.path(), search.cost());
+    EXPECT_GT(search.counts().expansions, coarse.counts().expansions);
+    EXPECT_LT(search.ProveBound(), kInfinity);
+  }
+}
+
 TEST_F(TwoWaySearchTest, GoesOnWhereItWasStopped) {
   TwoWaySearch at_once(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   TwoWaySearch in_steps(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
