@@ -43,7 +43,9 @@ const TemporaryFolder& Scratch() {
 }
 
 Bytes BytesOf(std::string_view text) { return {text.begin(), text.end()}; }
-std::string TextOf(Input input) { return {input.begin(), input.end()}; }
+std::string TextOf(Input input) {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
 
 Bytes ReadFile(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
