@@ -115,6 +115,7 @@ class AraPlanner : public Planner {
         {"goal_connections_tried", static_cast<double>(counts.goal_connections_tried)},
         {"search_iterations", static_cast<double>(counts.iterations)},
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
+        {"bridged", search.is_bridged() ? 1.0 : 0.0},
     };
     if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;

@@ -12,7 +12,9 @@
 namespace planbench {
 namespace {
 
+// Words for infinity.
 constexpr std::string_view kEverywhere = "everywhere";
+constexpr std::string_view kNever = "never";
 
 void ApplyByJoint(const YamlNode& node, const std::string& key,
                   std::map<std::string, double>* values) {
@@ -42,6 +44,18 @@ double AtLeastOne(const YamlNode& node, const std::string& key, double fallback)
   return value->Double();
 }
 
+// What `read` reads, or infinity where the word for it stands.
+double OrWord(const YamlNode& node, const std::string& key, std::string_view infinity,
+              double (*read)(const YamlNode&, const std::string&, double), double fallback) {
+  const std::optional<YamlNode> value = node.Find(key);
+  const bool is_word = value && value->IsScalar() && value->String() == infinity;
+  return is_word ? std::numeric_limits<double>::infinity() : read(node, key, fallback);
+}
+
+std::string OrWord(double value, std::string_view infinity) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string(infinity);
+}
+
 std::string ByJointAsText(const std::map<std::string, double>& values) {
   std::vector<std::string> texts;
   for (const auto& [joint, value] : values) texts.push_back(fmt::format("{}: {}", joint, value));
@@ -61,6 +75,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "two_way",
                   "crowding",
                   "crowding_joints",
+                  "bridge_after",
                   "tip_guide",
                   "cost",
                   "evaluation",
@@ -87,13 +102,10 @@ void AraSettings::Apply(const YamlNode& node) {
   use_long_primitives = node.BoolOr("use_long_primitives", use_long_primitives);
   use_short_primitives = node.BoolOr("use_short_primitives", use_short_primitives);
   long_primitives_beyond = NonNegative(node, "long_primitives_beyond", long_primitives_beyond);
-  if (const std::optional<YamlNode> value = node.Find("short_primitives_within");
-      value && value->IsScalar() && value->String() == kEverywhere) {
-    short_primitives_within = std::numeric_limits<double>::infinity();
-  } else {
-    short_primitives_within = NonNegative(node, "short_primitives_within", short_primitives_within);
-  }
+  short_primitives_within =
+      OrWord(node, "short_primitives_within", kEverywhere, NonNegative, short_primitives_within);
   two_way = node.BoolOr("two_way", two_way);
+  bridge_after = OrWord(node, "bridge_after", kNever, Positive, bridge_after);
   crowding = NonNegative(node, "crowding", crowding);
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
     crowding_joints = joints->Strings();
@@ -129,10 +141,9 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"use_long_primitives", fmt::format("{}", use_long_primitives)},
       {"use_short_primitives", fmt::format("{}", use_short_primitives)},
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
-      {"short_primitives_within", std::isfinite(short_primitives_within)
-                                      ? fmt::format("{}", short_primitives_within)
-                                      : std::string(kEverywhere)},
+      {"short_primitives_within", OrWord(short_primitives_within, kEverywhere)},
       {"two_way", fmt::format("{}", two_way)},
+      {"bridge_after", OrWord(bridge_after, kNever)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
       {"cost", std::string(EnumName(cost))},

@@ -70,7 +70,8 @@ template <SearchGraph Graph>
 class AraStar {
  public:
   /// The graph must outlive this.
-  AraStar(Graph* graph, StateId start, StateId goal) : graph_(graph), start_(start), goal_(goal) {
+  AraStar(Graph* graph, StateId start, StateId goal)
+      : graph_(graph), start_(start), goal_(goal), last_expanded_(start) {
     Touch(goal);
     Touch(start).g = 0;
   }
@@ -136,11 +137,16 @@ class AraStar {
     const double lower_bound = ProveLowerBound();
     return goal_cost() <= lower_bound ? 1 : goal_cost() / lower_bound;
   }
+  /// Cost of the best way known to a state that has been expanded.
+  double CostTo(StateId state) const { return nodes_[state].g; }
   /// The best path known, start to goal; empty without one.
   std::vector<PathStep> Path() const {
+    return goal_cost() == kInfinity ? std::vector<PathStep>() : PathTo(goal_);
+  }
+  /// The best way known to a state that has been expanded.
+  std::vector<PathStep> PathTo(StateId end) const {
     std::vector<PathStep> path;
-    if (goal_cost() == kInfinity) return path;
-    for (StateId state = goal_; state != start_; state = nodes_[state].parent) {
+    for (StateId state = end; state != start_; state = nodes_[state].parent) {
       path.push_back({state, nodes_[state].action});
     }
     path.push_back({start_, 0});
@@ -148,6 +154,8 @@ class AraStar {
     return path;
   }
 
+  /// The state expanded last, the start before any.
+  StateId last_expanded() const { return last_expanded_; }
   std::int64_t num_expansions() const { return num_expansions_; }
   std::int64_t num_edges_generated() const { return num_edges_generated_; }
   int num_iterations() const { return static_cast<int>(iteration_); }
@@ -199,6 +207,7 @@ class AraStar {
 
   void Expand(StateId state) {
     ++num_expansions_;
+    last_expanded_ = state;
     nodes_[state].closed_in = iteration_;
     PushEdges(state);
   }
@@ -239,6 +248,7 @@ class AraStar {
   std::uint32_t iteration_ = 0;
   double lower_bound_ = 0;          // of the optimal cost
   double upper_bound_ = kInfinity;  // cost of a path known from elsewhere
+  StateId last_expanded_;
   std::int64_t num_expansions_ = 0;
   std::int64_t num_edges_generated_ = 0;
 };

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::size_t kCrowdSlots = 1 << 14;  // a power of two
 
+// Soon felt, and more and more where the search has been hundreds of times.
+double Crowd(double visits) { return std::log2(1 + visits) + visits / 5; }
+
 }  // namespace
 
 ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
@@ -49,6 +52,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.cost = settings.cost;
   options.evaluation = settings.evaluation;
   options.refine = settings.refine;
+  options.bridge_after = settings.bridge_after;
   options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
@@ -258,8 +262,7 @@ bool ManipulationGraph::MoveFrom(StateId source, const Move& move) {
 
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
   // Cells of different hashes may share a count: it only guides.
-  const double crowd =
-      visits_.empty() ? 1 : 1 + options_.crowding * std::log2(1 + CountVisit(state));
+  const double crowd = visits_.empty() ? 1 : 1 + options_.crowding * Crowd(CountVisit(state));
   double detour = 0;
   // Where the goal can be had at once, no guide is needed.
   if (tip_distance_ && !(state == kStart && IsValidEdge(state, kToNearestGoal))) {

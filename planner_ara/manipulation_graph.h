@@ -30,6 +30,7 @@ struct ManipulationGraphOptions {
   MoveCost cost = MoveCost::kDistance;
   Evaluation evaluation = Evaluation::kLazy;
   bool refine = true;                ///< See AraSettings::refine.
+  double bridge_after = kInfinity;   ///< See AraSettings::bridge_after.
   bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.

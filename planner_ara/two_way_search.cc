@@ -1,6 +1,8 @@
 #include "planner_ara/two_way_search.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "common/numbers.h"
 
@@ -11,6 +13,27 @@ namespace {
 constexpr std::int64_t kSlice = 200;
 /// Work of an expansion, a configuration checked being 1.
 constexpr std::int64_t kExpansionWork = 10;
+/// The bridge's search goes on for this much work after each turn of another, as long as it has
+/// done less than they.
+constexpr std::int64_t kBridgeSlice = 1000;
+/// Clearance beyond which a state is as good as any, m.
+constexpr double kWide = 0.5;
+
+/// The work of a search since this was made.
+class WorkMeter {
+ public:
+  WorkMeter(const EdgeChecker* edges, std::int64_t expansions)
+      : edges_(edges), configurations_(edges->counters().configurations), expansions_(expansions) {}
+  std::int64_t Work(std::int64_t expansions) const {
+    return edges_->counters().configurations - configurations_ +
+           kExpansionWork * (expansions - expansions_);
+  }
+
+ private:
+  const EdgeChecker* edges_;
+  std::int64_t configurations_;
+  std::int64_t expansions_;
+};
 
 }  // namespace
 
@@ -28,11 +51,24 @@ struct TwoWaySearch::Side {
   AraStar<ManipulationGraph> search;
   bool converged = false;
   std::int64_t work = 0;
+  // Of the states looked at since the last bridge, the one with the most clearance.
+  StateId widest = ManipulationGraph::kStart;
+  double clearance_m = 0;
+};
+
+struct TwoWaySearch::Bridge {
+  Bridge(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
+         const ManipulationGraphOptions& options)
+      : search(edges, start, goal, options, /*two_way=*/true) {}
+
+  TwoWaySearch search;
+  std::array<StateId, 2> ends{};  // by side
+  std::int64_t work = 0;
 };
 
 TwoWaySearch::TwoWaySearch(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
                            const ManipulationGraphOptions& options, bool two_way)
-    : edges_(edges), guided_(options.crowding > 0) {
+    : edges_(edges), options_(options), bridge_at_(options.bridge_after) {
   sides_.push_back(std::make_unique<Side>(edges, start, goal, options));
   if (!two_way) return;
   const GoalBox back_to_start{start, start, start};
@@ -41,9 +77,18 @@ TwoWaySearch::TwoWaySearch(EdgeChecker* edges, const Configuration& start, const
 
 TwoWaySearch::~TwoWaySearch() = default;
 
+TwoWaySearch::Counts& TwoWaySearch::Counts::operator+=(const Counts& more) {
+  expansions += more.expansions;
+  states += more.states;
+  edges_generated += more.edges_generated;
+  goal_connections_tried += more.goal_connections_tried;
+  iterations = std::max(iterations, more.iterations);
+  return *this;
+}
+
 void TwoWaySearch::GuideByTip(const Scene& scene, std::span<const double> base_positions,
                               double weight) {
-  guided_ = true;
+  tip_guide_ = {&scene, {base_positions.begin(), base_positions.end()}, weight};
   const CollisionChecker& checker = edges_->checker();
   const Side& forward = *sides_.front();
   const auto grid = std::make_shared<TipGrid>(scene, checker.robot().model, checker.group(),
@@ -63,26 +108,22 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
 
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
                                      const std::function<void(double)>& on_solution) {
+  const bool guided = tip_guide_ || options_.crowding > 0;
   for (const auto& side : sides_) side->converged = false;
   while (Side* side = NextSide()) {
     const EdgeOrder order =
-        guided_ && cost_ == kInfinity ? EdgeOrder::kGuide : EdgeOrder::kHeuristic;
+        guided && cost_ == kInfinity ? EdgeOrder::kGuide : EdgeOrder::kHeuristic;
     const bool alone = sides_.size() == 1;
-    const std::int64_t expansions = side->search.num_expansions();
-    const std::int64_t configurations = edges_->counters().configurations;
-    const auto work = [&] {
-      return edges_->counters().configurations - configurations +
-             kExpansionWork * (side->search.num_expansions() - expansions);
-    };
+    const WorkMeter meter(edges_, side->search.num_expansions());
     bool stopped = false;
     const ImproveOutcome outcome = side->search.ImprovePath(
         epsilon,
         [&] {
           stopped = should_stop();
-          return stopped || (!alone && work() >= kSlice);
+          return stopped || (!alone && meter.Work(side->search.num_expansions()) >= kSlice);
         },
         order);
-    side->work += work();
+    side->work += meter.Work(side->search.num_expansions());
     if (outcome == ImproveOutcome::kExhausted && side->graph.Refine()) {
       side->search.ExpandAgain();
       continue;
@@ -90,8 +131,16 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
     // In the order of the guide a search that has a path is at its end, but has proven nothing yet.
     side->converged = outcome == ImproveOutcome::kExhausted ||
                       (outcome == ImproveOutcome::kConverged && order == EdgeOrder::kHeuristic);
-    if (side->search.goal_cost() < cost_) {
-      TakePath(*side);
+    bool is_better = side->search.goal_cost() < cost_;
+    if (is_better) {
+      TakePath(side->search.goal_cost(), side->graph.Configurations(side->search.Path()),
+               side != sides_.front().get());
+    }
+    if (cost_ == kInfinity && !alone && options_.bridge_after < kInfinity) {
+      LookAround(side);
+      is_better = WorkOnBridge(epsilon, should_stop);
+    }
+    if (is_better) {
       const double bound = ProveBound();
       on_solution(bound);
       if (bound <= epsilon) return ImproveOutcome::kConverged;
@@ -101,12 +150,86 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
   return cost_ < kInfinity ? ImproveOutcome::kConverged : ImproveOutcome::kExhausted;
 }
 
-void TwoWaySearch::TakePath(const Side& side) {
-  cost_ = side.search.goal_cost();
-  path_ = side.graph.Configurations(side.search.Path());
-  found_backward_ = &side != sides_.front().get();
-  if (found_backward_) std::reverse(path_.begin(), path_.end());
-  for (const auto& other : sides_) other->search.SetUpperBound(cost_);
+void TwoWaySearch::TakePath(double cost, Path path, bool is_backward) {
+  cost_ = cost;
+  path_ = std::move(path);
+  found_backward_ = is_backward;
+  is_bridged_ = false;
+  if (is_backward) std::reverse(path_.begin(), path_.end());
+  for (const auto& side : sides_) side->search.SetUpperBound(cost_);
+}
+
+// Looks at the clearance of a state that has just been expanded, if it may be an end of the next
+// bridge.
+void TwoWaySearch::LookAround(Side* side) {
+  if (static_cast<double>(side->work) < bridge_at_ / 2) return;
+  const StateId state = side->search.last_expanded();
+  Configuration q(side->root.size());
+  side->graph.ConfigurationOf(state, q);
+  double clearance_m = 0;
+  edges_->FindDistances(q, 1, kWide, {&clearance_m, 1});
+  if (clearance_m <= side->clearance_m) return;
+  side->clearance_m = clearance_m;
+  side->widest = state;
+}
+
+void TwoWaySearch::BeginBridge() {
+  GiveUpBridge();
+  std::array<StateId, 2> ends;
+  std::array<Configuration, 2> q;
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends[i] = std::exchange(sides_[i]->widest, ManipulationGraph::kStart);
+    sides_[i]->clearance_m = 0;
+    q[i].resize(sides_[i]->root.size());
+    sides_[i]->graph.ConfigurationOf(ends[i], q[i]);
+  }
+  ManipulationGraphOptions options = options_;
+  options.bridge_after = kInfinity;
+  bridge_ = std::make_unique<Bridge>(edges_, q[0], GoalBox{q[1], q[1], q[1]}, options);
+  bridge_->ends = ends;
+  if (tip_guide_) {
+    bridge_->search.GuideByTip(*tip_guide_->scene, tip_guide_->base_positions, tip_guide_->weight);
+  }
+}
+
+void TwoWaySearch::GiveUpBridge() {
+  if (!bridge_) return;
+  bridge_counts_ += bridge_->search.counts();
+  bridge_.reset();
+}
+
+bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& should_stop) {
+  const std::int64_t done = std::min(sides_[0]->work, sides_[1]->work);
+  if (static_cast<double>(done) >= bridge_at_) {
+    BeginBridge();
+    bridge_at_ *= 2;
+  }
+  if (!bridge_ || bridge_->work >= done) return false;
+  TwoWaySearch& search = bridge_->search;
+  const WorkMeter meter(edges_, search.counts().expansions);
+  search.Improve(
+      epsilon,
+      [&] {
+        return search.cost() < kInfinity ||
+               meter.Work(search.counts().expansions) >= kBridgeSlice || should_stop();
+      },
+      [](double) {});
+  bridge_->work += meter.Work(search.counts().expansions);
+  if (search.cost() == kInfinity) return false;
+  double cost = search.cost();
+  std::array<Path, 2> ways;  // from the roots
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Side& side = *sides_[i];
+    cost += side.search.CostTo(bridge_->ends[i]);
+    ways[i] = side.graph.Configurations(side.search.PathTo(bridge_->ends[i]));
+  }
+  Path path = std::move(ways[0]);
+  path.insert(path.end(), search.path().begin() + 1, search.path().end());
+  path.insert(path.end(), ways[1].rbegin() + 1, ways[1].rend());
+  TakePath(cost, std::move(path), /*is_backward=*/false);
+  is_bridged_ = true;
+  GiveUpBridge();
+  return true;
 }
 
 double TwoWaySearch::ProveBound() {
@@ -118,19 +241,18 @@ double TwoWaySearch::ProveBound() {
 }
 
 TwoWaySearch::Counts TwoWaySearch::counts() const {
-  Counts counts;
+  Counts counts = bridge_counts_;
+  if (bridge_) counts += bridge_->search.counts();
   for (const auto& side : sides_) {
-    counts.expansions += side->search.num_expansions();
-    counts.states += side->graph.num_states();
-    counts.edges_generated += side->search.num_edges_generated();
-    counts.goal_connections_tried += side->graph.num_goal_connections_tried();
-    counts.iterations = std::max<std::int64_t>(counts.iterations, side->search.num_iterations());
+    counts += {side->search.num_expansions(), side->graph.num_states(),
+               side->search.num_edges_generated(), side->graph.num_goal_connections_tried(),
+               side->search.num_iterations()};
   }
   return counts;
 }
 
 std::size_t TwoWaySearch::bytes() const {
-  std::size_t bytes = 0;
+  std::size_t bytes = bridge_ ? bridge_->search.bytes() : 0;
   for (const auto& side : sides_) bytes += side->graph.bytes() + side->search.bytes();
   return bytes;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace planbench {
 /// alone, whichever it is. Neither follows edges that cannot lead to a path cheaper than the best
 /// of both. Where a lattice holds no path, its search goes on with finer moves
 /// (ManipulationGraph::Refine), the states kept.
+///
+/// Where both have long been without success, each stuck before the narrow place in which the other
+/// began, a search for a bridge between the widest states of both takes their place: for as much
+/// work as each of them has done, and again when that has doubled.
 class TwoWaySearch {
  public:
   /// What the searches have done, both together.
@@ -29,6 +34,7 @@ class TwoWaySearch {
     std::int64_t edges_generated = 0;
     std::int64_t goal_connections_tried = 0;
     std::int64_t iterations = 0;  ///< Of the search that had the most.
+    Counts& operator+=(const Counts& more);
   };
 
   /// `start` and the goal's nominal point are valid. The edge checker must outlive this. Throws
@@ -55,21 +61,40 @@ class TwoWaySearch {
   double ProveBound();
   /// True if the best path was found from the goal.
   bool found_backward() const { return found_backward_; }
+  /// True if the best path leads over a bridge.
+  bool is_bridged() const { return is_bridged_; }
 
   Counts counts() const;
   std::size_t bytes() const;
 
  private:
   struct Side;
+  struct Bridge;
   Side* NextSide() const;
-  void TakePath(const Side& side);
+  void TakePath(double cost, Path path, bool is_backward);
+  void LookAround(Side* side);
+  void BeginBridge();
+  void GiveUpBridge();
+  /// True if that has found the best path.
+  bool WorkOnBridge(double epsilon, const std::function<bool()>& should_stop);
+
+  struct TipGuide {
+    const Scene* scene;
+    std::vector<double> base_positions;
+    double weight;
+  };
 
   EdgeChecker* edges_;
-  bool guided_;
+  ManipulationGraphOptions options_;
+  std::optional<TipGuide> tip_guide_;
   std::vector<std::unique_ptr<Side>> sides_;
   double cost_ = std::numeric_limits<double>::infinity();
   Path path_;
   bool found_backward_ = false;
+  bool is_bridged_ = false;
+  std::unique_ptr<Bridge> bridge_;
+  double bridge_at_;      // work of each side when the next bridge is begun
+  Counts bridge_counts_;  // of those given up
 };
 
 }  // namespace planbench

@@ -25,6 +25,8 @@ use_short_primitives: true
 long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
+bridge_after: 5000
+refine: false
 tip_guide: 1.5
 crowding: 0.3
 crowding_joints: [lift]
@@ -47,6 +49,8 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.long_primitives_beyond, 0.5);
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
+  EXPECT_EQ(settings.bridge_after, 5000);
+  EXPECT_FALSE(settings.refine);
   EXPECT_EQ(settings.tip_guide, 1.5);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
@@ -67,10 +71,12 @@ TEST(AraSettings, NothingLeavesTheDefaults) {
   EXPECT_EQ(Read("").short_primitives_within, 0.2);
 }
 
-TEST(AraSettings, ShortPrimitivesCanBeUsedEverywhere) {
-  const AraSettings settings = Read("short_primitives_within: everywhere");
+TEST(AraSettings, InfinityHasWords) {
+  const AraSettings settings = Read("short_primitives_within: everywhere\nbridge_after: never");
   EXPECT_TRUE(std::isinf(settings.short_primitives_within));
   EXPECT_EQ(settings.AsText().at("short_primitives_within"), "everywhere");
+  EXPECT_TRUE(std::isinf(settings.bridge_after));
+  EXPECT_EQ(settings.AsText().at("bridge_after"), "never");
 }
 
 TEST(AraSettings, LaterValuesAreLaidOverEarlierOnes) {
@@ -131,6 +137,9 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"crowding: -0.1", {"ara.yaml:1: crowding:", "negative"}},
       {"crowding_joints: lift", {"ara.yaml:1: crowding_joints:", "sequence"}},
       {"tip_guide: -3", {"ara.yaml:1: tip_guide:", "negative"}},
+      {"bridge_after: 0", {"ara.yaml:1: bridge_after:", "greater than zero"}},
+      {"bridge_after: everywhere", {"ara.yaml:1: bridge_after:", "number"}},
+      {"refine: fine", {"ara.yaml:1: refine:", "true or false"}},
       {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
       {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
       {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},

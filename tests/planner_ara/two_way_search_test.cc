@@ -83,15 +83,21 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
   const double backward = Optimum(kRight_, kLeft_);
   ASSERT_TRUE(std::isfinite(forward));
   ASSERT_TRUE(std::isfinite(backward));
-  struct Guide {
+  struct Variant {
     double crowding;
-    double tip;
+    double tip_guide;
+    double bridge_after = kInfinity;
   };
-  for (const Guide& guide : {Guide{0, 0}, Guide{0.1, 0}, Guide{3, 0}, Guide{0.1, 5}}) {
-    options_.crowding = guide.crowding;
+  int num_bridged = 0;
+  for (const Variant& variant : {Variant{0, 0}, Variant{0.1, 0}, Variant{3, 0}, Variant{0.1, 5},
+                                 Variant{0, 0, 1}, Variant{0.1, 5, 1}, Variant{3, 5, 500}}) {
+    options_.crowding = variant.crowding;
+    options_.bridge_after = variant.bridge_after;
     const Scene scene = PostsScene();
     TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
-    if (guide.tip > 0) search.GuideByTip(scene, std::vector<double>(4, 0.0), guide.tip);
+    if (variant.tip_guide > 0) {
+      search.GuideByTip(scene, std::vector<double>(4, 0.0), variant.tip_guide);
+    }
     double last_cost = kInfinity;
     double last_bound = kInfinity;
     for (const double epsilon : {50.0, 3.0, 1.5, 1.2, 1.0}) {
@@ -103,11 +109,16 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
       EXPECT_LE(search.cost(), last_cost);
       EXPECT_LE(search.cost(), bound * std::min(forward, backward) + 1e-9);
       ExpectJoins(search.path(), search.cost());
+      if (search.is_bridged()) {
+        EXPECT_LT(variant.bridge_after, kInfinity);
+        ++num_bridged;
+      }
       last_bound = bound;
       last_cost = search.cost();
     }
     EXPECT_NEAR(search.cost(), std::min(forward, backward), 1e-9);
   }
+  EXPECT_GT(num_bridged, 0);
 }
 
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
