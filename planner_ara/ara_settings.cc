@@ -80,6 +80,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "cost",
                   "evaluation",
                   "refine",
+                  "shorten",
                   "wrap_heuristic",
                   "fit_cells",
                   "edge_weights",
@@ -94,6 +95,7 @@ void AraSettings::Apply(const YamlNode& node) {
     evaluation = value->Enum<Evaluation>();
   }
   refine = node.BoolOr("refine", refine);
+  shorten = node.BoolOr("shorten", shorten);
   wrap_heuristic = node.BoolOr("wrap_heuristic", wrap_heuristic);
   ApplyByJoint(node, "joint_weights", &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
@@ -149,6 +151,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"cost", std::string(EnumName(cost))},
       {"evaluation", std::string(EnumName(evaluation))},
       {"refine", fmt::format("{}", refine)},
+      {"shorten", fmt::format("{}", shorten)},
       {"wrap_heuristic", fmt::format("{}", wrap_heuristic)},
       {"fit_cells", fmt::format("{}", fit_cells)},
       {"epsilon_initial", fmt::format("{}", epsilon.initial)},

@@ -76,6 +76,9 @@ struct AraSettings {
   /// Whether a search whose moves lead nowhere any more goes on with finer ones: short moves
   /// everywhere and halves of the long ones, then halves of those, down to single cells.
   bool refine = true;
+  /// Whether a path whose bound does not suffice is shortened (ShortcutPath) before the search goes
+  /// on. Its cost is then that of the shortened one, and so is the bound.
+  bool shorten = true;
   /// Whether the heuristic takes continuous joints the short way round. If not, a state is as far
   /// round as the motion that reached it first, the heuristic is no lower bound of the cost, and no
   /// bound is reported.

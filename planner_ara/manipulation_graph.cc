@@ -52,6 +52,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.cost = settings.cost;
   options.evaluation = settings.evaluation;
   options.refine = settings.refine;
+  options.shorten = settings.shorten;
   options.bridge_after = settings.bridge_after;
   options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
@@ -372,6 +373,15 @@ double ManipulationGraph::CountVisit(StateId state) {
   }
   std::uint16_t& visits = visits_[hash & (kCrowdSlots - 1)];
   return visits < std::numeric_limits<std::uint16_t>::max() ? visits++ : visits;
+}
+
+double ManipulationGraph::CostOf(const Path& path) const {
+  double cost = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    cost += CostToGoal(unit_ *
+                       WeightedDistance(edges_->space(), options_.weights, path[i - 1], path[i]));
+  }
+  return cost;
 }
 
 Path ManipulationGraph::Configurations(const std::vector<PathStep>& steps) const {

@@ -30,6 +30,7 @@ struct ManipulationGraphOptions {
   MoveCost cost = MoveCost::kDistance;
   Evaluation evaluation = Evaluation::kLazy;
   bool refine = true;                ///< See AraSettings::refine.
+  bool shorten = true;               ///< See AraSettings::shorten.
   double bridge_after = kInfinity;   ///< See AraSettings::bridge_after.
   bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
@@ -76,6 +77,8 @@ class ManipulationGraph {
   const Lattice& lattice() const { return lattice_; }
   /// Configuration of a lattice point (not of kGoal), n joints.
   void ConfigurationOf(StateId state, std::span<double> q) const;
+  /// What the straight motions of a path cost.
+  double CostOf(const Path& path) const;
   /// The configurations of a path from kStart to kGoal.
   Path Configurations(const std::vector<PathStep>& steps) const;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/numbers.h"
+#include "planning/shortcut.h"
 
 namespace planbench {
 namespace {
@@ -16,6 +17,8 @@ constexpr std::int64_t kExpansionWork = 10;
 /// The bridge's search goes on for this much work after each turn of another, as long as it has
 /// done less than they.
 constexpr std::int64_t kBridgeSlice = 1000;
+constexpr std::uint64_t kShortcutSeed = 1;
+constexpr int kShortcutRounds = 4;
 /// Clearance beyond which a state is as good as any, m.
 constexpr double kWide = 0.5;
 
@@ -110,6 +113,12 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
                                      const std::function<void(double)>& on_solution) {
   const bool guided = tip_guide_ || options_.crowding > 0;
   for (const auto& side : sides_) side->converged = false;
+  const auto reaches_epsilon = [&] {
+    const double bound = ProveBound();
+    on_solution(bound);
+    return bound <= epsilon;
+  };
+  if (ShortenPath(should_stop) && reaches_epsilon()) return ImproveOutcome::kConverged;
   while (Side* side = NextSide()) {
     const EdgeOrder order =
         guided && cost_ == kInfinity ? EdgeOrder::kGuide : EdgeOrder::kHeuristic;
@@ -140,10 +149,8 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
       LookAround(side);
       is_better = WorkOnBridge(epsilon, should_stop);
     }
-    if (is_better) {
-      const double bound = ProveBound();
-      on_solution(bound);
-      if (bound <= epsilon) return ImproveOutcome::kConverged;
+    if (is_better && (reaches_epsilon() || (ShortenPath(should_stop) && reaches_epsilon()))) {
+      return ImproveOutcome::kConverged;
     }
     if (stopped) return ImproveOutcome::kStopped;
   }
@@ -155,8 +162,21 @@ void TwoWaySearch::TakePath(double cost, Path path, bool is_backward) {
   path_ = std::move(path);
   found_backward_ = is_backward;
   is_bridged_ = false;
+  may_be_shortened_ = options_.shorten;
   if (is_backward) std::reverse(path_.begin(), path_.end());
   for (const auto& side : sides_) side->search.SetUpperBound(cost_);
+}
+
+// True if the best path has become cheaper by shortcuts.
+bool TwoWaySearch::ShortenPath(const std::function<bool()>& should_stop) {
+  if (!std::exchange(may_be_shortened_, false)) return false;
+  Path path = ShortcutPath(edges_, path_, kShortcutSeed, kShortcutRounds, should_stop);
+  const double cost = sides_.front()->graph.CostOf(path);
+  if (cost >= cost_) return false;
+  cost_ = cost;
+  path_ = std::move(path);
+  for (const auto& side : sides_) side->search.SetUpperBound(cost_);
+  return true;
 }
 
 // Looks at the clearance of a state that has just been expanded, if it may be an end of the next

@@ -48,8 +48,9 @@ class TwoWaySearch {
   void GuideByTip(const Scene& scene, std::span<const double> base_positions, double weight);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
-  /// lattice. `should_stop` is asked before every evaluation of an edge; `on_solution` is called at
-  /// each better path with its proven bound.
+  /// lattice. A path that is not good enough is first shortened, if the options say so.
+  /// `should_stop` is asked before every evaluation of an edge; `on_solution` is called at each
+  /// better path with its proven bound.
   ImproveOutcome Improve(double epsilon, const std::function<bool()>& should_stop,
                          const std::function<void(double)>& on_solution);
 
@@ -72,6 +73,7 @@ class TwoWaySearch {
   struct Bridge;
   Side* NextSide() const;
   void TakePath(double cost, Path path, bool is_backward);
+  bool ShortenPath(const std::function<bool()>& should_stop);
   void LookAround(Side* side);
   void BeginBridge();
   void GiveUpBridge();
@@ -92,6 +94,7 @@ class TwoWaySearch {
   Path path_;
   bool found_backward_ = false;
   bool is_bridged_ = false;
+  bool may_be_shortened_ = false;
   std::unique_ptr<Bridge> bridge_;
   double bridge_at_;      // work of each side when the next bridge is begun
   Counts bridge_counts_;  // of those given up

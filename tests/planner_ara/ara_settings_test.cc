@@ -27,6 +27,7 @@ short_primitives_within: 0.4
 two_way: false
 bridge_after: 5000
 refine: false
+shorten: false
 tip_guide: 1.5
 crowding: 0.3
 crowding_joints: [lift]
@@ -51,6 +52,7 @@ memory_limit_mb: 100
   EXPECT_FALSE(settings.two_way);
   EXPECT_EQ(settings.bridge_after, 5000);
   EXPECT_FALSE(settings.refine);
+  EXPECT_FALSE(settings.shorten);
   EXPECT_EQ(settings.tip_guide, 1.5);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
