@@ -61,7 +61,7 @@ TEST_F(ProblemSetTest, OtherSeedsAttemptsAndSetsAreOtherProblems) {
 
 TEST_F(ProblemSetTest, WrittenSetsReadBackWithStartsAndGoalsAsSpecified) {
   for (const char* name : {"shelf_zero_test", "shelf_height_test", "shelf_height_rot_test", "box",
-                           "cage", "table_pick", "table_under_pick"}) {
+                           "cage", "table_pick", "table_under_pick", "shelf_thin"}) {
     SCOPED_TRACE(name);
     const ProblemSpec spec = Shipped(name);
     const TemporaryFolder folder;

@@ -41,11 +41,11 @@ TEST(ProblemSpec, ReadsWhatTheFileSays) {
 TEST(ProblemSpec, ThoseThatShipLoad) {
   const Robot fetch = LoadFetch();
   for (const char* name : {"shelf_zero_test", "shelf_height_test", "shelf_height_rot_test", "box",
-                           "cage", "table_pick", "table_under_pick"}) {
+                           "cage", "table_pick", "table_under_pick", "shelf_thin"}) {
     const ProblemSpec spec =
         LoadProblemSpec(ShippedProblems() / (std::string(name) + ".yaml"), fetch);
     EXPECT_EQ(spec.name, name);
-    EXPECT_EQ(spec.queries.size(), 2);
+    EXPECT_GE(spec.queries.size(), 2);
   }
 }
 
