@@ -79,6 +79,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "tip_guide",
                   "cost",
                   "evaluation",
+                  "burs",
                   "refine",
                   "shorten",
                   "wrap_heuristic",
@@ -94,6 +95,7 @@ void AraSettings::Apply(const YamlNode& node) {
   if (const std::optional<YamlNode> value = node.Find("evaluation")) {
     evaluation = value->Enum<Evaluation>();
   }
+  burs = node.BoolOr("burs", burs);
   refine = node.BoolOr("refine", refine);
   shorten = node.BoolOr("shorten", shorten);
   wrap_heuristic = node.BoolOr("wrap_heuristic", wrap_heuristic);
@@ -131,6 +133,7 @@ std::string AraSettings::VariantName() const {
   std::vector<std::string> variants;
   if (two_way) variants.emplace_back("two-way");
   if (tip_guide > 0 || crowding > 0) variants.emplace_back("guided");
+  if (burs) variants.emplace_back("burs");
   if (variants.empty()) return "ARA*";
   return fmt::format("ARA* ({})", fmt::join(variants, ", "));
 }
@@ -150,6 +153,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"tip_guide", fmt::format("{}", tip_guide)},
       {"cost", std::string(EnumName(cost))},
       {"evaluation", std::string(EnumName(evaluation))},
+      {"burs", fmt::format("{}", burs)},
       {"refine", fmt::format("{}", refine)},
       {"shorten", fmt::format("{}", shorten)},
       {"wrap_heuristic", fmt::format("{}", wrap_heuristic)},

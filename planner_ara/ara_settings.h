@@ -73,6 +73,10 @@ struct AraSettings {
   /// When the edges out of a state are checked: as its neighbours' turn comes, or all as it is
   /// expanded.
   Evaluation evaluation = Evaluation::kLazy;
+  /// Whether states have spines of burs of free configuration space (Lacevic, Osmankovic and
+  /// Ademovic 2016) beside their moves: each move repeated in a row as often as the clearance
+  /// proves it free, and at least twice. Neither such spines nor the moves within them are checked.
+  bool burs = false;
   /// Whether a search whose moves lead nowhere any more goes on with finer ones: short moves
   /// everywhere and halves of the long ones, then halves of those, down to single cells.
   bool refine = true;

@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::size_t kCrowdSlots = 1 << 14;  // a power of two
 
+// No spine is longer, in motion of the collision geometry, m.
+constexpr double kLongestSpine = 0.5;
+
 // Soon felt, and more and more where the search has been hundreds of times.
 double Crowd(double visits) { return std::log2(1 + visits) + visits / 5; }
 
@@ -54,6 +57,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.refine = settings.refine;
   options.shorten = settings.shorten;
   options.bridge_after = settings.bridge_after;
+  options.burs = settings.burs;
   options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
   options.crowded_joints = major;
@@ -85,7 +89,7 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
   finest_moves_ = primitives.long_moves.empty() ? primitives.short_moves : primitives.long_moves;
   if (options_.cost == MoveCost::kUniform) {
     double longest = 1;
-    for (const Move& move : moves_) longest = std::max(longest, LengthOf(move.cells));
+    for (const Move& move : moves_) longest = std::max(longest, move.length);
     unit_ = 1 / longest;
   }
   moves_depend_on_place_ =
@@ -168,7 +172,9 @@ double ManipulationGraph::LengthOf(const std::vector<int>& row) const {
 
 void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool are_long) {
   const JointSpace& space = edges_->space();
+  const std::vector<double>& reach = edges_->checker().motion_bound().reach();
   for (const std::vector<int>& row : rows) {
+    double motion_m = 0;
     for (int j = 0; j < space.size(); ++j) {
       const auto i = static_cast<std::size_t>(j);
       const double motion = row[i] * lattice_.step(j);
@@ -177,12 +183,13 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
             "motion primitive moves the continuous joint {} by {} cells, half a turn or more",
             space.joint(j).name, row[i]));
       }
+      motion_m += reach[i] * std::abs(motion);
     }
     std::vector<int> opposite = row;
     for (int& cells : opposite) cells = -cells;
-    const double cost = options_.cost == MoveCost::kUniform ? 1 : LengthOf(row);
-    moves_.push_back({row, cost, are_long});
-    moves_.push_back({std::move(opposite), cost, are_long});
+    const double length = LengthOf(row);
+    moves_.push_back({row, length, motion_m, are_long});
+    moves_.push_back({std::move(opposite), length, motion_m, are_long});
   }
 }
 
@@ -217,7 +224,7 @@ double ManipulationGraph::Heuristic(StateId state) const {
                                                turns_ ? turns_->Record(point) : nullptr));
 }
 
-std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move) {
+std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move, int times) {
   const std::uint32_t point = points_.FindOrAdd(target_);
   if (!turns_ || point < turns_->size()) return point;
   std::int8_t* turns = turns_->Append();
@@ -225,7 +232,7 @@ std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move) {
   const std::span<const Lattice::Coordinate> from = points_.Coordinates(source - 1);
   for (std::size_t j = 0; j < target_.size(); ++j) {
     const auto joint = static_cast<int>(j);
-    const double motion = move.cells[j] * lattice_.step(joint);
+    const double motion = times * move.cells[j] * lattice_.step(joint);
     const double beyond =
         lattice_.Value(joint, from[j]) + motion - lattice_.Value(joint, target_[j]);
     turns[j] = static_cast<std::int8_t>(before[j] + std::lround(beyond / (2 * std::numbers::pi)));
@@ -233,8 +240,43 @@ std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move) {
   return point;
 }
 
-double ManipulationGraph::CostToGoal(double distance) const {
-  return options_.cost == MoveCost::kUniform ? std::max(1.0, distance) : distance;
+// Of a straight motion.
+double ManipulationGraph::CostOf(double length) const {
+  return options_.cost == MoveCost::kUniform ? std::max(1.0, unit_ * length) : length;
+}
+
+const ManipulationGraph::Move& ManipulationGraph::MoveOf(std::uint16_t action) const {
+  return moves_[static_cast<std::size_t>((action & ~kSpine) - kFirstMove)];
+}
+
+float ManipulationGraph::ClearanceOf(StateId state) {
+  while (clearances_.size() <= state) clearances_.Append();
+  float& clearance_m = clearances_[state];
+  if (clearance_m == 0) {
+    SelectSource(state);
+    double found_m = 0;
+    edges_->FindDistances(from_, 1, kLongestSpine, {&found_m, 1});
+    clearance_m = static_cast<float>(found_m);
+  }
+  return clearance_m;
+}
+
+// How often a move can be made in a row before anything can touch: bodies come no nearer to each
+// other than the bound on their motion.
+int ManipulationGraph::SpineLength(StateId source, const Move& move) {
+  int times = static_cast<int>(std::ceil(ClearanceOf(source) / move.motion_m)) - 1;
+  for (std::size_t j = 0; j < move.cells.size(); ++j) {
+    const auto joint = static_cast<int>(j);
+    const int cells = std::abs(move.cells[j]);
+    if (cells == 0 || !edges_->space().joint(joint).continuous) continue;
+    times = std::min(times, (lattice_.num_cells(joint) - 1) / 2 / cells);  // less than half a turn
+  }
+  while (times > 0 && !MoveFrom(source, move, times)) --times;
+  return std::max(times, 0);
+}
+
+int ManipulationGraph::TimesOf(StateId source, std::uint16_t action) {
+  return (action & kSpine) != 0 ? SpineLength(source, MoveOf(action)) : 1;
 }
 
 void ManipulationGraph::ConfigurationOf(StateId state, std::span<double> q) const {
@@ -250,11 +292,11 @@ void ManipulationGraph::SelectSource(StateId state) {
   ConfigurationOf(state, from_);
 }
 
-// Sets target_ to where the move leads; false if that is outside the limits.
-bool ManipulationGraph::MoveFrom(StateId source, const Move& move) {
+// Sets target_ to where the move leads, made so many times; false if that is outside the limits.
+bool ManipulationGraph::MoveFrom(StateId source, const Move& move, int times) {
   const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(source - 1);
   for (std::size_t j = 0; j < coordinates.size(); ++j) {
-    if (!lattice_.Move(static_cast<int>(j), coordinates[j], move.cells[j], &target_[j])) {
+    if (!lattice_.Move(static_cast<int>(j), coordinates[j], times * move.cells[j], &target_[j])) {
       return false;
     }
   }
@@ -274,16 +316,15 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   const auto is_candidate = [&](std::uint16_t action) {
     return !eager || IsValidEdge(state, action);
   };
-  const double to_goal =
-      unit_ * std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
   if (is_candidate(kToNearestGoal)) {
-    candidates->push_back({CostToGoal(to_goal), 0, 0, kToNearestGoal});
+    const double distance = std::sqrt(SquaredDistance(goal_terms_, points_.Coordinates(state - 1)));
+    candidates->push_back({CostOf(distance), 0, 0, kToNearestGoal});
   }
   if (goal_distance_.has_extent() && is_candidate(kToNominalGoal)) {
     SelectSource(state);
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
-    candidates->push_back({CostToGoal(unit_ * distance), 0, 0, kToNominalGoal});
+    candidates->push_back({CostOf(distance), 0, 0, kToNominalGoal});
   }
 
   bool use_long = true;
@@ -297,24 +338,34 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   }
   for (std::size_t m = 0; m < moves_.size(); ++m) {
     const Move& move = moves_[m];
+    if (!(move.is_long ? use_long : use_short)) continue;
+    // An edge to target_.
+    const auto offer = [&](std::uint16_t action, int times) {
+      const double heuristic = turns_ ? Heuristic(TargetPoint(state, move, times) + 1)
+                                      : unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
+      candidates->push_back({CostOf(times * move.length), heuristic,
+                             static_cast<float>(crowd * (heuristic + detour)), action});
+    };
     const auto action = static_cast<std::uint16_t>(kFirstMove + m);
-    if (!(move.is_long ? use_long : use_short) || !MoveFrom(state, move)) continue;
-    if (!is_candidate(action)) continue;
-    const double heuristic = turns_ ? Heuristic(TargetPoint(state, move) + 1)
-                                    : unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
-    candidates->push_back(
-        {move.cost, heuristic, static_cast<float>(crowd * (heuristic + detour)), action});
+    if (options_.burs) {
+      const int times = SpineLength(state, move);
+      if (times > 0) Remember(state, action, Knowledge::kFree);
+      if (times > 1) offer(action | kSpine, times);
+    }
+    if (MoveFrom(state, move) && is_candidate(action)) offer(action, 1);
   }
 }
 
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
   if (action < kFirstMove) return kGoal;
-  const Move& move = moves_[action - kFirstMove];
-  MoveFrom(source, move);
-  return TargetPoint(source, move) + 1;
+  const Move& move = MoveOf(action);
+  const int times = TimesOf(source, action);
+  MoveFrom(source, move, times);
+  return TargetPoint(source, move, times) + 1;
 }
 
 bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
+  if ((action & kSpine) != 0) return true;
   const Knowledge known = Recall(source, action);
   if (known != Knowledge::kUnknown) return known != Knowledge::kBlocked;
   if (action < kFirstMove) ++num_goal_connections_tried_;
@@ -331,7 +382,7 @@ void ManipulationGraph::SelectEdge(StateId source, std::uint16_t action) {
     GoalConfiguration(action, from_, to_);
     return;
   }
-  MoveFrom(source, moves_[action - kFirstMove]);
+  MoveFrom(source, MoveOf(action));
   for (std::size_t j = 0; j < to_.size(); ++j) {
     to_[j] = lattice_.Value(static_cast<int>(j), target_[j]);
   }
@@ -378,8 +429,7 @@ double ManipulationGraph::CountVisit(StateId state) {
 double ManipulationGraph::CostOf(const Path& path) const {
   double cost = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    cost += CostToGoal(unit_ *
-                       WeightedDistance(edges_->space(), options_.weights, path[i - 1], path[i]));
+    cost += CostOf(WeightedDistance(edges_->space(), options_.weights, path[i - 1], path[i]));
   }
   return cost;
 }

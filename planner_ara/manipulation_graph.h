@@ -32,6 +32,7 @@ struct ManipulationGraphOptions {
   bool refine = true;                ///< See AraSettings::refine.
   bool shorten = true;               ///< See AraSettings::shorten.
   double bridge_after = kInfinity;   ///< See AraSettings::bridge_after.
+  bool burs = false;                 ///< See AraSettings::burs.
   bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
@@ -86,16 +87,23 @@ class ManipulationGraph {
   std::int64_t num_states() const { return static_cast<std::int64_t>(points_.size()); }
   /// Edges to the goal whose validity was checked.
   std::int64_t num_goal_connections_tried() const { return num_goal_connections_tried_; }
-  std::size_t bytes() const { return points_.bytes() + known_edges_.bytes(); }
+  std::size_t bytes() const { return points_.bytes() + known_edges_.bytes() + clearances_.bytes(); }
 
  private:
-  enum Action : std::uint16_t { kToNearestGoal = 0, kToNominalGoal = 1, kFirstMove = 2 };
+  /// Beyond kFirstMove the number of a move; with kSpine, of the spine in its direction.
+  enum Action : std::uint16_t {
+    kToNearestGoal = 0,
+    kToNominalGoal = 1,
+    kFirstMove = 2,
+    kSpine = 0x8000
+  };
   // Of an edge, two bits each.
   enum class Knowledge : std::uint64_t { kUnknown = 0, kFree = 1, kBlocked = 2 };
 
   struct Move {
     std::vector<int> cells;  // by joint
-    double cost;
+    double length;           // weighted
+    double motion_m;         // bound on the motion of the collision geometry
     bool is_long;
   };
 
@@ -107,14 +115,18 @@ class ManipulationGraph {
   double SquaredGoalDistance(std::span<const Lattice::Coordinate> coordinates,
                              const std::int8_t* turns) const;
   /// The point at target_, a new one with the turns of the move there from `source`.
-  std::uint32_t TargetPoint(StateId source, const Move& move);
+  std::uint32_t TargetPoint(StateId source, const Move& move, int times);
   static double SquaredDistance(const std::vector<std::vector<double>>& terms,
                                 std::span<const Lattice::Coordinate> coordinates);
   void GoalConfiguration(std::uint16_t action, std::span<const double> from,
                          std::span<double> to) const;
   void SelectSource(StateId state);
-  bool MoveFrom(StateId source, const Move& move);
-  double CostToGoal(double distance) const;
+  bool MoveFrom(StateId source, const Move& move, int times = 1);
+  const Move& MoveOf(std::uint16_t action) const;
+  double CostOf(double length) const;
+  float ClearanceOf(StateId state);
+  int SpineLength(StateId source, const Move& move);
+  int TimesOf(StateId source, std::uint16_t action);
   void SelectEdge(StateId source, std::uint16_t action);
   Knowledge Recall(StateId source, std::uint16_t action);
   void Remember(StateId source, std::uint16_t action, Knowledge knowledge);
@@ -134,6 +146,7 @@ class ManipulationGraph {
   std::vector<std::vector<double>> goal_terms_;
   std::vector<std::vector<double>> start_terms_;
   ChunkedArray<std::uint64_t> known_edges_;  // by state
+  ChunkedArray<float> clearances_;           // by state, m; 0 where it is not known
   // Without wrapping: by point, how many turns of each joint its first arrival was beyond Value().
   std::optional<ChunkedArray<std::int8_t>> turns_;
   // By joint, the cells of one cell of crowding; 0 for joints that do not count.

@@ -227,6 +227,7 @@ TEST_F(AraPlannerTest, ItsNameSaysWhichVariantItIs) {
   };
   EXPECT_EQ(name("two_way: false\ntip_guide: 0\ncrowding: 0"), "ARA*");
   EXPECT_EQ(name("tip_guide: 0\ncrowding: 0"), "ARA* (two-way)");
+  EXPECT_EQ(name("burs: true"), "ARA* (two-way, guided, burs)");
   EXPECT_EQ(name("two_way: false\ntip_guide: 0"), "ARA* (guided)");
 }
 

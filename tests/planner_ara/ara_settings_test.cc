@@ -26,6 +26,7 @@ long_primitives_beyond: 0.5
 short_primitives_within: 0.4
 two_way: false
 bridge_after: 5000
+burs: true
 refine: false
 shorten: false
 tip_guide: 1.5
@@ -51,6 +52,7 @@ memory_limit_mb: 100
   EXPECT_EQ(settings.short_primitives_within, 0.4);
   EXPECT_FALSE(settings.two_way);
   EXPECT_EQ(settings.bridge_after, 5000);
+  EXPECT_TRUE(settings.burs);
   EXPECT_FALSE(settings.refine);
   EXPECT_FALSE(settings.shorten);
   EXPECT_EQ(settings.tip_guide, 1.5);

@@ -159,6 +159,37 @@ TEST_F(ManipulationGraphTest, RefinesItsMovesDownToSingleCells) {
   EXPECT_FALSE(Graph(PointGoal(kRight), options).Refine());
 }
 
+TEST_F(ManipulationGraphTest, SpinesOfBursAreFreeUnchecked) {
+  for (const MoveCost cost : {MoveCost::kDistance, MoveCost::kUniform}) {
+    ManipulationGraphOptions options = Options(0.02);
+    options.burs = true;
+    options.cost = cost;
+    ManipulationGraph graph = Graph(PointGoal(kRight), options);
+    EdgeChecker fine(checker_.get(), 0.001, EdgeCheck::kFixed);
+    Spread(&graph, 200);
+    int num_spines = 0;
+    for (StateId s = 1; s < 200; ++s) {
+      Configuration from(3);
+      graph.ConfigurationOf(s, from);
+      if (!edges_->IsValidState(from)) continue;
+      for (const CandidateEdge& edge : EdgesOf(&graph, s)) {
+        const StateId target = graph.Target(s, edge.action);
+        EXPECT_LE(graph.Heuristic(s), edge.cost + graph.Heuristic(target) + 1e-9);
+        if (target == ManipulationGraph::kGoal) continue;
+        Configuration to(3);
+        graph.ConfigurationOf(target, to);
+        const auto checked = edges_->counters().edges;
+        const bool valid = graph.IsValidEdge(s, edge.action);
+        if (edges_->counters().edges > checked) continue;
+        EXPECT_TRUE(valid);
+        EXPECT_TRUE(fine.IsValidEdge(from, to)) << s;
+        num_spines += space_.Distance(from, to) > 0.03 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(num_spines, 100);
+  }
+}
+
 TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
   ManipulationGraph lazy = Graph(PointGoal(kRight), Options());
   ManipulationGraphOptions options = Options();

@@ -122,6 +122,20 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
   }
 }
 
+TEST_F(TwoWaySearchTest, BoundHoldsWithBurs) {
+  options_.burs = true;
+  options_.shorten = false;
+  options_.discretization.assign(3, 0.2);
+  TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, false);
+  const double optimum = Optimum(kLeft_, kRight_);
+  for (const double epsilon : {50.0, 1.5, 1.0}) {
+    ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
+    EXPECT_LE(search.cost(), search.ProveBound() * optimum + 1e-9);
+    ExpectJoins(search.path(), search.cost());
+  }
+  EXPECT_NEAR(search.cost(), optimum, 1e-9);
+}
+
 TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {
   TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
