@@ -52,7 +52,7 @@ double OrWord(const YamlNode& node, const std::string& key, std::string_view inf
   return is_word ? std::numeric_limits<double>::infinity() : read(node, key, fallback);
 }
 
-std::string OrWord(double value, std::string_view infinity) {
+std::string TextOrWord(double value, std::string_view infinity) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string(infinity);
 }
 
@@ -146,9 +146,9 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"use_long_primitives", fmt::format("{}", use_long_primitives)},
       {"use_short_primitives", fmt::format("{}", use_short_primitives)},
       {"long_primitives_beyond", fmt::format("{}", long_primitives_beyond)},
-      {"short_primitives_within", OrWord(short_primitives_within, kEverywhere)},
+      {"short_primitives_within", TextOrWord(short_primitives_within, kEverywhere)},
       {"two_way", fmt::format("{}", two_way)},
-      {"bridge_after", OrWord(bridge_after, kNever)},
+      {"bridge_after", TextOrWord(bridge_after, kNever)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
       {"cost", std::string(EnumName(cost))},

@@ -17,6 +17,8 @@ constexpr std::size_t kCrowdSlots = 1 << 14;  // a power of two
 
 // No spine is longer, in motion of the collision geometry, m.
 constexpr double kLongestSpine = 0.5;
+// What a move counts at least, m: those of a joint that moves no geometry would have no end.
+constexpr double kLeastMotion = 1e-3;
 
 // Soon felt, and more and more where the search has been hundreds of times.
 double Crowd(double visits) { return std::log2(1 + visits) + visits / 5; }
@@ -264,7 +266,8 @@ float ManipulationGraph::ClearanceOf(StateId state) {
 // How often a move can be made in a row before anything can touch: bodies come no nearer to each
 // other than the bound on their motion.
 int ManipulationGraph::SpineLength(StateId source, const Move& move) {
-  int times = static_cast<int>(std::ceil(ClearanceOf(source) / move.motion_m)) - 1;
+  const double motion_m = std::max(move.motion_m, kLeastMotion);
+  int times = static_cast<int>(std::ceil(ClearanceOf(source) / motion_m)) - 1;
   for (std::size_t j = 0; j < move.cells.size(); ++j) {
     const auto joint = static_cast<int>(j);
     const int cells = std::abs(move.cells[j]);
@@ -273,10 +276,6 @@ int ManipulationGraph::SpineLength(StateId source, const Move& move) {
   }
   while (times > 0 && !MoveFrom(source, move, times)) --times;
   return std::max(times, 0);
-}
-
-int ManipulationGraph::TimesOf(StateId source, std::uint16_t action) {
-  return (action & kSpine) != 0 ? SpineLength(source, MoveOf(action)) : 1;
 }
 
 void ManipulationGraph::ConfigurationOf(StateId state, std::span<double> q) const {
@@ -359,7 +358,7 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
   if (action < kFirstMove) return kGoal;
   const Move& move = MoveOf(action);
-  const int times = TimesOf(source, action);
+  const int times = (action & kSpine) != 0 ? SpineLength(source, move) : 1;
   MoveFrom(source, move, times);
   return TargetPoint(source, move, times) + 1;
 }

@@ -126,7 +126,6 @@ class ManipulationGraph {
   double CostOf(double length) const;
   float ClearanceOf(StateId state);
   int SpineLength(StateId source, const Move& move);
-  int TimesOf(StateId source, std::uint16_t action);
   void SelectEdge(StateId source, std::uint16_t action);
   Knowledge Recall(StateId source, std::uint16_t action);
   void Remember(StateId source, std::uint16_t action, Knowledge knowledge);

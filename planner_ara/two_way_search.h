@@ -18,9 +18,9 @@ namespace planbench {
 /// ARA* from the start and, if asked for, from the goal, in turn within one request. Each search
 /// has the lattice anchored at its own root, with the other end as its goal; the one that has done
 /// less work goes next, so that the better direction finds its path in twice the work it would need
-/// alone, whichever it is. Neither follows edges that cannot lead to a path cheaper than the best
-/// of both. Where a lattice holds no path, its search goes on with finer moves
-/// (ManipulationGraph::Refine), the states kept.
+/// alone, whichever it is (with bridges, below, in four times). Neither follows edges that cannot
+/// lead to a path cheaper than the best of both. Where a lattice holds no path, its search goes on
+/// with finer moves (ManipulationGraph::Refine), the states kept.
 ///
 /// Where both have long been without success, each stuck before the narrow place in which the other
 /// began, a search for a bridge between the widest states of both takes their place: for as much

@@ -190,6 +190,29 @@ TEST_F(ManipulationGraphTest, SpinesOfBursAreFreeUnchecked) {
   }
 }
 
+TEST_F(ManipulationGraphTest, SpinesOfAJointThatMovesNoGeometryEndAtItsLimits) {
+  Robot bare = robot_;
+  const int hand = bare.model.FindLink("hand");
+  std::erase_if(bare.spheres, [&](const LinkSphere& sphere) { return sphere.link == hand; });
+  const auto checker = MakeCollisionChecker(bare, bare.groups.front(), CollisionModel::kSpheres);
+  checker->SetScene(PostsScene(), std::vector<double>(4, 0.0));
+  ASSERT_EQ(checker->motion_bound().reach()[2], 0);
+  EdgeChecker edges(checker.get(), bare.edge_resolution_m, EdgeCheck::kCertified);
+  ManipulationGraphOptions options = Options(0.1);
+  options.burs = true;
+  ManipulationGraph graph(&edges, kLeft, PointGoal(kRight), options);
+  double furthest = 0;
+  for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
+    const StateId target = graph.Target(ManipulationGraph::kStart, edge.action);
+    if (target == ManipulationGraph::kGoal) continue;
+    Configuration to(3);
+    graph.ConfigurationOf(target, to);
+    EXPECT_TRUE(bare.groups.front().space.WithinLimits(to));
+    furthest = std::max(furthest, to[2]);
+  }
+  EXPECT_NEAR(furthest, 2.6, 0.1);
+}
+
 TEST_F(ManipulationGraphTest, EagerEvaluationOffersTheValidEdgesOfALazyGraph) {
   ManipulationGraph lazy = Graph(PointGoal(kRight), Options());
   ManipulationGraphOptions options = Options();
