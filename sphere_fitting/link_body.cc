@@ -25,10 +25,10 @@ std::shared_ptr<const Solid> Placed(TriangleMesh mesh, const Eigen::Isometry3d& 
 
 }  // namespace
 
-Solid::Solid(TriangleMesh mesh) : mesh_(std::move(mesh)), inside_(mesh_), tree_(mesh_) {}
+Solid::Solid(TriangleMesh mesh) : mesh_(std::move(mesh)), inside_(mesh_), surface_(mesh_) {}
 
 double Solid::Depth(const Vector3d& point) const {
-  const double distance = tree_.Distance(point);
+  const double distance = surface_.Distance(point);
   return inside_.Contains(point) ? distance : -distance;
 }
 

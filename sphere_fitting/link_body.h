@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "geometry/ball.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/shapes.h"
 #include "geometry/solid_mesh.h"
-#include "sphere_fitting/triangle_tree.h"
 
 namespace planbench {
 
@@ -23,7 +23,7 @@ class Solid {
  private:
   TriangleMesh mesh_;
   SolidMesh inside_;
-  TriangleTree tree_;
+  MeshSurface surface_;
 };
 
 /// The collision geometry of one link, in the link's frame: spheres and solids, which are meshes,

@@ -76,10 +76,17 @@ BallTree::BallTree(std::vector<BallTree> children, int num_steps) : children_(st
 BallTree BallTree::In(const Pose& X_AB) const {
   BallTree tree;
   tree.ball_ = {X_AB * ball_.center, ball_.radius};
+  tree.inner_ = inner_;
   tree.cluster_ = cluster_;
   tree.has_box_ = has_box_;
   for (const BallTree& child : children_) tree.children_.push_back(child.In(X_AB));
   return tree;
+}
+
+void BallTree::SetInner(const std::function<double(const Eigen::Vector3d&)>& depth) {
+  inner_ = std::max(0.0, depth(ball_.center));
+  if (has_box_) return;
+  for (BallTree& child : children_) child.SetInner(depth);
 }
 
 int BallTree::Depth() const {

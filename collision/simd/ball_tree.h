@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,12 @@ class BallTree {
   /// The tree in a frame A, given in B.
   BallTree In(const Pose& X_AB) const;
 
+  /// Sets how large a ball about the same centre is inside of the body, by `depth(centre)` in m (0
+  /// or less: none), of every ball that Leaves() knows and of those above them.
+  void SetInner(const std::function<double(const Eigen::Vector3d&)>& depth);
+
   const Ball& ball() const { return ball_; }
+  double inner() const { return inner_; }  ///< A radius, m; 0: nothing is known.
   const std::vector<BallTree>& children() const { return children_; }
   /// Of a leaf; negative for a ball of no cluster.
   int cluster() const { return cluster_; }
@@ -40,6 +46,7 @@ class BallTree {
   BallTree() = default;
 
   Ball ball_;
+  double inner_ = 0;
   int cluster_ = -1;
   bool has_box_ = false;
   std::vector<BallTree> children_;

@@ -158,6 +158,8 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
   SetBall(tree.ball(), num == 0 ? kRadiusPadding : 2 * kRadiusPadding, link, index);
   At(kernel.nodes, index).first_child = first;
   At(kernel.nodes, index).num_children = num;
+  At(kernel.nodes, index).inner =
+      static_cast<float>(std::max(0.0, tree.inner() - 2 * kRadiusPadding));
   At(kernel.nodes, index).has_box = tree.has_box();
   At(kernel.nodes, index).reach =
       num == 0 || tree.has_box() ? AddReach(tree.ball(), link) : kNoReach;

@@ -13,6 +13,7 @@
 
 #include "collision/balls.h"
 #include "collision/simd/kernels/sphere_kernel.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/polyhedra.h"
 
 namespace planbench {
@@ -230,6 +231,7 @@ RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
     std::vector<Corners> triangles;
     std::vector<Ball> spheres;
     std::vector<LinkMeshes::Closed> closed;
+    std::vector<MeshSurface> surfaces;  // of these
     std::vector<Vector3d> points;
     for (const PlacedShape& placed : link.shapes) {
       if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
@@ -245,7 +247,9 @@ RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
       auto solid = std::make_shared<const SolidMesh>(mesh);
       std::copy(solid->component_points().begin(), solid->component_points().end(),
                 std::back_inserter(points));
-      if (solid->has_inside()) closed.push_back({std::move(solid), std::move(mesh.vertices)});
+      if (!solid->has_inside()) continue;
+      surfaces.emplace_back(mesh);
+      closed.push_back({std::move(solid), std::move(mesh.vertices)});
     }
     if (!triangles.empty()) {
       std::vector<Ball> of_link;
@@ -255,7 +259,16 @@ RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
       AddTrees(triangles, of_link, link.link, &clusters, &trees);
     }
     if (!spheres.empty()) trees.emplace_back(std::move(spheres));
-    links.push_back({link.link, Join(std::move(trees)), std::move(closed), std::move(points)});
+    BallTree tree = Join(std::move(trees));
+    tree.SetInner([&](const Vector3d& point) {
+      double depth = 0;
+      for (std::size_t i = 0; i < closed.size(); ++i) {
+        if (!closed[i].mesh->Contains(point)) continue;
+        depth = std::max(depth, surfaces[i].Distance(point));
+      }
+      return depth;
+    });
+    links.push_back({link.link, std::move(tree), std::move(closed), std::move(points)});
   }
 }
 

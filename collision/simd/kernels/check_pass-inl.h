@@ -117,6 +117,18 @@ class CheckPass {
     return query_.stop_at_first || None(alive_);
   }
 
+  /// Takes note of lanes in which what is inside of the robot for certain, of that radius, is
+  /// within it of something. Returns true to stop.
+  HWY_INLINE bool NoteInner(V squared, float inner) {
+    const M deep = hn::And(alive_, hn::Le(squared, Fill(inner * inner)));
+    return !None(deep) && Settle(deep);
+  }
+
+  /// Whether what is inside of a node's ball tells of a solid.
+  static bool IsInner(const Node& node, const Solid& solid) {
+    return node.inner > 0 && !solid.doubtful && solid.mesh < 0;
+  }
+
   /// Whose points move no further: of a sphere the centre, as its surface turns into itself.
   int ReachOfPoints(const Node& leaf) const {
     return leaf.triangles >= 0 ? leaf.reach + robot_.num_joints : leaf.reach;
@@ -147,13 +159,11 @@ class CheckPass {
     }
     if (touching == 0) return false;
     hits_ = hn::Or(hits_, MaskOf(touching));
-    return Settle(certain);
+    return certain != 0 && Settle(MaskOf(certain));
   }
 
   /// Takes note of lanes that collide for certain. Returns true to stop.
-  bool Settle(LaneMask lanes) {
-    if (lanes == 0) return false;
-    const M certain = MaskOf(lanes);
+  bool Settle(M certain) {
     hits_ = hn::Or(hits_, certain);
     certain_ = hn::Or(certain_, certain);
     alive_ = hn::AndNot(certain, alive_);
@@ -184,7 +194,7 @@ class CheckPass {
       const float point[3] = {x[lane], y[lane], z[lane]};
       if (Encloses(inside, point)) certain |= LaneMask{1} << lane;
     }
-    return Settle(certain);
+    return certain != 0 && Settle(MaskOf(certain));
   }
 
   /// Returns true to stop.
@@ -276,7 +286,9 @@ class CheckPass {
     int num_near = 0;
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
-      const M near = hn::And(alive_, hn::Le(SquaredDistance(solid, p), reach));
+      const V squared = SquaredDistance(solid, p);
+      if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
+      const M near = hn::And(alive_, hn::Le(squared, reach));
       free_list[num_near] = list[i];
       num_near += !None(near) && MayBeNear(world_, solid, p, grown, near) ? 1 : 0;
     }
@@ -299,7 +311,9 @@ class CheckPass {
     const V reach = Squared(grown);
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
-      const M near = hn::And(alive_, hn::Le(SquaredDistance(solid, p), reach));
+      const V squared = SquaredDistance(solid, p);
+      if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
+      const M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
       if (solid.doubtful) {
         doubts_ = hn::Or(doubts_, near);
@@ -507,6 +521,10 @@ class CheckPass {
       const V squared = SquaredNorm(placement_.Position(child) - p);
       const M touching = Within(squared, Grown(radius, motion));
       if (None(touching)) continue;
+      if (node.inner > 0 && small.inner > 0 && !doubtful_ &&
+          NoteInner(squared, node.inner + small.inner)) {
+        return true;
+      }
       if (boxes_ && node.has_box && small.has_box) {
         if (VisitBoxes(child, body_a, b, body_b, touching)) return true;
         continue;

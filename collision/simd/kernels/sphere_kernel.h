@@ -43,6 +43,8 @@ struct Node {
   /// Of one without children: its own, as in WorldTree; of a group of triangles that of all of
   /// their points stands behind it. Others are CompiledRobot's.
   int reach;
+  /// Radius of a ball about the same centre that is inside of what it encloses; 0: none is known.
+  float inner = 0;
   bool has_box = false;         ///< One that tells more than the ball does.
   std::int32_t triangles = -1;  ///< Index into SphereRobot::triangles, if not negative.
   /// Closed meshes that it encloses: from first_inside on in SphereRobot::insides.

@@ -1,4 +1,4 @@
-#include "sphere_fitting/triangle_tree.h"
+#include "geometry/mesh_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -21,36 +21,36 @@ Vector3d RandomPoint(double range, std::mt19937_64* random) {
                           2 * UniformFraction(random) - 1);
 }
 
-TEST(TriangleTree, KnowsHowFarBoxesAre) {
+TEST(MeshSurface, KnowsHowFarBoxesAre) {
   std::mt19937_64 random(1);
   const Vector3d half(0.5, 0.2, 0.7);
-  const TriangleTree tree(BoxMesh(2 * half));
+  const MeshSurface surface(BoxMesh(2 * half));
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = RandomPoint(1.5, &random);
     const Vector3d beyond = p.cwiseAbs() - half;
     const double truth = beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : -beyond.maxCoeff();
-    EXPECT_NEAR(tree.Distance(p), truth, 1e-12) << p.transpose();
+    EXPECT_NEAR(surface.Distance(p), truth, 1e-12) << p.transpose();
   }
 }
 
-TEST(TriangleTree, KnowsHowFarRingsAre) {
+TEST(MeshSurface, KnowsHowFarRingsAre) {
   std::mt19937_64 random(2);
-  const TriangleTree tree(TorusMesh(1, 0.3, 200, 100));
+  const MeshSurface surface(TorusMesh(1, 0.3, 200, 100));
   for (int i = 0; i < 300; ++i) {
     const Vector3d p = RandomPoint(2, &random);
     const double truth = std::abs(std::hypot(p.head<2>().norm() - 1, p.z()) - 0.3);
-    EXPECT_NEAR(tree.Distance(p), truth, 1e-3);  // Chords lie within the ring.
+    EXPECT_NEAR(surface.Distance(p), truth, 1e-3);  // Chords lie within the ring.
   }
 }
 
-TEST(TriangleTree, TakesTrianglesWithoutAreaAsLines) {
+TEST(MeshSurface, TakesTrianglesWithoutAreaAsLines) {
   TriangleMesh line;
   line.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   line.triangles = {{0, 1, 2}, {0, 0, 0}};
-  const TriangleTree tree(line);
-  EXPECT_DOUBLE_EQ(tree.Distance({1.5, 2, 0}), 2);
-  EXPECT_DOUBLE_EQ(tree.Distance({-3, 4, 0}), 5);
-  EXPECT_EQ(TriangleTree({}).Distance({0, 0, 0}), std::numeric_limits<double>::infinity());
+  const MeshSurface surface(line);
+  EXPECT_DOUBLE_EQ(surface.Distance({1.5, 2, 0}), 2);
+  EXPECT_DOUBLE_EQ(surface.Distance({-3, 4, 0}), 5);
+  EXPECT_EQ(MeshSurface({}).Distance({0, 0, 0}), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

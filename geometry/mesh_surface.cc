@@ -1,4 +1,4 @@
-#include "sphere_fitting/triangle_tree.h"
+#include "geometry/mesh_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ double SquaredDistanceToTriangle(const Vector3d& p, const std::array<Vector3d, 3
 
 }  // namespace
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) {
+MeshSurface::MeshSurface(const TriangleMesh& mesh) {
   triangles_.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles_.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
@@ -43,7 +43,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   if (!triangles_.empty()) Build(0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
-void TriangleTree::Build(std::uint32_t begin, std::uint32_t end) {
+void MeshSurface::Build(std::uint32_t begin, std::uint32_t end) {
   Node node;
   node.begin = begin;
   node.end = end;
@@ -76,7 +76,7 @@ void TriangleTree::Build(std::uint32_t begin, std::uint32_t end) {
   Build(half, end);
 }
 
-double TriangleTree::Distance(const Vector3d& point) const {
+double MeshSurface::Distance(const Vector3d& point) const {
   double best2 = std::numeric_limits<double>::infinity();
   if (nodes_.empty()) return best2;
   const auto to_box = [&](std::uint32_t index) {

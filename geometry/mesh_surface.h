@@ -9,10 +9,10 @@
 
 namespace planbench {
 
-/// The triangles of a mesh in a tree of boxes, for distances from points. Immutable.
-class TriangleTree {
+/// The triangles of a mesh, in a tree of boxes, for distances from points. Immutable.
+class MeshSurface {
  public:
-  explicit TriangleTree(const TriangleMesh& mesh);
+  explicit MeshSurface(const TriangleMesh& mesh);
 
   /// Distance from a point to the nearest point of the triangles, m, up to rounding; infinity
   /// without triangles.
