@@ -74,19 +74,30 @@ BallTree::BallTree(std::vector<BallTree> children, int num_steps) : children_(st
 }
 
 BallTree BallTree::In(const Pose& X_AB) const {
-  BallTree tree;
-  tree.ball_ = {X_AB * ball_.center, ball_.radius};
-  tree.inner_ = inner_;
-  tree.cluster_ = cluster_;
-  tree.has_box_ = has_box_;
-  for (const BallTree& child : children_) tree.children_.push_back(child.In(X_AB));
+  BallTree tree = *this;
+  tree.ball_.center = X_AB * ball_.center;
+  for (Eigen::Vector3d& point : tree.hull_.points) point = X_AB * point;
+  for (BallTree& child : tree.children_) child = child.In(X_AB);
   return tree;
 }
 
 void BallTree::SetInner(const std::function<double(const Eigen::Vector3d&)>& depth) {
   inner_ = std::max(0.0, depth(ball_.center));
-  if (has_box_) return;
   for (BallTree& child : children_) child.SetInner(depth);
+}
+
+void BallTree::SetHulls(std::size_t most) {
+  double slack = hull_.slack;
+  std::vector<Eigen::Vector3d> points = std::move(hull_.points);
+  bool all = patch_ >= 0 || !children_.empty();
+  for (BallTree& child : children_) {
+    child.SetHulls(most);
+    all = all && !child.hull_.points.empty();
+    points.insert(points.end(), child.hull_.points.begin(), child.hull_.points.end());
+    slack = std::max(slack, child.hull_.slack);
+  }
+  hull_ = all ? MakeHull(std::move(points), most) : Hull();
+  hull_.slack += slack;
 }
 
 int BallTree::Depth() const {
@@ -96,7 +107,7 @@ int BallTree::Depth() const {
 }
 
 std::vector<Ball> BallTree::Leaves() const {
-  if (children_.empty() || has_box_) return {ball_};
+  if (children_.empty()) return {ball_};
   std::vector<Ball> leaves;
   for (const BallTree& child : children_) {
     for (const Ball& leaf : child.Leaves()) leaves.push_back(leaf);

@@ -6,6 +6,7 @@
 
 #include "collision/balls.h"
 #include "collision/rigid_bodies.h"
+#include "collision/simd/hull.h"
 
 namespace planbench {
 
@@ -17,29 +18,36 @@ class BallTree {
   explicit BallTree(std::vector<Ball> balls);
   /// Joins trees under one root; for the steps see EnclosingBall.
   explicit BallTree(std::vector<BallTree> children, int num_steps = 200);
-  /// A leaf that encloses a cluster of triangles, of that index in a list of the caller's.
-  BallTree(const Ball& ball, int cluster) : ball_(ball), cluster_(cluster), has_box_(true) {}
-  /// Clusters under a ball that encloses them.
+  /// A leaf that encloses a patch of a surface, of that index in a list of the caller's, and those
+  /// points of it.
+  BallTree(const Ball& ball, int patch, Hull hull)
+      : ball_(ball), patch_(patch), hull_(std::move(hull)) {}
+  /// Trees under a ball that encloses them.
   BallTree(const Ball& ball, std::vector<BallTree> children)
-      : ball_(ball), has_box_(true), children_(std::move(children)) {}
+      : ball_(ball), children_(std::move(children)) {}
 
   /// The tree in a frame A, given in B.
   BallTree In(const Pose& X_AB) const;
-
+  /// Puts a ball that encloses the same in the place of the root's, unless it is larger.
+  void Replace(const Ball& ball) {
+    if (ball.radius < ball_.radius) ball_ = ball;
+  }
   /// Sets how large a ball about the same centre is inside of the body, by `depth(centre)` in m (0
-  /// or less: none), of every ball that Leaves() knows and of those above them.
+  /// or less: none), of every ball.
   void SetInner(const std::function<double(const Eigen::Vector3d&)>& depth);
+  /// Gives the balls of patches a hull of what is in them, of at most so many points.
+  void SetHulls(std::size_t most);
 
   const Ball& ball() const { return ball_; }
   double inner() const { return inner_; }  ///< A radius, m; 0: nothing is known.
   const std::vector<BallTree>& children() const { return children_; }
-  /// Of a leaf; negative for a ball of no cluster.
-  int cluster() const { return cluster_; }
-  /// True if a box around its clusters tells more than the ball does.
-  bool has_box() const { return has_box_; }
+  /// Of a leaf; negative for a ball of no patch.
+  int patch() const { return patch_; }
+  /// Of what is below; of no points where there are but balls.
+  const Hull& hull() const { return hull_; }
   /// Levels below and including this one.
   int Depth() const;
-  /// The balls that those above enclose, in tree order: the leaves, and what encloses clusters.
+  /// In tree order.
   std::vector<Ball> Leaves() const;
 
  private:
@@ -47,8 +55,8 @@ class BallTree {
 
   Ball ball_;
   double inner_ = 0;
-  int cluster_ = -1;
-  bool has_box_ = false;
+  int patch_ = -1;
+  Hull hull_;
   std::vector<BallTree> children_;
 };
 

@@ -93,7 +93,7 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
 
   SamplePoses();
   if (meshes_ != nullptr) {
-    PlaceTriangles();
+    AddPatches();
   }
   for (int i = 0; i < rigid_bodies_.size(); ++i) {
     std::vector<BallTree> trees;
@@ -146,7 +146,8 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     bodies.push_back(whole);
     links.insert(links.end(), parts.begin(), parts.end());
   }
-  if (meshes_ != nullptr) AddBoxes();
+  kernel.triangles = triangles_.data();
+  kernel.points = points_.data();
   std::sort(links.begin(), links.end(),
             [](const CompiledTree& a, const CompiledTree& b) { return a.link < b.link; });
 }
@@ -160,12 +161,15 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
   At(kernel.nodes, index).num_children = num;
   At(kernel.nodes, index).inner =
       static_cast<float>(std::max(0.0, tree.inner() - 2 * kRadiusPadding));
-  At(kernel.nodes, index).has_box = tree.has_box();
-  At(kernel.nodes, index).reach =
-      num == 0 || tree.has_box() ? AddReach(tree.ball(), link) : kNoReach;
-  if (tree.cluster() >= 0) {
-    At(kernel.nodes, index).triangles = tree.cluster();
+  At(kernel.nodes, index).reach = num == 0 ? AddReach(tree.ball(), link) : kNoReach;
+  if (tree.patch() >= 0) {
+    At(kernel.nodes, index).patch = tree.patch();
     AddReach(tree.ball(), link, tree.ball().radius);
+  }
+  if (meshes_ != nullptr) {
+    kernel.hulls.resize(kernel.nodes.size());
+    const Pose turn{At(R_CG_, rigid_bodies_.BodyOf(link)), Eigen::Vector3d::Zero()};
+    At(kernel.hulls, index) = AddHull(tree.hull(), turn);
   }
   kernel.nodes.resize(kernel.nodes.size() + static_cast<std::size_t>(num));
   for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i);
@@ -188,19 +192,53 @@ Pose CompiledRobot::PoseOfLink(int link) const {
   return turn * rigid_bodies_.X_GL(link);
 }
 
-void CompiledRobot::PlaceTriangles() {
-  for (const auto& [link, triangles] : meshes_->clusters) {
-    const Pose X_CL = PoseOfLink(link);
-    kernels::TriangleGroup& group = triangles_.emplace_back();
-    group.count = static_cast<std::int32_t>(triangles.size());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kernels::kWide); ++i) {
-      // The places that are left repeat the first one.
-      Corners corners = triangles[i < triangles.size() ? i : 0];
-      for (Eigen::Vector3d& corner : corners) corner = X_CL * corner;
-      SetTriangle(corners, i, &group);
+void CompiledRobot::AddPatches() {
+  for (const RobotMeshes::Patch& patch : meshes_->patches) {
+    const Pose X_CL = PoseOfLink(patch.link);
+    kernels::Patch& placed = kernel.patches.emplace_back();
+    placed.boxes = MakeBoxGroup();
+    placed.num_groups = static_cast<int>(patch.groups.size());
+    Eigen::AlignedBox3d all;
+    for (std::size_t g = 0; g < patch.groups.size(); ++g) {
+      const auto& [triangles, corners_L, hull] = patch.groups[g];
+      placed.hulls[g] = AddHull(hull, X_CL);
+      Eigen::AlignedBox3d box;
+      for (const Eigen::Vector3d& corner : corners_L) box.extend(X_CL * corner);
+      SetBox(box, 2 * kRadiusPadding, static_cast<int>(triangles_.size()), g, &placed.boxes);
+      all.extend(box);
+      kernels::TriangleGroup& group = triangles_.emplace_back();
+      group.count = static_cast<std::int32_t>(triangles.size());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(kernels::kWide); ++i) {
+        // The places that are left repeat the first one.
+        Corners corners = triangles[i < triangles.size() ? i : 0];
+        for (Eigen::Vector3d& corner : corners) corner = X_CL * corner;
+        SetTriangle(corners, i, &group);
+      }
+    }
+    SetVector(all.center(), placed.box.center);
+    // The rounding of the center, too.
+    SetVector(all.sizes() / 2 + Eigen::Vector3d::Constant(3 * kRadiusPadding),
+              placed.box.half_size);
+    for (const Eigen::Vector3d& point : patch.points) {
+      SetVector(X_CL * point, placed.points.emplace_back().data());
     }
   }
-  kernel.triangles = triangles_.data();
+}
+
+kernels::NodeHull CompiledRobot::AddHull(const Hull& hull, const Pose& X_C) {
+  const auto num = static_cast<std::int32_t>(hull.points.size());
+  kernels::NodeHull placed;
+  placed.first = static_cast<std::int32_t>(points_.size());
+  placed.num = (num + kernels::kWide - 1) / kernels::kWide;
+  placed.slack = static_cast<float>(hull.slack + kRadiusPadding);
+  for (std::int32_t i = 0; i < placed.num * kernels::kWide; ++i) {
+    if (i % kernels::kWide == 0) points_.emplace_back();
+    const Eigen::Vector3d p_C = X_C * At(hull.points, std::min(i, num - 1));
+    for (int k = 0; k < 3; ++k) {
+      points_.back().p[k][i % kernels::kWide] = static_cast<float>(p_C[k]);
+    }
+  }
+  return placed;
 }
 
 void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
@@ -226,7 +264,11 @@ void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
 
 void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& in,
                                    std::vector<kernels::InsideTest>* tests) const {
-  if (At(kernel.nodes, in.root).num_insides == 0) return;
+  const Node& around = At(kernel.nodes, in.root);
+  if (around.num_insides == 0) return;
+  // What is longer than a ball around the meshes is not inside of them.
+  const LinkMeshes& meshes = *MeshesOf(of.link);
+  if (meshes.points.size() == 1 && Diameter(meshes.tree.hull().points) > 2 * around.radius) return;
   // One test for all links of a body.
   auto test = std::find_if(tests->begin(), tests->end(), [&](const kernels::InsideTest& other) {
     return other.root_in == in.root && other.body_of == of.body;
@@ -235,7 +277,7 @@ void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& i
     test = tests->insert(test, {in.root, in.body, of.body, false, {}, {}, 0});
   }
   const Pose X_CL = PoseOfLink(of.link);
-  for (const Eigen::Vector3d& point : MeshesOf(of.link)->points) {
+  for (const Eigen::Vector3d& point : meshes.points) {
     SetVector(X_CL * point, test->points.emplace_back().data());
   }
   std::vector<Ball> points;
@@ -276,8 +318,7 @@ int CompiledRobot::AddReachOfTree(int root) {
     if (node.reach == kNoReach) continue;
     for (int k = 0; k < static_cast<int>(ReachSize()); ++k) {
       const bool of_points = k >= kernel.num_joints;
-      if (of_points && node.num_children > 0) break;
-      const int own = of_points && node.triangles < 0 ? k - kernel.num_joints : k;
+      const int own = of_points && node.patch < 0 ? k - kernel.num_joints : k;
       float& reach = At(kernel.reaches, offset + k);
       reach = std::max(reach, At(kernel.reaches, node.reach + own));
     }
@@ -287,38 +328,6 @@ int CompiledRobot::AddReachOfTree(int root) {
 
 std::size_t CompiledRobot::ReachSize() const {
   return static_cast<std::size_t>(meshes_ != nullptr ? 2 * kernel.num_joints : kernel.num_joints);
-}
-
-void CompiledRobot::AddBoxes() {
-  kernel.boxes.resize(kernel.nodes.size());
-  // Children stand behind their parents.
-  for (std::size_t i = kernel.nodes.size(); i-- > 0;) {
-    const Node& node = kernel.nodes[i];
-    Eigen::AlignedBox3d box;
-    for (int k = 0; k < node.num_children; ++k) {
-      const kernels::NodeBox& child = At(kernel.boxes, node.first_child + k);
-      const Eigen::Vector3d center = Eigen::Vector3f::Map(child.center).cast<double>();
-      const Eigen::Vector3d half_size = Eigen::Vector3f::Map(child.half_size).cast<double>();
-      box.extend(center - half_size).extend(center + half_size);
-    }
-    if (node.triangles >= 0) {
-      const kernels::TriangleGroup& group = At(triangles_, node.triangles);
-      for (int t = 0; t < group.count; ++t) {
-        for (const auto& corner : group.corner) {
-          box.extend(Eigen::Vector3d(corner[0][t], corner[1][t], corner[2][t]));
-        }
-      }
-      const Eigen::Vector3d padding = Eigen::Vector3d::Constant(2 * kRadiusPadding);
-      box = {box.min() - padding, box.max() + padding};
-    } else if (node.num_children == 0) {
-      const Eigen::Vector3d center = Eigen::Vector3f::Map(node.center).cast<double>();
-      const Eigen::Vector3d extent = Eigen::Vector3d::Constant(node.radius);
-      box = {center - extent, center + extent};
-    }
-    SetVector(box.center(), kernel.boxes[i].center);
-    // The rounding of the center, too.
-    SetVector(box.sizes() / 2 + Eigen::Vector3d::Constant(1e-6), kernel.boxes[i].half_size);
-  }
 }
 
 CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
@@ -333,7 +342,7 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   // Attached objects are told from others by their balls alone, and have no points.
   if (meshes_ != nullptr) {
     kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints));
-    kernel.boxes.emplace_back();
+    kernel.hulls.emplace_back();
   }
   SetBall(ball_G, kRadiusPadding, link, tree.root);
   return tree;
@@ -341,7 +350,7 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
 
 void CompiledRobot::Truncate(const Extent& extent) {
   kernel.nodes.resize(extent.nodes);
-  if (meshes_ != nullptr) kernel.boxes.resize(extent.nodes);
+  if (meshes_ != nullptr) kernel.hulls.resize(extent.nodes);
   kernel.reaches.resize(extent.reaches);
   kernel.pairs.resize(extent.pairs);
   kernel.inside_tests.resize(extent.inside_tests);

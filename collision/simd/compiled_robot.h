@@ -84,13 +84,14 @@ struct CompiledRobot {
   /// Of the link's, if it has any.
   const LinkMeshes* MeshesOf(int link) const;
   Pose PoseOfLink(int link) const;  ///< X_CL
-  void PlaceTriangles();
+  void AddPatches();
   /// Both return the offset into SphereRobot::reaches. Of points within `radius` of the centre.
   int AddReach(const Ball& ball_G, int link, double radius = 0);
   int AddReachOfTree(int root);
   /// Values of a tree's or a pair's bound: see TreePair.
   std::size_t ReachSize() const;
-  void AddBoxes();
+  /// Of points in a frame whose pose in C is given.
+  kernels::NodeHull AddHull(const Hull& hull, const Pose& X_C);
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
   Ball RootBall(const CompiledTree& tree) const;
@@ -128,7 +129,8 @@ struct CompiledRobot {
   std::vector<std::vector<Pose>> samples_;  ///< X_WG at configurations all over the limits.
   std::vector<Eigen::Matrix3d> R_CG_;       ///< By body: from RigidBodies' frame to the kernel's.
   const RobotMeshes* meshes_;
-  std::vector<kernels::TriangleGroup> triangles_;  ///< By cluster.
+  std::vector<kernels::TriangleGroup> triangles_;
+  std::vector<kernels::PointGroup> points_;
 };
 
 }  // namespace planbench

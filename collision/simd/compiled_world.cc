@@ -105,7 +105,7 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
   sources_.clear();
   meshes_before_ = std::move(meshes_);
   meshes_.clear();
-  cones_are_doubtful_ = robot.kernel.triangles != nullptr;
+  cones_are_doubtful_ = !robot.kernel.patches.empty();
   std::vector<Ball> reaches;
   for (const CompiledTree& tree : robot.bodies) reaches.push_back(tree.reach_W);
   Ball reach = EnclosingBall(reaches);

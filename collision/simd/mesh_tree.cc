@@ -50,12 +50,7 @@ class Builder {
     int capacity = kWide;
     while (capacity < (last - first + kWide - 1) / kWide) capacity *= kWide;
     const auto index = static_cast<int>(tree_.boxes.size());
-    BoxGroup& group = tree_.boxes.emplace_back();
-    for (int axis = 0; axis < 3; ++axis) {
-      std::fill_n(group.low[axis], kWide, kFarAway);
-      std::fill_n(group.high[axis], kWide, kFarAway);
-    }
-    std::fill_n(group.child, kWide, 0);
+    tree_.boxes.push_back(MakeBoxGroup());
     int num_children = 0;
     AddChildren(first, last, capacity, index, &num_children);
     return index;
@@ -84,13 +79,8 @@ class Builder {
       return;
     }
     const int child = last - first <= kWide ? ~AddTriangles(first, last) : AddBoxes(first, last);
-    BoxGroup& group = At(tree_.boxes, parent);
     const int i = (*num_children)++;
-    for (int axis = 0; axis < 3; ++axis) {
-      group.low[axis][i] = static_cast<float>(box.min()[axis] - kBoxPadding);
-      group.high[axis][i] = static_cast<float>(box.max()[axis] + kBoxPadding);
-    }
-    group.child[i] = child;
+    SetBox(box, kBoxPadding, child, static_cast<std::size_t>(i), &At(tree_.boxes, parent));
   }
 
   int AddTriangles(int first, int last) {
@@ -115,6 +105,25 @@ class Builder {
 };
 
 }  // namespace
+
+BoxGroup MakeBoxGroup() {
+  BoxGroup group;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::fill_n(group.low[axis], kWide, kFarAway);
+    std::fill_n(group.high[axis], kWide, kFarAway);
+  }
+  std::fill_n(group.child, kWide, 0);
+  return group;
+}
+
+void SetBox(const Eigen::AlignedBox3d& box, double padding, std::int32_t child, std::size_t i,
+            BoxGroup* group) {
+  for (int axis = 0; axis < 3; ++axis) {
+    group->low[axis][i] = static_cast<float>(box.min()[axis] - padding);
+    group->high[axis][i] = static_cast<float>(box.max()[axis] + padding);
+  }
+  group->child[i] = child;
+}
 
 void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
   Corners corners = triangle;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "collision/simd/kernels/triangle_tree.h"
 #include "geometry/shapes.h"
@@ -12,6 +14,13 @@ namespace planbench {
 
 /// m, in the frame of a mesh or a body.
 using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Boxes that are far away, all of them.
+kernels::BoxGroup MakeBoxGroup();
+
+/// Writes a box, enlarged by so much (m), and its child into a place of a group.
+void SetBox(const Eigen::AlignedBox3d& box, double padding, std::int32_t child, std::size_t i,
+            kernels::BoxGroup* group);
 
 /// Writes a triangle into a place of a group.
 void SetTriangle(const Corners& triangle, std::size_t i, kernels::TriangleGroup* group);

@@ -26,7 +26,7 @@ constexpr double kLongestEdge = 0.1;
 /// Triangles that are in no ball are cut as long as they have a longer edge than this, m.
 constexpr double kShortestCut = 0.02;
 /// A ball around more than one triangle is no larger, m.
-constexpr double kLargestBall = 0.06;
+constexpr double kLargestBall = 0.15;
 /// Of the search for small balls.
 constexpr int kNumSteps = 30;
 /// How far a prism's corners may be outside of the cylinder that it stands for, m.
@@ -63,22 +63,25 @@ void Cut(const Corners& triangle, Take take) {
   }
 }
 
-Vector3d Middle(const Corners& triangle) { return (triangle[0] + triangle[1] + triangle[2]) / 3; }
+/// Part of a triangle, or all of it.
+struct Piece {
+  Corners corners;
+  std::size_t triangle;  ///< Index.
+};
 
-/// Sorts triangles along the longest extent of their middles; returns their first half.
-std::span<Corners> FirstHalf(std::span<Corners> triangles) {
-  Vector3d low = Middle(triangles.front());
-  Vector3d high = low;
-  for (const Corners& triangle : triangles) {
-    low = low.cwiseMin(Middle(triangle));
-    high = high.cwiseMax(Middle(triangle));
-  }
+Vector3d Middle(const Piece& piece) {
+  return (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3;
+}
+
+/// Sorts along the longest extent of what middle(item) gives so that the first `num` are first.
+template <typename Item, typename MiddleOf>
+void Split(std::span<Item> items, std::size_t num, MiddleOf middle) {
+  Eigen::AlignedBox3d middles;
+  for (const Item& item : items) middles.extend(Vector3d(middle(item)));
   int axis = 0;
-  (high - low).maxCoeff(&axis);
-  std::stable_sort(triangles.begin(), triangles.end(), [axis](const Corners& a, const Corners& b) {
-    return Middle(a)[axis] < Middle(b)[axis];
-  });
-  return triangles.first(triangles.size() / 2);
+  middles.sizes().maxCoeff(&axis);
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(num), items.end(),
+                   [&](const Item& a, const Item& b) { return middle(a)[axis] < middle(b)[axis]; });
 }
 
 /// Around the leaves below some trees.
@@ -90,42 +93,102 @@ Ball BallAroundLeaves(const std::vector<BallTree>& trees) {
   return EnclosingBall(balls, kNumSteps);
 }
 
-Ball BallAround(std::span<const Corners> triangles) {
-  std::vector<Ball> corners;
-  for (const Corners& triangle : triangles) {
-    for (const Vector3d& corner : triangle) corners.push_back({corner, 0});
-  }
-  return EnclosingBall(corners, kNumSteps);
+Ball BallAround(std::span<const Vector3d> points) {
+  std::vector<Ball> balls;
+  for (const Vector3d& point : points) balls.push_back({point, 0});
+  return EnclosingBall(balls, kNumSteps);
 }
 
-bool IsCluster(std::span<const Corners> triangles, const Ball& ball) {
-  constexpr auto kMost = static_cast<std::size_t>(kernels::kWide);
-  return triangles.size() == 1 || (triangles.size() <= kMost && ball.radius <= kLargestBall);
+std::vector<Vector3d> CornersOf(std::span<const Piece> pieces) {
+  std::vector<Vector3d> corners;
+  for (const Piece& piece : pieces) {
+    corners.insert(corners.end(), piece.corners.begin(), piece.corners.end());
+  }
+  return corners;
 }
 
-BallTree MakeTree(std::span<Corners> triangles, int link,
-                  std::vector<RobotMeshes::Cluster>* clusters) {
-  if (triangles.size() <= static_cast<std::size_t>(kernels::kWide)) {
-    const Ball ball = BallAround(triangles);
-    if (IsCluster(triangles, ball)) {
-      clusters->push_back({link, {triangles.begin(), triangles.end()}});
-      return {ball, static_cast<int>(clusters->size()) - 1};
+/// Makes patches of the triangles of a link, whole ones by index.
+class PatchMaker {
+ public:
+  PatchMaker(int link, const std::vector<Corners>& triangles,
+             std::vector<RobotMeshes::Patch>* patches)
+      : link_(link), triangles_(triangles), patches_(patches) {}
+
+  BallTree MakeTree(std::span<Piece> pieces) {
+    const std::vector<Vector3d> corners = CornersOf(pieces);
+    const Ball ball = BallAround(corners);
+    if (pieces.size() == 1 || (NumTriangles(pieces) <= kMost && ball.radius <= kLargestBall)) {
+      AddPatch(pieces);
+      return {ball, static_cast<int>(patches_->size()) - 1,
+              MakeHull(corners, kernels::kMostPoints)};
     }
+    const std::size_t half = pieces.size() / 2;
+    Split(pieces, half, Middle);
+    std::vector<BallTree> children;
+    children.push_back(MakeTree(pieces.first(half)));
+    children.push_back(MakeTree(pieces.subspan(half)));
+    return {ball, std::move(children)};
   }
-  std::vector<BallTree> children;
-  const std::span<Corners> first = FirstHalf(triangles);
-  for (const std::span<Corners> half : {first, triangles.subspan(first.size())}) {
-    if (half.size() <= static_cast<std::size_t>(kernels::kWide) &&
-        IsCluster(half, BallAround(half))) {
-      children.push_back(MakeTree(half, link, clusters));
-      continue;
+
+ private:
+  static constexpr auto kGroup = static_cast<std::size_t>(kernels::kWide);
+  static constexpr std::size_t kMost = kGroup * kGroup;  ///< Triangles of a patch.
+
+  /// What a patch has of one triangle.
+  struct Part {
+    std::size_t triangle;
+    std::vector<Vector3d> corners;
+    Vector3d middle;
+  };
+
+  static std::size_t NumTriangles(std::span<const Piece> pieces) {
+    std::vector<std::size_t> triangles;
+    for (const Piece& piece : pieces) triangles.push_back(piece.triangle);
+    std::sort(triangles.begin(), triangles.end());
+    return static_cast<std::size_t>(std::unique(triangles.begin(), triangles.end()) -
+                                    triangles.begin());
+  }
+
+  void AddPatch(std::span<Piece> pieces) {
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const Piece& a, const Piece& b) { return a.triangle < b.triangle; });
+    std::vector<Part> parts;
+    for (const Piece& piece : pieces) {
+      if (parts.empty() || parts.back().triangle != piece.triangle) {
+        parts.push_back({piece.triangle, {}, Vector3d::Zero()});
+      }
+      std::copy(piece.corners.begin(), piece.corners.end(),
+                std::back_inserter(parts.back().corners));
     }
-    const std::span<Corners> quarter = FirstHalf(half);
-    children.push_back(MakeTree(quarter, link, clusters));
-    children.push_back(MakeTree(half.subspan(quarter.size()), link, clusters));
+    for (Part& part : parts) part.middle = BallAround(part.corners).center;
+    patches_->push_back({link_, {}, {}});
+    AddGroups(parts);
   }
-  return {BallAround(triangles), std::move(children)};
-}
+
+  /// All groups are full but the last.
+  void AddGroups(std::span<Part> parts) {
+    if (parts.size() > kGroup) {
+      const std::size_t num_groups = (parts.size() + kGroup - 1) / kGroup;
+      const std::size_t first = num_groups / 2 * kGroup;
+      Split(parts, first, [](const Part& part) { return part.middle; });
+      AddGroups(parts.first(first));
+      AddGroups(parts.subspan(first));
+      return;
+    }
+    RobotMeshes::Group& group = patches_->back().groups.emplace_back();
+    std::vector<Vector3d> corners;
+    for (const Part& part : parts) {
+      group.triangles.push_back(triangles_[part.triangle]);
+      corners.insert(corners.end(), part.corners.begin(), part.corners.end());
+    }
+    group.hull = MakeHull(corners, kernels::kMostPoints);
+    group.corners = std::move(corners);
+  }
+
+  int link_;
+  const std::vector<Corners>& triangles_;
+  std::vector<RobotMeshes::Patch>* patches_;
+};
 
 double Farthest(const Corners& triangle, const Vector3d& from) {
   double farthest = 0;
@@ -174,50 +237,58 @@ BallTree Join(std::vector<BallTree> trees) {
   return BallTree(std::move(children), kNumSteps);
 }
 
-/// Trees of triangles of a link under balls about the middles, or one tree without any.
+/// Trees of patches of a link's triangles under balls about the middles, or one tree without any.
 void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& middles, int link,
-              std::vector<RobotMeshes::Cluster>* clusters, std::vector<BallTree>* trees) {
-  if (middles.empty()) {
-    std::vector<Corners> pieces;
-    for (const Corners& triangle : triangles) {
-      Cut(triangle, [&](const Corners& piece, double longest) {
-        if (longest > kLongestEdge) return false;
-        pieces.push_back(piece);
-        return true;
-      });
-    }
-    trees->push_back(MakeTree(pieces, link, clusters));
-    return;
-  }
-  std::vector<std::vector<Corners>> parts(middles.size());
-  for (const Corners& triangle : triangles) {
-    Cut(triangle, [&](const Corners& piece, double longest) {
+              std::vector<RobotMeshes::Patch>* patches, std::vector<BallTree>* trees) {
+  PatchMaker maker(link, triangles, patches);
+  std::vector<std::vector<Piece>> parts(std::max<std::size_t>(1, middles.size()));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Cut(triangles[i], [&](const Corners& piece, double longest) {
       std::size_t best = 0;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < middles.size(); ++i) {
-        if ((piece[0] - middles[i].center).norm() - middles[i].radius >= least) continue;
-        const double beyond = Farthest(piece, middles[i].center) - middles[i].radius;
-        if (beyond >= least) continue;
-        least = beyond;
-        best = i;
+      if (middles.empty()) {
+        if (longest > kLongestEdge) return false;
+      } else {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t m = 0; m < middles.size(); ++m) {
+          if ((piece[0] - middles[m].center).norm() - middles[m].radius >= least) continue;
+          const double beyond = Farthest(piece, middles[m].center) - middles[m].radius;
+          if (beyond >= least) continue;
+          least = beyond;
+          best = m;
+        }
+        if (least > 0 && longest > kShortestCut) return false;
       }
-      if (least > 0 && longest > kShortestCut) return false;
-      parts[best].push_back(piece);
+      parts[best].push_back({piece, i});
       return true;
     });
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].empty()) continue;
-    Ball ball{middles[i].center, 0};
-    for (const Corners& piece : parts[i]) {
-      ball.radius = std::max(ball.radius, Farthest(piece, ball.center));
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    if (parts[m].empty()) continue;
+    BallTree tree = maker.MakeTree(parts[m]);
+    if (!middles.empty()) {
+      Ball ball{middles[m].center, 0};
+      for (const Piece& piece : parts[m]) {
+        ball.radius = std::max(ball.radius, Farthest(piece.corners, ball.center));
+      }
+      tree.Replace(ball);
     }
-    BallTree tree = MakeTree(parts[i], link, clusters);
-    if (tree.cluster() < 0) {
-      trees->push_back({ball, tree.children()});
-    } else {
-      if (tree.ball().radius < ball.radius) ball = tree.ball();
-      trees->push_back({ball, tree.cluster()});
+    trees->push_back(std::move(tree));
+  }
+}
+
+/// Gives each point to a patch that has a triangle with such a corner.
+void AddPoints(const std::vector<Vector3d>& points, std::span<RobotMeshes::Patch> patches) {
+  for (const Vector3d& point : points) {
+    const auto has_it = [&](const Corners& triangle) {
+      return std::find(triangle.begin(), triangle.end(), point) != triangle.end();
+    };
+    for (RobotMeshes::Patch& patch : patches) {
+      if (std::any_of(patch.groups.begin(), patch.groups.end(), [&](const auto& group) {
+            return std::any_of(group.triangles.begin(), group.triangles.end(), has_it);
+          })) {
+        patch.points.push_back(point);
+        break;
+      }
     }
   }
 }
@@ -252,14 +323,17 @@ RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
       closed.push_back({std::move(solid), std::move(mesh.vertices)});
     }
     if (!triangles.empty()) {
+      const std::size_t first_patch = patches.size();
       std::vector<Ball> of_link;
       for (const LinkSphere& sphere : middles) {
         if (sphere.link == link.link) of_link.push_back({sphere.p_LS, sphere.radius});
       }
-      AddTrees(triangles, of_link, link.link, &clusters, &trees);
+      AddTrees(triangles, of_link, link.link, &patches, &trees);
+      AddPoints(points, std::span(patches).subspan(first_patch));
     }
     if (!spheres.empty()) trees.emplace_back(std::move(spheres));
     BallTree tree = Join(std::move(trees));
+    tree.SetHulls(kernels::kMostPoints);
     tree.SetInner([&](const Vector3d& point) {
       double depth = 0;
       for (std::size_t i = 0; i < closed.size(); ++i) {

@@ -18,7 +18,7 @@ namespace planbench {
 /// it.
 struct LinkMeshes {
   int link;
-  BallTree tree;  ///< Its leaves are spheres, and balls around clusters of triangles.
+  BallTree tree;  ///< Its leaves are spheres, and balls around patches.
   /// Those of its meshes that have an inside, with all of their vertices.
   struct Closed {
     std::shared_ptr<const SolidMesh> mesh;
@@ -34,11 +34,20 @@ struct RobotMeshes {
   RobotMeshes(const std::vector<LinkGeometry>& geometry, const std::vector<LinkSphere>& middles);
 
   std::vector<LinkMeshes> links;
-  struct Cluster {
-    int link;
-    std::vector<Corners> triangles;  ///< Up to kWide, in the link's frame.
+  /// Neighbouring triangles of a patch.
+  struct Group {
+    std::vector<Corners> triangles;        ///< Up to kWide, in the link's frame.
+    std::vector<Eigen::Vector3d> corners;  ///< Around what of them belongs to the patch.
+    Hull hull;                             ///< Of these.
   };
-  std::vector<Cluster> clusters;
+  /// What of a link's triangles is in one ball. What they have outside of it others have.
+  struct Patch {
+    int link;
+    std::vector<Group> groups;  ///< Up to kWide.
+    /// Of connected parts that this patch answers for, a corner each.
+    std::vector<Eigen::Vector3d> points;
+  };
+  std::vector<Patch> patches;
 };
 
 }  // namespace planbench

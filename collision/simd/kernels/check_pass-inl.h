@@ -10,11 +10,10 @@
 #include <limits>
 #include <utility>
 
-#include "collision/simd/kernels/meshes-inl.h"
 #include "collision/simd/kernels/nearby-inl.h"
+#include "collision/simd/kernels/patches-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
-#include "collision/simd/kernels/triangles_solids-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -131,12 +130,13 @@ class CheckPass {
 
   /// Whose points move no further: of a sphere the centre, as its surface turns into itself.
   int ReachOfPoints(const Node& leaf) const {
-    return leaf.triangles >= 0 ? leaf.reach + robot_.num_joints : leaf.reach;
+    return leaf.patch >= 0 ? leaf.reach + robot_.num_joints : leaf.reach;
   }
-  BoxedGroup GroupOf(int leaf) const {
-    return {robot_.triangles[placement_.node(leaf).triangles],
-            robot_.boxes[static_cast<std::size_t>(leaf)]};
+  PatchView PatchOf(int leaf) const {
+    return {robot_.patches[static_cast<std::size_t>(placement_.node(leaf).patch)], HullOf(leaf),
+            robot_};
   }
+  const NodeHull& HullOf(int node) const { return robot_.hulls[static_cast<std::size_t>(node)]; }
   const Inside& InsideAt(int index) const {
     return robot_.insides[static_cast<std::size_t>(index)];
   }
@@ -277,8 +277,8 @@ class CheckPass {
     const Node& node = placement_.node(index);
     const Points p = placement_.Position(index);
     if (node.num_children == 0) {
-      const bool stops = node.triangles >= 0 ? TestTriangles(index, body, p, list, num)
-                                             : TestLeaf(node, p, motion, list, num);
+      const bool stops = node.patch >= 0 ? TestPatch(index, body, p, list, num)
+                                         : TestLeaf(node, p, motion, list, num);
       return stops || TestInsides(node, list, num);
     }
     const V grown = Grown(node.radius, motion);
@@ -303,28 +303,55 @@ class CheckPass {
     return TestInsides(node, free_list, num_near);
   }
 
-  /// A group of triangles, where its ball comes near a solid.
-  bool TestTriangles(int index, int body, const Points& p, const std::int32_t* list, int num) {
+  /// A patch, where its ball comes near a solid.
+  bool TestPatch(int index, int body, const Points& p, const std::int32_t* list, int num) {
     const Node& node = placement_.node(index);
-    const BoxedGroup group = GroupOf(index);
+    const PatchView patch = PatchOf(index);
     const V grown = Grown(node.radius, Motion(node.reach));
     const V reach = Squared(grown);
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
       const V squared = SquaredDistance(solid, p);
       if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
-      const M near = hn::And(alive_, hn::Le(squared, reach));
+      M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
       if (solid.doubtful) {
         doubts_ = hn::Or(doubts_, near);
         continue;
       }
+      const V motion = Motion(ReachOfPoints(node));
+      if (solid.mesh < 0) near = NotApartFrom(solid, index, body, motion, near);
+      if (None(near)) continue;
       const auto touches = [&](int lane, float margin) {
-        return MeetsSolid(group, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
+        return PatchMeetsSolid(patch, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
       };
-      if (NoteExact(near, Motion(ReachOfPoints(node)), touches)) return true;
+      if (NoteExact(near, motion, touches)) return true;
     }
     return false;
+  }
+
+  /// Lanes, of those given, in which the plane through the point of a solid that is nearest to the
+  /// middle of a node is not between the solid and the node's hull.
+  M NotApartFrom(const Solid& solid, int index, int body, V motion, M lanes) const {
+    const NodeHull& hull = HullOf(index);
+    const Poses X_WC = placement_.PosesOf(body);
+    const Points p = placement_.Position(index);
+    const Points d = FromSolid(solid, p);
+    const V squared = SquaredNorm(d);
+    const V gap = LeastAlong(robot_.points + hull.first, hull.num, X_WC.InverseRotate(d)) +
+                  Dot(d, X_WC.translation() - p) + squared;
+    return hn::AndNot(Exceeds(gap, Margin(motion) + Fill(hull.slack), squared), lanes);
+  }
+
+  /// What planes are to leave between what moves so far.
+  HWY_INLINE V Margin(V motion) const {
+    const V padding = Fill(2 * kTrianglePadding);
+    if constexpr (kAround) return padding + hn::IfThenZeroElse(hits_, motion);
+    return padding;
+  }
+  /// Whether a gap along a direction of that squared length is wider than a margin.
+  static HWY_INLINE M Exceeds(V gap, V margin, V squared) {
+    return hn::And(hn::Gt(gap, Zero()), hn::Gt(gap * gap, margin * margin * squared));
   }
 
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
@@ -383,6 +410,7 @@ class CheckPass {
     doubtful_ = pair.doubtful;
     pair_reach_ = pair.reach;
     pair_body_a_ = pair.body_a;
+    pair_body_b_ = pair.body_b;
     const V motion = Motion(pair.reach);
     const M before = certain_;
     const Node& node_a = placement_.node(pair.root_a);
@@ -390,71 +418,70 @@ class CheckPass {
     const float radius = node_a.radius + node_b.radius;
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    const M touching = Within(squared, Grown(radius, motion));
+    M touching = Within(squared, Grown(radius, motion));
     if (None(touching)) return false;
-    boxes_ = !robot_.boxes.empty() && !doubtful_;
-    if (boxes_) SetBoxFrames(pair);
+    related_ = 0;
     if (node_a.num_children == 0 && node_b.num_children == 0) {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, radius, touching);
     } else {
-      VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion);
+      if (HaveHulls(pair.root_a, pair.root_b)) {
+        points_motion_ = Motion(pair.reach + robot_.num_joints);
+        touching = NotApart(pair.root_a, pair.body_a, pair.root_b, points_motion_, touching);
+        if (None(touching)) return false;
+      }
+      VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion, touching);
     }
     return !None(hn::AndNot(before, certain_));
   }
 
-  /// Of the pair at hand: from the frame of its body b to that of its body a.
-  void SetBoxFrames(const TreePair& pair) {
-    const Poses X_WA = placement_.PosesOf(pair.body_a);
-    const Poses X_WB = placement_.PosesOf(pair.body_b);
-    for (int c = 0; c < 3; ++c) {
-      const Points column = {X_WB.rotation(0, c), X_WB.rotation(1, c), X_WB.rotation(2, c)};
-      for (int row = 0; row < 3; ++row) {
-        const Points axis = {X_WA.rotation(0, row), X_WA.rotation(1, row), X_WA.rotation(2, row)};
-        frames_.rotation[row][c] = Dot(axis, column);
-        frames_.size[row][c] = hn::Abs(frames_.rotation[row][c]);
-      }
+  /// Of the pair at hand in one lane, from the frame of its body b to that of its body a.
+  const Transform& Relation(int lane) {
+    if ((related_ >> lane & 1) == 0) {
+      related_ |= LaneMask{1} << lane;
+      relations_[lane] = Between(placement_.PosesOf(pair_body_a_).InLane(lane),
+                                 placement_.PosesOf(pair_body_b_).InLane(lane));
     }
-    frames_.translation = X_WA.InverseTimes(X_WB.translation());
-    frames_.motion = Motion(pair.reach + robot_.num_joints);
+    return relations_[lane];
   }
 
-  /// Lanes in which a plane along a face of one of the boxes is between them, and would be if they
-  /// moved so far.
-  HWY_INLINE M BoxesApart(int a, int body_a, int b, V motion) const {
+  bool HaveHulls(int a, int b) const {
+    return !robot_.hulls.empty() && !doubtful_ && HullOf(a).num > 0 && HullOf(b).num > 0;
+  }
+
+  /// Lanes, of those given, in which no plane is found between two nodes' hulls; `motion` bounds
+  /// that of all of their points.
+  M NotApart(int a, int body_a, int b, V motion, M lanes) {
     if (body_a != pair_body_a_) std::swap(a, b);
-    const NodeBox& box_a = robot_.boxes[static_cast<std::size_t>(a)];
-    const NodeBox& box_b = robot_.boxes[static_cast<std::size_t>(b)];
-    const auto& R = frames_.rotation;
-    const auto& size = frames_.size;
-    const V margin = kAround ? hn::IfThenZeroElse(hits_, motion) : Zero();
-    const Points b_center = Fill(box_b.center);
-    const V half_b[3] = {Fill(box_b.half_size[0]), Fill(box_b.half_size[1]),
-                         Fill(box_b.half_size[2])};
-    const auto row = [&](int i, V translation) {
-      return hn::MulAdd(
-          R[i][0], b_center.x,
-          hn::MulAdd(R[i][1], b_center.y, hn::MulAdd(R[i][2], b_center.z, translation)));
-    };
-    const V t[3] = {row(0, frames_.translation.x - Fill(box_a.center[0])),
-                    row(1, frames_.translation.y - Fill(box_a.center[1])),
-                    row(2, frames_.translation.z - Fill(box_a.center[2]))};
-    V gap = Fill(std::numeric_limits<float>::lowest());
-    for (int i = 0; i < 3; ++i) {
-      const V reach =
-          hn::MulAdd(size[i][0], half_b[0],
-                     hn::MulAdd(size[i][1], half_b[1],
-                                hn::MulAdd(size[i][2], half_b[2], Fill(box_a.half_size[i]))));
-      gap = hn::Max(gap, hn::Abs(t[i]) - reach);
+    const NodeHull& hull_a = HullOf(a);
+    const NodeHull& hull_b = HullOf(b);
+    const V margin = Margin(motion);
+    {  // In all lanes, planes across the line between the middles.
+      const Points d = placement_.Position(a) - placement_.Position(b);
+      const Poses X_WA = placement_.PosesOf(pair_body_a_);
+      const Poses X_WB = placement_.PosesOf(pair_body_b_);
+      const Points d_B = X_WB.InverseRotate(d);
+      const V gap = LeastAlong(robot_.points + hull_a.first, hull_a.num, X_WA.InverseRotate(d)) +
+                    LeastAlong(robot_.points + hull_b.first, hull_b.num,
+                               {hn::Neg(d_B.x), hn::Neg(d_B.y), hn::Neg(d_B.z)}) +
+                    Dot(d, X_WA.translation() - X_WB.translation());
+      const V slack = Fill(hull_a.slack + hull_b.slack);
+      lanes = hn::AndNot(Exceeds(gap, margin + slack, SquaredNorm(d)), lanes);
+      if (None(lanes)) return lanes;
     }
-    for (int j = 0; j < 3; ++j) {
-      const V along = hn::MulAdd(R[0][j], t[0], hn::MulAdd(R[1][j], t[1], R[2][j] * t[2]));
-      const V reach =
-          hn::MulAdd(size[0][j], Fill(box_a.half_size[0]),
-                     hn::MulAdd(size[1][j], Fill(box_a.half_size[1]),
-                                hn::MulAdd(size[2][j], Fill(box_a.half_size[2]), half_b[j])));
-      gap = hn::Max(gap, hn::Abs(along) - reach);
+    alignas(64) float margins[kBlock];
+    Store(margin, margins);
+    LaneMask left = 0;
+    for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
+      const int lane = std::countr_zero(open);
+      const Transform& X_AB = Relation(lane);
+      float direction[3];
+      X_AB.Times(placement_.node(b).center, direction);
+      for (int k = 0; k < 3; ++k) direction[k] = placement_.node(a).center[k] - direction[k];
+      if (!HullsApart(robot_, hull_a, hull_b, X_AB, direction, margins[lane])) {
+        left |= LaneMask{1} << lane;
+      }
     }
-    return hn::Gt(gap, margin);
+    return MaskOf(left);
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
@@ -469,38 +496,43 @@ class CheckPass {
     if constexpr (kAround) {
       touching = Within(squared, Grown(radius, MotionBetween(a.reach, b.reach, pair_reach_)));
     }
-    if (doubtful_ || (a.triangles < 0 && b.triangles < 0)) {
+    if (doubtful_ || (a.patch < 0 && b.patch < 0)) {
       return Note(squared, radius, touching, doubtful_);
     }
-    return a.triangles >= 0 ? NoteTriangles(index_a, body_a, index_b, body_b, touching)
-                            : NoteTriangles(index_b, body_b, index_a, body_a, touching);
+    return a.patch >= 0 ? NotePatch(index_a, body_a, index_b, body_b, touching)
+                        : NotePatch(index_b, body_b, index_a, body_a, touching);
   }
 
-  /// A group of triangles and another leaf, whose balls touch.
-  bool NoteTriangles(int index, int body, int other_index, int other_body, M touching) {
+  /// A patch and another leaf, whose balls touch.
+  bool NotePatch(int index, int body_a, int other_index, int other_body, M touching) {
     if (None(touching)) return false;
+    if (body_a != pair_body_a_ && placement_.node(other_index).patch >= 0) {
+      std::swap(index, other_index);
+      std::swap(body_a, other_body);
+    }
     const Node& node = placement_.node(index);
     const Node& other = placement_.node(other_index);
-    const BoxedGroup group = GroupOf(index);
     const V motion =
         kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other), pair_reach_) : Zero();
-    return NoteExact(touching, motion, [&](int lane, float margin) {
-      const Transform X_WC = placement_.PosesOf(body).InLane(lane);
-      if (other.triangles < 0) {
+    const PatchView patch = PatchOf(index);
+    if (other.patch < 0) {
+      return NoteExact(touching, motion, [&](int lane, float margin) {
         float center_W[3], center[3];
         placement_.Position(other_index, lane, center_W);
-        X_WC.InverseTimes(center_W, center);
-        return TrianglesWithin(group.triangles, center, other.radius + margin) != 0;
-      }
-      const Transform X_WD = placement_.PosesOf(other_body).InLane(lane);
-      const BoxedGroup others = GroupOf(other_index);
-      return GroupsMeet(group, others.triangles, &others.box, Between(X_WC, X_WD),
-                        margin + kTrianglePadding);
+        placement_.PosesOf(body_a).InLane(lane).InverseTimes(center_W, center);
+        return PatchWithin(patch, center, other.radius + margin);
+      });
+    }
+    touching = NotApart(index, body_a, other_index, motion, touching);
+    if (None(touching)) return false;
+    const PatchView other_patch = PatchOf(other_index);
+    return NoteExact(touching, motion, [&](int lane, float margin) {
+      return PatchesMeet(patch, other_patch, Relation(lane), margin + kTrianglePadding);
     });
   }
 
-  /// Two balls that touch, not both of them leaves. Returns true to stop.
-  bool VisitPair(int a, int body_a, int b, int body_b, V motion) {
+  /// Two balls that touch in some lanes, not both of them leaves. Returns true to stop.
+  bool VisitPair(int a, int body_a, int b, int body_b, V motion, M lanes) {
     {
       // The larger one is replaced by its children.
       const Node& node_a = placement_.node(a);
@@ -519,45 +551,15 @@ class CheckPass {
       const Node& node = placement_.node(child);
       const float radius = node.radius + small.radius;
       const V squared = SquaredNorm(placement_.Position(child) - p);
-      const M touching = Within(squared, Grown(radius, motion));
+      const M touching = hn::And(lanes, Within(squared, Grown(radius, motion)));
       if (None(touching)) continue;
       if (node.inner > 0 && small.inner > 0 && !doubtful_ &&
           NoteInner(squared, node.inner + small.inner)) {
         return true;
       }
-      if (boxes_ && node.has_box && small.has_box) {
-        if (VisitBoxes(child, body_a, b, body_b, touching)) return true;
-        continue;
-      }
       if (node.num_children == 0 && small.num_children == 0) {
         if (NotePair(child, body_a, b, body_b, squared, radius, touching)) return true;
-      } else if (VisitPair(child, body_a, b, body_b, motion)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Two nodes with boxes, of triangles alone, in lanes in which all above them touch. Returns true
-  /// to stop.
-  bool VisitBoxes(int a, int body_a, int b, int body_b, M lanes) {
-    lanes = hn::AndNot(BoxesApart(a, body_a, b, frames_.motion), hn::And(lanes, alive_));
-    if (None(lanes)) return false;
-    const Node& node_a = placement_.node(a);
-    const Node& node_b = placement_.node(b);
-    if (node_a.num_children == 0 && node_b.num_children == 0) {
-      if constexpr (kAround) {
-        const V motion = MotionBetween(ReachOfPoints(node_a), ReachOfPoints(node_b), pair_reach_);
-        lanes = hn::AndNot(BoxesApart(a, body_a, b, motion), lanes);
-      }
-      return NoteTriangles(a, body_a, b, body_b, lanes);
-    }
-    const bool split_a =
-        node_b.num_children == 0 || (node_a.num_children != 0 && node_a.radius >= node_b.radius);
-    const Node& large = split_a ? node_a : node_b;
-    for (int child = large.first_child; child < large.first_child + large.num_children; ++child) {
-      if (split_a ? VisitBoxes(child, body_a, b, body_b, lanes)
-                  : VisitBoxes(a, body_a, child, body_b, lanes)) {
+      } else if (VisitPair(child, body_a, b, body_b, motion, touching)) {
         return true;
       }
     }
@@ -578,13 +580,10 @@ class CheckPass {
   bool doubtful_ = false;
   int pair_reach_ = 0;
   int pair_body_a_ = 0;
-  bool boxes_ = false;
-  struct {
-    V rotation[3][3];
-    V size[3][3];  ///< Without its signs.
-    Points translation;
-    V motion;  ///< Of any point relative to the other body.
-  } frames_;
+  int pair_body_b_ = 0;
+  V points_motion_;       ///< Of any point relative to the other body.
+  LaneMask related_ = 0;  ///< Lanes whose relations are known.
+  Transform relations_[kBlock];
 };
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

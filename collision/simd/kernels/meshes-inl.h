@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/simd/kernels/boxes-inl.h"
 #include "collision/simd/kernels/triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,15 +18,6 @@ namespace planbench::kernels::HWY_NAMESPACE {
 
 /// Enlargement of meshes, m: the rounding of their numbers and of points in their frames.
 inline constexpr float kMeshPadding = 2e-5f;
-
-/// Squared distances of a point from the boxes of a group, from `first` on.
-HWY_INLINE V SquaredToBoxes(const BoxGroup& group, int first, const Points& p) {
-  const auto beyond = [&](int axis, V value) {
-    return Positive(
-        hn::Max(Load(group.low[axis] + first) - value, value - Load(group.high[axis] + first)));
-  };
-  return SquaredNorm({beyond(0, p.x), beyond(1, p.y), beyond(2, p.z)});
-}
 
 /// Squared distance of a point (M) from the mesh's surface where it is at most `limit`, else
 /// something greater. With `any` some triangle within the limit will do.

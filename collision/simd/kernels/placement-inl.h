@@ -28,8 +28,11 @@ class Poses {
 
   /// Points given in W, in the body's frame.
   HWY_INLINE Points InverseTimes(const Points& p_W) const {
-    const Points p = p_W - translation();
-    return {Dot(Column(0), p), Dot(Column(1), p), Dot(Column(2), p)};
+    return InverseRotate(p_W - translation());
+  }
+  /// Vectors given in W, in the body's frame.
+  HWY_INLINE Points InverseRotate(const Points& v_W) const {
+    return {Dot(Column(0), v_W), Dot(Column(1), v_W), Dot(Column(2), v_W)};
   }
   /// The pose in one lane.
   Transform InLane(int lane) const {

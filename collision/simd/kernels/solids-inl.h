@@ -89,6 +89,49 @@ HWY_INLINE V SquaredDistance(const Solid& solid, const Points& p_W) {
   return Zero();
 }
 
+/// From the nearest points of the solid to points in W; 0 inside, and of solids of rarer kinds.
+HWY_INLINE Points FromSolid(const Solid& solid, const Points& p_W) {
+  const Points p = p_W - Fill(solid.center);
+  const float* v = solid.v;
+  const auto beyond = [](V value, float half) {
+    return value - hn::Min(hn::Max(value, Fill(-half)), Fill(half));
+  };
+  switch (solid.kind) {
+    case Kind::kUprightBox: {
+      const V cosine = Fill(v[0]);
+      const V sine = Fill(v[1]);
+      const V x = beyond(hn::MulAdd(cosine, p.x, sine * p.y), v[2]);
+      const V y = beyond(hn::NegMulAdd(sine, p.x, cosine * p.y), v[3]);
+      return {hn::NegMulAdd(sine, y, cosine * x), hn::MulAdd(sine, x, cosine * y),
+              beyond(p.z, v[4])};
+    }
+    case Kind::kBox: {
+      const Points along[3] = {Fill(v), Fill(v + 3), Fill(v + 6)};
+      Points sum = {Zero(), Zero(), Zero()};
+      for (int k = 0; k < 3; ++k) {
+        sum = NegMulAdd(hn::Neg(beyond(Dot(along[k], p), v[9 + k])), along[k], sum);
+      }
+      return sum;
+    }
+    case Kind::kUprightCylinder: {
+      const V rho = hn::Sqrt(hn::MulAdd(p.x, p.x, p.y * p.y));
+      const V part = Positive(rho - Fill(v[0])) / hn::Max(rho, Fill(1e-9f));
+      return {p.x * part, p.y * part, beyond(p.z, v[1])};
+    }
+    case Kind::kSphere: {
+      const V distance = hn::Sqrt(SquaredNorm(p));
+      const V part = Positive(distance - Fill(v[0])) / hn::Max(distance, Fill(1e-9f));
+      return {p.x * part, p.y * part, p.z * part};
+    }
+    case Kind::kCylinder:
+    case Kind::kCapsule:
+    case Kind::kCone:
+    case Kind::kHalfSpace:
+      break;
+  }
+  return {Zero(), Zero(), Zero()};
+}
+
 }  // namespace planbench::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

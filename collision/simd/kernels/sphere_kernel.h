@@ -33,29 +33,54 @@ struct Body {
 };
 
 /// A ball of a tree, in its body's frame (m): if it has no children a sphere of the robot, or what
-/// encloses a group of triangles; else it encloses all of its descendants. Children stand next to
+/// encloses a patch of triangles; else it encloses all of its descendants. Children stand next to
 /// each other.
 struct Node {
   float center[3];
   float radius;
   std::int32_t first_child;
   std::int32_t num_children;
-  /// Of one without children: its own, as in WorldTree; of a group of triangles that of all of
-  /// their points stands behind it. Others are CompiledRobot's.
+  /// Of one without children: its own, as in WorldTree; of a patch that of all of its points stands
+  /// behind it. Others are CompiledRobot's.
   int reach;
   /// Radius of a ball about the same centre that is inside of what it encloses; 0: none is known.
   float inner = 0;
-  bool has_box = false;         ///< One that tells more than the ball does.
-  std::int32_t triangles = -1;  ///< Index into SphereRobot::triangles, if not negative.
+  std::int32_t patch = -1;  ///< Index into SphereRobot::patches, if not negative.
   /// Closed meshes that it encloses: from first_inside on in SphereRobot::insides.
   std::int32_t first_inside = 0;
   std::int32_t num_insides = 0;
 };
 
-/// A box around what a node encloses, along the axes of its body's frame, m.
-struct NodeBox {
+/// A box along the axes of its frame, m.
+struct CenteredBox {
   float center[3];
   float half_size[3];
+};
+
+/// Points of a hull; the places left repeat one.
+struct alignas(64) PointGroup {
+  float p[3][kWide];  ///< By axis, m.
+};
+/// Points of a hull, at most.
+inline constexpr int kMostPoints = 4 * kWide;
+
+/// The convex hull of some points of what a node encloses: of `num` groups from `first` on in
+/// SphereRobot::points.
+struct NodeHull {
+  std::int32_t first = 0;
+  std::int32_t num = 0;  ///< 0: none is known.
+  float slack = 0;       ///< What the node encloses reaches no further beyond the hull, m.
+};
+
+/// Part of a link's surface, in groups of triangles. Where these leave the part, and its ball and
+/// boxes, they belong to others.
+struct Patch {
+  BoxGroup boxes;  ///< Around groups; children are indices into SphereRobot::triangles.
+  int num_groups;
+  NodeHull hulls[kWide];  ///< Of groups.
+  CenteredBox box;        ///< Around all of them.
+  /// One of each connected part of the surface that this patch answers for.
+  std::vector<std::array<float, 3>> points;
 };
 
 /// What a closed mesh of the robot encloses.
@@ -86,8 +111,8 @@ struct TreePair {
   int body_a, body_b;
   bool doubtful;  ///< Hits are passed on as doubts.
   /// Joints that move the two relative to each other, as weights of half widths: num_joints values
-  /// at this offset of SphereRobot::reaches, of the centres of balls; where there are boxes those
-  /// of all points stand behind them.
+  /// at this offset of SphereRobot::reaches, of the centres of balls; of meshes those of all
+  /// points stand behind them.
   int reach;
 };
 
@@ -96,9 +121,12 @@ struct SphereRobot {
   int num_joints = 0;
   std::vector<Body> bodies;  ///< Parents first; [0] is the base.
   std::vector<Node> nodes;
-  std::vector<NodeBox> boxes;  ///< By node, of meshes; none: of spheres balls are enough.
   std::vector<TreePair> pairs;
-  const TriangleGroup* triangles = nullptr;  ///< In their bodies' frames; its owner's to keep.
+  /// Of meshes, in their bodies' frames; arrays are their owner's to keep.
+  std::vector<Patch> patches;
+  std::vector<NodeHull> hulls;  ///< By node; empty without meshes.
+  const PointGroup* points = nullptr;
+  const TriangleGroup* triangles = nullptr;
   std::vector<Inside> insides;
   std::vector<InsideTest> inside_tests;
   /// m/rad: how far the centres of balls move. A ball that turns about its centre stays where it

@@ -201,7 +201,7 @@ inline bool MeetsTriangle(const TriangleGroup& a, const Triangles* corners_B,
 
 /// Which triangles of a group come, by their bounding boxes, within `margin` of a box, by bit; all
 /// in the frame of the corners, a vector after another.
-inline LaneMask TrianglesNear(const Triangles* corners, int count, const NodeBox& box,
+inline LaneMask TrianglesNear(const Triangles* corners, int count, const CenteredBox& box,
                               float margin) {
   const int width = static_cast<int>(hn::Lanes(Lanes()));
   LaneMask near = 0;
@@ -223,12 +223,12 @@ inline LaneMask TrianglesNear(const Triangles* corners, int count, const NodeBox
 /// A group of triangles and a box around it, in the frame of the triangles.
 struct BoxedGroup {
   const TriangleGroup& triangles;
-  const NodeBox& box;
+  CenteredBox box;
 };
 
 /// Whether triangles of A come within `margin` of those of B, around which no box needs to be
 /// known.
-inline bool GroupsMeet(const BoxedGroup& a, const TriangleGroup& b, const NodeBox* box_b,
+inline bool GroupsMeet(const BoxedGroup& a, const TriangleGroup& b, const CenteredBox* box_b,
                        const Transform& X_AB, float margin) {
   const int width = static_cast<int>(hn::Lanes(Lanes()));
   Triangles corners[kWide];

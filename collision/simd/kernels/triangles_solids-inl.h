@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "collision/simd/kernels/meshes-inl.h"
+#include "collision/simd/kernels/triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -172,135 +172,6 @@ inline void RotationToZ(const float* axis, float* rows) {
     y[m] = axis[(m + 1) % 3] * x[(m + 2) % 3] - axis[(m + 2) % 3] * x[(m + 1) % 3];
     rows[6 + m] = axis[m];
   }
-}
-
-/// Whether triangles of the robot come within `margin` of a mesh.
-inline bool MeetsMesh(const BoxedGroup& group, const Transform& X_WC, const WorldMesh& mesh,
-                      float margin) {
-  constexpr int kMostOpen = kWide * 8;
-  const TriangleTree& tree = *mesh.tree;
-  const int width = static_cast<int>(hn::Lanes(Lanes()));
-  const Transform X_MC = FromFrame(mesh.rotation, mesh.position, X_WC);
-  const Transform X_CM = X_MC.Inverse();
-  // The group's box in M, along the axes there.
-  float center[3];
-  X_MC.Times(group.box.center, center);
-  float reach[3];
-  for (int row = 0; row < 3; ++row) {
-    reach[row] = margin;
-    for (int c = 0; c < 3; ++c) {
-      reach[row] += std::abs(X_MC.rotation[3 * row + c]) * group.box.half_size[c];
-    }
-  }
-  std::int32_t open[kMostOpen];
-  int size = 0;
-  open[size++] = 0;
-  while (size > 0) {
-    const std::int32_t child = open[--size];
-    if (child < 0) {
-      const TriangleGroup& other = tree.triangles[static_cast<std::size_t>(~child)];
-      if (GroupsMeet(group, other, nullptr, X_CM, margin)) return true;
-      continue;
-    }
-    const BoxGroup& boxes = tree.boxes[static_cast<std::size_t>(child)];
-    for (int first = 0; first < kWide; first += width) {
-      const auto along = [&](int axis) {
-        return hn::And(hn::Le(Load(boxes.low[axis] + first), Fill(center[axis] + reach[axis])),
-                       hn::Ge(Load(boxes.high[axis] + first), Fill(center[axis] - reach[axis])));
-      };
-      for (LaneMask near = Bits(hn::And(along(0), hn::And(along(1), along(2)))); near != 0;
-           near &= near - 1) {
-        open[size++] = boxes.child[first + std::countr_zero(near)];
-      }
-    }
-  }
-  const auto& first_corner = group.triangles.corner[0];
-  const float corner_C[3] = {first_corner[0][0], first_corner[1][0], first_corner[2][0]};
-  float corner[3];
-  X_MC.Times(corner_C, corner);
-  return Encloses(tree, corner);
-}
-
-/// Whether triangles of the robot come within `margin` of a solid. X_WC: of their body.
-inline bool MeetsSolid(const BoxedGroup& boxed, const Transform& X_WC, const SphereWorld& world,
-                       const Solid& solid, float margin) {
-  if (solid.mesh >= 0) {
-    return MeetsMesh(boxed, X_WC, world.meshes[static_cast<std::size_t>(solid.mesh)], margin);
-  }
-  const TriangleGroup& group = boxed.triangles;
-  const int width = static_cast<int>(hn::Lanes(Lanes()));
-  const float* v = solid.v;
-  const auto any = [&](auto meets) {
-    for (int first = 0; first < kWide; first += width) {
-      if (!None(meets(first))) return true;
-    }
-    return false;
-  };
-  const auto meets_box = [&](const float* R_OW, const float* half_size) {
-    const Transform X_OC = FromFrame(R_OW, solid.center, X_WC);
-    return any(
-        [&](int first) { return MeetsBox(CornersIn(X_OC, group, first), half_size, margin); });
-  };
-  const auto meets_cylinder = [&](const float* R_OW, float radius, float half_length) {
-    const Transform X_OC = FromFrame(R_OW, solid.center, X_WC);
-    return any([&](int first) {
-      return MeetsCylinder(CornersIn(X_OC, group, first), radius + margin, half_length + margin);
-    });
-  };
-  switch (solid.kind) {
-    case Kind::kUprightBox: {
-      const float R_OW[9] = {v[0], v[1], 0, -v[1], v[0], 0, 0, 0, 1};
-      return meets_box(R_OW, v + 2);
-    }
-    case Kind::kBox:
-      return meets_box(v, v + 9);
-    case Kind::kUprightCylinder: {
-      const float R_OW[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-      return meets_cylinder(R_OW, v[0], v[1]);
-    }
-    case Kind::kCylinder: {
-      float R_OW[9];
-      RotationToZ(v, R_OW);
-      return meets_cylinder(R_OW, v[3], v[4]);
-    }
-    case Kind::kSphere: {
-      float center[3];
-      X_WC.InverseTimes(solid.center, center);
-      return TrianglesWithin(group, center, v[0] + margin) != 0;
-    }
-    case Kind::kCapsule: {
-      float ends[2][3];
-      for (int k = 0; k < 2; ++k) {
-        const float along = k == 0 ? -v[4] : v[4];
-        const float end[3] = {solid.center[0] + along * v[0], solid.center[1] + along * v[1],
-                              solid.center[2] + along * v[2]};
-        X_WC.InverseTimes(end, ends[k]);
-      }
-      const Points a = Fill(ends[0]);
-      const Points b = Fill(ends[1]);
-      const V reach = Fill((v[3] + margin) * (v[3] + margin));
-      return any([&](int first) { return hn::Le(SquaredToSegment(group, first, a, b), reach); });
-    }
-    case Kind::kHalfSpace: {
-      float normal[3];
-      for (int k = 0; k < 3; ++k) {
-        normal[k] =
-            v[0] * X_WC.rotation[k] + v[1] * X_WC.rotation[3 + k] + v[2] * X_WC.rotation[6 + k];
-      }
-      float height = 0;
-      for (int k = 0; k < 3; ++k) height += v[k] * (X_WC.translation[k] - solid.center[k]);
-      const Points n = Fill(normal);
-      const V depth = Fill(margin - height);
-      return any([&](int first) {
-        const Triangles t = LoadCorners(group, first);
-        return hn::Le(
-            hn::Min(Dot(n, t.corner[0]), hn::Min(Dot(n, t.corner[1]), Dot(n, t.corner[2]))), depth);
-      });
-    }
-    case Kind::kCone:
-      break;  // doubtful: see CompiledWorld
-  }
-  return true;
 }
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

@@ -314,41 +314,90 @@ TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
   EXPECT_TRUE(checker.IsFree(outside));
 }
 
-/// Every triangle below is in the ball of each node above it; returns their area.
-double AreaBelow(const RobotMeshes& meshes, const BallTree& node,
-                 std::vector<const BallTree*> above) {
-  above.push_back(&node);
-  double area = 0;
-  for (const BallTree& child : node.children()) area += AreaBelow(meshes, child, above);
-  if (node.cluster() < 0) return area;
-  const auto& cluster = meshes.clusters[static_cast<std::size_t>(node.cluster())].triangles;
-  EXPECT_LE(cluster.size(), 16u);
-  for (const auto& [a, b, c] : cluster) {
-    area += (b - a).cross(c - a).norm() / 2;
-    for (const Eigen::Vector3d& corner : {a, b, c}) {
-      for (const BallTree* outer : above) {
-        EXPECT_LE((corner - outer->ball().center).norm(), outer->ball().radius + 1e-9);
-      }
+/// Checks that what a node claims to enclose of `patches` it does; adds that.
+void ExpectEncloses(const RobotMeshes& meshes, const BallTree& node, std::vector<int>* patches,
+                    std::vector<Eigen::Vector3d>* corners) {
+  const std::size_t first = corners->size();
+  for (const BallTree& child : node.children()) ExpectEncloses(meshes, child, patches, corners);
+  if (node.patch() >= 0) {
+    patches->push_back(node.patch());
+    for (const auto& group : meshes.patches[static_cast<std::size_t>(node.patch())].groups) {
+      corners->insert(corners->end(), group.corners.begin(), group.corners.end());
     }
   }
-  return area;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < 50; ++i) {
+    directions.push_back(
+        Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized());
+  }
+  ASSERT_FALSE(node.hull().points.empty());
+  for (const Eigen::Vector3d& direction : directions) {
+    double hull = -1e9;
+    for (const auto& point : node.hull().points) hull = std::max(hull, direction.dot(point));
+    for (std::size_t i = first; i < corners->size(); ++i) {
+      EXPECT_LE(direction.dot((*corners)[i]), hull + node.hull().slack + 1e-9);
+    }
+  }
+  for (std::size_t i = first; i < corners->size(); ++i) {
+    EXPECT_LE(((*corners)[i] - node.ball().center).norm(), node.ball().radius + 1e-9);
+  }
 }
 
-TEST(RobotMeshesTest, HoldEveryTriangleInEveryBallAboveIt) {
+/// Points all over the surface are each on a triangle of a patch, and within the box around what of
+/// its group belongs to the patch.
+void ExpectHoldsSurface(const RobotMeshes& meshes, const TriangleMesh& mesh) {
+  struct Box {
+    Eigen::AlignedBox3d box;
+    const std::vector<std::array<Eigen::Vector3d, 3>>* triangles;
+  };
+  std::vector<Box> boxes;
+  for (const RobotMeshes::Patch& patch : meshes.patches) {
+    EXPECT_LE(patch.groups.size(), 16u);
+    for (const RobotMeshes::Group& group : patch.groups) {
+      EXPECT_LE(group.triangles.size(), 16u);
+      Box& box = boxes.emplace_back();
+      box.triangles = &group.triangles;
+      for (const Eigen::Vector3d& corner : group.corners) box.box.extend(corner);
+    }
+  }
+  std::mt19937_64 random(2);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array<Eigen::Vector3d, 3> corners = {mesh.vertices[a], mesh.vertices[b],
+                                                    mesh.vertices[c]};
+    for (int i = 0; i < 4; ++i) {
+      const double u = UniformFraction(&random);
+      const double v = UniformFraction(&random) * (1 - u);
+      const Eigen::Vector3d point =
+          corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+      EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+        return box.box.squaredExteriorDistance(point) < 1e-18 &&
+               std::find(box.triangles->begin(), box.triangles->end(), corners) !=
+                   box.triangles->end();
+      }));
+    }
+  }
+}
+
+TEST(RobotMeshesTest, HoldEveryTriangleInEveryBallAndHullAboveIt) {
   const std::vector<LinkSphere> middles = {
       {0, {0.2, 0, 0}, 0.15}, {0, {-0.2, 0.1, 0}, 0.1}, {0, {0, 0, 0.1}, 0.3}};
   for (const GeneratedMesh& mesh : ToolMeshes()) {
     SCOPED_TRACE(mesh.what);
-    double expected = 0;
-    for (const auto& [a, b, c] : mesh.triangles.triangles) {
-      const auto& v = mesh.triangles.vertices;
-      expected += (v[b] - v[a]).cross(v[c] - v[a]).norm() / 2;
-    }
     const LinkGeometry link{0, {{Shape(MeshFrom(mesh.triangles)), Eigen::Isometry3d::Identity()}}};
     for (const bool with_middles : {false, true}) {
       const RobotMeshes meshes({link}, with_middles ? middles : std::vector<LinkSphere>());
-      EXPECT_NEAR(AreaBelow(meshes, meshes.links.front().tree, {}), expected,
-                  1e-9 * (1 + expected));
+      std::vector<int> patches;
+      std::vector<Eigen::Vector3d> corners;
+      ExpectEncloses(meshes, meshes.links.front().tree, &patches, &corners);
+      std::sort(patches.begin(), patches.end());
+      ASSERT_EQ(patches.size(), meshes.patches.size());
+      for (std::size_t i = 0; i < patches.size(); ++i) EXPECT_EQ(patches[i], static_cast<int>(i));
+      ExpectHoldsSurface(meshes, mesh.triangles);
+      std::size_t num_points = 0;
+      for (const RobotMeshes::Patch& patch : meshes.patches) num_points += patch.points.size();
+      EXPECT_EQ(num_points, meshes.links.front().points.size());
     }
   }
 }
