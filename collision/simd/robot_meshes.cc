@@ -27,6 +27,8 @@ constexpr double kLongestEdge = 0.1;
 constexpr double kShortestCut = 0.02;
 /// A ball around more than one triangle is no larger, m.
 constexpr double kLargestBall = 0.15;
+/// Of a link, at most: the largest. Hulls tell more than ever smaller balls.
+constexpr std::size_t kMostMiddles = 64;
 /// Of the search for small balls.
 constexpr int kNumSteps = 30;
 /// How far a prism's corners may be outside of the cylinder that it stands for, m.
@@ -327,6 +329,11 @@ RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
       std::vector<Ball> of_link;
       for (const LinkSphere& sphere : middles) {
         if (sphere.link == link.link) of_link.push_back({sphere.p_LS, sphere.radius});
+      }
+      if (of_link.size() > kMostMiddles) {
+        std::stable_sort(of_link.begin(), of_link.end(),
+                         [](const Ball& a, const Ball& b) { return a.radius > b.radius; });
+        of_link.resize(kMostMiddles);
       }
       AddTrees(triangles, of_link, link.link, &patches, &trees);
       AddPoints(points, std::span(patches).subspan(first_patch));

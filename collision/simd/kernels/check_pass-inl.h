@@ -315,13 +315,13 @@ class CheckPass {
       if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
       M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
+      const V motion = Motion(ReachOfPoints(node));
+      near = NotApartFrom(solid, index, body, motion, near);
+      if (None(near)) continue;
       if (solid.doubtful) {
         doubts_ = hn::Or(doubts_, near);
         continue;
       }
-      const V motion = Motion(ReachOfPoints(node));
-      if (solid.mesh < 0) near = NotApartFrom(solid, index, body, motion, near);
-      if (None(near)) continue;
       const auto touches = [&](int lane, float margin) {
         return PatchMeetsSolid(patch, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
       };
@@ -425,8 +425,8 @@ class CheckPass {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, radius, touching);
     } else {
       if (HaveHulls(pair.root_a, pair.root_b)) {
-        points_motion_ = Motion(pair.reach + robot_.num_joints);
-        touching = NotApart(pair.root_a, pair.body_a, pair.root_b, points_motion_, touching);
+        const V of_points = Motion(pair.reach + robot_.num_joints);
+        touching = NotApart(pair.root_a, pair.body_a, pair.root_b, of_points, touching);
         if (None(touching)) return false;
       }
       VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion, touching);
@@ -581,7 +581,6 @@ class CheckPass {
   int pair_reach_ = 0;
   int pair_body_a_ = 0;
   int pair_body_b_ = 0;
-  V points_motion_;       ///< Of any point relative to the other body.
   LaneMask related_ = 0;  ///< Lanes whose relations are known.
   Transform relations_[kBlock];
 };
