@@ -88,13 +88,24 @@ SampleVerdicts CollisionChecker::CheckSamples(std::span<const double> start,
 
 void CollisionChecker::FindDistances(std::span<const double> qs, int num, double at_most,
                                      std::span<double> distances) {
+  RequireRoom(qs, num, at_most, distances);
+  DoFindDistances(qs, num, at_most, distances);
+}
+
+void CollisionChecker::FindClearances(std::span<const double> qs, int num, double at_most,
+                                      std::span<double> clearances) {
+  RequireRoom(qs, num, at_most, clearances);
+  DoFindClearances(qs, num, at_most, clearances);
+}
+
+void CollisionChecker::RequireRoom(std::span<const double> qs, int num, double at_most,
+                                   std::span<double> distances) const {
   RequireReady(qs, num);
   if (distances.size() != static_cast<std::size_t>(num) || !(at_most > 0)) {
     throw InputError(
         fmt::format("collision checker: room for {} distances of {} configurations, at most {} m",
                     distances.size(), num, at_most));
   }
-  DoFindDistances(qs, num, at_most, distances);
 }
 
 std::optional<Contact> CollisionChecker::FindContact(std::span<const double> q) {
@@ -141,6 +152,11 @@ void CollisionChecker::DoFindDistances(std::span<const double> qs, int num, doub
   for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
     distances[i] = std::min(at_most, DoFindClosest(qs.subspan(i * n, n)).distance_m);
   }
+}
+
+void CollisionChecker::DoFindClearances(std::span<const double> qs, int num, double at_most,
+                                        std::span<double> clearances) {
+  DoFindDistances(qs, num, at_most, clearances);
 }
 
 }  // namespace planbench

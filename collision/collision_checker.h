@@ -93,6 +93,10 @@ class CollisionChecker {
   /// engine's tolerance where it is positive.
   void FindDistances(std::span<const double> qs, int num, double at_most,
                      std::span<double> distances);
+  /// As FindDistances, but lower bounds that take little time, of the distances of what can be
+  /// touched at all: a motion that is shorter, by motion_bound(), ends without contact.
+  void FindClearances(std::span<const double> qs, int num, double at_most,
+                      std::span<double> clearances);
   /// Number of configurations or samples that are handled at once; callers that choose how many to
   /// hand over gain by multiples of it.
   virtual int BatchSize() const { return 1; }
@@ -121,11 +125,16 @@ class CollisionChecker {
   /// The default asks DoFindClosest.
   virtual void DoFindDistances(std::span<const double> qs, int num, double at_most,
                                std::span<double> distances);
+  /// The default asks DoFindDistances.
+  virtual void DoFindClearances(std::span<const double> qs, int num, double at_most,
+                                std::span<double> clearances);
   virtual std::optional<Contact> DoFindContact(std::span<const double> q) = 0;
   virtual ClosestPair DoFindClosest(std::span<const double> q) = 0;
 
  private:
   void RequireReady(std::span<const double> qs, int num) const;
+  void RequireRoom(std::span<const double> qs, int num, double at_most,
+                   std::span<double> distances) const;
 
   const Robot* robot_;
   const PlanningGroup* group_;

@@ -129,6 +129,13 @@ void EdgeChecker::FindDistances(std::span<const double> qs, int num, double at_m
   checker_->FindDistances(qs, num, at_most, distances);
 }
 
+void EdgeChecker::FindClearances(std::span<const double> qs, int num, double at_most,
+                                 std::span<double> clearances) {
+  const ScopedTimer timer(&counters_.ticks);
+  counters_.configurations += num;
+  checker_->FindClearances(qs, num, at_most, clearances);
+}
+
 bool EdgeChecker::IsValidEdge(std::span<const double> from, std::span<const double> to,
                               bool from_is_free) {
   RequireSize(from);

@@ -74,9 +74,11 @@ class EdgeChecker {
   /// valid[i] = IsValidState(state i) for `num` states (row-major, num x n), at once where the
   /// engine can.
   void CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
-  /// CollisionChecker::FindDistances, counted. Limits are the caller's to check.
+  /// Those of CollisionChecker, counted. Limits are the caller's to check.
   void FindDistances(std::span<const double> qs, int num, double at_most,
                      std::span<double> distances);
+  void FindClearances(std::span<const double> qs, int num, double at_most,
+                      std::span<double> clearances);
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.
   bool IsValidEdge(std::span<const double> from, std::span<const double> to,
                    bool from_is_free = false);

@@ -92,6 +92,11 @@ void FollowerChecker::DoFindDistances(std::span<const double> qs, int num, doubl
   engine_->FindDistances(WithFollowers(qs, num), num, at_most, distances);
 }
 
+void FollowerChecker::DoFindClearances(std::span<const double> qs, int num, double at_most,
+                                       std::span<double> clearances) {
+  engine_->FindClearances(WithFollowers(qs, num), num, at_most, clearances);
+}
+
 std::optional<Contact> FollowerChecker::DoFindContact(std::span<const double> q) {
   return engine_->FindContact(WithFollowers(q, 1));
 }

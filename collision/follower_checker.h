@@ -32,6 +32,8 @@ class FollowerChecker : public CollisionChecker {
                                 std::span<const MotionSample> samples) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
                        std::span<double> distances) override;
+  void DoFindClearances(std::span<const double> qs, int num, double at_most,
+                        std::span<double> clearances) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
   ClosestPair DoFindClosest(std::span<const double> q) override;
 

@@ -257,7 +257,7 @@ float ManipulationGraph::ClearanceOf(StateId state) {
   if (clearance_m == 0) {
     SelectSource(state);
     double found_m = 0;
-    edges_->FindDistances(from_, 1, kLongestSpine, {&found_m, 1});
+    edges_->FindClearances(from_, 1, kLongestSpine, {&found_m, 1});
     clearance_m = static_cast<float>(found_m);
   }
   return clearance_m;

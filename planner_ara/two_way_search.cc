@@ -187,7 +187,7 @@ void TwoWaySearch::LookAround(Side* side) {
   Configuration q(side->root.size());
   side->graph.ConfigurationOf(state, q);
   double clearance_m = 0;
-  edges_->FindDistances(q, 1, kWide, {&clearance_m, 1});
+  edges_->FindClearances(q, 1, kWide, {&clearance_m, 1});
   if (clearance_m <= side->clearance_m) return;
   side->clearance_m = clearance_m;
   side->widest = state;

@@ -1,6 +1,7 @@
 #include "collision/simd/simd_checker.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -22,6 +23,9 @@ kernels::LaneMask FirstLanes(int num) {
 
 /// Within this distance of contact, m, the verdict may err towards collision.
 constexpr double kBand_m = 1e-4;
+
+/// The least margin that is tried for a clearance, as a fraction of the largest.
+constexpr double kLeastMargin = 1e-3;
 
 /// Joint position as the kernels take it: angles at most 2 pi.
 float Reduced(double position, bool slides) {
@@ -187,6 +191,41 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       }
     }
   }
+}
+
+void SimdChecker::DoFindClearances(std::span<const double> qs, int num, double at_most,
+                                   std::span<double> clearances) {
+  if (model() != CollisionModel::kMeshes) return DoFindDistances(qs, num, at_most, clearances);
+  const double most = std::min(at_most, CompiledWorld::kMaxDistance);
+  const auto n = static_cast<std::size_t>(space().size());
+  for (int i = 0; i < num; ++i) {
+    At(clearances, i) = MarginAround(qs.subspan(static_cast<std::size_t>(i) * n, n), most);
+  }
+}
+
+double SimdChecker::MarginAround(std::span<const double> q, double at_most) {
+  if (always_collides_ || at_most <= 0) return std::min(at_most, 0.0);
+  if (SetLanes(q, 1) != 0) return std::min(at_most, Exact().FindClosest(q).distance_m);
+  // The same configuration in all lanes, a margin each.
+  std::array<float, kBlock> margins;
+  for (std::size_t lane = 0; lane < kBlock; ++lane) {
+    const double fraction = static_cast<double>(lane + 1) / kBlock;
+    margins[lane] = static_cast<float>(at_most * std::pow(kLeastMargin, 1 - fraction));
+  }
+  for (auto joint = q_.begin(); joint != q_.end(); joint += kBlock) {
+    std::fill_n(joint, kBlock, *joint);
+  }
+  std::fill(half_widths_.begin(), half_widths_.end(), 0.0f);
+  BlockQuery query;
+  query.q = q_.data();
+  query.half_widths = half_widths_.data();
+  query.margins = margins.data();
+  query.lanes = FirstLanes(kBlock);
+  const BlockVerdict verdict =
+      kernels::CheckBlock(compiled_.robot(), compiled_.world(), &scratch_, query);
+  const int num_clear = std::countr_zero((verdict.hits | verdict.doubts) | ~query.lanes);
+  if (num_clear == 0) return 0;
+  return num_clear == kBlock ? at_most : margins[static_cast<std::size_t>(num_clear) - 1];
 }
 
 double SimdChecker::MeshDistance(std::span<const double> q, double at_most) {

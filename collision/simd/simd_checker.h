@@ -49,6 +49,8 @@ class SimdChecker : public CollisionChecker {
                                 std::span<const MotionSample> samples) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
                        std::span<double> distances) override;
+  void DoFindClearances(std::span<const double> qs, int num, double at_most,
+                        std::span<double> clearances) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
   ClosestPair DoFindClosest(std::span<const double> q) override;
 
@@ -64,6 +66,8 @@ class SimdChecker : public CollisionChecker {
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact);
+  /// Of meshes: the largest of some margins, at most so large, that nothing is within.
+  double MarginAround(std::span<const double> q, double at_most);
   /// Balls around triangles are but a lower bound.
   double MeshDistance(std::span<const double> q, double at_most);
   /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.

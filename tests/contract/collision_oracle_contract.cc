@@ -275,6 +275,36 @@ TEST_P(CollisionCheckerContract, DistancesOfManyAreThoseOfEach) {
   }
 }
 
+TEST_P(CollisionCheckerContract, MotionsShorterThanTheClearanceEndFree) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const JointSpace& space = checker->space();
+  std::mt19937_64 generator(5);
+  int num_clear = 0;
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    checker->SetScene(world.scene, ArmBase(arm));
+    for (int i = 0; i < 50; ++i) {
+      const auto q = RandomConfiguration(space, &generator);
+      double clearance = 0;
+      double distance = 0;
+      checker->FindClearances(q, 1, 0.3, {&clearance, 1});
+      checker->FindDistances(q, 1, 0.3, {&distance, 1});
+      EXPECT_LE(clearance, 0.3);
+      EXPECT_GE(clearance, std::min(distance, 0.0));
+      if (clearance <= 0) continue;
+      ++num_clear;
+      for (int k = 0; k < 5; ++k) {
+        auto near = RandomConfiguration(space, &generator);
+        const double motion = checker->motion_bound().Between(space, q, near);
+        space.Interpolate(q, near, std::min(1.0, 0.99 * clearance / motion), near);
+        EXPECT_TRUE(checker->IsFree(near));
+      }
+    }
+  }
+  EXPECT_GT(num_clear, 100);
+}
+
 TEST_P(CollisionCheckerContract, MotionBoundCoversEverySphereAndAttachedShape) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);

@@ -33,6 +33,8 @@ class CheckPass {
         query_(query),
         lane_(lane),
         placement_(robot, buffers, query.q, lane),
+        margin_(kAround && query.margins != nullptr ? hn::LoadU(Lanes(), query.margins + lane)
+                                                    : Zero()),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
         certain_(hn::FirstN(Lanes(), 0)),
@@ -67,7 +69,7 @@ class CheckPass {
 
   /// Upper bound of the motion of a tree relative to what it is tested against, over the box.
   HWY_INLINE V Motion(int reach) const {
-    V sum = Zero();
+    V sum = margin_;
     if constexpr (kAround) {
       const float* weights = robot_.reaches.data() + reach;
       for (int j = 0; j < robot_.num_joints; ++j) {
@@ -80,7 +82,7 @@ class CheckPass {
   /// The same of two balls or groups relative to each other, by the joints that move their trees
   /// so: less, as a tree's bound is that of its furthest balls.
   HWY_INLINE V MotionBetween(int reach_a, int reach_b, int tree_reach) const {
-    V sum = Zero();
+    V sum = margin_;
     const float* moves = robot_.reaches.data() + tree_reach;
     const float* weights_a = robot_.reaches.data() + reach_a;
     const float* weights_b = robot_.reaches.data() + reach_b;
@@ -572,8 +574,9 @@ class CheckPass {
   const BlockQuery& query_;
   int lane_;
   Placement placement_;
-  M alive_;  ///< Lanes whose verdict is not certain yet.
-  M hits_;   ///< See BlockVerdict.
+  V margin_;  ///< Part of every motion.
+  M alive_;   ///< Lanes whose verdict is not certain yet.
+  M hits_;    ///< See BlockVerdict.
   M certain_;
   M doubts_;
   // Of the test at hand.

@@ -222,6 +222,8 @@ struct BlockQuery {
   const float* q = nullptr;  ///< [joint][kBlock], rad or m; revolute |q| <= 2 pi.
   /// [joint][kBlock] or null. With them every lane stands for the box of configurations q +- width.
   const float* half_widths = nullptr;
+  /// By lane or null, with half widths: what comes so near (m) counts as colliding.
+  const float* margins = nullptr;
   LaneMask lanes = 0;  ///< Lanes to check.
   bool stop_at_first = false;
 };

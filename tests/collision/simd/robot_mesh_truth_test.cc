@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "collision/edge_checker.h"
@@ -280,6 +281,35 @@ TEST(RobotMeshTruthTest, DistancesAreExact) {
       EXPECT_LE(distances[i], 0);
     }
   }
+}
+
+TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(11);
+  int num_clear = 0;
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
+    const Robot robot = MakeFlyer(folder, mesh.triangles, {}, true);
+    MeshComparison comparison(robot);
+    for (const Shape& shape : SolidsOfEveryKind()) {
+      SCOPED_TRACE(ShapeTypeName(shape));
+      comparison.SetScene(SceneWith("thing", shape, RandomPose(&random, 0.5)));
+      for (int i = 0; i < Trials(10); ++i) {
+        std::vector<double> q;
+        for (int j = 0; j < 6; ++j) q.push_back(2 * UniformFraction(&random) - 1);
+        double clearance = 0;
+        comparison.fast().FindClearances(q, 1, 0.4, {&clearance, 1});
+        const double exact = std::min(0.4, comparison.exact().FindClosest(q).distance_m);
+        EXPECT_LE(clearance, std::max(exact, 0.0) + kBand_m);
+        if (std::holds_alternative<Cone>(shape)) continue;  // known by its bounding box
+        // Margins go down in steps of a factor of 1.54, and reach up to the square root of 3
+        // further from boxes.
+        EXPECT_GE(clearance, 0.37 * exact - kBand_m - 4e-4);
+        num_clear += clearance > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(num_clear, Trials(100));
 }
 
 TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
