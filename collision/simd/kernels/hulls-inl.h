@@ -77,9 +77,9 @@ class Extreme {
   }
 
  private:
-  const PointGroup* points_;
   alignas(64) float values_[kMostPoints];
   V least_;
+  const PointGroup* points_;
 };
 
 inline float Dot(const float* a, const float* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
