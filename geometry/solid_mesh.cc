@@ -7,12 +7,10 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/lexicographic_less.h"
+
 namespace planbench {
 namespace {
-
-bool LexicographicLess(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
 
 /// Sign of where (x, y) stands against the edge between two points in the xy-plane, if the edge
 /// spans y: +1 if the edge passes at a greater x, else 0. The ends are ordered first, so that

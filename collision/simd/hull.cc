@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/lexicographic_less.h"
+
 namespace planbench {
 namespace {
 
@@ -18,10 +20,6 @@ using Eigen::Vector3d;
 constexpr double kNegligible = 1e-5;
 /// Steps towards the nearest point of a hull.
 constexpr int kMostSteps = 50;
-
-bool Before(const Vector3d& a, const Vector3d& b) {
-  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
 
 /// Up to four points.
 struct Simplex {
@@ -108,7 +106,7 @@ Vector3d Direction(std::size_t i, std::size_t num) {
 }  // namespace
 
 Hull MakeHull(std::vector<Vector3d> points, std::size_t most) {
-  std::sort(points.begin(), points.end(), Before);
+  std::sort(points.begin(), points.end(), LexicographicLess);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() <= most) return {std::move(points), 0};
 

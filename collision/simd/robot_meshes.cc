@@ -13,6 +13,7 @@
 
 #include "collision/balls.h"
 #include "collision/simd/kernels/sphere_kernel.h"
+#include "geometry/lexicographic_less.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/polyhedra.h"
 
@@ -200,17 +201,8 @@ double Farthest(const Corners& triangle, const Vector3d& from) {
 
 /// Cut across the longest extent of their middles.
 std::array<std::vector<BallTree>, 2> Halves(std::vector<BallTree> trees) {
-  Vector3d low = trees.front().ball().center;
-  Vector3d high = low;
-  for (const BallTree& tree : trees) {
-    low = low.cwiseMin(tree.ball().center);
-    high = high.cwiseMax(tree.ball().center);
-  }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  std::stable_sort(trees.begin(), trees.end(), [axis](const BallTree& a, const BallTree& b) {
-    return a.ball().center[axis] < b.ball().center[axis];
-  });
+  Split(std::span(trees), trees.size() / 2,
+        [](const BallTree& tree) { return tree.ball().center; });
   const auto middle = trees.begin() + static_cast<std::ptrdiff_t>(trees.size() / 2);
   return {std::vector<BallTree>(trees.begin(), middle), std::vector<BallTree>(middle, trees.end())};
 }
@@ -279,17 +271,20 @@ void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& mi
 }
 
 /// Gives each point to a patch that has a triangle with such a corner.
-void AddPoints(const std::vector<Vector3d>& points, std::span<RobotMeshes::Patch> patches) {
-  for (const Vector3d& point : points) {
-    const auto has_it = [&](const Corners& triangle) {
-      return std::find(triangle.begin(), triangle.end(), point) != triangle.end();
-    };
-    for (RobotMeshes::Patch& patch : patches) {
-      if (std::any_of(patch.groups.begin(), patch.groups.end(), [&](const auto& group) {
-            return std::any_of(group.triangles.begin(), group.triangles.end(), has_it);
-          })) {
-        patch.points.push_back(point);
-        break;
+void AddPoints(std::vector<Vector3d> points, std::span<RobotMeshes::Patch> patches) {
+  std::sort(points.begin(), points.end(), LexicographicLess);
+  std::vector<bool> given(points.size(), false);
+  for (RobotMeshes::Patch& patch : patches) {
+    for (const RobotMeshes::Group& group : patch.groups) {
+      for (const Corners& triangle : group.triangles) {
+        for (const Vector3d& corner : triangle) {
+          const auto found =
+              std::lower_bound(points.begin(), points.end(), corner, LexicographicLess);
+          if (found == points.end() || *found != corner) continue;
+          const auto i = static_cast<std::size_t>(found - points.begin());
+          if (!given[i]) patch.points.push_back(corner);
+          given[i] = true;
+        }
       }
     }
   }

@@ -23,8 +23,8 @@ namespace planbench {
 /// decides, over the pairs that are in doubt; it also names contacts and nearest pairs, in double
 /// precision.
 ///
-/// Meshes: balls around the triangles of a link stand for its spheres; where one touches, its
-/// triangles decide.
+/// Meshes: balls around the triangles of a link stand for its spheres; where one touches, planes
+/// between hulls are looked for, and triangles decide.
 ///
 /// Voxels: a sphere collides with the world if the distance field's value at its centre is less
 /// than its radius. A stretch of a motion is free if no cell that a sphere's centre can reach on it

@@ -475,11 +475,8 @@ class CheckPass {
     LaneMask left = 0;
     for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
-      const Transform& X_AB = Relation(lane);
-      float direction[3];
-      X_AB.Times(placement_.node(b).center, direction);
-      for (int k = 0; k < 3; ++k) direction[k] = placement_.node(a).center[k] - direction[k];
-      if (!HullsApart(robot_, hull_a, hull_b, X_AB, direction, margins[lane])) {
+      if (!HullsApart(robot_, hull_a, placement_.node(a).center, hull_b, placement_.node(b).center,
+                      Relation(lane), margins[lane])) {
         left |= LaneMask{1} << lane;
       }
     }

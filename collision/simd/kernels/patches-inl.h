@@ -30,10 +30,14 @@ struct PatchView {
   BoxedGroup group(int i) const { return {triangles(i), BoxOf(patch.boxes, i)}; }
 };
 
-/// Whether a plane is found between two hulls that are more than `margin` apart. `direction`: see
-/// PlaneBetween, from B to A in A.
-inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const NodeHull& b,
-                       const Transform& X_AB, const float* direction, float margin) {
+/// Whether a plane is found between two hulls that are more than `margin` apart. The first that is
+/// tried is across the line between points inside, given in A and in B.
+inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const float* middle_A,
+                       const NodeHull& b, const float* middle_B, const Transform& X_AB,
+                       float margin) {
+  float direction[3];
+  X_AB.Times(middle_B, direction);
+  for (int k = 0; k < 3; ++k) direction[k] = middle_A[k] - direction[k];
   const auto gap = [&](const float* v, float* w, auto suffices) {
     float v_B[3];
     for (int k = 0; k < 3; ++k) {
@@ -68,18 +72,12 @@ inline bool PatchesMeet(const PatchView& a, const PatchView& b, const Transform&
   const LaneMask near_a = BoxesNear(a.patch.boxes, b.patch.box, X_AB, margin);
   if (near_a == 0) return false;
   const LaneMask near_b = BoxesNear(b.patch.boxes, a.patch.box, X_AB.Inverse(), margin);
-  const auto apart = [&](const NodeHull& hull_a, const float* center_A, const NodeHull& hull_b,
-                         const float* center_B) {
-    float direction[3];
-    X_AB.Times(center_B, direction);
-    for (int k = 0; k < 3; ++k) direction[k] = center_A[k] - direction[k];
-    return HullsApart(a.robot, hull_a, hull_b, X_AB, direction, margin);
-  };
   return AnyOf(near_b, [&](int j) {
     const BoxedGroup other = b.group(j);
     return AnyOf(near_a & BoxesNear(a.patch.boxes, other.box, X_AB, margin), [&](int i) {
       const BoxedGroup group = a.group(i);
-      return !apart(a.patch.hulls[i], group.box.center, b.patch.hulls[j], other.box.center) &&
+      return !HullsApart(a.robot, a.patch.hulls[i], group.box.center, b.patch.hulls[j],
+                         other.box.center, X_AB, margin) &&
              GroupsMeet(group, other.triangles, &other.box, X_AB, margin);
     });
   });
