@@ -310,7 +310,7 @@ int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
   return offset;
 }
 
-int CompiledRobot::AddReachOfTree(int root) {
+kernels::Reach CompiledRobot::AddReachOfTree(int root) {
   const int offset = static_cast<int>(kernel.reaches.size());
   kernel.reaches.resize(kernel.reaches.size() + ReachSize(), 0.0f);
   for (const int index : NodesBelow(root)) {
@@ -323,7 +323,21 @@ int CompiledRobot::AddReachOfTree(int root) {
       reach = std::max(reach, At(kernel.reaches, node.reach + own));
     }
   }
-  return offset;
+  return ReachAt(offset);
+}
+
+kernels::Reach CompiledRobot::ReachAt(int first) const {
+  kernels::Reach reach{first, kernel.num_joints, 0, 0};
+  for (int k = 0; k < static_cast<int>(ReachSize()); ++k) {
+    const float weight = At(kernel.reaches, first + k);
+    if (weight == 0) continue;
+    if (k < kernel.num_joints) reach.most = std::max(reach.most, weight);
+    const int joint = k % kernel.num_joints;
+    reach.begin = std::min(reach.begin, joint);
+    reach.end = std::max(reach.end, joint + 1);
+  }
+  reach.begin = std::min(reach.begin, reach.end);
+  return reach;
 }
 
 std::size_t CompiledRobot::ReachSize() const {
@@ -336,14 +350,15 @@ CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
   tree.body = rigid_bodies_.BodyOf(link);
   tree.root = static_cast<int>(kernel.nodes.size());
   const Ball ball_G{rigid_bodies_.X_GL(link) * ball_L.center, ball_L.radius};
-  tree.reach = AddReach(ball_G, link);
+  const int reach = AddReach(ball_G, link);
   tree.reach_W = rigid_bodies_.Reach(0, tree.body, ball_G);
-  kernel.nodes.emplace_back().reach = tree.reach;
+  kernel.nodes.emplace_back().reach = reach;
   // Attached objects are told from others by their balls alone, and have no points.
   if (meshes_ != nullptr) {
     kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints));
     kernel.hulls.emplace_back();
   }
+  tree.reach = ReachAt(reach);
   SetBall(ball_G, kRadiusPadding, link, tree.root);
   return tree;
 }
@@ -463,22 +478,30 @@ void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool d
   for (const auto& [tree, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     for (const int joint : rigid_bodies_.JointsBelowCommon(tree->body, other->body)) {
       for (int k = joint; k < static_cast<int>(ReachSize()); k += kernel.num_joints) {
-        At(kernel.reaches, offset + k) = At(kernel.reaches, tree->reach + k);
+        At(kernel.reaches, offset + k) = At(kernel.reaches, tree->reach.first + k);
       }
     }
   }
   const std::size_t num_pairs = kernel.pairs.size();
+  const kernels::Reach reach = ReachAt(offset);
   if (doubtful) {
-    kernel.pairs.push_back({a.root, b.root, a.body, b.body, doubtful, offset});
+    kernel.pairs.push_back(PairOf(a, b, true, reach));
   } else {
-    AddProven(a, b, offset);
+    AddProven(a, b, reach);
   }
   if (kernel.pairs.size() == num_pairs) kernel.reaches.resize(static_cast<std::size_t>(offset));
 }
 
-void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b, int reach) {
-  const std::vector<float> weights(kernel.reaches.begin() + reach,
-                                   kernel.reaches.begin() + reach + kernel.num_joints);
+kernels::TreePair CompiledRobot::PairOf(const CompiledTree& a, const CompiledTree& b, bool doubtful,
+                                        const kernels::Reach& reach) const {
+  const float radius = At(kernel.nodes, a.root).radius + At(kernel.nodes, b.root).radius;
+  return {a.root, b.root, a.body, b.body, doubtful, radius, reach};
+}
+
+void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b,
+                              const kernels::Reach& reach) {
+  const auto weights_at = kernel.reaches.begin() + reach.first;
+  const std::vector<float> weights(weights_at, weights_at + kernel.num_joints);
   if (ProvenApart(a, b, weights)) return;
   const CompiledTree* split = nullptr;
   if (UsuallyTouch(a, b)) {
@@ -488,7 +511,7 @@ void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b, int 
     if (node_b.num_children > 0 && (split == nullptr || node_b.radius > node_a.radius)) split = &b;
   }
   if (split == nullptr) {
-    kernel.pairs.push_back({a.root, b.root, a.body, b.body, false, reach});
+    kernel.pairs.push_back(PairOf(a, b, false, reach));
     return;
   }
   // A test of roots that always touch tells nothing, and some of what is below may be apart for
@@ -560,7 +583,7 @@ void CompiledRobot::AddPairs(
       *distance =
           std::min(*distance, LeastDistance(RootBall(*a), BallsOf(*a), Pose(), BallsOf(*b)));
       if (meshes_ == nullptr) continue;
-      standing.pairs.push_back({a->root, b->root, a->body, b->body, false, a->reach});
+      standing.pairs.push_back(PairOf(*a, *b, false, a->reach));
       AddInsideTests(*a, *b, &standing.inside_tests);
       AddInsideTests(*b, *a, &standing.inside_tests);
     }

@@ -21,9 +21,9 @@ inline constexpr double kRadiusPadding = 2e-5;
 struct CompiledTree {
   int link = -1;  ///< Whose spheres they are; -1 for all of a body's.
   int body = 0;
-  int root = 0;   ///< Node index.
-  Ball reach_W;   ///< That the tree never leaves while prismatic joints are WithinTravel.
-  int reach = 0;  ///< Offset into SphereRobot::reaches of its motion bound relative to W.
+  int root = 0;          ///< Node index.
+  Ball reach_W;          ///< That the tree never leaves while prismatic joints are WithinTravel.
+  kernels::Reach reach;  ///< Its motion bound relative to W.
 };
 
 /// A robot's spheres or meshes, sorted by link, as the kernels take them, with joints outside the
@@ -85,9 +85,11 @@ struct CompiledRobot {
   const LinkMeshes* MeshesOf(int link) const;
   Pose PoseOfLink(int link) const;  ///< X_CL
   void AddPatches();
-  /// Both return the offset into SphereRobot::reaches. Of points within `radius` of the centre.
+  /// Returns the offset into SphereRobot::reaches. Of points within `radius` of the centre.
   int AddReach(const Ball& ball_G, int link, double radius = 0);
-  int AddReachOfTree(int root);
+  kernels::Reach AddReachOfTree(int root);
+  /// Of weights at that offset.
+  kernels::Reach ReachAt(int first) const;
   /// Values of a tree's or a pair's bound: see TreePair.
   std::size_t ReachSize() const;
   /// Of points in a frame whose pose in C is given.
@@ -119,8 +121,10 @@ struct CompiledRobot {
                   const std::vector<Pose>& X_WG) const;
   /// True if the trees' root balls touch at most configurations.
   bool UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const;
-  /// Adds what of a pair is not proven apart; `reach`: offset, see TreePair.
-  void AddProven(const CompiledTree& a, const CompiledTree& b, int reach);
+  kernels::TreePair PairOf(const CompiledTree& a, const CompiledTree& b, bool doubtful,
+                           const kernels::Reach& reach) const;
+  /// Adds what of a pair is not proven apart.
+  void AddProven(const CompiledTree& a, const CompiledTree& b, const kernels::Reach& reach);
 
   const RobotModel* model_;
   const PlanningGroup* group_;

@@ -38,16 +38,20 @@ class CheckPass {
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
         certain_(hn::FirstN(Lanes(), 0)),
-        doubts_(hn::FirstN(Lanes(), 0)) {}
+        doubts_(hn::FirstN(Lanes(), 0)) {
+    if constexpr (kAround) SumWidths();
+  }
 
   void Run() {
-    auto& order = buffers_.order;
-    for (std::size_t i = 0; i < order.size(); ++i) {
+    std::int32_t* order = buffers_.order.data();
+    const std::size_t num_tests = buffers_.order.size();
+    const WorldTree* trees = world_.trees.data();
+    const int num_trees = static_cast<int>(world_.trees.size());
+    const TreePair* pairs = robot_.pairs.data();
+    for (std::size_t i = 0; i < num_tests; ++i) {
       const int test = order[i];
-      const int num_trees = static_cast<int>(world_.trees.size());
-      const bool found = test < num_trees
-                             ? TestWorld(world_.trees[static_cast<std::size_t>(test)])
-                             : TestPair(robot_.pairs[static_cast<std::size_t>(test - num_trees)]);
+      const bool found =
+          test < num_trees ? TestWorld(trees[test]) : TestPair(pairs[test - num_trees]);
       if (!found) continue;
       // One step to the front at a time: what hits often comes early.
       if (i > 0) std::swap(order[i], order[i - 1]);
@@ -67,26 +71,45 @@ class CheckPass {
     return hn::LoadU(Lanes(), query_.half_widths + joint * kBlock + lane_);
   }
 
+  void SumWidths() {
+    float* sums = buffers_.width_sums.get();
+    V sum = Zero();
+    for (int j = 0; j < robot_.num_joints; ++j) {
+      Store(sum, sums + j * kBlock);
+      sum = sum + HalfWidth(j);
+    }
+    Store(sum, sums + robot_.num_joints * kBlock);
+  }
+
   /// Upper bound of the motion of a tree relative to what it is tested against, over the box.
-  HWY_INLINE V Motion(int reach) const {
+  /// Its weights are given, or those of a part of it.
+  HWY_INLINE V Motion(int first) const {
     V sum = margin_;
     if constexpr (kAround) {
-      const float* weights = robot_.reaches.data() + reach;
-      for (int j = 0; j < robot_.num_joints; ++j) {
-        if (weights[j] != 0) sum = hn::MulAdd(Fill(weights[j]), HalfWidth(j), sum);
+      const float* weights = robot_.reaches.data() + first;
+      for (int j = reach_.begin; j < reach_.end; ++j) {
+        sum = hn::MulAdd(Fill(weights[j]), HalfWidth(j), sum);
       }
     }
     return sum;
   }
 
+  /// More than that, at less cost.
+  HWY_INLINE V MotionAtMost(const Reach& reach) const {
+    if constexpr (!kAround) return margin_;
+    const float* sums = buffers_.width_sums.get();
+    const V widths = Load(sums + reach.end * kBlock) - Load(sums + reach.begin * kBlock);
+    return hn::MulAdd(Fill(reach.most), widths, margin_);
+  }
+
   /// The same of two balls or groups relative to each other, by the joints that move their trees
   /// so: less, as a tree's bound is that of its furthest balls.
-  HWY_INLINE V MotionBetween(int reach_a, int reach_b, int tree_reach) const {
+  HWY_INLINE V MotionBetween(int reach_a, int reach_b) const {
     V sum = margin_;
-    const float* moves = robot_.reaches.data() + tree_reach;
+    const float* moves = robot_.reaches.data() + reach_.first;
     const float* weights_a = robot_.reaches.data() + reach_a;
     const float* weights_b = robot_.reaches.data() + reach_b;
-    for (int j = 0; j < robot_.num_joints; ++j) {
+    for (int j = reach_.begin; j < reach_.end; ++j) {
       if (moves[j] != 0) sum = hn::MulAdd(Fill(weights_a[j] + weights_b[j]), HalfWidth(j), sum);
     }
     return sum;
@@ -255,7 +278,8 @@ class CheckPass {
     if (tree.num_candidates == 0 && !on_grid) return false;
     const M before = certain_;
     placement_.PlaceRoot(tree.root, tree.body);
-    const V motion = Motion(tree.reach);
+    reach_ = tree.reach;
+    const V motion = Motion(reach_.first);
     doubtful_ = tree.doubtful;
     if (on_grid) VisitGrid(tree.root, tree.body, motion);
     if (tree.num_candidates >= 0) {
@@ -406,28 +430,31 @@ class CheckPass {
     return false;
   }
 
-  bool TestPair(const TreePair& pair) {
+  HWY_INLINE bool TestPair(const TreePair& pair) {
     placement_.PlaceRoot(pair.root_a, pair.body_a);
     placement_.PlaceRoot(pair.root_b, pair.body_b);
-    doubtful_ = pair.doubtful;
-    pair_reach_ = pair.reach;
-    pair_body_a_ = pair.body_a;
-    pair_body_b_ = pair.body_b;
-    const V motion = Motion(pair.reach);
-    const M before = certain_;
-    const Node& node_a = placement_.node(pair.root_a);
-    const Node& node_b = placement_.node(pair.root_b);
-    const float radius = node_a.radius + node_b.radius;
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    M touching = Within(squared, Grown(radius, motion));
+    return !None(Within(squared, Grown(pair.radius, MotionAtMost(pair.reach)))) &&
+           VisitRoots(pair, squared);
+  }
+
+  HWY_NOINLINE bool VisitRoots(const TreePair& pair, V squared) {
+    reach_ = pair.reach;
+    const V motion = Motion(reach_.first);
+    M touching = Within(squared, Grown(pair.radius, motion));
     if (None(touching)) return false;
+    doubtful_ = pair.doubtful;
+    pair_body_a_ = pair.body_a;
+    pair_body_b_ = pair.body_b;
     related_ = 0;
-    if (node_a.num_children == 0 && node_b.num_children == 0) {
-      NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, radius, touching);
+    const M before = certain_;
+    if (placement_.node(pair.root_a).num_children == 0 &&
+        placement_.node(pair.root_b).num_children == 0) {
+      NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, pair.radius, touching);
     } else {
       if (HaveHulls(pair.root_a, pair.root_b)) {
-        const V of_points = Motion(pair.reach + robot_.num_joints);
+        const V of_points = Motion(reach_.first + robot_.num_joints);
         touching = NotApart(pair.root_a, pair.body_a, pair.root_b, of_points, touching);
         if (None(touching)) return false;
       }
@@ -493,7 +520,7 @@ class CheckPass {
     const Node& a = placement_.node(index_a);
     const Node& b = placement_.node(index_b);
     if constexpr (kAround) {
-      touching = Within(squared, Grown(radius, MotionBetween(a.reach, b.reach, pair_reach_)));
+      touching = Within(squared, Grown(radius, MotionBetween(a.reach, b.reach)));
     }
     if (doubtful_ || (a.patch < 0 && b.patch < 0)) {
       return Note(squared, radius, touching, doubtful_);
@@ -511,8 +538,7 @@ class CheckPass {
     }
     const Node& node = placement_.node(index);
     const Node& other = placement_.node(other_index);
-    const V motion =
-        kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other), pair_reach_) : Zero();
+    const V motion = kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other)) : Zero();
     const PatchView patch = PatchOf(index);
     if (other.patch < 0) {
       return NoteExact(touching, motion, [&](int lane, float margin) {
@@ -577,8 +603,8 @@ class CheckPass {
   M certain_;
   M doubts_;
   // Of the test at hand.
+  Reach reach_;
   bool doubtful_ = false;
-  int pair_reach_ = 0;
   int pair_body_a_ = 0;
   int pair_body_b_ = 0;
   LaneMask related_ = 0;  ///< Lanes whose relations are known.

@@ -22,6 +22,8 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
     b.num_nodes = robot.nodes.size();
     b.positions = hwy::AllocateAligned<float>(b.num_nodes * 3 * kBlock);
   }
+  b.width_sums =
+      hwy::AllocateAligned<float>(static_cast<std::size_t>(robot.num_joints + 1) * kBlock);
   b.placed.assign(2 * robot.nodes.size(), 0);
   b.placement = 0;
   b.order.resize(world.trees.size() + robot.pairs.size());

@@ -40,8 +40,8 @@ struct Node {
   float radius;
   std::int32_t first_child;
   std::int32_t num_children;
-  /// Of one without children: its own, as in WorldTree; of a patch that of all of its points stands
-  /// behind it. Others are CompiledRobot's.
+  /// Of one without children: where the weights of its own Reach stand; of a patch those of all of
+  /// its points stand behind them. Others are CompiledRobot's.
   int reach;
   /// Radius of a ball about the same centre that is inside of what it encloses; 0: none is known.
   float inner = 0;
@@ -105,15 +105,21 @@ struct InsideTest {
   float radius;
 };
 
+/// Bound of a motion over a box of configurations: half widths by weights, num_joints values at
+/// `first` of SphereRobot::reaches, none of them above `most`. Only those of joints from `begin` to
+/// before `end` can differ from zero.
+struct Reach {
+  int first = 0, begin = 0, end = 0;
+  float most = 0;
+};
+
 /// Two trees to test against each other.
 struct TreePair {
   int root_a, root_b;
   int body_a, body_b;
   bool doubtful;  ///< Hits are passed on as doubts.
-  /// Joints that move the two relative to each other, as weights of half widths: num_joints values
-  /// at this offset of SphereRobot::reaches, of the centres of balls; of meshes those of all
-  /// points stand behind them.
-  int reach;
+  float radius;   ///< Sum of the roots'.
+  Reach reach;    ///< Of the centres of balls; of meshes weights of all points stand behind them.
 };
 
 /// What moves: kinematics, trees of balls, pairs of trees.
@@ -167,7 +173,7 @@ struct WorldTree {
   int root;
   int body;
   bool doubtful;
-  int reach;  ///< As in TreePair, relative to W.
+  Reach reach;  ///< As in TreePair, relative to W.
   /// Solids it may meet: `num_candidates` from `first_candidate` on in SphereWorld::candidates. A
   /// negative number: those the hierarchy finds.
   int first_candidate, num_candidates;
