@@ -19,6 +19,9 @@ namespace {
 
 /// Culling may err towards "may touch" only; this absorbs the rounding of frames some metres apart.
 constexpr double kRoundingMargin = 1e-12;
+/// What distances by FCL's iterative solvers may differ between neighbouring configurations, m;
+/// where they do by more the pair is asked without a limit.
+constexpr double kSolverSlack = 1e-6;
 
 inline bool BallMissesBox(const Eigen::Vector3d& center, double radius,
                           const Eigen::Vector3d& box_center, const Eigen::Vector3d& box_half_size) {
@@ -241,6 +244,7 @@ void FclChecker::ListPairs(const Scene& scene) {
     if (distance < standing_closest_.distance_m) SetClosest(pair, distance, &standing_closest_);
   }
   by_bound_.reserve(pairs_.size());
+  last_closest_ = {};
 }
 
 void FclChecker::AddReach(const Geometry& a, const Geometry& b) {
@@ -487,6 +491,18 @@ void FclChecker::SetClosest(const Pair& pair, double distance, ClosestPair* clos
   if (At(bodies_, first).kind == Body::Kind::kObject) std::swap(closest->body_a, closest->body_b);
 }
 
+double FclChecker::LastClosestNow(std::span<const double> q, double at_most) {
+  const Pair& pair = At(pairs_, last_closest_.pair);
+  double moved_m = kSolverSlack;
+  for (std::size_t j = 0; j < q.size(); ++j) {
+    moved_m += At(reaches_, static_cast<std::size_t>(pair.reach) + j) *
+               std::abs(q[j] - last_closest_.q[j]);
+  }
+  const double limit = std::min(at_most, last_closest_.distance_m + moved_m);
+  const double distance = Distance(pair, limit);
+  return distance < limit || limit == at_most ? distance : Distance(pair, at_most);
+}
+
 ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
   Place(q);
   by_bound_.clear();
@@ -495,15 +511,24 @@ ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
   }
   std::sort(by_bound_.begin(), by_bound_.end());
   double best = standing_closest_.distance_m;
+  // Along a path the pair that was closest mostly is: what is further needs no distance. Ties still
+  // go to the first by its bound, whatever was asked before.
+  const int last = last_closest_.pair;
+  double of_last = 0;
+  if (last >= 0) {
+    of_last = LastClosestNow(q, best);
+    best = std::min(best, std::nextafter(of_last, kInfinity));
+  }
   int best_pair = -1;
   for (const auto& [bound, index] : by_bound_) {
     if (bound - kRoundingMargin >= best) break;
-    const double distance = Distance(At(pairs_, index), best);
+    const double distance = index == last ? of_last : Distance(At(pairs_, index), best);
     if (distance < best) {
       best = distance;
       best_pair = index;
     }
   }
+  last_closest_ = {best_pair, best, {q.begin(), q.end()}};
   ClosestPair closest = standing_closest_;
   if (best_pair >= 0) SetClosest(At(pairs_, best_pair), best, &closest);
   return closest;

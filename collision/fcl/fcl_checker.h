@@ -120,6 +120,9 @@ class FclChecker : public CollisionChecker {
   double Depth(const Pair& pair);
   double Distance(const Pair& pair, double at_most);
   double DistanceBound(const Pair& pair) const;
+  /// The distance of the pair that FindClosest found last, or `at_most`. It is at most what it was
+  /// then and the way that the two have moved since.
+  double LastClosestNow(std::span<const double> q, double at_most);
   Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);
   void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
 
@@ -147,7 +150,14 @@ class FclChecker : public CollisionChecker {
   std::vector<std::int64_t> placed_at_;  // by geometry: the value of placement_ its nodes are of
   std::int64_t placement_ = 0;
   std::vector<std::pair<double, int>> by_bound_;  // scratch of FindClosest
-  std::vector<double> q_;                         // scratch of CheckSamples
+  /// What FindClosest found last.
+  struct LastClosest {
+    int pair = -1;  ///< Index, -1 if there is none.
+    double distance_m = 0;
+    std::vector<double> q;
+  };
+  LastClosest last_closest_;
+  std::vector<double> q_;  // scratch of CheckSamples
 };
 
 }  // namespace planbench

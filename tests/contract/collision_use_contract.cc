@@ -59,6 +59,33 @@ TEST_P(CollisionCheckerContract, RefusesScenesItCannotRepresent) {
   ExpectInputError([&] { checker->IsFree(q); }, {"no scene"});
 }
 
+TEST_P(CollisionCheckerContract, WhatIsClosestDoesNotDependOnWhatWasAskedBefore) {
+  const Robot arm = MakeTestArm();
+  const auto base = ArmBase(arm);
+  const auto walking = Make(arm);
+  const auto fresh = Make(arm);
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    walking->SetScene(world.scene, base);
+    const int n = walking->space().size();
+    const auto qs = Configurations(walking->space(), 4, 12);
+    for (int i = 1; i < 4; ++i) {
+      const auto from = Row(qs, n, i - 1);
+      const auto to = Row(qs, n, i);
+      for (int step = 0; step < 20; ++step) {
+        std::vector<double> q(from.begin(), from.end());
+        for (std::size_t j = 0; j < q.size(); ++j) q[j] += step * 0.01 * (to[j] - from[j]);
+        fresh->SetScene(world.scene, base);
+        const ClosestPair expected = fresh->FindClosest(q);
+        const ClosestPair actual = walking->FindClosest(q);
+        EXPECT_NEAR(actual.distance_m, expected.distance_m, 1e-9);
+        EXPECT_EQ(actual.body_a, expected.body_a);
+        EXPECT_EQ(actual.body_b, expected.body_b);
+      }
+    }
+  }
+}
+
 TEST_P(CollisionCheckerContract, RemembersNothingOfTheFormerScene) {
   const Robot arm = MakeTestArm();
   const auto base = ArmBase(arm);

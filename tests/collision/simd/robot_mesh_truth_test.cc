@@ -283,6 +283,32 @@ TEST(RobotMeshTruthTest, DistancesAreExact) {
   }
 }
 
+TEST(RobotMeshTruthTest, WhatIsClosestDoesNotDependOnWhatWasAskedBefore) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(12);
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
+    const Robot robot = MakeFlyer(folder, mesh.triangles, {}, true);
+    MeshComparison walking(robot);
+    MeshComparison fresh(robot);
+    for (const Shape& shape : SolidsOfEveryKind()) {
+      SCOPED_TRACE(ShapeTypeName(shape));
+      const Scene scene = SceneWith("thing", shape, RandomPose(&random, 0.5));
+      walking.SetScene(scene);
+      std::vector<double> q(6);
+      std::vector<double> step(6);
+      for (double& value : q) value = UniformFraction(&random) - 0.5;
+      for (double& value : step) value = 0.04 * (UniformFraction(&random) - 0.5);
+      for (int i = 0; i < 10; ++i) {
+        for (std::size_t j = 0; j < q.size(); ++j) q[j] += step[j];
+        fresh.SetScene(scene);
+        EXPECT_NEAR(walking.exact().FindClosest(q).distance_m,
+                    fresh.exact().FindClosest(q).distance_m, 1e-9);
+      }
+    }
+  }
+}
+
 TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
   const TemporaryFolder folder;
   std::mt19937_64 random(11);
