@@ -148,6 +148,20 @@ HWY_INLINE Triangles CornersIn(const Transform& X_AM, const TriangleGroup& group
   return t;
 }
 
+/// Whether a box along the axes of triangles' frames around three points, given there, comes within
+/// `margin` of such a box around the triangles.
+HWY_INLINE M BoxesMeet(const InFrame& t, const Points* p, float margin) {
+  const auto along = [&](V a, V b, V c, V length) {
+    const V low = hn::Min(a, hn::Min(b, c));
+    const V high = hn::Max(a, hn::Max(b, c));
+    return hn::Le(hn::Max(low - length, hn::Neg(high)), Fill(margin));
+  };
+  // The apex is over the longest edge, which lies along x.
+  return hn::And(along(p[0].z, p[1].z, p[2].z, Zero()),
+                 hn::And(along(p[0].x, p[1].x, p[2].x, t.length[0]),
+                         along(p[0].y, p[1].y, p[2].y, t.apex[1])));
+}
+
 /// Which triangles of a group are within `reach` of a point, by bit.
 inline LaneMask TrianglesWithin(const TriangleGroup& group, const float* point, float reach) {
   const int width = static_cast<int>(hn::Lanes(Lanes()));
@@ -176,16 +190,12 @@ inline bool MeetsTriangle(const TriangleGroup& a, const Triangles* corners_B,
     const InFrame a_frame = LoadInFrame(a, first);
     Points p[3];
     for (int k = 0; k < 3; ++k) p[k] = ToFrames(a, first, Fill(corner[k]));
-    // Most are all on one side of the plane.
-    const V low = hn::Min(p[0].z, hn::Min(p[1].z, p[2].z));
-    const V high = hn::Max(p[0].z, hn::Max(p[1].z, p[2].z));
-    const M open = hn::Le(hn::Max(low, hn::Neg(high)), Fill(margin));
+    // Most are on one side of the plane, or beside it.
+    const M open = BoxesMeet(a_frame, p, margin);
     if (None(open)) continue;
     Points t[3];
     for (int k = 0; k < 3; ++k) t[k] = X_TB * corners_B[first / width].corner[k];
-    const V low_t = hn::Min(t[0].z, hn::Min(t[1].z, t[2].z));
-    const V high_t = hn::Max(t[0].z, hn::Max(t[1].z, t[2].z));
-    if (None(hn::And(open, hn::Le(hn::Max(low_t, hn::Neg(high_t)), Fill(margin))))) continue;
+    if (None(hn::And(open, BoxesMeet(b_frame, t, margin)))) continue;
     V least = Fill(std::numeric_limits<float>::max());
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
