@@ -493,24 +493,22 @@ void FclChecker::SetClosest(const Pair& pair, double distance, ClosestPair* clos
 
 double FclChecker::LastClosestNow(std::span<const double> q, double at_most) {
   const Pair& pair = At(pairs_, last_closest_.pair);
-  double moved_m = kSolverSlack;
-  for (std::size_t j = 0; j < q.size(); ++j) {
-    moved_m += At(reaches_, static_cast<std::size_t>(pair.reach) + j) *
-               std::abs(q[j] - last_closest_.q[j]);
-  }
-  const double limit = std::min(at_most, last_closest_.distance_m + moved_m);
+  std::vector<double>& motion = last_closest_.q;
+  for (std::size_t j = 0; j < q.size(); ++j) motion[j] -= q[j];
+  const double limit =
+      std::min(at_most, last_closest_.distance_m + RelativeMotion(pair, motion) + kSolverSlack);
   const double distance = Distance(pair, limit);
   return distance < limit || limit == at_most ? distance : Distance(pair, at_most);
 }
 
-ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
+ClosestPair FclChecker::FindClosestWithin(std::span<const double> q, double at_most) {
   Place(q);
   by_bound_.clear();
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     by_bound_.emplace_back(DistanceBound(pairs_[i]), static_cast<int>(i));
   }
   std::sort(by_bound_.begin(), by_bound_.end());
-  double best = standing_closest_.distance_m;
+  double best = std::min(at_most, standing_closest_.distance_m);
   // Along a path the pair that was closest mostly is: what is further needs no distance. Ties still
   // go to the first by its bound, whatever was asked before.
   const int last = last_closest_.pair;
@@ -532,6 +530,18 @@ ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
   ClosestPair closest = standing_closest_;
   if (best_pair >= 0) SetClosest(At(pairs_, best_pair), best, &closest);
   return closest;
+}
+
+ClosestPair FclChecker::DoFindClosest(std::span<const double> q) {
+  return FindClosestWithin(q, kInfinity);
+}
+
+void FclChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
+                                 std::span<double> distances) {
+  const std::size_t n = group().joints.size();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
+    distances[i] = std::min(at_most, FindClosestWithin(qs.subspan(i * n, n), at_most).distance_m);
+  }
 }
 
 }  // namespace planbench

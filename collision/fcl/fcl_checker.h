@@ -55,6 +55,8 @@ class FclChecker : public CollisionChecker {
                                 std::span<const MotionSample> samples) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
   ClosestPair DoFindClosest(std::span<const double> q) override;
+  void DoFindDistances(std::span<const double> qs, int num, double at_most,
+                       std::span<double> distances) override;
 
  private:
   /// Geometry of one link, in the link's frame.
@@ -120,8 +122,10 @@ class FclChecker : public CollisionChecker {
   double Depth(const Pair& pair);
   double Distance(const Pair& pair, double at_most);
   double DistanceBound(const Pair& pair) const;
-  /// The distance of the pair that FindClosest found last, or `at_most`. It is at most what it was
-  /// then and the way that the two have moved since.
+  /// If nothing is nearer than `at_most`, what stands closest or nothing.
+  ClosestPair FindClosestWithin(std::span<const double> q, double at_most);
+  /// The distance of the pair that was closest last, or `at_most`. It is at most what it was then
+  /// and the way that the two have moved since.
   double LastClosestNow(std::span<const double> q, double at_most);
   Contact ContactOf(std::span<const Pair> pairs, const Pair& touching);
   void SetClosest(const Pair& pair, double distance, ClosestPair* closest) const;
@@ -149,8 +153,8 @@ class FclChecker : public CollisionChecker {
   std::vector<Eigen::Vector3d> node_positions_;  // in W, see Geometry::first_node
   std::vector<std::int64_t> placed_at_;  // by geometry: the value of placement_ its nodes are of
   std::int64_t placement_ = 0;
-  std::vector<std::pair<double, int>> by_bound_;  // scratch of FindClosest
-  /// What FindClosest found last.
+  std::vector<std::pair<double, int>> by_bound_;  // scratch of FindClosestWithin
+  /// What FindClosestWithin found last.
   struct LastClosest {
     int pair = -1;  ///< Index, -1 if there is none.
     double distance_m = 0;

@@ -184,8 +184,7 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       const auto q = qs.subspan(static_cast<std::size_t>(first + lane) * n, n);
       double& distance = At(distances, first + lane);
       distance = std::min(limit, static_cast<double>(block[lane]));
-      if ((unfit >> lane & 1) != 0)
-        distance = std::min(distance, Exact().FindClosest(q).distance_m);
+      if ((unfit >> lane & 1) != 0) distance = std::min(distance, ExactDistance(q, most));
       if (model() == CollisionModel::kMeshes && distance < most) {
         distance = MeshDistance(q, most);
       }
@@ -205,7 +204,7 @@ void SimdChecker::DoFindClearances(std::span<const double> qs, int num, double a
 
 double SimdChecker::MarginAround(std::span<const double> q, double at_most) {
   if (always_collides_ || at_most <= 0) return std::min(at_most, 0.0);
-  if (SetLanes(q, 1) != 0) return std::min(at_most, Exact().FindClosest(q).distance_m);
+  if (SetLanes(q, 1) != 0) return ExactDistance(q, at_most);
   // The same configuration in all lanes, a margin each.
   std::array<float, kBlock> margins;
   for (std::size_t lane = 0; lane < kBlock; ++lane) {
@@ -229,9 +228,15 @@ double SimdChecker::MarginAround(std::span<const double> q, double at_most) {
 }
 
 double SimdChecker::MeshDistance(std::span<const double> q, double at_most) {
-  const double distance = std::min(at_most, Exact().FindClosest(q).distance_m);
+  const double distance = ExactDistance(q, at_most);
   // Next to contact the verdict decides the sign, so that the two never disagree.
   return distance > 0 && distance < kBand_m && !DoIsFree(q) ? 0 : distance;
+}
+
+double SimdChecker::ExactDistance(std::span<const double> q, double at_most) {
+  double distance = 0;
+  Exact().FindDistances(q, 1, at_most, {&distance, 1});
+  return distance;
 }
 
 double SimdChecker::FieldDistance(const CompiledTree& tree, std::span<const double> q) {

@@ -70,6 +70,7 @@ class SimdChecker : public CollisionChecker {
   double MarginAround(std::span<const double> q, double at_most);
   /// Balls around triangles are but a lower bound.
   double MeshDistance(std::span<const double> q, double at_most);
+  double ExactDistance(std::span<const double> q, double at_most);
   /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.
   double FieldDistance(const CompiledTree& tree, std::span<const double> q);
   std::pair<double, std::string> NearestToField(std::span<const double> q);
