@@ -122,13 +122,6 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
   check_run(count);
 }
 
-void EdgeChecker::FindDistances(std::span<const double> qs, int num, double at_most,
-                                std::span<double> distances) {
-  const ScopedTimer timer(&counters_.ticks);
-  counters_.configurations += num;
-  checker_->FindDistances(qs, num, at_most, distances);
-}
-
 void EdgeChecker::FindClearances(std::span<const double> qs, int num, double at_most,
                                  std::span<double> clearances) {
   const ScopedTimer timer(&counters_.ticks);

@@ -75,8 +75,6 @@ class EdgeChecker {
   /// engine can.
   void CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
   /// Those of CollisionChecker, counted. Limits are the caller's to check.
-  void FindDistances(std::span<const double> qs, int num, double at_most,
-                     std::span<double> distances);
   void FindClearances(std::span<const double> qs, int num, double at_most,
                       std::span<double> clearances);
   /// `from_is_free`: the caller has already checked `from`, so that its sample can be left out.

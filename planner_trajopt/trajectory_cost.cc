@@ -6,7 +6,7 @@ namespace planbench {
 
 void TrajectoryCost::FindDistances(const Trajectory& rows, std::vector<double>* distances) const {
   distances->resize(static_cast<std::size_t>(rows.rows()));
-  edges_->FindDistances({rows.data(), static_cast<std::size_t>(rows.size())},
+  edges_->FindClearances({rows.data(), static_cast<std::size_t>(rows.size())},
                         static_cast<int>(rows.rows()), clearance_, *distances);
 }
 
