@@ -7,7 +7,7 @@ namespace planbench {
 void TrajectoryCost::FindDistances(const Trajectory& rows, std::vector<double>* distances) const {
   distances->resize(static_cast<std::size_t>(rows.rows()));
   edges_->FindClearances({rows.data(), static_cast<std::size_t>(rows.size())},
-                        static_cast<int>(rows.rows()), clearance_, *distances);
+                         static_cast<int>(rows.rows()), clearance_, *distances);
 }
 
 double TrajectoryCost::OfDistance(double distance) const {
