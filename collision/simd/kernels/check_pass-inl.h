@@ -94,7 +94,7 @@ class CheckPass {
     return sum;
   }
 
-  /// More than that, at less cost.
+  /// Not less than that, at less cost.
   HWY_INLINE V MotionAtMost(const Reach& reach) const {
     if constexpr (!kAround) return margin_;
     const float* sums = buffers_.width_sums.get();
