@@ -133,6 +133,12 @@ struct Bus::Impl {
                      });
   }
 
+  void Add(const std::shared_ptr<Subscriber>& subscriber) {
+    const std::scoped_lock lock(hearing);
+    inbox.Add(subscriber);
+    if (receiver) receiver->Hear(inbox.Channels());
+  }
+
   void OnPacket(const PacketSender& from, std::span<const std::uint8_t> packet) {
     std::optional<ReceivedMessage> message;
     {
@@ -149,6 +155,7 @@ struct Bus::Impl {
 
   lcm_t* sender = nullptr;  ///< Null: what is published goes into the inbox.
   Inbox inbox;
+  std::mutex hearing;  ///< What the receiver hears is what the inbox has subscribers for, or more.
   mutable std::mutex packets_mutex;
   PacketReader packets;
   std::optional<MulticastReceiver> receiver;
@@ -192,7 +199,7 @@ Subscription Bus::SubscribeBytes(const std::string& channel, BytesHandler handle
   subscriber->channel = channel;
   subscriber->capacity = queue_capacity;
   subscriber->handler = std::move(handler);
-  impl_->inbox.Add(subscriber);
+  impl_->Add(subscriber);
   return Subscription(&impl_->inbox, std::move(subscriber));
 }
 

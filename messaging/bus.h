@@ -110,6 +110,7 @@ class Bus {
   /// To all channels.
   [[nodiscard]] Subscription SubscribeToAll(BytesHandler handler, int queue_capacity);
 
+  /// Of a bus with a subscription to all channels: others do not see all packets.
   struct Counters {
     std::int64_t malformed = 0;  ///< Packets that were none of LCM's.
     std::int64_t lost = 0;       ///< Messages sent that did not come whole, as far as can be known.

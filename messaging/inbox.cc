@@ -39,6 +39,16 @@ void Inbox::Remove(const std::shared_ptr<Subscriber>& subscriber) {
   subscriber->handler = nullptr;  // with all it captured
 }
 
+std::optional<std::set<std::string>> Inbox::Channels() const {
+  const std::scoped_lock lock(mutex_);
+  std::set<std::string> channels;
+  for (const std::shared_ptr<Subscriber>& subscriber : subscribers_) {
+    if (subscriber->channel.empty()) return std::nullopt;
+    channels.insert(subscriber->channel);
+  }
+  return channels;
+}
+
 void Inbox::Push(ReceivedMessage message) {
   const std::scoped_lock lock(mutex_);
   const bool full = bytes_ + message.bytes.size() > kMaxBytes;

@@ -8,7 +8,8 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <span>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ class Inbox {
   void Add(std::shared_ptr<Subscriber> subscriber);
   /// Waits for a running call of its handler; there is none afterwards.
   void Remove(const std::shared_ptr<Subscriber>& subscriber);
+
+  /// Of the subscribers; none if one of them is for all channels.
+  std::optional<std::set<std::string>> Channels() const;
 
   /// Queues a message for the subscribers of its channel; one whose messages are too many gets
   /// none.

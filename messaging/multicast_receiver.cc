@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "messaging/channel_filter.h"
 
 namespace planbench {
 namespace {
@@ -114,6 +115,19 @@ MulticastReceiver::~MulticastReceiver() {
   thread_.join();
   close(socket_);
   close(stop_);
+}
+
+void MulticastReceiver::Hear(const std::optional<std::set<std::string>>& channels) {
+  if (channels) {
+    std::vector<sock_filter> filter = ChannelFilter(*channels);
+    const sock_fprog program = {static_cast<unsigned short>(filter.size()), filter.data()};
+    if (filter.size() <= BPF_MAXINSNS &&
+        setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) == 0) {
+      return;
+    }
+  }
+  const int unused = 0;
+  setsockopt(socket_, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof(unused));
 }
 
 void MulticastReceiver::Receive() {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <thread>
@@ -34,6 +36,10 @@ class MulticastReceiver {
   ~MulticastReceiver();
   MulticastReceiver(const MulticastReceiver&) = delete;
   MulticastReceiver& operator=(const MulticastReceiver&) = delete;
+
+  /// Has the kernel drop messages in one packet on all channels but these, from now on, so that
+  /// they wake nobody; none, or more than the kernel takes: all are received, as at first.
+  void Hear(const std::optional<std::set<std::string>>& channels);
 
  private:
   void Receive();

@@ -8,9 +8,7 @@
 namespace planbench {
 namespace {
 
-constexpr std::uint32_t kSmall = 0x4c433032;     // "LC02"
 constexpr std::uint32_t kFragment = 0x4c433033;  // "LC03"
-constexpr std::size_t kSmallHeader = 8;
 constexpr std::size_t kFragmentHeader = 20;
 /// What a fragment takes up beside its bytes, at most.
 constexpr std::size_t kFragmentOverhead = 128;

@@ -42,6 +42,9 @@ class PacketReader {
   /// LCM's own limits.
   static constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 28;
   static constexpr std::size_t kMaxChannelLength = 63;
+  /// How a message in one packet begins: with this number and its own, then the channel.
+  static constexpr std::uint32_t kSmall = 0x4c433032;  // "LC02"
+  static constexpr std::size_t kSmallHeader = 8;
   /// For fragments of messages that are not complete; beyond, those begun first are given up.
   static constexpr std::size_t kMaxPendingBytes = std::size_t{1} << 29;
   /// Senders remembered; beyond, those that have been silent longest are forgotten.
