@@ -15,6 +15,12 @@ namespace {
 
 using kernels::kBlock;
 
+/// A ball that none of the trees leaves, around those given, if any.
+Ball ReachOf(const std::vector<CompiledTree>& trees, std::vector<Ball> balls = {}) {
+  for (const CompiledTree& tree : trees) balls.push_back(tree.reach_W);
+  return EnclosingBall(balls);
+}
+
 /// A grid that no sphere leaves.
 VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
   VoxelSettings settings;
@@ -64,6 +70,7 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     held_.clear();
     compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_),
                             meshes_ ? &*meshes_ : nullptr);
+    robot_reach_W_ = ReachOf(compiled_robot_->bodies);
     without_pairs_ = compiled_robot_->extent();
     base_ = robot();
     base_.bodies.resize(1);
@@ -85,7 +92,8 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     without_attached_ = compiled_robot_->extent();
   }
   AttachObjects(rules);
-  world_.SetObjects(scene_, *compiled_robot_);
+  world_.SetObjects(scene_, *compiled_robot_,
+                    attached_.empty() ? robot_reach_W_ : ReachOf(attached_, {robot_reach_W_}));
   if (field_ != nullptr) SetGrid();
   CompileTrees(rules);
   geometry_bound_.Set(scene_, base_positions);

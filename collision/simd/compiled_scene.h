@@ -76,6 +76,7 @@ class CompiledScene {
   // Of the held positions.
   std::vector<double> held_;  ///< That the following are of.
   std::optional<CompiledRobot> compiled_robot_;
+  Ball robot_reach_W_;  ///< That no link leaves.
   CompiledRobot::Extent without_pairs_;
   std::unique_ptr<DistanceFieldBuilder> field_;  ///< Voxels.
 

@@ -95,7 +95,7 @@ bool CutBox(const Ball& reach, const Eigen::Matrix3d& R_WS, Eigen::Vector3d* cen
 
 }  // namespace
 
-void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
+void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot, Ball reach) {
   kernel.solids.clear();
   kernel.meshes.clear();
   kernel.trees.clear();
@@ -106,9 +106,6 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot) {
   meshes_before_ = std::move(meshes_);
   meshes_.clear();
   cones_are_doubtful_ = !robot.kernel.patches.empty();
-  std::vector<Ball> reaches;
-  for (const CompiledTree& tree : robot.bodies) reaches.push_back(tree.reach_W);
-  Ball reach = EnclosingBall(reaches);
   reach.radius += kMaxDistance;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];

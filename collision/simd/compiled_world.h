@@ -24,11 +24,11 @@ class CompiledWorld {
   /// Distances beyond this are not told, m: solids that far out of reach are left out.
   static constexpr double kMaxDistance = 0.5;
 
-  /// Takes the objects of a scene. Throws InputError, naming the object, for a shape that is none.
+  /// Takes the objects of a scene, as far as they are near `reach`, which the robot and what is
+  /// attached to it never leave. Throws InputError, naming the object, for a shape that is none.
   /// Solids too large for single precision become doubtful boxes; so do cones, where the robot is
-  /// meshes. Of meshes that the objects set
-  /// before had, too, the trees are kept.
-  void SetObjects(const Scene& scene, const CompiledRobot& robot);
+  /// meshes. Of meshes that the objects set before had, too, the trees are kept.
+  void SetObjects(const Scene& scene, const CompiledRobot& robot, Ball reach);
 
   /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
   /// `checked[i]`: whether object i of the scene counts.

@@ -91,6 +91,24 @@ TEST_P(CollisionCheckerContract, AttachedObjectsMoveWithTheirLink) {
   EXPECT_TRUE(checker->IsFree(Slide(0.5)));
 }
 
+TEST_P(CollisionCheckerContract, AttachedObjectsReachFurtherThanTheRobot) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const auto base = ArmBase(arm);
+  const std::vector<double> q = {0, 0, 0, 0};
+  const auto hand = static_cast<std::size_t>(arm.model.FindLink("hand"));
+  const Eigen::Isometry3d X_WH =
+      ComputeLinkPoses(arm.model, WithGroupAt(arm, checker->group(), base, q))[hand];
+  Scene scene = SceneWith("buoy", Sphere{0.1}, X_WH * Shifted(12, 0, 0));
+  scene.attached = {
+      {"hand", {"float", Shifted(12, 0, 0.15), {{Sphere{0.1}, Shifted(0, 0, 0)}}}, {}}};
+  checker->SetScene(scene, base);
+  const auto contact = checker->FindContact(q);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->body_b, "buoy");
+  EXPECT_FALSE(checker->IsFree(q));
+}
+
 TEST_P(CollisionCheckerContract, AttachedObjectsTouchTheirLinkAndTouchLinks) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);
