@@ -1,6 +1,9 @@
 #include "robot_model/joint_space.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "common/numbers.h"
 
@@ -21,6 +24,15 @@ double ShortWay(double angle) {
 double WrapAngle(double angle) {
   const double wrapped = ShortWay(angle);
   return wrapped >= kPi ? -kPi : wrapped;
+}
+
+JointSpace::JointSpace(std::vector<Joint> joints) : joints_(std::move(joints)) {
+  for (const Joint& joint : joints_) {
+    constexpr double kLargest = std::numeric_limits<double>::max();  // that is finite
+    const bool bounded = !joint.continuous;
+    lowest_.push_back(bounded ? std::max(-kLargest, joint.lower - kLimitTolerance) : -kLargest);
+    highest_.push_back(bounded ? std::min(kLargest, joint.upper + kLimitTolerance) : kLargest);
+  }
 }
 
 int JointSpace::Find(const std::string& name) const {
@@ -67,14 +79,18 @@ void JointSpace::Wrap(std::span<double> q) const {
 }
 
 int JointSpace::FirstOutsideLimits(std::span<const double> q) const {
-  for (int j = 0; j < size(); ++j) {
-    const double position = q[static_cast<std::size_t>(j)];
-    if (!std::isfinite(position)) return j;
-    if (joint(j).continuous) continue;
-    if (position < joint(j).lower - kLimitTolerance) return j;
-    if (position > joint(j).upper + kLimitTolerance) return j;
+  for (std::size_t i = 0; i < lowest_.size(); ++i) {
+    if (!(q[i] >= lowest_[i] && q[i] <= highest_[i])) return static_cast<int>(i);
   }
   return -1;
+}
+
+bool JointSpace::WithinLimits(std::span<const double> q) const {
+  bool within = true;
+  for (std::size_t i = 0; i < lowest_.size(); ++i) {
+    within &= (q[i] >= lowest_[i]) & (q[i] <= highest_[i]);  // NaN is not
+  }
+  return within;
 }
 
 }  // namespace planbench

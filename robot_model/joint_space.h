@@ -25,7 +25,7 @@ class JointSpace {
   static constexpr double kLimitTolerance = 1e-6;
 
   JointSpace() = default;
-  explicit JointSpace(std::vector<Joint> joints) : joints_(std::move(joints)) {}
+  explicit JointSpace(std::vector<Joint> joints);
 
   int size() const { return static_cast<int>(joints_.size()); }
   const Joint& joint(int j) const { return joints_[static_cast<std::size_t>(j)]; }
@@ -46,10 +46,13 @@ class JointSpace {
   /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1
   /// if none.
   int FirstOutsideLimits(std::span<const double> q) const;
-  bool WithinLimits(std::span<const double> q) const { return FirstOutsideLimits(q) < 0; }
+  bool WithinLimits(std::span<const double> q) const;
 
  private:
   std::vector<Joint> joints_;
+  // What positions may be, with the tolerance; any finite one of continuous joints.
+  std::vector<double> lowest_;
+  std::vector<double> highest_;
 };
 
 /// `angle` (rad) brought into [-pi, pi).
