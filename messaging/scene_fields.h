@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -170,7 +171,9 @@ struct Fields<Scene> : On<lcmt_scene> {
     io.List("default_body", names, w.default_body, w.num_defaults, kNames);
     io.Beside("default_allowed", allowed_by_default, w.default_allowed, w.num_defaults, kBoolean);
     if constexpr (Io::kReads) {
-      for (std::size_t i = 0; i < a.size(); ++i) matrix.SetEntry(a[i], b[i], allowed[i] != 0);
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        matrix.SetEntry(std::move(a[i]), std::move(b[i]), allowed[i] != 0);
+      }
       for (std::size_t i = 0; i < names.size(); ++i) {
         matrix.SetDefaultEntry(names[i], allowed_by_default[i] != 0);
       }

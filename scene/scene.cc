@@ -1,18 +1,23 @@
 #include "scene/scene.h"
 
+#include <map>
+#include <utility>
+
 #include "scene/pose.h"
 
 namespace planbench {
 namespace {
 
-std::pair<std::string, std::string> Ordered(const std::string& a, const std::string& b) {
-  return a <= b ? std::pair(a, b) : std::pair(b, a);
+std::pair<std::string, std::string> Ordered(std::string a, std::string b) {
+  if (b < a) std::swap(a, b);
+  return {std::move(a), std::move(b)};
 }
 
 }  // namespace
 
-void AllowedCollisionMatrix::SetEntry(const std::string& a, const std::string& b, bool allowed) {
-  entries_[Ordered(a, b)] = allowed;
+void AllowedCollisionMatrix::SetEntry(std::string a, std::string b, bool allowed) {
+  // Most come in the map's order: from a map, over the bus.
+  entries_.insert_or_assign(entries_.end(), Ordered(std::move(a), std::move(b)), allowed);
 }
 
 void AllowedCollisionMatrix::SetDefaultEntry(const std::string& name, bool allowed) {
@@ -45,14 +50,14 @@ Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometr
   return moved;
 }
 
+bool AllowedCollisionMatrix::Tells(const Entries::value_type& entry) const {
+  const auto& [pair, allowed] = entry;
+  return pair.first != pair.second && allowed != AllowedByDefault(pair.first, pair.second);
+}
+
 AllowedCollisionMatrix AllowedCollisionMatrix::Simplified() const {
-  AllowedCollisionMatrix simplified;
-  simplified.default_entries_ = default_entries_;
-  for (const auto& [pair, allowed] : entries_) {
-    if (pair.first != pair.second && allowed != AllowedByDefault(pair.first, pair.second)) {
-      simplified.entries_.emplace(pair, allowed);
-    }
-  }
+  AllowedCollisionMatrix simplified = *this;
+  std::erase_if(simplified.entries_, [this](const auto& entry) { return !Tells(entry); });
   return simplified;
 }
 

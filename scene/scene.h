@@ -33,24 +33,28 @@ struct AttachedObject {
 /// checked.
 class AllowedCollisionMatrix {
  public:
-  void SetEntry(const std::string& a, const std::string& b, bool allowed);
+  void SetEntry(std::string a, std::string b, bool allowed);
   void SetDefaultEntry(const std::string& name, bool allowed);
   bool Allowed(const std::string& a, const std::string& b) const;
 
-  /// The same matrix without the entries that change nothing: those that say what the default
-  /// entries say already, and those of a body with itself. Matrices that allow the same pairs by
+  /// Pairs in canonical order (first <= second).
+  using Entries = std::map<std::pair<std::string, std::string>, bool>;
+
+  /// False for an entry that changes nothing: that says what the default entries say already, or
+  /// one of a body with itself.
+  bool Tells(const Entries::value_type& entry) const;
+  /// The same matrix without the entries that change nothing. Matrices that allow the same pairs by
   /// the same defaults are then equal; the file reader gives this form.
   AllowedCollisionMatrix Simplified() const;
 
-  /// Pairs in canonical order (first <= second).
-  const std::map<std::pair<std::string, std::string>, bool>& entries() const { return entries_; }
+  const Entries& entries() const { return entries_; }
   const std::map<std::string, bool>& default_entries() const { return default_entries_; }
   bool operator==(const AllowedCollisionMatrix&) const = default;
 
  private:
   bool AllowedByDefault(const std::string& a, const std::string& b) const;
 
-  std::map<std::pair<std::string, std::string>, bool> entries_;
+  Entries entries_;
   std::map<std::string, bool> default_entries_;
 };
 

@@ -77,14 +77,17 @@ void AddAttached(const AttachedObject& attached, ContentHash* hash) {
 }
 
 void AddAllowedCollisions(const AllowedCollisionMatrix& matrix, ContentHash* hash) {
-  const AllowedCollisionMatrix simplified = matrix.Simplified();
-  hash->Add(simplified.default_entries().size());
-  for (const auto& [name, allowed] : simplified.default_entries()) {
+  hash->Add(matrix.default_entries().size());
+  for (const auto& [name, allowed] : matrix.default_entries()) {
     hash->Add(name);
     hash->Add(allowed);
   }
-  hash->Add(simplified.entries().size());
-  for (const auto& [pair, allowed] : simplified.entries()) {
+  const auto tells = [&](const auto& entry) { return matrix.Tells(entry); };
+  hash->Add(static_cast<std::size_t>(
+      std::count_if(matrix.entries().begin(), matrix.entries().end(), tells)));
+  for (const auto& entry : matrix.entries()) {
+    if (!tells(entry)) continue;
+    const auto& [pair, allowed] = entry;
     hash->Add(pair.first);
     hash->Add(pair.second);
     hash->Add(allowed);
