@@ -21,6 +21,9 @@
 namespace planbench {
 namespace {
 
+/// Of messages whose handlers the receiving thread can wait for.
+constexpr std::size_t kSmallMessageBytes = 65536;
+
 /// Collects what LCM prints to stderr while it connects, so that a failure can be told in one line.
 class StderrCapture {
  public:
@@ -150,7 +153,10 @@ struct Bus::Impl {
                      from.Text(), packet.size());
       }
     }
-    if (message) inbox.Push(*std::move(message));
+    if (!message) return;
+    // Large ones take long to decode, and meanwhile others come.
+    const bool at_once = started && message->bytes.size() <= kSmallMessageBytes;
+    if (!at_once || !inbox.HandleNow(*message)) inbox.Push(*std::move(message));
   }
 
   lcm_t* sender = nullptr;  ///< Null: what is published goes into the inbox.
@@ -159,6 +165,7 @@ struct Bus::Impl {
   mutable std::mutex packets_mutex;
   PacketReader packets;
   std::optional<MulticastReceiver> receiver;
+  std::atomic<bool> started = false;
   std::atomic<bool> stopping = false;
   std::thread thread;
 };
@@ -180,6 +187,7 @@ void Bus::Start() {
   impl_->thread = std::thread([this] {
     while (!impl_->stopping) impl_->inbox.HandleOne(std::chrono::milliseconds(50));
   });
+  impl_->started = true;
 }
 
 void Bus::PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes) {

@@ -68,7 +68,7 @@ class Bus {
   /// refuse them; without it they are logged.
   template <typename Message>
   [[nodiscard]] Subscription Subscribe(
-      const std::string& channel, std::function<void(const Message&)> handler,
+      const std::string& channel, std::function<void(Message&&)> handler,
       std::function<void(const MessageError&)> on_bad_message = nullptr,
       int queue_capacity = kDefaultQueueCapacity) {
     std::function<void(const MessageError&, const Origin&)> on_bad;
@@ -78,13 +78,15 @@ class Bus {
     }
     return SubscribeFrom<Message>(
         channel,
-        [handler = std::move(handler)](const Message& message, const Origin&) { handler(message); },
+        [handler = std::move(handler)](Message&& message, const Origin&) {
+          handler(std::move(message));
+        },
         std::move(on_bad), queue_capacity);
   }
   /// The same for handlers that are also told where the message came from.
   template <typename Message>
   [[nodiscard]] Subscription SubscribeFrom(
-      const std::string& channel, std::function<void(const Message&, const Origin&)> handler,
+      const std::string& channel, std::function<void(Message&&, const Origin&)> handler,
       std::function<void(const MessageError&, const Origin&)> on_bad_message = nullptr,
       int queue_capacity = kDefaultQueueCapacity) {
     return SubscribeBytes(

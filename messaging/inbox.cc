@@ -11,7 +11,7 @@
 namespace planbench {
 namespace {
 
-void Handle(Subscriber* subscriber, const ReceivedMessage& message) {
+void Call(Subscriber* subscriber, const ReceivedMessage& message) {
   const std::scoped_lock lock(subscriber->running);
   if (!subscriber->handler) return;
   try {
@@ -69,21 +69,46 @@ void Inbox::Push(ReceivedMessage message) {
   changed_.notify_one();
 }
 
+bool Inbox::HandleNow(const ReceivedMessage& message) {
+  std::vector<std::shared_ptr<Subscriber>> subscribers;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (handling_ || !entries_.empty()) return false;
+    for (const std::shared_ptr<Subscriber>& subscriber : subscribers_) {
+      if (subscriber->channel.empty()) return false;
+      if (subscriber->channel == message.channel) subscribers.push_back(subscriber);
+    }
+    handling_ = true;
+  }
+  Handle(subscribers, message);
+  return true;
+}
+
 void Inbox::HandleOne(std::chrono::milliseconds timeout) {
   Entry entry;
   {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, timeout, [this] { return !entries_.empty(); })) return;
+    const auto ready = [this] { return !handling_ && !entries_.empty(); };
+    if (!changed_.wait_for(lock, timeout, ready)) return;
     entry = std::move(entries_.front());
     entries_.pop_front();
     bytes_ -= entry.message.bytes.size();
     for (const std::shared_ptr<Subscriber>& subscriber : entry.subscribers) {
       --subscriber->num_waiting;
     }
+    handling_ = true;
   }
-  for (const std::shared_ptr<Subscriber>& subscriber : entry.subscribers) {
-    Handle(subscriber.get(), entry.message);
+  Handle(entry.subscribers, entry.message);
+}
+
+void Inbox::Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
+                   const ReceivedMessage& message) {
+  for (const std::shared_ptr<Subscriber>& subscriber : subscribers) {
+    Call(subscriber.get(), message);
   }
+  const std::scoped_lock lock(mutex_);
+  handling_ = false;
+  if (!entries_.empty()) changed_.notify_one();
 }
 
 std::int64_t Inbox::num_dropped() const {

@@ -44,6 +44,10 @@ class Inbox {
   /// Queues a message for the subscribers of its channel; one whose messages are too many gets
   /// none.
   void Push(ReceivedMessage message);
+  /// Hands a message to its handlers on this thread, which is spared waking another; false, and
+  /// nothing is done, where that has to wait: for other messages, or because a subscriber to all
+  /// channels, who has more to do than its sender can wait for, is among them.
+  bool HandleNow(const ReceivedMessage& message);
   /// Hands the oldest message to its handlers, waiting for one up to `timeout`. What a handler
   /// throws is logged.
   void HandleOne(std::chrono::milliseconds timeout);
@@ -57,11 +61,16 @@ class Inbox {
     std::vector<std::shared_ptr<Subscriber>> subscribers;
   };
 
+  /// Runs handlers, without the lock, and says when they are done.
+  void Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
+              const ReceivedMessage& message);
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::shared_ptr<Subscriber>> subscribers_;
   std::deque<Entry> entries_;
   std::size_t bytes_ = 0;
+  bool handling_ = false;  ///< Handlers run, on whichever thread: those of one message at a time.
   std::int64_t num_dropped_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/error.h"
 
@@ -49,7 +50,7 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
       },
       [this](const MessageError& error, const Origin&) { OnBadRequest(error); });
   scene_messages_ = bus->Subscribe<SceneMessage>(
-      channel::kScene, [this](const SceneMessage& message) { OnScene(message); });
+      channel::kScene, [this](SceneMessage&& message) { OnScene(std::move(message)); });
   cancels_ = bus->SubscribeFrom<PlanCancelMessage>(
       channels_.cancel, [this](const PlanCancelMessage& message, const Origin& origin) {
         OnCancel(message, origin.sender);
@@ -162,7 +163,7 @@ void PlannerNode::OnBadRequest(const MessageError& error) {
   Acknowledge(error.request_id(), PlanAckVerdict::kRefused, error.what());
 }
 
-void PlannerNode::OnScene(const SceneMessage& message) {
+void PlannerNode::OnScene(SceneMessage message) {
   const std::scoped_lock lock(mutex_);
   if (!message.ok) {
     if (job_ && !job_->scene && job_->request.scene_id == message.scene_id) {
@@ -174,7 +175,7 @@ void PlannerNode::OnScene(const SceneMessage& message) {
     return entry.first == message.scene_id;
   });
   if (known) return;
-  const auto scene = std::make_shared<const Scene>(message.scene);
+  const auto scene = std::make_shared<const Scene>(std::move(message.scene));
   scenes_.emplace_back(message.scene_id, scene);
   if (scenes_.size() > kSceneCacheSize) scenes_.pop_front();
   if (job_ && !job_->scene && job_->request.scene_id == message.scene_id) {
@@ -219,13 +220,13 @@ void PlannerNode::Solve() {
     };
     lock.unlock();
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
-    const std::string said = fmt::format("{}: {} in {:.3f} ms{}{}", job.request.request_id,
-                                         EnumName(result.status), result.planning_time_s * 1e3,
-                                         result.message.empty() ? "" : ": ", result.message);
+    const std::string request_id = job.request.request_id;
     lock.lock();
-    Finish(std::move(result));
+    Finish(result);
     lock.unlock();
-    spdlog::info(said);  // after the result is out: writing takes time
+    // After the result is out: writing takes time.
+    spdlog::info("{}: {} in {:.3f} ms{}{}", request_id, EnumName(result.status),
+                 result.planning_time_s * 1e3, result.message.empty() ? "" : ": ", result.message);
     lock.lock();
   }
 }

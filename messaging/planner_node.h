@@ -52,7 +52,7 @@ class PlannerNode {
   };
   void OnRequest(const PlanRequest& request, const PacketSender& sender);
   void OnBadRequest(const MessageError& error);
-  void OnScene(const SceneMessage& message);
+  void OnScene(SceneMessage message);
   void OnCancel(const PlanCancelMessage& message, const PacketSender& sender);
   NodeStatusMessage Status() const;
   std::string ReasonToRefuse(const PlanRequest& request) const;

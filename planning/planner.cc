@@ -188,7 +188,8 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
   try {
     const std::string origin =
         request.request_id.empty() ? "request" : "request " + request.request_id;
-    RequireValid(request, Describe(), origin);
+    const PlannerDescription description = Describe();
+    RequireValid(request, description, origin);
     const PlanningGroup& group = robot_->Group(request.group);
     ResolvedQuery resolved = ResolveQuery(*robot_, group, request.start, request.goal, origin);
     resolved.initial_path = ResolveInitialPath(group, resolved, request.initial_joint_names,
@@ -196,8 +197,8 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
     Compile(group, request.collision_model, scene, resolved.base_positions);
     PlanControl unwatched;
     clock = Stopwatch();
-    PlanInScene(request, std::move(resolved), scene, control != nullptr ? control : &unwatched,
-                clock, &result);
+    PlanInScene(request, description, std::move(resolved), scene,
+                control != nullptr ? control : &unwatched, clock, &result);
   } catch (const InputError& error) {
     result = Unsearched(PlanStatus::kInvalidRequest, error.what(), clock);
   } catch (const std::bad_alloc&) {
@@ -207,11 +208,10 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
   return result;
 }
 
-SearchResult Planner::SearchInTurn(const ResolvedQuery& resolved, bool backward,
-                                   SearchQuery* query) {
+SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
+                                   bool backward, SearchQuery* query) {
   const std::vector<GoalBox>& goals = resolved.goals;
   const Path& initial = resolved.initial_path;
-  const std::string algorithm = Describe().algorithm;
   EdgeChecker& edges = query->edges();
   SearchResult found;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -258,9 +258,9 @@ SearchResult Planner::SearchInTurn(const ResolvedQuery& resolved, bool backward,
   return found;
 }
 
-void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
-                          PlanControl* control, const Stopwatch& clock, PlanResult* result) {
-  const PlannerDescription description = Describe();
+void Planner::PlanInScene(const PlanRequest& request, const PlannerDescription& description,
+                          ResolvedQuery resolved, const Scene& scene, PlanControl* control,
+                          const Stopwatch& clock, PlanResult* result) {
   const PlanningGroup& group = robot_->Group(request.group);
   CollisionChecker& checker = CheckerFor(group, request.collision_model);
   // Even for the scene of the request before: what a request costs must not depend on its place in
@@ -300,7 +300,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
     found.status = PlanStatus::kGoalInvalid;
     found.message = std::move(fault);
   } else {
-    found = SearchInTurn(resolved, backward, &query);
+    found = SearchInTurn(description.algorithm, resolved, backward, &query);
   }
 
   result->total_time_s = clock.seconds();

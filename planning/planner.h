@@ -76,11 +76,13 @@ class Planner {
     AllowedCollisionMatrix allowed_collisions;
   };
 
-  void PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
-                   PlanControl* control, const Stopwatch& clock, PlanResult* result);
+  void PlanInScene(const PlanRequest& request, const PlannerDescription& description,
+                   ResolvedQuery resolved, const Scene& scene, PlanControl* control,
+                   const Stopwatch& clock, PlanResult* result);
   /// Searches for goals, all with valid nominal points, one after the other until one is reached.
   /// Of k that are left each has a k-th of the time that is left; with a path in hand, all of it.
-  SearchResult SearchInTurn(const ResolvedQuery& resolved, bool backward, SearchQuery* query);
+  SearchResult SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
+                            bool backward, SearchQuery* query);
   CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model) {
     return *compiled_.at({group.name, model}).checker;
   }

@@ -16,9 +16,14 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <span>
 #include <stdexcept>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "messaging/multicast_receiver.h"
 #include "tests/support/expect_input_error.h"
@@ -177,6 +182,50 @@ std::string SmallPacket(const std::string& after_header) {
   return std::string("LC02\0\0\0\1", 8) + after_header;
 }
 
+TEST(MulticastReceiverTest, LeavesToTheKernelWhatIsOnOtherChannels) {
+  const std::string url = PrivateUdpUrl();
+  std::mutex mutex;
+  std::vector<std::string> received;
+  MulticastReceiver receiver(MulticastAddress::Parse(url),
+                             [&](const PacketSender&, std::span<const std::uint8_t> packet) {
+                               const std::scoped_lock lock(mutex);
+                               received.emplace_back(packet.begin(), packet.end());
+                             });
+  const Stranger stranger(url, MulticastAddress().group.c_str());
+  const auto message = [](const std::string& channel) {
+    return SmallPacket(channel + std::string("\0bytes", 6));
+  };
+  const std::vector<std::string> packets = {
+      message("A"),     message("AB"),     message("ABC"),
+      message("ABCD"),  message("ABCDE"),  message("ABCDEF"),
+      message("ABCDX"), message("BABCDE"), message("X"),
+      message(""),      "of no protocol",  std::string("LC03") + std::string(20, 'f')};
+  const auto passed = [&](const std::optional<std::set<std::string>>& channels) {
+    receiver.Hear(channels);
+    for (const std::string& packet : packets) stranger.Send(packet);
+    // Packets come in order: whatever is heard, this is the last.
+    const std::string last = "the end";
+    stranger.Send(last);
+    const auto at_end = [&] {
+      const std::scoped_lock lock(mutex);
+      return !received.empty() && received.back() == last;
+    };
+    EXPECT_TRUE(WaitUntil(at_end));
+    const std::scoped_lock lock(mutex);
+    received.pop_back();
+    return std::exchange(received, {});
+  };
+  EXPECT_EQ(passed(std::nullopt), packets);
+  EXPECT_EQ(
+      passed(std::set<std::string>{"AB", "ABCDE", "X", "XY"}),
+      (std::vector<std::string>{packets[1], packets[4], packets[8], packets[10], packets[11]}));
+  EXPECT_EQ(passed(std::set<std::string>{}), (std::vector<std::string>{packets[10], packets[11]}));
+  // More than the kernel takes.
+  std::set<std::string> many;
+  for (int i = 1000; i < 2000; ++i) many.insert(std::string(40, 'A') + std::to_string(i));
+  EXPECT_EQ(passed(many), packets);
+}
+
 /// A bus on the network that hears everything.
 class OpenBusTest : public testing::Test {
  protected:
@@ -270,6 +319,34 @@ TEST(BusTest, SubscriptionsComeAndGoWhileMessagesFlow) {
 TEST(BusTest, SubscriptionsComeAndGoWhileMessagesFlowOnTheNetwork) {
   Bus bus(PrivateUdpUrl());
   LetSubscriptionsComeAndGo(&bus);
+}
+
+TEST(BusTest, MessagesOnTheNetworkAreHandledInOrderOneAtATime) {
+  Bus bus(PrivateUdpUrl());
+  constexpr int kMessages = 300;
+  std::atomic<int> num_running = 0;
+  std::vector<std::string> received;
+  std::atomic<int> num_received = 0;
+  const Subscription subscription =
+      bus.Subscribe<DiscoverMessage>("CHANNEL", [&](const DiscoverMessage& message) {
+        EXPECT_EQ(++num_running, 1);
+        // Large ones take another way through the bus than small ones.
+        received.push_back(message.sender.substr(0, message.sender.find(' ')));
+        if (received.size() % 50 == 1) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        --num_running;
+        ++num_received;
+      });
+  bus.Start();
+  std::vector<std::string> sent;
+  for (int i = 0; i < kMessages; ++i) {
+    sent.push_back(std::to_string(i));
+    bus.Publish("CHANNEL",
+                DiscoverMessage{sent.back() + std::string(i % 7 == 0 ? 100'000 : 1, ' ')});
+    // As many as the smallest receive buffer of a kernel holds.
+    ASSERT_TRUE(WaitUntil([&] { return num_received > i - 2; }));
+  }
+  ASSERT_TRUE(WaitUntil([&] { return num_received == kMessages; }));
+  EXPECT_EQ(received, sent);
 }
 
 TEST(BusTest, EndOfSubscriptionWaitsForTheRunningHandler) {
