@@ -44,7 +44,7 @@ struct PathStep {
 
 /// How a call of AraStar::ImprovePath ended.
 enum class ImproveOutcome {
-  kConverged,  ///< The solution is within epsilon of the optimum (EdgeOrder::kGuide: there is one).
+  kConverged,  ///< The solution is within epsilon of the optimum (EdgeOrder::kGuide: see there).
   kExhausted,  ///< There is no path to the goal.
   kStopped,    ///< should_stop said so; calling again with the same epsilon goes on.
 };
@@ -80,10 +80,10 @@ class AraStar {
   /// value of epsilon, or another order, begins a new iteration. `should_stop` is asked before
   /// every evaluation of an edge.
   ///
-  /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and the
-  /// search ends at its first path. Whatever the order of expansions, the smallest g + h of OPEN
-  /// and INCONS stays a lower bound of the optimum, so such a path, too, has a proven bound
-  /// (ProveBound), though not the one asked for.
+  /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and an
+  /// iteration ends at its first path, if there is one better than those before. Whatever the order
+  /// of expansions, the smallest g + h of OPEN and INCONS stays a lower bound of the optimum, so
+  /// such a path, too, has a proven bound (ProveBound), though not the one asked for.
   template <std::predicate StopFunction>
   ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop,
                              EdgeOrder order = EdgeOrder::kHeuristic) {
@@ -91,7 +91,7 @@ class AraStar {
     const bool ends_at_first = order == EdgeOrder::kGuide;
     ImproveOutcome outcome = ImproveOutcome::kConverged;
     while (!open_.empty() &&
-           (ends_at_first ? best_cost() == kInfinity : open_.top_key() < best_cost())) {
+           (ends_at_first ? goal_cost() == cost_before_ : open_.top_key() < best_cost())) {
       if (should_stop()) {
         outcome = ImproveOutcome::kStopped;
         break;
@@ -181,6 +181,7 @@ class AraStar {
   void BeginIteration(double epsilon, EdgeOrder order) {
     epsilon_ = epsilon;
     order_ = order;
+    cost_before_ = goal_cost();
     ++iteration_;
     open_.Rebuild(epsilon, order, incons_,
                   [this](const EdgeHeap::Entry& edge) { return CanImproveGoal(edge); });
@@ -246,6 +247,7 @@ class AraStar {
   EdgeOrder order_ = EdgeOrder::kHeuristic;
   bool started_ = false;  // the start has been expanded
   std::uint32_t iteration_ = 0;
+  double cost_before_ = kInfinity;  // of the goal, when the iteration began
   double lower_bound_ = 0;          // of the optimal cost
   double upper_bound_ = kInfinity;  // cost of a path known from elsewhere
   StateId last_expanded_;

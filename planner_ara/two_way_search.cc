@@ -10,6 +10,9 @@
 namespace planbench {
 namespace {
 
+/// What the guide to a first path counts beside the cost so far, whatever epsilon is asked for: the
+/// bound is computed afterwards, and most often a path found in haste and shortened has it.
+constexpr double kFirstGuideWeight = 100;
 /// A search goes on until it has done this much more work than the other.
 constexpr std::int64_t kSlice = 200;
 /// Work of an expansion, a configuration checked being 1.
@@ -112,21 +115,28 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
                                      const std::function<void(double)>& on_solution) {
   const bool guided = tip_guide_ || options_.crowding > 0;
-  for (const auto& side : sides_) side->converged = false;
+  if (phase_ == Phase::kFirst && !guided) phase_ = Phase::kProof;
+  BeginPhase(phase_ == Phase::kFirst && cost_ < kInfinity ? Phase::kBetter : phase_);
   const auto reaches_epsilon = [&] {
     const double bound = ProveBound();
     on_solution(bound);
     return bound <= epsilon;
   };
   if (ShortenPath(should_stop) && reaches_epsilon()) return ImproveOutcome::kConverged;
-  while (Side* side = NextSide()) {
-    const EdgeOrder order =
-        guided && cost_ == kInfinity ? EdgeOrder::kGuide : EdgeOrder::kHeuristic;
+  while (true) {
+    Side* side = NextSide();
+    if (side == nullptr && phase_ == Phase::kBetter) {
+      BeginPhase(Phase::kProof);
+      continue;
+    }
+    if (side == nullptr) break;
+    const EdgeOrder order = phase_ == Phase::kProof ? EdgeOrder::kHeuristic : EdgeOrder::kGuide;
     const bool alone = sides_.size() == 1;
     const WorkMeter meter(edges_, side->search.num_expansions());
+    const double cost_before = side->search.goal_cost();
     bool stopped = false;
     const ImproveOutcome outcome = side->search.ImprovePath(
-        epsilon,
+        phase_ == Phase::kFirst ? std::max(epsilon, kFirstGuideWeight) : epsilon,
         [&] {
           stopped = should_stop();
           return stopped || (!alone && meter.Work(side->search.num_expansions()) >= kSlice);
@@ -137,33 +147,55 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
       side->search.ExpandAgain();
       continue;
     }
-    // In the order of the guide a search that has a path is at its end, but has proven nothing yet.
-    side->converged = outcome == ImproveOutcome::kExhausted ||
-                      (outcome == ImproveOutcome::kConverged && order == EdgeOrder::kHeuristic);
-    bool is_better = side->search.goal_cost() < cost_;
-    if (is_better) {
-      TakePath(side->search.goal_cost(), side->graph.Configurations(side->search.Path()),
-               side != sides_.front().get());
-    }
+    side->converged = outcome != ImproveOutcome::kStopped;
+    bool is_found = side->search.goal_cost() < cost_before;
+    bool is_better = is_found && Offer(side, should_stop);
     if (cost_ == kInfinity && !alone && options_.bridge_after < kInfinity) {
       LookAround(side);
-      is_better = WorkOnBridge(epsilon, should_stop);
+      is_found = is_better = WorkOnBridge(epsilon, should_stop);
     }
     if (is_better && (reaches_epsilon() || (ShortenPath(should_stop) && reaches_epsilon()))) {
       return ImproveOutcome::kConverged;
     }
     if (stopped) return ImproveOutcome::kStopped;
+    if (is_found && phase_ != Phase::kProof) {
+      BeginPhase(phase_ == Phase::kFirst ? Phase::kBetter : Phase::kProof);
+    }
   }
   return cost_ < kInfinity ? ImproveOutcome::kConverged : ImproveOutcome::kExhausted;
 }
 
+void TwoWaySearch::BeginPhase(Phase phase) {
+  phase_ = phase;
+  for (const auto& side : sides_) side->converged = false;
+  SetCost(cost_);
+}
+
+// Takes the path that a search has found, if it is the best, or becomes that by shortcuts.
+bool TwoWaySearch::Offer(const Side* side, const std::function<bool()>& should_stop) {
+  double cost = side->search.goal_cost();
+  Path path = side->graph.Configurations(side->search.Path());
+  if (cost >= cost_ && options_.shorten) {
+    path = ShortcutPath(edges_, path, kShortcutSeed, kShortcutRounds, should_stop);
+    cost = side->graph.CostOf(path);
+  }
+  if (cost >= cost_) return false;
+  TakePath(cost, std::move(path), side != sides_.front().get());
+  return true;
+}
+
 void TwoWaySearch::TakePath(double cost, Path path, bool is_backward) {
-  cost_ = cost;
   path_ = std::move(path);
   found_backward_ = is_backward;
   is_bridged_ = false;
   may_be_shortened_ = options_.shorten;
   if (is_backward) std::reverse(path_.begin(), path_.end());
+  SetCost(cost);
+}
+
+void TwoWaySearch::SetCost(double cost) {
+  cost_ = cost;
+  if (phase_ != Phase::kProof) return;
   for (const auto& side : sides_) side->search.SetUpperBound(cost_);
 }
 
@@ -173,9 +205,8 @@ bool TwoWaySearch::ShortenPath(const std::function<bool()>& should_stop) {
   Path path = ShortcutPath(edges_, path_, kShortcutSeed, kShortcutRounds, should_stop);
   const double cost = sides_.front()->graph.CostOf(path);
   if (cost >= cost_) return false;
-  cost_ = cost;
   path_ = std::move(path);
-  for (const auto& side : sides_) side->search.SetUpperBound(cost_);
+  SetCost(cost);
   return true;
 }
 

@@ -19,8 +19,9 @@ namespace planbench {
 /// has the lattice anchored at its own root, with the other end as its goal; the one that has done
 /// less work goes next, so that the better direction finds its path in twice the work it would need
 /// alone, whichever it is (with bridges, below, in four times). Neither follows edges that cannot
-/// lead to a path cheaper than the best of both. Where a lattice holds no path, its search goes on
-/// with finer moves (ManipulationGraph::Refine), the states kept.
+/// lead to a path cheaper than the best of both, once the bound is what is left to do. Where a
+/// lattice holds no path, its search goes on with finer moves (ManipulationGraph::Refine), the
+/// states kept.
 ///
 /// Where both have long been without success, each stuck before the narrow place in which the other
 /// began, a search for a bridge between the widest states of both takes their place: for as much
@@ -71,8 +72,17 @@ class TwoWaySearch {
  private:
   struct Side;
   struct Bridge;
+  /// What the searches are after, one after the other.
+  enum class Phase {
+    kFirst,   ///< Any path, in the guide's order, most greedily.
+    kBetter,  ///< Another, in the guide's order with the epsilon asked for. Guided only.
+    kProof,   ///< A better path or a better bound, as ARA* goes on.
+  };
+  void BeginPhase(Phase phase);
   Side* NextSide() const;
+  bool Offer(const Side* side, const std::function<bool()>& should_stop);
   void TakePath(double cost, Path path, bool is_backward);
+  void SetCost(double cost);
   bool ShortenPath(const std::function<bool()>& should_stop);
   void LookAround(Side* side);
   void BeginBridge();
@@ -90,6 +100,7 @@ class TwoWaySearch {
   ManipulationGraphOptions options_;
   std::optional<TipGuide> tip_guide_;
   std::vector<std::unique_ptr<Side>> sides_;
+  Phase phase_ = Phase::kFirst;
   double cost_ = std::numeric_limits<double>::infinity();
   Path path_;
   bool found_backward_ = false;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -152,6 +153,19 @@ TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {
   EXPECT_LT(costs.front(), first);
   EXPECT_EQ(search.counts().iterations, as_found.counts().iterations) << "the search went on";
   ExpectJoins(search.path(), search.cost());
+}
+
+TEST_F(TwoWaySearchTest, FirstPathIsFoundInTheSameWayWhateverTheEpsilon) {
+  const auto first_cost = [&](double epsilon) {
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+    std::optional<double> cost;
+    search.Improve(epsilon, kGoOn, [&](double) {
+      if (!cost) cost = search.cost();
+    });
+    return cost;
+  };
+  ASSERT_TRUE(first_cost(100));
+  EXPECT_EQ(first_cost(1.1), first_cost(100));
 }
 
 // Start and goal lie in slots that the arm has to draw its hand out of.
