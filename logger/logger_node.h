@@ -67,7 +67,7 @@ class LoggerNode {
   NodeStatusMessage status_;
   MessageQueue queue_;
   SessionRecorder recorder_;
-  std::chrono::steady_clock::time_point last_complaint_;  // bus thread only
+  std::chrono::steady_clock::time_point last_complaint_;  // for handlers only
   std::exception_ptr failure_;                            // the writer's; to be read after the join
   std::thread writer_;
   std::unique_ptr<NodeAnnouncer> announcer_;

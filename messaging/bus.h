@@ -39,7 +39,7 @@ struct Origin {
 };
 
 /// The only owner of an LCM connection. Messages are sent by LCM, but received by this project's
-/// own reader of its protocol, which no packet harms. Handlers run on the bus thread, one at a
+/// own reader of its protocol, which no packet harms. Handlers run on the bus's threads, one at a
 /// time, from Start() on; what they throw is logged with the channel's name and goes no further.
 /// Publishing is thread-safe.
 class Bus {
@@ -50,14 +50,14 @@ class Bus {
   /// Connects; throws InputError in one line if the URL is bad or there is no multicast route.
   /// "memq://" is a bus within this object.
   explicit Bus(const std::string& url);
-  /// Stops the bus thread.
+  /// Stops the threads.
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
   const std::string& url() const { return url_; }
 
-  /// Starts the bus thread. Subscriptions may be made before and after.
+  /// Starts to call handlers. Subscriptions may be made before and after.
   void Start();
 
   template <typename Message>

@@ -46,7 +46,7 @@ class NodeAnnouncer {
   std::function<void()> also_;
   NodeStatusMessage self_;
   const std::chrono::steady_clock::time_point established_;
-  std::optional<NodeStatusMessage> rival_;  // heard once; bus thread only
+  std::optional<NodeStatusMessage> rival_;  // heard once; for handlers only
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;

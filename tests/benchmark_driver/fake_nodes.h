@@ -25,7 +25,7 @@ class FakePlanner {
  public:
   explicit FakePlanner(Bus* bus, const std::string& name = "arm");
 
-  /// What to do with a request, on the bus thread. At first: Solve.
+  /// What to do with a request, in its handler. At first: Solve.
   void OnRequest(std::function<void(const PlanRequest&)> handler);
   void Acknowledge(const PlanRequest& request, PlanAckVerdict verdict,
                    const std::string& message = "");

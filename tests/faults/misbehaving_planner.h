@@ -35,7 +35,7 @@ class MisbehavingPlanner {
   std::string late_;  // request that has been asked for once
   int num_asked_ = 0;
   std::unique_ptr<NodeAnnouncer> announcer_;
-  std::optional<PlanRequest> overdue_;  // bus thread only
+  std::optional<PlanRequest> overdue_;  // for handlers only
   Subscription requests_;
   Subscription cancels_;
 };

@@ -500,12 +500,17 @@ class CheckPass {
     alignas(64) float margins[kBlock];
     Store(margin, margins);
     LaneMask left = 0;
+    // Configurations of a block are alike: a plane found in one lane is the first tried in the next.
+    float direction[3];
+    bool found = false;
     for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
-      if (!HullsApart(robot_, hull_a, placement_.node(a).center, hull_b, placement_.node(b).center,
-                      Relation(lane), margins[lane])) {
-        left |= LaneMask{1} << lane;
+      const Transform& X_AB = Relation(lane);
+      if (!found) {
+        Difference(placement_.node(a).center, placement_.node(b).center, X_AB, direction);
       }
+      found = HullsApart(robot_, hull_a, hull_b, X_AB, margins[lane], direction);
+      if (!found) left |= LaneMask{1} << lane;
     }
     return MaskOf(left);
   }

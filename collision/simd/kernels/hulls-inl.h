@@ -87,15 +87,16 @@ inline float Dot(const float* a, const float* b) { return a[0] * b[0] + a[1] * b
 /// Whether a plane is found between two convex bodies that are more than `margin` apart.
 /// `gap(d, w, suffices)` finds the least d . (a - b) of points a, b of the one and the other;
 /// unless that suffices, and it returns true, it stores that a - b. `direction`: a guess from the
-/// other to the one, any but 0.
+/// other to the one, any but 0; becomes the plane's, if one is found.
 template <typename Gap>
-HWY_INLINE bool PlaneBetween(const float* direction, float margin, Gap gap) {
+HWY_INLINE bool PlaneBetween(float* direction, float margin, Gap gap) {
   float v[3] = {direction[0], direction[1], direction[2]};
   for (int i = 0; i < kMostDirections; ++i) {
     float w[3];
     const float squared = Dot(v, v);
     if (gap(v, w,
             [&](float apart) { return apart > 0 && apart * apart > margin * margin * squared; })) {
+      std::copy_n(v, 3, direction);
       return true;
     }
     if (i == 0) {

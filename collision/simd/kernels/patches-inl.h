@@ -30,14 +30,17 @@ struct PatchView {
   BoxedGroup group(int i) const { return {triangles(i), BoxOf(patch.boxes, i)}; }
 };
 
-/// Whether a plane is found between two hulls that are more than `margin` apart. The first that is
-/// tried is across the line between points inside, given in A and in B.
-inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const float* middle_A,
-                       const NodeHull& b, const float* middle_B, const Transform& X_AB,
-                       float margin) {
-  float direction[3];
-  X_AB.Times(middle_B, direction);
-  for (int k = 0; k < 3; ++k) direction[k] = middle_A[k] - direction[k];
+/// A point of A less one of B, in A.
+HWY_INLINE void Difference(const float* point_A, const float* point_B, const Transform& X_AB,
+                           float* difference) {
+  X_AB.Times(point_B, difference);
+  for (int k = 0; k < 3; ++k) difference[k] = point_A[k] - difference[k];
+}
+
+/// Whether a plane is found between two hulls that are more than `margin` apart. `direction`: see
+/// PlaneBetween, in A.
+inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const NodeHull& b,
+                       const Transform& X_AB, float margin, float* direction) {
   const auto gap = [&](const float* v, float* w, auto suffices) {
     float v_B[3];
     for (int k = 0; k < 3; ++k) {
@@ -47,11 +50,10 @@ inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const float*
     const Extreme in_a(robot.points + a.first, a.num, v);
     const Extreme in_b(robot.points + b.first, b.num, v_B);
     if (suffices(in_a.value() + in_b.value() - Dot(v, X_AB.translation))) return true;
-    float point_B[3], other[3];
-    in_a.Find(w);
+    float point_A[3], point_B[3];
+    in_a.Find(point_A);
     in_b.Find(point_B);
-    X_AB.Times(point_B, other);
-    for (int k = 0; k < 3; ++k) w[k] -= other[k];
+    Difference(point_A, point_B, X_AB, w);
     return false;
   };
   return PlaneBetween(direction, margin + a.slack + b.slack, gap);
@@ -76,8 +78,9 @@ inline bool PatchesMeet(const PatchView& a, const PatchView& b, const Transform&
     const BoxedGroup other = b.group(j);
     return AnyOf(near_a & BoxesNear(a.patch.boxes, other.box, X_AB, margin), [&](int i) {
       const BoxedGroup group = a.group(i);
-      return !HullsApart(a.robot, a.patch.hulls[i], group.box.center, b.patch.hulls[j],
-                         other.box.center, X_AB, margin) &&
+      float direction[3];
+      Difference(group.box.center, other.box.center, X_AB, direction);
+      return !HullsApart(a.robot, a.patch.hulls[i], b.patch.hulls[j], X_AB, margin, direction) &&
              GroupsMeet(group, other.triangles, &other.box, X_AB, margin);
     });
   });
