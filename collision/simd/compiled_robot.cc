@@ -264,17 +264,16 @@ void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& i
   test->radius = static_cast<float>(ball.radius + kRadiusPadding);
 }
 
-void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball) {
+void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& tree) {
   if (At(kernel.nodes, link.root).num_insides == 0) return;
-  const float* center = At(kernel.nodes, ball.root).center;
-  const std::array<float, 3> point = {center[0], center[1], center[2]};
-  kernel.inside_tests.push_back({link.root,
-                                 link.body,
-                                 ball.body,
-                                 true,
-                                 {point},
-                                 {point[0], point[1], point[2]},
-                                 kRadiusPadding});
+  const Node& root = At(kernel.nodes, tree.root);
+  kernels::InsideTest& test = kernel.inside_tests.emplace_back(
+      kernels::InsideTest{link.root, link.body, tree.body, true, {}, {}, root.radius});
+  std::copy_n(root.center, 3, test.center);
+  for (const int index : NodesBelow(tree.root)) {
+    const Node& node = At(kernel.nodes, index);
+    if (node.num_children == 0) std::copy_n(node.center, 3, test.points.emplace_back().data());
+  }
 }
 
 int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
@@ -321,22 +320,16 @@ std::size_t CompiledRobot::ReachSize() const {
   return static_cast<std::size_t>(meshes_ != nullptr ? 2 * kernel.num_joints : kernel.num_joints);
 }
 
-CompiledTree CompiledRobot::AddBall(int link, const Ball& ball_L) {
+CompiledTree CompiledRobot::AddTree(int link, const BallTree& tree_L) {
   CompiledTree tree;
   tree.link = link;
   tree.body = rigid_bodies_.BodyOf(link);
   tree.root = static_cast<int>(kernel.nodes.size());
-  const Ball ball_G{rigid_bodies_.X_GL(link) * ball_L.center, ball_L.radius};
-  const int reach = AddReach(ball_G, link);
-  tree.reach_W = rigid_bodies_.Reach(0, tree.body, ball_G);
-  kernel.nodes.emplace_back().reach = reach;
-  // Attached objects are told from others by their balls alone, and have no points.
-  if (meshes_ != nullptr) {
-    kernel.reaches.resize(kernel.reaches.size() + static_cast<std::size_t>(kernel.num_joints));
-    kernel.hulls.emplace_back();
-  }
-  tree.reach = ReachAt(reach);
-  SetBall(ball_G, kRadiusPadding, link, tree.root);
+  kernel.nodes.emplace_back();
+  const BallTree tree_G = tree_L.In(rigid_bodies_.X_GL(link));
+  Emit(tree_G, link, tree.root);
+  tree.reach_W = rigid_bodies_.Reach(0, tree.body, tree_G.ball());
+  tree.reach = AddReachOfTree(tree.root);
   return tree;
 }
 

@@ -51,14 +51,14 @@ struct CompiledRobot {
   /// Forgets the balls and pairs that were added since.
   void Truncate(const Extent& extent);
 
-  /// A tree of one ball fixed to a link, given in the link's frame, for something that is not a
-  /// sphere of the robot.
-  CompiledTree AddBall(int link, const Ball& ball_L);
+  /// A tree of balls fixed to a link, given in the link's frame, around something that is not the
+  /// robot's.
+  CompiledTree AddTree(int link, const BallTree& tree_L);
 
   /// A pair of trees of different bodies, unless they can never meet within the joint limits.
   void AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful);
-  /// The middle of a tree of one ball, which is doubtful where it may be inside of a link's mesh.
-  void AddDoubtfulInside(const CompiledTree& link, const CompiledTree& ball);
+  /// The middles of a tree's leaves, which are doubtful where they may be inside of a link's mesh.
+  void AddDoubtfulInside(const CompiledTree& link, const CompiledTree& tree);
   /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
   /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs
   /// is stored there. Of meshes it is a lower bound; whether they collide the kernel has to be

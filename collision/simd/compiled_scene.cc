@@ -6,6 +6,7 @@
 #include "collision/at.h"
 #include "collision/balls.h"
 #include "collision/model_spheres.h"
+#include "collision/object_cover.h"
 #include "collision/rigid_bodies.h"
 #include "collision/shape_check.h"
 #include "common/numbers.h"
@@ -15,10 +16,31 @@ namespace {
 
 using kernels::kBlock;
 
-/// A ball that none of the trees leaves, around those given, if any.
-Ball ReachOf(const std::vector<CompiledTree>& trees, std::vector<Ball> balls = {}) {
-  for (const CompiledTree& tree : trees) balls.push_back(tree.reach_W);
-  return EnclosingBall(balls);
+/// Balls of a tree around an attached object.
+constexpr std::size_t kAttachedBalls = 32;
+/// Steps to the balls that enclose them: a request has to wait for it.
+constexpr int kAttachedSteps = 10;
+
+BallTree TreeOf(std::span<Ball> balls) {
+  if (balls.size() == 1) return BallTree({balls.front()});
+  std::vector<BallTree> children;
+  const std::size_t half = Halve(balls);
+  for (const std::span<Ball> part : {balls.first(half), balls.subspan(half)}) {
+    if (part.size() == 1) {
+      children.push_back(TreeOf(part));
+      continue;
+    }
+    const std::size_t quarter = Halve(part);
+    children.push_back(TreeOf(part.first(quarter)));
+    children.push_back(TreeOf(part.subspan(quarter)));
+  }
+  return BallTree(std::move(children), kAttachedSteps);
+}
+
+BallTree TreeAround(const SceneObject& object, std::vector<Ball> balls) {
+  BallTree tree = TreeOf(balls);
+  tree.SetInner([&](const Eigen::Vector3d& point) { return DepthIn(object, point); });
+  return tree;
 }
 
 /// A grid that no sphere leaves.
@@ -70,7 +92,9 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     held_.clear();
     compiled_robot_.emplace(*robot_, *group_, base_positions, ModelSpheres(*robot_, model_),
                             meshes_ ? &*meshes_ : nullptr);
-    robot_reach_W_ = ReachOf(compiled_robot_->bodies);
+    std::vector<Ball> reaches;
+    for (const CompiledTree& tree : compiled_robot_->bodies) reaches.push_back(tree.reach_W);
+    robot_reach_W_ = EnclosingBall(reaches);
     without_pairs_ = compiled_robot_->extent();
     base_ = robot();
     base_.bodies.resize(1);
@@ -92,8 +116,13 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
     without_attached_ = compiled_robot_->extent();
   }
   AttachObjects(rules);
-  world_.SetObjects(scene_, *compiled_robot_,
-                    attached_.empty() ? robot_reach_W_ : ReachOf(attached_, {robot_reach_W_}));
+  Ball reach_W = robot_reach_W_;
+  if (!attached_.empty()) {
+    std::vector<Ball> reaches = {reach_W};
+    for (const auto& [attached, tree] : attached_) reaches.push_back(tree.reach_W);
+    reach_W = EnclosingBall(reaches);
+  }
+  world_.SetObjects(scene_, *compiled_robot_, reach_W);
   if (field_ != nullptr) SetGrid();
   CompileTrees(rules);
   geometry_bound_.Set(scene_, base_positions);
@@ -154,22 +183,29 @@ bool CompiledScene::StandingMeshesCollide() const {
 void CompiledScene::AttachObjects(const PairRules& rules) {
   compiled_robot_->Truncate(*without_attached_);
   attached_.clear();
+  attached_stand_ = false;
   for (const AttachedObject& attached : scene_.attached) {
-    const std::vector<Ball> balls = BallsAround(attached.object);
+    std::vector<Ball> balls = CoverOf(attached.object, kAttachedBalls);
     if (balls.empty()) continue;
-    const CompiledTree tree =
-        compiled_robot_->AddBall(rules.LinkOf(attached), EnclosingBall(balls));
-    // Pairs of one body are the exact engine's to judge, once; see Set.
+    const CompiledTree tree = compiled_robot_->AddTree(
+        rules.LinkOf(attached), TreeAround(attached.object, std::move(balls)));
+    // Pairs of one body are the exact engine's to judge, once; see DoSetScene.
+    attached_stand_ = attached_stand_ || tree.body == 0;
     for (const CompiledTree& link : compiled_robot_->links) {
-      if (link.body != tree.body && rules.ChecksAttachedWithLink(attached, link.link)) {
-        compiled_robot_->AddPair(link, tree, true);
-        compiled_robot_->AddDoubtfulInside(link, tree);
+      if (!rules.ChecksAttachedWithLink(attached, link.link)) continue;
+      if (link.body == tree.body) {
+        attached_stand_ = true;
+        continue;
       }
+      compiled_robot_->AddPair(link, tree, true);
+      compiled_robot_->AddDoubtfulInside(link, tree);
     }
-    for (const CompiledTree& other : attached_) {
-      if (other.body != tree.body) compiled_robot_->AddPair(other, tree, true);
+    for (const auto& [other, other_tree] : attached_) {
+      if (!rules.ChecksAttached(*other, attached)) continue;
+      attached_stand_ = attached_stand_ || other_tree.body == tree.body;
+      if (other_tree.body != tree.body) compiled_robot_->AddPair(other_tree, tree, true);
     }
-    attached_.push_back(tree);
+    attached_.emplace_back(&attached, tree);
   }
 }
 
@@ -177,7 +213,6 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
   // Objects that the matrix does not name count for every link, unless links allow by default; with
   // a field none does.
   const bool by_default = !scene_.allowed_collisions.default_entries().empty();
-  const std::vector<unsigned char> all(scene_.objects.size(), 1);
   std::vector<unsigned char> checked(scene_.objects.size(), field_ == nullptr ? 1 : 0);
   std::vector<int> named;
   for (std::size_t i = 0; field_ == nullptr && i < scene_.objects.size(); ++i) {
@@ -196,7 +231,7 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
     }
   };
 
-  standing_ = {links_collide_, !attached_.empty(), links_distance_};
+  standing_ = {links_collide_, attached_stand_, links_distance_};
   if (field_ == nullptr) add_all(false);
   if (!world_.kernel.trees.empty()) {
     JudgeStandingTrees();
@@ -204,7 +239,12 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
     world_.kernel.candidates.clear();
   }
   add_all(true);
-  for (const CompiledTree& tree : attached_) world_.AddTree(tree, all, true);
+  for (const auto& [attached, tree] : attached_) {
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+      checked[i] = rules.ChecksAttachedWithObject(*attached, scene_.objects[i]) ? 1 : 0;
+    }
+    world_.AddTree(tree, checked, true);
+  }
 }
 
 void CompiledScene::JudgeStandingTrees() {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "collision/collision_model.h"
@@ -86,9 +87,10 @@ class CompiledScene {
   /// Of the robot with its own pairs, as the matrix of scene_ has them; none: not compiled.
   std::optional<CompiledRobot::Extent> without_attached_;
   std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
-  std::vector<CompiledTree> attached_;
-  double links_distance_ = 0;   ///< Of links that do not move relative to each other, m.
-  bool links_collide_ = false;  ///< Some of these do.
+  std::vector<std::pair<const AttachedObject*, CompiledTree>> attached_;  ///< Of scene_'s.
+  bool attached_stand_ = false;  ///< Some do not move relative to something they are checked with.
+  double links_distance_ = 0;    ///< Of links that do not move relative to each other, m.
+  bool links_collide_ = false;   ///< Some of these do.
   CompiledWorld world_;
   Standing standing_;
   MotionBound motion_bound_;
