@@ -500,7 +500,8 @@ class CheckPass {
     alignas(64) float margins[kBlock];
     Store(margin, margins);
     LaneMask left = 0;
-    // Configurations of a block are alike: a plane found in one lane is the first tried in the next.
+    // Configurations of a block are alike: a plane found in one lane is the first tried in the
+    // next.
     float direction[3];
     bool found = false;
     for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
