@@ -1,6 +1,5 @@
 #include "collision/object_cover.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,23 +24,6 @@ struct Cell {
 
   bool operator<(const Cell& other) const { return ball.radius < other.ball.radius; }
 };
-
-Eigen::AlignedBox3d BoxAround(const Shape& shape) {
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();
-  if (const auto* box = std::get_if<Box>(&shape)) half = box->size / 2;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) half.setConstant(sphere->radius);
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-    half << cylinder->radius, cylinder->radius, cylinder->length / 2;
-  }
-  if (const auto* cone = std::get_if<Cone>(&shape)) {
-    half << cone->radius, cone->radius, cone->length / 2;
-  }
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    half << capsule->radius, capsule->radius, capsule->length / 2 + capsule->radius;
-  }
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->triangles.box();
-  return {-half, half};
-}
 
 /// Whether a box is beside a round shape, from whose axis (z) nothing is further than its radius.
 bool IsBeside(const Shape& shape, const Eigen::AlignedBox3d& box) {
@@ -70,6 +52,23 @@ double Depth(const Other& /*shape*/, const Eigen::Vector3d& /*p*/) {
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d BoxAround(const Shape& shape) {
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();
+  if (const auto* box = std::get_if<Box>(&shape)) half = box->size / 2;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) half.setConstant(sphere->radius);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    half << cylinder->radius, cylinder->radius, cylinder->length / 2;
+  }
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    half << cone->radius, cone->radius, cone->length / 2;
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    half << capsule->radius, capsule->radius, capsule->length / 2 + capsule->radius;
+  }
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->triangles.box();
+  return {-half, half};
+}
 
 std::vector<Ball> CoverOf(const SceneObject& object, std::size_t most) {
   std::priority_queue<Cell> open;

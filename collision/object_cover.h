@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "collision/balls.h"
 #include "scene/scene.h"
 
 namespace planbench {
+
+/// In the shape's frame; not of a half-space.
+Eigen::AlignedBox3d BoxAround(const Shape& shape);
 
 /// Small balls that together hold an object (without half-spaces), in the frame that its pose is
 /// given in: one a shape, and as long as these are no more than `most`, more of smaller ones.

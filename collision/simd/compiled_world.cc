@@ -8,6 +8,7 @@
 
 #include "collision/at.h"
 #include "collision/balls.h"
+#include "collision/object_cover.h"
 #include "collision/shape_check.h"
 
 namespace planbench {
@@ -124,26 +125,13 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
     AddHalfSpace(X_WS, object, reach);
     return;
   }
-  Source source{object, X_WS.translation, X_WS.rotation, Eigen::Vector3d::Zero()};
+  const Eigen::AlignedBox3d box = BoxAround(shape);
+  Source source{object, X_WS * box.center(), X_WS.rotation, box.sizes() / 2};
   const Eigen::Vector3d axis = X_WS.rotation.col(2);
   const auto* cylinder = std::get_if<Cylinder>(&shape);
   const auto* cone = std::get_if<Cone>(&shape);
   const auto* capsule = std::get_if<Capsule>(&shape);
   const auto* mesh = std::get_if<Mesh>(&shape);
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    source.half_size = box->size / 2;
-  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    source.half_size = Eigen::Vector3d::Constant(sphere->radius);
-  } else if (cylinder != nullptr) {
-    source.half_size << cylinder->radius, cylinder->radius, cylinder->length / 2;
-  } else if (cone != nullptr) {
-    source.half_size << cone->radius, cone->radius, cone->length / 2;
-  } else if (capsule != nullptr) {
-    source.half_size << capsule->radius, capsule->radius, capsule->length / 2 + capsule->radius;
-  } else {
-    source.center = X_WS * mesh->triangles.box().center();
-    source.half_size = mesh->triangles.box().sizes() / 2;
-  }
   if (!BoxWithin(source.center, source.R_WS, source.half_size, reach)) return;
 
   const bool is_box = std::holds_alternative<Box>(shape);
