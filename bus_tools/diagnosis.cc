@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "bus_tools/traffic.h"
 #include "common/error.h"
 #include "common/text.h"
 #include "common/version.h"
@@ -32,7 +33,6 @@ using Kind = Finding::Kind;
 constexpr std::size_t kSmallBytes = 1000;
 constexpr std::size_t kLargeBytes = 1'000'000;
 constexpr int kRecommendedBuffer = 4'194'304;
-constexpr int kQueueCapacity = 65536;
 
 /// All that is heard while it lives.
 class Listener {

@@ -21,8 +21,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kQueueCapacity = 65536;
-
 std::regex ChannelPattern(const std::string& text) {
   try {
     return std::regex(text);

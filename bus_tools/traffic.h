@@ -8,6 +8,9 @@
 
 namespace planbench {
 
+/// Messages that may wait for a tool that hears all channels.
+inline constexpr int kQueueCapacity = 65536;
+
 /// What has come on each channel.
 class Traffic {
  public:
