@@ -20,14 +20,14 @@ Ball Enclosing(const std::vector<BallTree>& children, int num_steps) {
 }
 
 /// Cuts balls into up to kMaxChildren groups, always the group with the largest enclosing ball.
-std::vector<std::vector<Ball>> Partition(std::vector<Ball> balls) {
+std::vector<std::vector<Ball>> Partition(std::vector<Ball> balls, int num_steps) {
   std::vector<std::vector<Ball>> groups = {std::move(balls)};
   while (groups.size() < kMaxChildren) {
     auto largest = groups.end();
     double radius = 0;
     for (auto group = groups.begin(); group != groups.end(); ++group) {
       if (group->size() < 2) continue;
-      const double r = EnclosingBall(*group).radius;
+      const double r = EnclosingBall(*group, num_steps).radius;
       if (largest == groups.end() || r > radius) {
         largest = group;
         radius = r;
@@ -57,15 +57,15 @@ std::vector<Ball> WithoutCovered(std::vector<Ball> balls) {
 
 }  // namespace
 
-BallTree::BallTree(std::vector<Ball> balls) {
+BallTree::BallTree(std::vector<Ball> balls, int num_steps) {
   balls = WithoutCovered(std::move(balls));
-  ball_ = EnclosingBall(balls);
+  ball_ = EnclosingBall(balls, num_steps);
   if (balls.size() == 1) {
     ball_ = balls.front();
     return;
   }
-  for (std::vector<Ball>& group : Partition(std::move(balls))) {
-    children_.emplace_back(std::move(group));
+  for (std::vector<Ball>& group : Partition(std::move(balls), num_steps)) {
+    children_.push_back(BallTree(std::move(group), num_steps));
   }
 }
 

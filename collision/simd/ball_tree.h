@@ -14,9 +14,10 @@ namespace planbench {
 /// same things: leaves are the given balls.
 class BallTree {
  public:
-  /// At least one ball. Balls that lie wholly inside another are left out.
-  explicit BallTree(std::vector<Ball> balls);
-  /// Joins trees under one root; for the steps see EnclosingBall.
+  /// At least one ball. Balls that lie wholly inside another are left out. For the steps see
+  /// EnclosingBall.
+  explicit BallTree(std::vector<Ball> balls, int num_steps = 200);
+  /// Joins trees under one root.
   explicit BallTree(std::vector<BallTree> children, int num_steps = 200);
   /// A leaf that encloses a patch of a surface, of that index in a list of the caller's, and those
   /// points of it.

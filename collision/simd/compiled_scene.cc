@@ -21,24 +21,8 @@ constexpr std::size_t kAttachedBalls = 32;
 /// Steps to the balls that enclose them: a request has to wait for it.
 constexpr int kAttachedSteps = 10;
 
-BallTree TreeOf(std::span<Ball> balls) {
-  if (balls.size() == 1) return BallTree({balls.front()});
-  std::vector<BallTree> children;
-  const std::size_t half = Halve(balls);
-  for (const std::span<Ball> part : {balls.first(half), balls.subspan(half)}) {
-    if (part.size() == 1) {
-      children.push_back(TreeOf(part));
-      continue;
-    }
-    const std::size_t quarter = Halve(part);
-    children.push_back(TreeOf(part.first(quarter)));
-    children.push_back(TreeOf(part.subspan(quarter)));
-  }
-  return BallTree(std::move(children), kAttachedSteps);
-}
-
 BallTree TreeAround(const SceneObject& object, std::vector<Ball> balls) {
-  BallTree tree = TreeOf(balls);
+  BallTree tree(std::move(balls), kAttachedSteps);
   tree.SetInner([&](const Eigen::Vector3d& point) { return DepthIn(object, point); });
   return tree;
 }
