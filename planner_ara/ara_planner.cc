@@ -16,6 +16,7 @@
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/manipulation_graph.h"
 #include "planner_ara/two_way_search.h"
+#include "planning/experience.h"
 
 namespace planbench {
 namespace {
@@ -42,6 +43,7 @@ class AraPlanner : public Planner {
       hash.Add(ReadText(robot.folder / settings_.primitives));
       primitives_id_ = hash.HexDigest();
     }
+    if (!settings_.experience.empty()) experience_.emplace(robot, settings_.experience);
   }
 
   PlannerDescription Describe() const override {
@@ -55,6 +57,7 @@ class AraPlanner : public Planner {
     description.settings = settings_.AsText();
     // The file may change while its name stays.
     if (!primitives_id_.empty()) description.settings["primitives_id"] = primitives_id_;
+    if (experience_) experience_->Describe(&description.settings);
     return description;
   }
 
@@ -71,6 +74,10 @@ class AraPlanner : public Planner {
 
     if (settings.tip_guide > 0) {
       search.GuideByTip(query.scene(), query.base_positions(), settings.tip_guide);
+    }
+    if (const PathLibrary* known = experience_ ? experience_->For(query.space()) : nullptr) {
+      search.AddPaths(
+          known->Recall(query.space(), query.start(), query.goal().nominal, settings.recall));
     }
 
     const double memory_limit = settings.memory_limit_mb * 1024 * 1024;
@@ -117,6 +124,9 @@ class AraPlanner : public Planner {
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
         {"bridged", search.is_bridged() ? 1.0 : 0.0},
     };
+    if (experience_) {
+      result.counters["recalled_edges"] = static_cast<double>(counts.recalled_edges);
+    }
     if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
@@ -162,6 +172,9 @@ class AraPlanner : public Planner {
       settings.Apply(node);
     }
     settings.Validate("request parameters");
+    if (settings.experience != settings_.experience) {
+      throw InputError("request parameter experience: paths are read before there are requests");
+    }
     return settings;
   }
 
@@ -175,6 +188,7 @@ class AraPlanner : public Planner {
   std::string origin_;  // of the settings
   AraSettings settings_;
   std::string primitives_id_;  // content hash of the file of primitives; empty without one
+  std::optional<Experience> experience_;
   std::map<std::string, ManipulationGraphOptions> options_;  // by group, of settings_
 };
 

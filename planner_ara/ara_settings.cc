@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/error.h"
+#include "planning/experience.h"
 
 namespace planbench {
 namespace {
@@ -85,6 +86,8 @@ void AraSettings::Apply(const YamlNode& node) {
                   "wrap_heuristic",
                   "fit_cells",
                   "edge_weights",
+                  "experience",
+                  "recall",
                   "epsilon_initial",
                   "epsilon_decrement",
                   "epsilon_final",
@@ -116,6 +119,8 @@ void AraSettings::Apply(const YamlNode& node) {
   }
   tip_guide = NonNegative(node, "tip_guide", tip_guide);
   if (const std::optional<YamlNode> value = node.Find("cost")) cost = value->Enum<MoveCost>();
+  if (const std::optional<YamlNode> file = node.Find("experience")) experience = file->String();
+  if (const std::optional<YamlNode> value = node.Find("recall")) recall = ReadRecall(*value);
   epsilon.initial = AtLeastOne(node, "epsilon_initial", epsilon.initial);
   epsilon.decrement = Positive(node, "epsilon_decrement", epsilon.decrement);
   epsilon.final = AtLeastOne(node, "epsilon_final", epsilon.final);
@@ -127,6 +132,9 @@ void AraSettings::Validate(const std::string& origin) const {
     throw InputError(fmt::format("{}: epsilon_initial {} is less than epsilon_final {}", origin,
                                  epsilon.initial, epsilon.final));
   }
+  if (!experience.empty() && !wrap_heuristic) {
+    throw InputError(origin + ": experience needs wrap_heuristic");
+  }
 }
 
 std::string AraSettings::VariantName() const {
@@ -134,6 +142,7 @@ std::string AraSettings::VariantName() const {
   if (two_way) variants.emplace_back("two-way");
   if (tip_guide > 0 || crowding > 0) variants.emplace_back("guided");
   if (burs) variants.emplace_back("burs");
+  if (!experience.empty()) variants.emplace_back("experience");
   if (variants.empty()) return "ARA*";
   return fmt::format("ARA* ({})", fmt::join(variants, ", "));
 }
@@ -165,6 +174,10 @@ std::map<std::string, std::string> AraSettings::AsText() const {
   };
   if (!crowding_joints.empty()) {
     text["crowding_joints"] = fmt::format("[{}]", fmt::join(crowding_joints, ", "));
+  }
+  if (!experience.empty()) {
+    text["experience"] = experience;
+    text["recall"] = fmt::format("{}", recall);
   }
   if (!edge_weights.empty()) text["edge_weights"] = ByJointAsText(edge_weights);
   return text;

@@ -91,6 +91,10 @@ struct AraSettings {
   /// on the motion between samples: m per rad or m, > 0; empty, or one for every joint of the
   /// group.
   std::map<std::string, double> edge_weights;
+  /// File of paths that were found before (PathLibrary), absolute or from the robot folder; empty:
+  /// none.
+  std::string experience;
+  int recall = 1;                 ///< Of it, how many a request uses at most.
   EpsilonSchedule epsilon;        ///< Keys epsilon_initial, epsilon_decrement, epsilon_final.
   double memory_limit_mb = 2048;  ///< MiB that graph and search may take; > 0.
 

@@ -54,6 +54,16 @@ Lattice::Lattice(const JointSpace& space, std::span<const double> anchor,
   }
 }
 
+Lattice::Coordinate Lattice::Nearest(int j, double value) const {
+  const LatticeAxis& axis = Axis(j);
+  const int anchor = anchor_[static_cast<std::size_t>(j)];
+  const double offset = value - axis.values[static_cast<std::size_t>(anchor)];
+  const double cells = std::round((axis.wraps ? WrapAngle(offset) : offset) / axis.step);
+  const int num = num_cells(j);
+  if (axis.wraps) return static_cast<Coordinate>((anchor + static_cast<int>(cells) + num) % num);
+  return static_cast<Coordinate>(std::clamp(anchor + cells, 0.0, num - 1.0));
+}
+
 std::size_t LatticePoints::SlotOf(std::span<const Lattice::Coordinate> coordinates) const {
   std::uint64_t hash = 0;
   for (const Lattice::Coordinate coordinate : coordinates) {

@@ -36,6 +36,9 @@ class Lattice {
   /// Coordinates of the anchor.
   const std::vector<Coordinate>& anchor() const { return anchor_; }
 
+  /// The cell of joint j whose position is nearest to `value`.
+  Coordinate Nearest(int j, double value) const;
+
   /// Moves coordinate k of joint j by `cells`; false if that leaves the joint's limits.
   bool Move(int j, Coordinate k, int cells, Coordinate* moved) const {
     const LatticeAxis& axis = Axis(j);

@@ -130,6 +130,10 @@ void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double
   tip_weight_ = weight;
 }
 
+void ManipulationGraph::AddPaths(std::span<const Path> paths) {
+  recalled_.emplace(edges_->space(), lattice_, options_.weights, paths);
+}
+
 bool ManipulationGraph::Refine() {
   if (!options_.refine) return false;
   std::vector<std::vector<int>> halves;
@@ -302,6 +306,16 @@ bool ManipulationGraph::MoveFrom(StateId source, const Move& move, int times) {
   return true;
 }
 
+// The waypoint that such an edge leads to, kNone if the state has fewer of them.
+int ManipulationGraph::WaypointOf(StateId source, std::uint16_t action) {
+  if (source != joined_) {
+    joined_ = source;
+    SelectSource(source);
+    waypoints_ = recalled_->NeighboursOf(points_.Coordinates(source - 1), from_);
+  }
+  return waypoints_[action - kToRecalled];
+}
+
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
   // Cells of different hashes may share a count: it only guides.
   const double crowd = visits_.empty() ? 1 : 1 + options_.crowding * Crowd(CountVisit(state));
@@ -324,6 +338,16 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     const double distance =
         WeightedDistance(edges_->space(), options_.weights, from_, goal_.nominal);
     candidates->push_back({CostOf(distance), 0, 0, kToNominalGoal});
+  }
+
+  for (std::uint16_t action = kToRecalled; recalled_ && action < kFirstMove; ++action) {
+    const int waypoint = WaypointOf(state, action);
+    if (waypoint == RecalledPaths::kNone || !is_candidate(action)) continue;
+    SelectEdge(state, action);
+    const double length = WeightedDistance(edges_->space(), options_.weights, from_, to_);
+    const double heuristic =
+        unit_ * std::sqrt(SquaredDistance(goal_terms_, recalled_->CoordinatesOf(waypoint)));
+    candidates->push_back({CostOf(length), heuristic, 0, action});
   }
 
   bool use_long = true;
@@ -356,7 +380,10 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
 }
 
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
-  if (action < kFirstMove) return kGoal;
+  if (action < kToRecalled) return kGoal;
+  if (action < kFirstMove) {
+    return points_.FindOrAdd(recalled_->CoordinatesOf(WaypointOf(source, action))) + 1;
+  }
   const Move& move = MoveOf(action);
   const int times = (action & kSpine) != 0 ? SpineLength(source, move) : 1;
   MoveFrom(source, move, times);
@@ -367,9 +394,10 @@ bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
   if ((action & kSpine) != 0) return true;
   const Knowledge known = Recall(source, action);
   if (known != Knowledge::kUnknown) return known != Knowledge::kBlocked;
-  if (action < kFirstMove) ++num_goal_connections_tried_;
+  if (action < kToRecalled) ++num_goal_connections_tried_;
   SelectEdge(source, action);
   const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
+  if (valid && action >= kToRecalled && action < kFirstMove) ++num_recalled_edges_;
   Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
   return valid;
 }
@@ -377,8 +405,12 @@ bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
 // Sets from_ and to_ to the ends of an edge.
 void ManipulationGraph::SelectEdge(StateId source, std::uint16_t action) {
   SelectSource(source);
-  if (action < kFirstMove) {
+  if (action < kToRecalled) {
     GoalConfiguration(action, from_, to_);
+    return;
+  }
+  if (action < kFirstMove) {
+    std::ranges::copy(recalled_->ConfigurationOf(WaypointOf(source, action)), to_.begin());
     return;
   }
   MoveFrom(source, MoveOf(action));

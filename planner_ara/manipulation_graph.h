@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "planner_ara/goal_distance.h"
 #include "planner_ara/lattice.h"
 #include "planner_ara/motion_primitives.h"
+#include "planner_ara/recalled_paths.h"
 #include "planner_ara/tip_distance.h"
 #include "planning/goal_box.h"
 
@@ -72,6 +74,9 @@ class ManipulationGraph {
   bool Refine();
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
+  /// Before the search: adds the edges of paths that were found before (RecalledPaths). They are
+  /// followed first. The heuristic must wrap.
+  void AddPaths(std::span<const Path> paths);
   /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
 
@@ -87,6 +92,8 @@ class ManipulationGraph {
   std::int64_t num_states() const { return static_cast<std::int64_t>(points_.size()); }
   /// Edges to the goal whose validity was checked.
   std::int64_t num_goal_connections_tried() const { return num_goal_connections_tried_; }
+  /// Edges of recalled paths that were found to be free.
+  std::int64_t num_recalled_edges() const { return num_recalled_edges_; }
   std::size_t bytes() const { return points_.bytes() + known_edges_.bytes() + clearances_.bytes(); }
 
  private:
@@ -94,7 +101,8 @@ class ManipulationGraph {
   enum Action : std::uint16_t {
     kToNearestGoal = 0,
     kToNominalGoal = 1,
-    kFirstMove = 2,
+    kToRecalled = 2,  ///< And the one after it: to a waypoint of RecalledPaths::NeighboursOf.
+    kFirstMove = 4,
     kSpine = 0x8000
   };
   // Of an edge, two bits each.
@@ -121,6 +129,7 @@ class ManipulationGraph {
   void GoalConfiguration(std::uint16_t action, std::span<const double> from,
                          std::span<double> to) const;
   void SelectSource(StateId state);
+  int WaypointOf(StateId source, std::uint16_t action);
   bool MoveFrom(StateId source, const Move& move, int times = 1);
   const Move& MoveOf(std::uint16_t action) const;
   double CostOf(double length) const;
@@ -153,7 +162,13 @@ class ManipulationGraph {
   std::vector<std::uint16_t> visits_;  // by hash of the cell of crowding
   std::unique_ptr<TipDistance> tip_distance_;
   double tip_weight_ = 0;
+  std::optional<RecalledPaths> recalled_;
   std::int64_t num_goal_connections_tried_ = 0;
+  std::int64_t num_recalled_edges_ = 0;
+
+  // A state and the waypoints that it is joined to.
+  StateId joined_ = kGoal;
+  std::array<int, 2> waypoints_{};
 
   // The state whose edges are at hand.
   StateId source_ = kGoal;

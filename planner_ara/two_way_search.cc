@@ -88,6 +88,7 @@ TwoWaySearch::Counts& TwoWaySearch::Counts::operator+=(const Counts& more) {
   states += more.states;
   edges_generated += more.edges_generated;
   goal_connections_tried += more.goal_connections_tried;
+  recalled_edges += more.recalled_edges;
   iterations = std::max(iterations, more.iterations);
   return *this;
 }
@@ -102,6 +103,10 @@ void TwoWaySearch::GuideByTip(const Scene& scene, std::span<const double> base_p
   for (const auto& side : sides_) {
     side->graph.GuideByTip(std::make_unique<TipDistance>(grid, side->target), weight);
   }
+}
+
+void TwoWaySearch::AddPaths(std::span<const Path> paths) {
+  for (const auto& side : sides_) side->graph.AddPaths(paths);
 }
 
 TwoWaySearch::Side* TwoWaySearch::NextSide() const {
@@ -295,9 +300,9 @@ TwoWaySearch::Counts TwoWaySearch::counts() const {
   Counts counts = bridge_counts_;
   if (bridge_) counts += bridge_->search.counts();
   for (const auto& side : sides_) {
-    counts += {side->search.num_expansions(), side->graph.num_states(),
+    counts += {side->search.num_expansions(),      side->graph.num_states(),
                side->search.num_edges_generated(), side->graph.num_goal_connections_tried(),
-               side->search.num_iterations()};
+               side->graph.num_recalled_edges(),   side->search.num_iterations()};
   }
   return counts;
 }

@@ -34,7 +34,8 @@ class TwoWaySearch {
     std::int64_t states = 0;
     std::int64_t edges_generated = 0;
     std::int64_t goal_connections_tried = 0;
-    std::int64_t iterations = 0;  ///< Of the search that had the most.
+    std::int64_t recalled_edges = 0;  ///< Those that were free.
+    std::int64_t iterations = 0;      ///< Of the search that had the most.
     Counts& operator+=(const Counts& more);
   };
 
@@ -47,6 +48,9 @@ class TwoWaySearch {
   /// Before the first Improve: the tips' way round the obstacles guides the searches, too, by
   /// `weight` (rad/m). The scene must outlive this; Improve may then throw as TipGrid::Mark.
   void GuideByTip(const Scene& scene, std::span<const double> base_positions, double weight);
+
+  /// Before the first Improve: both lattices get the edges of these paths (RecalledPaths).
+  void AddPaths(std::span<const Path> paths);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
   /// lattice. A path that is not good enough is first shortened, if the options say so.

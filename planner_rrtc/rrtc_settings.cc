@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner_rrtc/ompl_algorithms.h"
+#include "planning/experience.h"
 
 namespace planbench {
 namespace {
@@ -32,12 +33,6 @@ double ReadDomainRadius(const YamlNode& node) {
 std::optional<double> ReadRange(const YamlNode& node) {
   if (node.IsScalar() && node.String() == "default") return std::nullopt;
   return node.PositiveDouble();
-}
-
-int ReadRecall(const YamlNode& node) {
-  const long long recall = node.Int();
-  if (recall < 1 || recall > 1000) node.Fail("must be from 1 to 1000");
-  return static_cast<int>(recall);
 }
 
 double ReadFraction(const YamlNode& node) {

@@ -9,6 +9,7 @@
 #include "contract/random_robots_contract.h"
 #include "scene/moveit_yaml.h"
 #include "support/expect_input_error.h"
+#include "support/path_libraries.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -92,6 +93,38 @@ TEST_F(AraPlannerTest, TellsWhatTheFileOfPrimitivesHolds) {
   EXPECT_FALSE(Make("")->Describe().settings.contains("primitives_id"));
 }
 
+TEST_F(AraPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
+  const PlanResult before = Make(kPlanarSettings)->Plan(PastThePost(), PostsScene(), nullptr);
+  ASSERT_EQ(before.status, PlanStatus::kSolved) << before.message;
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& name, const PathLibrary& library) {
+    return kPlanarSettings + "experience: " + folder.Write(name, ToYaml(library)).string() + "\n";
+  };
+  const PathLibrary same = LibraryOf(robot_, {before.simplified_path});
+  const std::unique_ptr<Planner> planner = Make(with("same.yaml", same));
+  const PlanResult recalled = planner->Plan(PastThePost(), PostsScene(), nullptr);
+  ASSERT_EQ(recalled.status, PlanStatus::kSolved) << recalled.message;
+  EXPECT_LT(recalled.counters.at("expansions"), before.counters.at("expansions") / 2);
+  EXPECT_GT(recalled.counters.at("recalled_edges"), 0);
+
+  // Straight through the posts: of no use.
+  const PathLibrary blocked = LibraryOf(robot_, {{{0.6, 0, 0}, {-0.6, 0, 0}}});
+  const PlanResult without =
+      Make(with("blocked.yaml", blocked))->Plan(PastThePost(), PostsScene(), nullptr);
+  EXPECT_EQ(without.status, PlanStatus::kSolved) << without.message;
+
+  const PlannerDescription description = planner->Describe();
+  EXPECT_EQ(description.algorithm, "ARA* (two-way, guided, experience)");
+  EXPECT_EQ(description.settings.at("learned_from"), "posts, walls");
+  EXPECT_FALSE(description.settings.at("experience_id").empty());
+
+  PathLibrary other = same;
+  other.joints.front() = "other";
+  ExpectInputError([&] { Make(with("other.yaml", other)); }, {"other.yaml", "joints", "planar3"});
+  ExpectInputError([&] { Make(with("same.yaml", same) + "wrap_heuristic: false"); },
+                   {"ara.yaml", "experience", "wrap_heuristic"});
+}
+
 TEST_F(AraPlannerTest, NeedsNoSettings) {
   const std::unique_ptr<Planner> planner = Make("");
   EXPECT_EQ(planner->Describe().settings.at("primitives"), "generated");
@@ -115,7 +148,8 @@ TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
         Case{"epsilon_final", "11", "epsilon_final 11"}, Case{"cost", "cheap", "cheap"},
         Case{"discretization", "{elbow: -1}", "discretization.elbow"},
         Case{"discretization", "{elbow: 1e-9}", "cells"},
-        Case{"memory_limit_mb", "[1]", "memory_limit_mb"}}) {
+        Case{"memory_limit_mb", "[1]", "memory_limit_mb"},
+        Case{"experience", "paths.yaml", "experience"}, Case{"recall", "0", "recall"}}) {
     PlanRequest request = PastThePost();
     request.parameters[test.key] = test.text;
     const PlanResult result = planner->Plan(request, PostsScene(), nullptr);

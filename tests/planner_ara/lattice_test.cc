@@ -89,6 +89,23 @@ TEST(Lattice, MovesWrapOrStopAtTheLimits) {
   EXPECT_EQ(moved, 0);
 }
 
+TEST(Lattice, NearestCellWrapsOrStopsAtTheLimits) {
+  const JointSpace space = LatticeSpace();
+  const Lattice lattice(space, std::vector<double>{0.1, 0.5, 3.0},
+                        std::vector<double>{0.005, 0.1, 0.1});
+  for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < lattice.num_cells(j); ++k) {
+      const auto cell = static_cast<Lattice::Coordinate>(k);
+      for (const double offset : {-0.4, 0.0, 0.4}) {
+        const double value = lattice.Value(j, cell) + offset * lattice.step(j);
+        EXPECT_EQ(lattice.Nearest(j, value), cell) << j << " " << value;
+      }
+    }
+  }
+  EXPECT_EQ(lattice.Nearest(0, -100), 0);
+  EXPECT_EQ(lattice.Nearest(1, 1e300), lattice.num_cells(1) - 1);
+}
+
 TEST(Lattice, RefusesCellsOutOfProportion) {
   const std::vector<double> anchor{0.1, 0.5, 0.0};
   ExpectInputError(

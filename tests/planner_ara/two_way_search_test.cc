@@ -35,8 +35,10 @@ class TwoWaySearchTest : public testing::Test {
   }
 
   // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm.
-  double Optimum(const Configuration& start, const Configuration& goal) {
+  double Optimum(const Configuration& start, const Configuration& goal,
+                 const std::vector<Path>& recalled = {}) {
     ManipulationGraph graph(edges_.get(), start, PointGoal(goal), options_);
+    graph.AddPaths(recalled);
     std::vector<double> costs(2, kInfinity);
     costs[ManipulationGraph::kStart] = 0;
     std::priority_queue<std::pair<double, StateId>> queue;
@@ -135,6 +137,34 @@ TEST_F(TwoWaySearchTest, BoundHoldsWithBurs) {
     ExpectJoins(search.path(), search.cost());
   }
   EXPECT_NEAR(search.cost(), optimum, 1e-9);
+}
+
+TEST_F(TwoWaySearchTest, BoundHoldsWithRecalledPaths) {
+  options_.shorten = false;
+  // Straight through the posts, and two moves of a good path at a time, the short way.
+  std::vector<Path> recalled = {{kLeft_, kRight_}, {}};
+  TwoWaySearch before(edges_.get(), kLeft_, PointGoal(kRight_), options_, false);
+  before.Improve(1, kGoOn, kSilent);
+  for (std::size_t i = 0; i < before.path().size(); i += 2) {
+    recalled.back().push_back(before.path()[i]);
+  }
+  const double forward = Optimum(kLeft_, kRight_, recalled);
+  const double backward = Optimum(kRight_, kLeft_, recalled);
+  EXPECT_LT(std::min(forward, backward),
+            std::min(Optimum(kLeft_, kRight_), Optimum(kRight_, kLeft_)));
+  for (const double tip_guide : {0.0, 5.0}) {
+    const Scene scene = PostsScene();
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+    if (tip_guide > 0) search.GuideByTip(scene, std::vector<double>(4, 0.0), tip_guide);
+    search.AddPaths(recalled);
+    for (const double epsilon : {50.0, 1.5, 1.0}) {
+      ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
+      EXPECT_LE(search.cost(), search.ProveBound() * std::min(forward, backward) + 1e-9);
+      ExpectJoins(search.path(), search.cost());
+    }
+    EXPECT_NEAR(search.cost(), std::min(forward, backward), 1e-9);
+    EXPECT_GT(search.counts().recalled_edges, 0);
+  }
 }
 
 TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {

@@ -5,11 +5,11 @@
 
 #include "planner_rrtc/ompl_algorithms.h"
 #include "planner_rrtc/rrtc_settings.h"
-#include "planning/path_library.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/planner_contract.h"
 #include "tests/contract/random_robots_contract.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/path_libraries.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
@@ -64,12 +64,7 @@ TEST_F(RrtcPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
   const PlanResult before = Solve("");
   ASSERT_EQ(before.status, PlanStatus::kSolved);
   const TemporaryFolder folder;
-  PathLibrary library;
-  for (const JointSpace::Joint& joint : robot_.groups.front().space.joints()) {
-    library.joints.push_back(joint.name);
-  }
-  library.learned_from = {"posts", "walls"};
-  library.paths = {before.simplified_path};
+  PathLibrary library = LibraryOf(robot_, {before.simplified_path});
   const auto with = [&](const std::string& name) {
     return "experience: " + folder.Write(name, ToYaml(library)).string();
   };

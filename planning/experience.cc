@@ -1,0 +1,41 @@
+#include "planning/experience.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/content_hash.h"
+#include "common/error.h"
+#include "common/read_text.h"
+
+namespace planbench {
+
+Experience::Experience(const Robot& robot, const std::string& file) {
+  const std::filesystem::path path = robot.folder / file;
+  library_ = ReadPathLibrary(path);
+  ContentHash hash;
+  hash.Add(ReadText(path));
+  id_ = hash.HexDigest();
+  const bool fits =
+      std::any_of(robot.groups.begin(), robot.groups.end(),
+                  [this](const PlanningGroup& group) { return library_.Fits(group.space); });
+  if (!fits) {
+    throw InputError(fmt::format("{}: its joints are not those of a group of robot '{}'",
+                                 path.string(), robot.model.name()));
+  }
+}
+
+void Experience::Describe(std::map<std::string, std::string>* settings) const {
+  (*settings)["experience_id"] = id_;
+  (*settings)[kLearnedFrom] = fmt::format("{}", fmt::join(library_.learned_from, ", "));
+}
+
+int ReadRecall(const YamlNode& node) {
+  const long long recall = node.Int();
+  if (recall < 1 || recall > 1000) node.Fail("must be from 1 to 1000");
+  return static_cast<int>(recall);
+}
+
+}  // namespace planbench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "common/yaml.h"
+#include "planning/path_library.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// The paths that a planner's setting `experience` names.
+class Experience {
+ public:
+  /// Reads `file`, absolute or from the robot folder. Throws InputError as ReadPathLibrary, and if
+  /// its joints are not those of any group.
+  Experience(const Robot& robot, const std::string& file);
+
+  /// The paths, null if they are of other joints.
+  const PathLibrary* For(const JointSpace& space) const {
+    return library_.Fits(space) ? &library_ : nullptr;
+  }
+  /// Adds what is known beyond the file's name: its content and what it was learned from.
+  void Describe(std::map<std::string, std::string>* settings) const;
+
+ private:
+  PathLibrary library_;
+  std::string id_;  // The file may change while its name stays.
+};
+
+/// Reads the setting `recall`: how many known paths a request uses at most.
+int ReadRecall(const YamlNode& node);
+
+}  // namespace planbench
