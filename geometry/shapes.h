@@ -14,33 +14,40 @@ namespace planbench {
 /// Box centred at its frame's origin, edges along the axes.
 struct Box {
   Eigen::Vector3d size;  ///< Edge lengths along x, y, z, m.
+  bool operator==(const Box&) const = default;
 };
 
 /// Sphere centred at its frame's origin.
 struct Sphere {
   double radius;  ///< m
+  bool operator==(const Sphere&) const = default;
 };
 
 /// Cylinder with flat caps, axis along z, centred at its frame's origin.
 struct Cylinder {
   double radius;  ///< m
   double length;  ///< Along z, m.
+  bool operator==(const Cylinder&) const = default;
 };
 
 /// Cone, axis along z, centred at its frame's origin: apex at z = +length/2, base at z = -length/2.
 struct Cone {
   double radius;  ///< Of the base, m.
   double length;  ///< Along z, m.
+  bool operator==(const Cone&) const = default;
 };
 
 /// All points within `radius` of a segment along z, centred at its frame's origin.
 struct Capsule {
   double radius;  ///< m
   double length;  ///< Of the segment: between the centres of the caps, m.
+  bool operator==(const Capsule&) const = default;
 };
 
 /// Everything below a plane: z <= 0 in its frame. Unbounded.
-struct HalfSpace {};
+struct HalfSpace {
+  bool operator==(const HalfSpace&) const = default;
+};
 
 /// Triangles of a surface.
 struct TriangleMesh {
@@ -82,6 +89,7 @@ struct Mesh {
       Eigen::Vector3d::Ones();  ///< Applied to the resource's vertices, per axis.
   SharedMesh
       triangles;  ///< Already scaled; empty until loaded (see LoadMesh) if a resource is named.
+  bool operator==(const Mesh&) const = default;
 };
 
 using Shape = std::variant<Box, Sphere, Cylinder, Cone, Capsule, HalfSpace, Mesh>;
@@ -93,6 +101,9 @@ std::string ShapeTypeName(const Shape& shape);
 struct PlacedShape {
   Shape shape;
   Eigen::Isometry3d X_FS = Eigen::Isometry3d::Identity();
+  bool operator==(const PlacedShape& other) const {
+    return shape == other.shape && X_FS.matrix() == other.X_FS.matrix();
+  }
 };
 
 /// Smallest sphere known to enclose a shape, in the shape's frame. That of a half-space has an

@@ -154,7 +154,8 @@ void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Sc
   Compiled& compiled = compiled_[{group.name, model}];
   std::vector<double> held = HeldPositions(robot_->model, group, base_positions);
   const bool is_compiled = compiled.checker && compiled.held == held &&
-                           compiled.allowed_collisions == scene.allowed_collisions;
+                           compiled.allowed_collisions == scene.allowed_collisions &&
+                           compiled.attached == scene.attached;
   if (is_compiled && !HasMeshes(scene)) return;
   if (!compiled.checker) {
     compiled.checker = MakeCollisionChecker(*robot_, group, model);
@@ -163,6 +164,7 @@ void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Sc
   compiled.checker->SetScene(scene, base_positions);
   compiled.held = std::move(held);
   compiled.allowed_collisions = scene.allowed_collisions;
+  compiled.attached = scene.attached;
   if (!is_compiled) ++num_compilations_;
 }
 

@@ -74,6 +74,7 @@ class Planner {
     std::unique_ptr<CollisionChecker> checker;
     std::vector<double> held;
     AllowedCollisionMatrix allowed_collisions;
+    std::vector<AttachedObject> attached;
   };
 
   void PlanInScene(const PlanRequest& request, const PlannerDescription& description,

@@ -18,6 +18,9 @@ struct SceneObject {
   std::string id;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  ///< Object pose.
   std::vector<PlacedShape> shapes;  ///< Poses X_OS in the object's frame (PlacedShape::X_FS).
+  bool operator==(const SceneObject& other) const {
+    return id == other.id && X_WO.matrix() == other.X_WO.matrix() && shapes == other.shapes;
+  }
 };
 
 /// An object that moves with a link. Its pose field holds X_LO, the object in the link's frame.
@@ -25,6 +28,7 @@ struct AttachedObject {
   std::string link;
   SceneObject object;
   std::vector<std::string> touch_links;  ///< Links the object may touch, besides `link` itself.
+  bool operator==(const AttachedObject&) const = default;
 };
 
 /// Which pairs of bodies (links, objects, attached objects, by name) may touch. MoveIt's meaning:

@@ -118,8 +118,9 @@ bool CompiledRobot::ProvenApart(const CompiledTree& a, const CompiledTree& b,
   return open.empty();
 }
 
-void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful) {
-  if (!WithinReach(a, b) || !WithinReach(b, a)) return;
+std::optional<kernels::Reach> CompiledRobot::AddReachOfPair(const CompiledTree& a,
+                                                            const CompiledTree& b) {
+  if (!WithinReach(a, b) || !WithinReach(b, a)) return std::nullopt;
   const int offset = static_cast<int>(kernel.reaches.size());
   kernel.reaches.resize(kernel.reaches.size() + ReachSize(), 0.0f);
   // The joints between each and the nearest body that carries both.
@@ -130,20 +131,34 @@ void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b, bool d
       }
     }
   }
-  const std::size_t num_pairs = kernel.pairs.size();
-  const kernels::Reach reach = ReachAt(offset);
-  if (doubtful) {
-    kernel.pairs.push_back(PairOf(a, b, true, reach));
-  } else {
-    AddProven(a, b, reach);
-  }
-  if (kernel.pairs.size() == num_pairs) kernel.reaches.resize(static_cast<std::size_t>(offset));
+  return ReachAt(offset);
 }
 
-kernels::TreePair CompiledRobot::PairOf(const CompiledTree& a, const CompiledTree& b, bool doubtful,
+void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b) {
+  const std::optional<kernels::Reach> reach = AddReachOfPair(a, b);
+  if (!reach) return;
+  const std::size_t num_pairs = kernel.pairs.size();
+  AddProven(a, b, *reach);
+  if (kernel.pairs.size() == num_pairs) {
+    kernel.reaches.resize(static_cast<std::size_t>(reach->first));
+  }
+}
+
+void CompiledRobot::AddAttachedPair(const CompiledTree& other, const CompiledTree& tree) {
+  const std::optional<kernels::Reach> reach = AddReachOfPair(other, tree);
+  if (!reach) return;
+  kernel.pairs.push_back(PairOf(other, tree, *reach));
+  std::vector<kernels::InsideTest> tests;
+  for (const auto& [of, in] : {std::pair(&other, &tree), std::pair(&tree, &other)}) {
+    AddInsideTests(*of, *in, &tests);
+  }
+  kernel.inside_tests.insert(kernel.inside_tests.end(), tests.begin(), tests.end());
+}
+
+kernels::TreePair CompiledRobot::PairOf(const CompiledTree& a, const CompiledTree& b,
                                         const kernels::Reach& reach) const {
   const float radius = At(kernel.nodes, a.root).radius + At(kernel.nodes, b.root).radius;
-  return {a.root, b.root, a.body, b.body, doubtful, radius, reach};
+  return {a.root, b.root, a.body, b.body, a.doubtful || b.doubtful, radius, reach};
 }
 
 void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b,
@@ -159,7 +174,7 @@ void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b,
     if (node_b.num_children > 0 && (split == nullptr || node_b.radius > node_a.radius)) split = &b;
   }
   if (split == nullptr) {
-    kernel.pairs.push_back(PairOf(a, b, false, reach));
+    kernel.pairs.push_back(PairOf(a, b, reach));
     return;
   }
   // A test of roots that always touch tells nothing, and some of what is below may be apart for
@@ -231,7 +246,7 @@ void CompiledRobot::AddPairs(
       *distance =
           std::min(*distance, LeastDistance(RootBall(*a), BallsOf(*a), Pose(), BallsOf(*b)));
       if (meshes_ == nullptr) continue;
-      standing.pairs.push_back(PairOf(*a, *b, false, a->reach));
+      standing.pairs.push_back(PairOf(*a, *b, a->reach));
       AddInsideTests(*a, *b, &standing.inside_tests);
       AddInsideTests(*b, *a, &standing.inside_tests);
     }
@@ -245,7 +260,7 @@ void CompiledRobot::AddPairs(
 void CompiledRobot::AddLinkPairs(const CompiledTree& a, const CompiledTree& b,
                                  const LinkPairs& links_of) {
   const std::size_t num_pairs = kernel.pairs.size();
-  AddPair(a, b, false);
+  AddPair(a, b);
   if (meshes_ == nullptr) return;
   // Where their surfaces never meet one is in the other always or never.
   auto* tests = kernel.pairs.size() > num_pairs ? &kernel.inside_tests : &standing.inside_tests;

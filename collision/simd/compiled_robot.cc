@@ -69,9 +69,7 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
   }
 
   SamplePoses();
-  if (meshes_ != nullptr) {
-    AddPatches();
-  }
+  if (meshes_ != nullptr) AddPatches(meshes_->patches);
   for (int i = 0; i < rigid_bodies_.size(); ++i) {
     std::vector<BallTree> trees;
     std::vector<CompiledTree> parts;
@@ -88,6 +86,7 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
       if (meshes_ != nullptr) {
         if (const LinkMeshes* of_link = MeshesOf(link)) {
           add(link, of_link->tree.In(rigid_bodies_.X_GL(link)));
+          parts.back().meshes = of_link;
         }
         continue;
       }
@@ -105,31 +104,36 @@ CompiledRobot::CompiledRobot(const Robot& robot, const PlanningGroup& group,
     kernel.nodes.emplace_back();
     if (parts.size() == 1) {
       parts.front().root = whole.root;
-      Emit(trees.front(), whole.link, whole.root);
+      Emit(trees.front(), whole.link, whole.root, 0);
     } else {
       const BallTree tree(std::move(trees));
       for (std::size_t k = 0; k < parts.size(); ++k) {
         parts[k].root = static_cast<int>(kernel.nodes.size() + k);
       }
-      Emit(tree, whole.link, whole.root);
+      Emit(tree, whole.link, whole.root, 0);
       whole.reach_W = rigid_bodies_.Reach(0, i, tree.ball());
     }
     for (CompiledTree& part : parts) {
       part.reach = AddReachOfTree(part.root);
-      if (meshes_ != nullptr) AddInsides(*MeshesOf(part.link), part.root);
+      if (part.meshes != nullptr) AddInsides(*part.meshes, part.root);
     }
     whole.link = -1;
+    whole.meshes = nullptr;
     whole.reach = AddReachOfTree(whole.root);
     bodies.push_back(whole);
     links.insert(links.end(), parts.begin(), parts.end());
   }
-  kernel.triangles = triangles_.data();
-  kernel.points = points_.data();
+  ShareArrays();
   std::sort(links.begin(), links.end(),
             [](const CompiledTree& a, const CompiledTree& b) { return a.link < b.link; });
 }
 
-void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
+void CompiledRobot::ShareArrays() {
+  kernel.triangles = triangles_.data();
+  kernel.points = points_.data();
+}
+
+void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_patch) {
   const int first = static_cast<int>(kernel.nodes.size());
   const int num = static_cast<int>(tree.children().size());
   // Balls of balls enclose the enlarged ones, and what rounding does to both.
@@ -140,16 +144,14 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index) {
       static_cast<float>(std::max(0.0, tree.inner() - 2 * kRadiusPadding));
   At(kernel.nodes, index).reach = num == 0 ? AddReach(tree.ball(), link) : kNoReach;
   if (tree.patch() >= 0) {
-    At(kernel.nodes, index).patch = tree.patch();
+    At(kernel.nodes, index).patch = first_patch + tree.patch();
     AddReach(tree.ball(), link, tree.ball().radius);
   }
-  if (meshes_ != nullptr) {
-    kernel.hulls.resize(kernel.nodes.size());
-    const Pose turn{At(R_CG_, rigid_bodies_.BodyOf(link)), Eigen::Vector3d::Zero()};
-    At(kernel.hulls, index) = AddHull(tree.hull(), turn);
-  }
+  kernel.hulls.resize(kernel.nodes.size());
+  const Pose turn{At(R_CG_, rigid_bodies_.BodyOf(link)), Eigen::Vector3d::Zero()};
+  At(kernel.hulls, index) = AddHull(tree.hull(), turn);
   kernel.nodes.resize(kernel.nodes.size() + static_cast<std::size_t>(num));
-  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i);
+  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i, first_patch);
 }
 
 void CompiledRobot::SetBall(const Ball& ball_G, double padding, int link, int index) {
@@ -169,8 +171,8 @@ Pose CompiledRobot::PoseOfLink(int link) const {
   return turn * rigid_bodies_.X_GL(link);
 }
 
-void CompiledRobot::AddPatches() {
-  for (const RobotMeshes::Patch& patch : meshes_->patches) {
+void CompiledRobot::AddPatches(const std::vector<RobotMeshes::Patch>& patches) {
+  for (const RobotMeshes::Patch& patch : patches) {
     const Pose X_CL = PoseOfLink(patch.link);
     kernels::Patch& placed = kernel.patches.emplace_back();
     placed.boxes = MakeBoxGroup();
@@ -239,41 +241,45 @@ void CompiledRobot::AddInsides(const LinkMeshes& link, int root) {
   }
 }
 
+std::vector<std::array<float, 3>> CompiledRobot::PointsOf(const CompiledTree& tree) const {
+  std::vector<std::array<float, 3>> points;
+  if (tree.meshes != nullptr) {
+    const Pose X_CL = PoseOfLink(tree.link);
+    for (const Eigen::Vector3d& point : tree.meshes->points) {
+      SetVector(X_CL * point, points.emplace_back().data());
+    }
+    return points;
+  }
+  for (const int index : NodesBelow(tree.root)) {
+    const Node& node = At(kernel.nodes, index);
+    if (node.num_children == 0) std::copy_n(node.center, 3, points.emplace_back().data());
+  }
+  return points;
+}
+
 void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& in,
                                    std::vector<kernels::InsideTest>* tests) const {
   const Node& around = At(kernel.nodes, in.root);
   if (around.num_insides == 0) return;
   // What is longer than a ball around the meshes is not inside of them.
-  const LinkMeshes& meshes = *MeshesOf(of.link);
-  if (meshes.points.size() == 1 && Diameter(meshes.tree.hull().points) > 2 * around.radius) return;
+  if (of.meshes != nullptr && of.meshes->points.size() == 1 &&
+      Diameter(of.meshes->tree.hull().points) > 2 * around.radius) {
+    return;
+  }
   // One test for all links of a body.
   auto test = std::find_if(tests->begin(), tests->end(), [&](const kernels::InsideTest& other) {
-    return other.root_in == in.root && other.body_of == of.body;
+    return other.root_in == in.root && other.body_of == of.body && other.doubtful == of.doubtful;
   });
   if (test == tests->end()) {
-    test = tests->insert(test, {in.root, in.body, of.body, false, {}, {}, 0});
+    test = tests->insert(test, {in.root, in.body, of.body, of.doubtful, {}, {}, 0});
   }
-  const Pose X_CL = PoseOfLink(of.link);
-  for (const Eigen::Vector3d& point : meshes.points) {
-    SetVector(X_CL * point, test->points.emplace_back().data());
-  }
+  const auto more = PointsOf(of);
+  test->points.insert(test->points.end(), more.begin(), more.end());
   std::vector<Ball> points;
   for (const auto& point : test->points) points.push_back({{point[0], point[1], point[2]}, 0});
   const Ball ball = EnclosingBall(points);
   SetVector(ball.center, test->center);
   test->radius = static_cast<float>(ball.radius + kRadiusPadding);
-}
-
-void CompiledRobot::AddDoubtfulInside(const CompiledTree& link, const CompiledTree& tree) {
-  if (At(kernel.nodes, link.root).num_insides == 0) return;
-  const Node& root = At(kernel.nodes, tree.root);
-  kernels::InsideTest& test = kernel.inside_tests.emplace_back(
-      kernels::InsideTest{link.root, link.body, tree.body, true, {}, {}, root.radius});
-  std::copy_n(root.center, 3, test.center);
-  for (const int index : NodesBelow(tree.root)) {
-    const Node& node = At(kernel.nodes, index);
-    if (node.num_children == 0) std::copy_n(node.center, 3, test.points.emplace_back().data());
-  }
 }
 
 int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {
@@ -316,18 +322,31 @@ kernels::Reach CompiledRobot::ReachAt(int first) const {
   return reach;
 }
 
-std::size_t CompiledRobot::ReachSize() const {
-  return static_cast<std::size_t>(meshes_ != nullptr ? 2 * kernel.num_joints : kernel.num_joints);
+CompiledTree CompiledRobot::AddTree(int link, const BallTree& tree_L) {
+  CompiledTree tree = EmitAttached(link, tree_L, 0);
+  tree.doubtful = true;
+  return tree;
 }
 
-CompiledTree CompiledRobot::AddTree(int link, const BallTree& tree_L) {
+CompiledTree CompiledRobot::AddTree(const RobotMeshes& meshes) {
+  const LinkMeshes& shapes = meshes.links.front();
+  const auto first_patch = static_cast<int>(kernel.patches.size());
+  AddPatches(meshes.patches);
+  CompiledTree tree = EmitAttached(shapes.link, shapes.tree, first_patch);
+  tree.meshes = &shapes;
+  AddInsides(shapes, tree.root);
+  ShareArrays();
+  return tree;
+}
+
+CompiledTree CompiledRobot::EmitAttached(int link, const BallTree& tree_L, int first_patch) {
   CompiledTree tree;
   tree.link = link;
   tree.body = rigid_bodies_.BodyOf(link);
   tree.root = static_cast<int>(kernel.nodes.size());
   kernel.nodes.emplace_back();
   const BallTree tree_G = tree_L.In(rigid_bodies_.X_GL(link));
-  Emit(tree_G, link, tree.root);
+  Emit(tree_G, link, tree.root, first_patch);
   tree.reach_W = rigid_bodies_.Reach(0, tree.body, tree_G.ball());
   tree.reach = AddReachOfTree(tree.root);
   return tree;
@@ -335,10 +354,14 @@ CompiledTree CompiledRobot::AddTree(int link, const BallTree& tree_L) {
 
 void CompiledRobot::Truncate(const Extent& extent) {
   kernel.nodes.resize(extent.nodes);
-  if (meshes_ != nullptr) kernel.hulls.resize(extent.nodes);
+  kernel.hulls.resize(extent.nodes);
   kernel.reaches.resize(extent.reaches);
   kernel.pairs.resize(extent.pairs);
   kernel.inside_tests.resize(extent.inside_tests);
+  kernel.patches.resize(extent.patches);
+  kernel.insides.resize(extent.insides);
+  triangles_.resize(extent.triangles);
+  points_.resize(extent.points);
 }
 
 Ball CompiledRobot::BallOf(const Node& node, int body) const {

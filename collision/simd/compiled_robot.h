@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +26,8 @@ struct CompiledTree {
   int root = 0;          ///< Node index.
   Ball reach_W;          ///< That the tree never leaves while prismatic joints are WithinTravel.
   kernels::Reach reach;  ///< Its motion bound relative to W.
+  const LinkMeshes* meshes = nullptr;  ///< What it is of; null: balls.
+  bool doubtful = false;               ///< The balls stand for something inside them.
 };
 
 /// A robot's spheres or meshes, sorted by link, as the kernels take them, with joints outside the
@@ -43,22 +47,28 @@ struct CompiledRobot {
     std::size_t reaches = 0;
     std::size_t pairs = 0;
     std::size_t inside_tests = 0;
+    std::size_t patches = 0;
+    std::size_t insides = 0;
+    std::size_t triangles = 0;
+    std::size_t points = 0;
   };
   Extent extent() const {
-    return {kernel.nodes.size(), kernel.reaches.size(), kernel.pairs.size(),
-            kernel.inside_tests.size()};
+    return {kernel.nodes.size(),        kernel.reaches.size(), kernel.pairs.size(),
+            kernel.inside_tests.size(), kernel.patches.size(), kernel.insides.size(),
+            triangles_.size(),          points_.size()};
   }
   /// Forgets the balls and pairs that were added since.
   void Truncate(const Extent& extent);
 
   /// A tree of balls fixed to a link, given in the link's frame, around something that is not the
-  /// robot's.
+  /// robot's: doubtful.
   CompiledTree AddTree(int link, const BallTree& tree_L);
+  /// The same of the shapes themselves, which must outlive it. `meshes`: of one link.
+  CompiledTree AddTree(const RobotMeshes& meshes);
 
-  /// A pair of trees of different bodies, unless they can never meet within the joint limits.
-  void AddPair(const CompiledTree& a, const CompiledTree& b, bool doubtful);
-  /// The middles of a tree's leaves, which are doubtful where they may be inside of a link's mesh.
-  void AddDoubtfulInside(const CompiledTree& link, const CompiledTree& tree);
+  /// A link's or an attached object's tree and one that was added, of different bodies, unless they
+  /// can never meet within the joint limits.
+  void AddAttachedPair(const CompiledTree& other, const CompiledTree& tree);
   /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
   /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs
   /// is stored there. Of meshes it is a lower bound; whether they collide the kernel has to be
@@ -78,20 +88,28 @@ struct CompiledRobot {
   std::vector<CompiledTree> bodies;  ///< Of every body that has spheres, in body order.
 
  private:
-  /// Writes a tree whose root has its place already; `link`: one of the body's.
-  void Emit(const BallTree& tree, int link, int index);
+  /// A pair of trees of different bodies, unless they can never meet within the joint limits.
+  void AddPair(const CompiledTree& a, const CompiledTree& b);
+  /// The weights of a pair's bound, unless the reach of their bodies keeps them apart.
+  std::optional<kernels::Reach> AddReachOfPair(const CompiledTree& a, const CompiledTree& b);
+  /// Writes a tree whose root has its place already; `link`: one of the body's. `first_patch`: the
+  /// kernel's number of the first of its patches.
+  void Emit(const BallTree& tree, int link, int index, int first_patch);
   void SetBall(const Ball& ball_G, double padding, int link, int index);
   /// Of the link's, if it has any.
   const LinkMeshes* MeshesOf(int link) const;
   Pose PoseOfLink(int link) const;  ///< X_CL
-  void AddPatches();
+  CompiledTree EmitAttached(int link, const BallTree& tree_L, int first_patch);
+  /// Whenever these may have moved.
+  void ShareArrays();
+  void AddPatches(const std::vector<RobotMeshes::Patch>& patches);
   /// Returns the offset into SphereRobot::reaches. Of points within `radius` of the centre.
   int AddReach(const Ball& ball_G, int link, double radius = 0);
   kernels::Reach AddReachOfTree(int root);
   /// Of weights at that offset.
   kernels::Reach ReachAt(int first) const;
   /// Values of a tree's or a pair's bound: see TreePair.
-  std::size_t ReachSize() const;
+  std::size_t ReachSize() const { return 2 * static_cast<std::size_t>(kernel.num_joints); }
   /// Of points in a frame whose pose in C is given.
   kernels::NodeHull AddHull(const Hull& hull, const Pose& X_C);
   /// In the body's frame G, enlarged.
@@ -106,7 +124,9 @@ struct CompiledRobot {
   std::vector<Ball> BallsOf(const CompiledTree& tree) const;
   /// Closed meshes and points of a link.
   void AddInsides(const LinkMeshes& link, int root);
-  /// Points of one link that may be inside of closed meshes of the other.
+  /// One point at least of each connected part, in C.
+  std::vector<std::array<float, 3>> PointsOf(const CompiledTree& tree) const;
+  /// Points of one link or object that may be inside of closed meshes of the other.
   void AddInsideTests(const CompiledTree& of, const CompiledTree& in,
                       std::vector<kernels::InsideTest>* tests) const;
   /// False if `moving` never comes near `carrier` whatever the joints between them do.
@@ -121,7 +141,7 @@ struct CompiledRobot {
                   const std::vector<Pose>& X_WG) const;
   /// True if the trees' root balls touch at most configurations.
   bool UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const;
-  kernels::TreePair PairOf(const CompiledTree& a, const CompiledTree& b, bool doubtful,
+  kernels::TreePair PairOf(const CompiledTree& a, const CompiledTree& b,
                            const kernels::Reach& reach) const;
   /// Adds what of a pair is not proven apart.
   void AddProven(const CompiledTree& a, const CompiledTree& b, const kernels::Reach& reach);

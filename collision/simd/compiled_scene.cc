@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "collision/at.h"
 #include "collision/balls.h"
@@ -16,13 +17,26 @@ namespace {
 
 using kernels::kBlock;
 
-/// Balls of a tree around an attached object.
+/// Balls around an attached object.
 constexpr std::size_t kAttachedBalls = 32;
-/// Steps to the balls that enclose them: a request has to wait for it.
-constexpr int kAttachedSteps = 10;
+/// Of a mesh whose triangles are judged as they are.
+constexpr std::size_t kMostTriangles = 5000;
+
+/// Whether the kernels can judge an attached object, at a set-up that is worth it.
+bool HasExactKernels(const SceneObject& object) {
+  const auto is_exact = [](const PlacedShape& placed) {
+    if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+      return mesh->triangles->triangles.size() <= kMostTriangles;
+    }
+    return std::holds_alternative<Box>(placed.shape) ||
+           std::holds_alternative<Cylinder>(placed.shape) ||
+           std::holds_alternative<Sphere>(placed.shape);
+  };
+  return std::all_of(object.shapes.begin(), object.shapes.end(), is_exact);
+}
 
 BallTree TreeAround(const SceneObject& object, std::vector<Ball> balls) {
-  BallTree tree(std::move(balls), kAttachedSteps);
+  BallTree tree(std::move(balls));
   tree.SetInner([&](const Eigen::Vector3d& point) { return DepthIn(object, point); });
   return tree;
 }
@@ -92,14 +106,19 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   const bool same_matrix = scene.allowed_collisions == scene_.allowed_collisions;
   if (!same_matrix) scene_.allowed_collisions = scene.allowed_collisions;
   scene_.objects = scene.objects;
-  scene_.attached = scene.attached;
   base_positions_.assign(base_positions.begin(), base_positions.end());
   if (!robot_holds || !same_matrix || !without_attached_) {
     without_attached_.reset();
     CompilePairs(rules);
     without_attached_ = compiled_robot_->extent();
+    attached_are_compiled_ = false;
   }
-  AttachObjects(rules);
+  if (!attached_are_compiled_ || scene.attached != scene_.attached) {
+    attached_are_compiled_ = false;
+    scene_.attached = scene.attached;
+    AttachObjects(rules);
+    attached_are_compiled_ = true;
+  }
   Ball reach_W = robot_reach_W_;
   if (!attached_.empty()) {
     std::vector<Ball> reaches = {reach_W};
@@ -167,12 +186,12 @@ bool CompiledScene::StandingMeshesCollide() const {
 void CompiledScene::AttachObjects(const PairRules& rules) {
   compiled_robot_->Truncate(*without_attached_);
   attached_.clear();
+  attached_meshes_.clear();
   attached_stand_ = false;
   for (const AttachedObject& attached : scene_.attached) {
     std::vector<Ball> balls = CoverOf(attached.object, kAttachedBalls);
     if (balls.empty()) continue;
-    const CompiledTree tree = compiled_robot_->AddTree(
-        rules.LinkOf(attached), TreeAround(attached.object, std::move(balls)));
+    const CompiledTree tree = Attach(attached.object, rules.LinkOf(attached), std::move(balls));
     // Pairs of one body are the exact engine's to judge, once; see DoSetScene.
     attached_stand_ = attached_stand_ || tree.body == 0;
     for (const CompiledTree& link : compiled_robot_->links) {
@@ -181,16 +200,26 @@ void CompiledScene::AttachObjects(const PairRules& rules) {
         attached_stand_ = true;
         continue;
       }
-      compiled_robot_->AddPair(link, tree, true);
-      compiled_robot_->AddDoubtfulInside(link, tree);
+      compiled_robot_->AddAttachedPair(link, tree);
     }
     for (const auto& [other, other_tree] : attached_) {
       if (!rules.ChecksAttached(*other, attached)) continue;
       attached_stand_ = attached_stand_ || other_tree.body == tree.body;
-      if (other_tree.body != tree.body) compiled_robot_->AddPair(other_tree, tree, true);
+      if (other_tree.body != tree.body) compiled_robot_->AddAttachedPair(other_tree, tree);
     }
     attached_.emplace_back(&attached, tree);
   }
+}
+
+CompiledTree CompiledScene::Attach(const SceneObject& object, int link, std::vector<Ball> balls) {
+  // With a field distances are the kernels', which know balls only.
+  if (field_ != nullptr || !HasExactKernels(object)) {
+    return compiled_robot_->AddTree(link, TreeAround(object, std::move(balls)));
+  }
+  LinkGeometry geometry{link, object.shapes};
+  for (PlacedShape& placed : geometry.shapes) placed.X_FS = object.X_WO * placed.X_FS;
+  attached_meshes_.emplace_back(geometry, balls);
+  return compiled_robot_->AddTree(attached_meshes_.back());
 }
 
 void CompiledScene::CompileTrees(const PairRules& rules) {
@@ -211,7 +240,7 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
       for (int i : named) {
         At(checked, i) = rules.ChecksLinkWithObject(tree.link, At(scene_.objects, i)) ? 1 : 0;
       }
-      world_.AddTree(tree, checked, false);
+      world_.AddTree(tree, checked);
     }
   };
 
@@ -227,11 +256,13 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       checked[i] = rules.ChecksAttachedWithObject(*attached, scene_.objects[i]) ? 1 : 0;
     }
-    world_.AddTree(tree, checked, true);
+    world_.AddTree(tree, checked);
   }
 }
 
 void CompiledScene::JudgeStandingTrees() {
+  base_.triangles = robot().triangles;
+  base_.points = robot().points;
   base_scratch_.Reset(base_, world());
   const float no_joints[kBlock] = {};
   kernels::BlockQuery query;

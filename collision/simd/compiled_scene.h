@@ -1,5 +1,6 @@
 #pragma once
 
+#include <list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,9 +38,9 @@ class CompiledScene {
   /// Throws InputError for a mesh that cannot be read; all shapes of the robot must be solid.
   CompiledScene(const Robot& robot, const PlanningGroup& group, CollisionModel model);
 
-  /// Compiles anew; what depends on the held joints or the allowed-collision matrix alone is kept
-  /// while they stay. Throws InputError as PairRules and RequireSolid do, and for a voxel grid that
-  /// is too large.
+  /// Compiles anew; what depends on the held joints, the allowed-collision matrix or the attached
+  /// objects alone is kept while they stay. Throws InputError as PairRules and RequireSolid do, and
+  /// for a voxel grid that is too large.
   void Set(const Scene& scene, std::span<const double> base_positions);
 
   /// What was set last.
@@ -64,6 +65,8 @@ class CompiledScene {
   void CompilePairs(const PairRules& rules);
   bool StandingMeshesCollide() const;
   void AttachObjects(const PairRules& rules);
+  /// `balls`: a cover of the object.
+  CompiledTree Attach(const SceneObject& object, int link, std::vector<Ball> balls);
   void CompileTrees(const PairRules& rules);
   void JudgeStandingTrees();
   void SetGrid();
@@ -88,6 +91,8 @@ class CompiledScene {
   std::optional<CompiledRobot::Extent> without_attached_;
   std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
   std::vector<std::pair<const AttachedObject*, CompiledTree>> attached_;  ///< Of scene_'s.
+  std::list<RobotMeshes> attached_meshes_;
+  bool attached_are_compiled_ = false;
   bool attached_stand_ = false;  ///< Some do not move relative to something they are checked with.
   double links_distance_ = 0;    ///< Of links that do not move relative to each other, m.
   bool links_collide_ = false;   ///< Some of these do.

@@ -225,12 +225,11 @@ std::vector<unsigned char> CompiledWorld::DoubtfulObjects(std::size_t num_object
   return doubtful;
 }
 
-void CompiledWorld::AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked,
-                            bool doubtful) {
+void CompiledWorld::AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked) {
   const int first = static_cast<int>(kernel.candidates.size());
   const bool all_checked = std::find(checked.begin(), checked.end(), 0) == checked.end();
   if (!kernel.bvh.empty() && all_checked) {
-    kernel.trees.push_back({tree.root, tree.body, doubtful, tree.reach, 0, -1, 0, -1});
+    kernel.trees.push_back({tree.root, tree.body, tree.doubtful, tree.reach, 0, -1, 0, -1});
     return;
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -240,7 +239,7 @@ void CompiledWorld::AddTree(const CompiledTree& tree, const std::vector<unsigned
     kernel.candidates.push_back(static_cast<std::int32_t>(i));
   }
   const int num = static_cast<int>(kernel.candidates.size()) - first;
-  kernel.trees.push_back({tree.root, tree.body, doubtful, tree.reach, first, num, 0, -1});
+  kernel.trees.push_back({tree.root, tree.body, tree.doubtful, tree.reach, first, num, 0, -1});
   if (all_checked) return;
   kernel.trees.back().first_checked = static_cast<int>(kernel.candidates.size());
   kernel.trees.back().num_checked = 0;

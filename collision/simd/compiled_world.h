@@ -32,7 +32,7 @@ class CompiledWorld {
 
   /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
   /// `checked[i]`: whether object i of the scene counts.
-  void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked, bool doubtful);
+  void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked);
 
   /// By object, of so many: whether one of its solids is doubtful.
   std::vector<unsigned char> DoubtfulObjects(std::size_t num_objects) const;

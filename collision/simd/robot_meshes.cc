@@ -295,57 +295,65 @@ void AddPoints(std::vector<Vector3d> points, std::span<RobotMeshes::Patch> patch
 RobotMeshes::RobotMeshes(const std::vector<LinkGeometry>& geometry,
                          const std::vector<LinkSphere>& middles) {
   for (const LinkGeometry& link : geometry) {
-    std::vector<BallTree> trees;
-    std::vector<Corners> triangles;
-    std::vector<Ball> spheres;
-    std::vector<LinkMeshes::Closed> closed;
-    std::vector<MeshSurface> surfaces;  // of these
-    std::vector<Vector3d> points;
-    for (const PlacedShape& placed : link.shapes) {
-      if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
-        spheres.push_back({placed.X_FS.translation(), sphere->radius});
-        points.push_back(spheres.back().center);
-        continue;
-      }
-      TriangleMesh mesh = MeshOf(placed.shape);
-      for (Vector3d& vertex : mesh.vertices) vertex = placed.X_FS * vertex;
-      for (const auto& [a, b, c] : mesh.triangles) {
-        triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
-      }
-      auto solid = std::make_shared<const SolidMesh>(mesh);
-      std::copy(solid->component_points().begin(), solid->component_points().end(),
-                std::back_inserter(points));
-      if (!solid->has_inside()) continue;
-      surfaces.emplace_back(mesh);
-      closed.push_back({std::move(solid), std::move(mesh.vertices)});
+    std::vector<Ball> of_link;
+    for (const LinkSphere& sphere : middles) {
+      if (sphere.link == link.link) of_link.push_back({sphere.p_LS, sphere.radius});
     }
-    if (!triangles.empty()) {
-      const std::size_t first_patch = patches.size();
-      std::vector<Ball> of_link;
-      for (const LinkSphere& sphere : middles) {
-        if (sphere.link == link.link) of_link.push_back({sphere.p_LS, sphere.radius});
-      }
-      if (of_link.size() > kMostMiddles) {
-        std::stable_sort(of_link.begin(), of_link.end(),
-                         [](const Ball& a, const Ball& b) { return a.radius > b.radius; });
-        of_link.resize(kMostMiddles);
-      }
-      AddTrees(triangles, of_link, link.link, &patches, &trees);
-      AddPoints(points, std::span(patches).subspan(first_patch));
+    if (of_link.size() > kMostMiddles) {
+      std::stable_sort(of_link.begin(), of_link.end(),
+                       [](const Ball& a, const Ball& b) { return a.radius > b.radius; });
+      of_link.resize(kMostMiddles);
     }
-    if (!spheres.empty()) trees.emplace_back(std::move(spheres));
-    BallTree tree = Join(std::move(trees));
-    tree.SetHulls(kernels::kMostPoints);
-    tree.SetInner([&](const Vector3d& point) {
-      double depth = 0;
-      for (std::size_t i = 0; i < closed.size(); ++i) {
-        if (!closed[i].mesh->Contains(point)) continue;
-        depth = std::max(depth, surfaces[i].Distance(point));
-      }
-      return depth;
-    });
-    links.push_back({link.link, std::move(tree), std::move(closed), std::move(points)});
+    Add(link, of_link);
   }
+}
+
+RobotMeshes::RobotMeshes(const LinkGeometry& geometry, const std::vector<Ball>& middles) {
+  Add(geometry, middles);
+}
+
+void RobotMeshes::Add(const LinkGeometry& link, const std::vector<Ball>& middles) {
+  std::vector<BallTree> trees;
+  std::vector<Corners> triangles;
+  std::vector<Ball> spheres;
+  std::vector<LinkMeshes::Closed> closed;
+  std::vector<MeshSurface> surfaces;  // of these
+  std::vector<Vector3d> points;
+  for (const PlacedShape& placed : link.shapes) {
+    if (const auto* sphere = std::get_if<Sphere>(&placed.shape)) {
+      spheres.push_back({placed.X_FS.translation(), sphere->radius});
+      points.push_back(spheres.back().center);
+      continue;
+    }
+    TriangleMesh mesh = MeshOf(placed.shape);
+    for (Vector3d& vertex : mesh.vertices) vertex = placed.X_FS * vertex;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    }
+    auto solid = std::make_shared<const SolidMesh>(mesh);
+    std::copy(solid->component_points().begin(), solid->component_points().end(),
+              std::back_inserter(points));
+    if (!solid->has_inside()) continue;
+    surfaces.emplace_back(mesh);
+    closed.push_back({std::move(solid), std::move(mesh.vertices)});
+  }
+  if (!triangles.empty()) {
+    const std::size_t first_patch = patches.size();
+    AddTrees(triangles, middles, link.link, &patches, &trees);
+    AddPoints(points, std::span(patches).subspan(first_patch));
+  }
+  if (!spheres.empty()) trees.emplace_back(std::move(spheres));
+  BallTree tree = Join(std::move(trees));
+  tree.SetHulls(kernels::kMostPoints);
+  tree.SetInner([&](const Vector3d& point) {
+    double depth = 0;
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+      if (!closed[i].mesh->Contains(point)) continue;
+      depth = std::max(depth, surfaces[i].Distance(point));
+    }
+    return depth;
+  });
+  links.push_back({link.link, std::move(tree), std::move(closed), std::move(points)});
 }
 
 namespace kernels {

@@ -11,11 +11,11 @@
 
 namespace planbench {
 
-/// The collision geometry of a link as the vectorised engine takes it, in the link's frame: spheres
-/// stay what they are, all else is triangles, cylinders as prisms of so many sides that nothing of
-/// them is further than 0.02 mm outside of the cylinder. The triangles stand under balls about
-/// given middles, those of a sphere model of the link: balls about its surface reach further beyond
-/// it.
+/// The collision geometry of a link, or of an object attached to it, as the vectorised engine takes
+/// it, in the link's frame: spheres stay what they are, all else is triangles, cylinders as prisms
+/// of so many sides that nothing of them is further than 0.02 mm outside of the cylinder. The
+/// triangles stand under balls about given middles, those of a sphere model of the link: balls
+/// about its surface reach further beyond it.
 struct LinkMeshes {
   int link;
   BallTree tree;  ///< Its leaves are spheres, and balls around patches.
@@ -32,6 +32,8 @@ struct RobotMeshes {
   /// `middles`: spheres of the links. Balls are made about their centres, and enclose triangles
   /// whatever their radii are.
   RobotMeshes(const std::vector<LinkGeometry>& geometry, const std::vector<LinkSphere>& middles);
+  /// Of one link alone.
+  RobotMeshes(const LinkGeometry& geometry, const std::vector<Ball>& middles);
 
   std::vector<LinkMeshes> links;
   /// Neighbouring triangles of a patch.
@@ -48,6 +50,9 @@ struct RobotMeshes {
     std::vector<Eigen::Vector3d> points;
   };
   std::vector<Patch> patches;
+
+ private:
+  void Add(const LinkGeometry& link, const std::vector<Ball>& middles);
 };
 
 }  // namespace planbench

@@ -185,16 +185,14 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       double& distance = At(distances, first + lane);
       distance = std::min(limit, static_cast<double>(block[lane]));
       if ((unfit >> lane & 1) != 0) distance = std::min(distance, ExactDistance(q, most));
-      if (model() == CollisionModel::kMeshes && distance < most) {
-        distance = MeshDistance(q, most);
-      }
+      if (HasPatches() && distance < most) distance = MeshDistance(q, most);
     }
   }
 }
 
 void SimdChecker::DoFindClearances(std::span<const double> qs, int num, double at_most,
                                    std::span<double> clearances) {
-  if (model() != CollisionModel::kMeshes) return DoFindDistances(qs, num, at_most, clearances);
+  if (!HasPatches()) return DoFindDistances(qs, num, at_most, clearances);
   const double most = std::min(at_most, CompiledWorld::kMaxDistance);
   const auto n = static_cast<std::size_t>(space().size());
   for (int i = 0; i < num; ++i) {

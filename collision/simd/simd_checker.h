@@ -66,9 +66,11 @@ class SimdChecker : public CollisionChecker {
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact);
-  /// Of meshes: the largest of some margins, at most so large, that nothing is within.
+  /// Whether something is not made of balls: then those around it are but a lower bound of
+  /// distances.
+  bool HasPatches() const { return !compiled_.robot().patches.empty(); }
+  /// Of patches: the largest of some margins, at most so large, that nothing is within.
   double MarginAround(std::span<const double> q, double at_most);
-  /// Balls around triangles are but a lower bound.
   double MeshDistance(std::span<const double> q, double at_most);
   double ExactDistance(std::span<const double> q, double at_most);
   /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.

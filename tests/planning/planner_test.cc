@@ -297,6 +297,10 @@ TEST_F(PlannerTest, NothingIsCompiledInARequestThatWasBefore) {
   request.start.positions.push_back(0.3);
   EXPECT_EQ(plan(scene), 4) << "a joint is held elsewhere";
   EXPECT_EQ(plan(scene), 4);
+  scene.attached = {{"hand", {"mug", Eigen::Isometry3d::Identity(), {}}, {"forearm"}}};
+  scene.attached.front().object.shapes = {{Cylinder{0.02, 0.05}}};
+  EXPECT_EQ(plan(scene), 6) << "something is held";
+  EXPECT_EQ(plan(scene), 6);
 }
 
 TEST_F(PlannerTest, ModelsThatCannotBeUsedAreNamedWithTheReason) {

@@ -474,7 +474,7 @@ class CheckPass {
   }
 
   bool HaveHulls(int a, int b) const {
-    return !robot_.hulls.empty() && !doubtful_ && HullOf(a).num > 0 && HullOf(b).num > 0;
+    return !doubtful_ && HullOf(a).num > 0 && HullOf(b).num > 0;
   }
 
   /// Lanes, of those given, in which no plane is found between two nodes' hulls; `motion` bounds

@@ -119,7 +119,7 @@ struct TreePair {
   int body_a, body_b;
   bool doubtful;  ///< Hits are passed on as doubts.
   float radius;   ///< Sum of the roots'.
-  Reach reach;    ///< Of the centres of balls; of meshes weights of all points stand behind them.
+  Reach reach;    ///< Of the centres of balls; weights of all points of patches stand behind them.
 };
 
 /// What moves: kinematics, trees of balls, pairs of trees.
@@ -130,7 +130,7 @@ struct SphereRobot {
   std::vector<TreePair> pairs;
   /// Of meshes, in their bodies' frames; arrays are their owner's to keep.
   std::vector<Patch> patches;
-  std::vector<NodeHull> hulls;  ///< By node; empty without meshes.
+  std::vector<NodeHull> hulls;  ///< By node.
   const PointGroup* points = nullptr;
   const TriangleGroup* triangles = nullptr;
   std::vector<Inside> insides;

@@ -16,6 +16,7 @@
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
+#include "tests/support/generated_meshes.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/trials.h"
 
@@ -125,6 +126,80 @@ TEST(SimdTruthTest, RandomConfigurationsAmongShapesOfAllKinds) {
     comparison.JudgeRandom(kNum, 2);
     EXPECT_LT(comparison.num_disputed(), kNum / 50);
   }
+}
+
+/// Things to hold in a hand: shapes of all kinds, thin and long ones, what the kernels judge
+/// themselves and what they leave to the exact engine, and one that others fit into.
+std::vector<SceneObject> ThingsToHold() {
+  const auto at = [](double x, double y, double z, double angle) {
+    Eigen::Isometry3d X(Eigen::Translation3d(x, y, z));
+    X.rotate(Eigen::AngleAxisd(angle, Eigen::Vector3d(0.3, 1, 0.2).normalized()));
+    return X;
+  };
+  const auto of = [&](const std::string& id, const Shape& shape) {
+    return SceneObject{id, at(0.3, 0.05, 0, 0.4), {{shape, at(0, 0, 0.02, 1.1)}}};
+  };
+  SceneObject several{"several", at(0.25, 0, 0.1, -0.7), {}};
+  several.shapes = {{Box{{0.02, 0.3, 0.1}}, at(0.1, 0, 0, 0.2)},
+                    {Cylinder{0.03, 0.2}, at(0, 0.1, 0, 2)},
+                    {Sphere{0.06}, at(0, -0.15, 0, 0)}};
+  SceneObject with_cone = several;
+  with_cone.id = "with_cone";
+  with_cone.shapes.push_back({Cone{0.05, 0.1}, at(0.1, 0.2, 0, 0)});
+  return {of("tray", Box{{0.25, 0.2, 0.02}}),
+          of("chest", Box{{0.7, 0.6, 0.5}}),
+          of("rod", Cylinder{0.01, 0.8}),
+          of("ball", Sphere{0.07}),
+          several,
+          with_cone,
+          of("mesh", Mesh{"", Eigen::Vector3d::Ones(), SphereMesh(0.12, 12, 8)}),
+          of("fine_mesh", Mesh{"", Eigen::Vector3d::Ones(), SphereMesh(0.12, 40, 30)})};
+}
+
+TEST(SimdTruthTest, AttachedObjectsOfEveryKindAmongShapesOfAllKinds) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  int num_valid = 0;
+  for (NamedScene& world : MakeTestScenes()) {
+    for (const SceneObject& thing : ThingsToHold()) {
+      SCOPED_TRACE(world.what + ", " + thing.id);
+      world.scene.attached = {{"hand", thing, {"finger", "pad"}},
+                              {"upper", {"strap", Eigen::Isometry3d::Identity(), {}}, {}}};
+      world.scene.attached.back().object.shapes = {
+          {Box{{0.3, 0.05, 0.05}}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.15))}};
+      Comparison comparison(arm, world.scene, base);
+      constexpr int kNum = Trials(400);
+      comparison.JudgeRandom(kNum, 6);
+      EXPECT_LT(comparison.num_disputed(), kNum / 50);
+
+      EdgeChecker certified(&comparison.fast(), arm.edge_resolution_m, EdgeCheck::kCertified);
+      EdgeChecker fine(&comparison.exact(), arm.edge_resolution_m / 16, EdgeCheck::kFixed);
+      const JointSpace& space = comparison.fast().space();
+      std::mt19937_64 generator(7);
+      for (int i = 0; i < Trials(12); ++i) {
+        const auto from = RandomConfiguration(space, &generator);
+        auto to = RandomConfiguration(space, &generator);
+        space.Interpolate(from, to, 0.2, to);
+        if (!certified.IsValidEdge(from, to)) continue;
+        ++num_valid;
+        EXPECT_TRUE(fine.IsValidEdge(from, to));
+      }
+      // Distances have the sign of the verdicts, and are the exact ones.
+      for (int i = 0; i < Trials(4); ++i) {
+        const auto q = RandomConfiguration(space, &generator);
+        double fast_m = 0;
+        double exact_m = 0;
+        comparison.fast().FindDistances(q, 1, 0.2, {&fast_m, 1});
+        comparison.exact().FindDistances(q, 1, 0.2, {&exact_m, 1});
+        if (exact_m > 0) {
+          EXPECT_NEAR(fast_m, exact_m, kBand_m);
+        } else if (exact_m < -kBand_m) {
+          EXPECT_LE(fast_m, 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(num_valid, Trials(100));
 }
 
 TEST(SimdTruthTest, EdgesAtFixedSamples) {
