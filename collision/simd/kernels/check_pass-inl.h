@@ -106,7 +106,8 @@ class CheckPass {
   /// so: less, as a tree's bound is that of its furthest balls.
   HWY_INLINE V MotionBetween(int reach_a, int reach_b) const {
     V sum = margin_;
-    const float* moves = robot_.reaches.data() + reach_.first;
+    // What turns about its middle stays where it is, but for points of patches.
+    const float* moves = robot_.reaches.data() + reach_.first + robot_.num_joints;
     const float* weights_a = robot_.reaches.data() + reach_a;
     const float* weights_b = robot_.reaches.data() + reach_b;
     for (int j = reach_.begin; j < reach_.end; ++j) {

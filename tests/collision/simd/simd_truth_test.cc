@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -146,7 +147,8 @@ std::vector<SceneObject> ThingsToHold() {
   SceneObject with_cone = several;
   with_cone.id = "with_cone";
   with_cone.shapes.push_back({Cone{0.05, 0.1}, at(0.1, 0.2, 0, 0)});
-  return {of("tray", Box{{0.25, 0.2, 0.02}}),
+  return {{"centred", at(0.3, 0, 0, 0), {{Box{{0.1, 0.1, 0.1}}, at(0, 0, 0, 0)}}},
+          of("tray", Box{{0.25, 0.2, 0.02}}),
           of("chest", Box{{0.7, 0.6, 0.5}}),
           of("rod", Cylinder{0.01, 0.8}),
           of("ball", Sphere{0.07}),
@@ -200,6 +202,39 @@ TEST(SimdTruthTest, AttachedObjectsOfEveryKindAmongShapesOfAllKinds) {
     }
   }
   EXPECT_GT(num_valid, Trials(100));
+}
+
+/// What turns about the middle of its only ball: the ball stays where it is, its corners do not.
+TEST(SimdTruthTest, AnObjectThatTurnsAboutItsMiddleHitsWithItsEdges) {
+  Robot robot;
+  robot.name = "spindle";
+  robot.model = RobotModel::FromUrdf(R"(<robot name="spindle">
+    <link name="base"/><link name="tool"/>
+    <joint name="roll" type="continuous"><parent link="base"/><child link="tool"/>
+      <origin xyz="0 0 1"/><axis xyz="1 0 0"/></joint></robot>)",
+                                     "spindle.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"roll"}, "tool")};
+  // An edge of the cube comes 0.4 mm into it, at 45 degrees.
+  robot.spheres = {{robot.model.FindLink("base"), Eigen::Vector3d(0.2, 0.1137, 1), 0.001}};
+  Scene scene;
+  scene.attached = {{"tool",
+                     {"cube",
+                      Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0)),
+                      {{Box{{0.16, 0.16, 0.16}}, Eigen::Isometry3d::Identity()}}},
+                     {}}};
+  Comparison comparison(robot, scene, std::vector<double>{0.0});
+  EdgeChecker certified(&comparison.fast(), 0.02, EdgeCheck::kCertified);
+  const std::vector<double> corner = {std::numbers::pi / 4};
+  EXPECT_FALSE(comparison.exact().IsFree(corner));
+  EXPECT_FALSE(comparison.fast().IsFree(corner));
+  for (int i = 0; i < 50; ++i) {
+    const std::vector<double> from = {0.005 * i};
+    const std::vector<double> to = {1.3 + 0.003 * i};
+    EXPECT_TRUE(comparison.fast().IsFree(from));
+    EXPECT_TRUE(comparison.fast().IsFree(to));
+    EXPECT_FALSE(certified.IsValidEdge(from, to)) << i;
+  }
+  EXPECT_TRUE(certified.IsValidEdge(std::vector<double>{0.0}, std::vector<double>{0.6}));
 }
 
 TEST(SimdTruthTest, EdgesAtFixedSamples) {
