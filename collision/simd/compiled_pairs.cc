@@ -145,9 +145,11 @@ void CompiledRobot::AddPair(const CompiledTree& a, const CompiledTree& b) {
 }
 
 void CompiledRobot::AddAttachedPair(const CompiledTree& other, const CompiledTree& tree) {
-  const std::optional<kernels::Reach> reach = AddReachOfPair(other, tree);
-  if (!reach) return;
-  kernel.pairs.push_back(PairOf(other, tree, *reach));
+  if (const std::optional<kernels::Reach> reach = AddReachOfPair(other, tree)) {
+    kernel.pairs.push_back(PairOf(other, tree, *reach));
+  }
+  // Where their surfaces never meet one may be in the other all the same. Tests of their own, which
+  // can be forgotten again.
   std::vector<kernels::InsideTest> tests;
   for (const auto& [of, in] : {std::pair(&other, &tree), std::pair(&tree, &other)}) {
     AddInsideTests(*of, *in, &tests);

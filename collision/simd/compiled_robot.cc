@@ -362,6 +362,7 @@ void CompiledRobot::Truncate(const Extent& extent) {
   kernel.insides.resize(extent.insides);
   triangles_.resize(extent.triangles);
   points_.resize(extent.points);
+  ShareArrays();
 }
 
 Ball CompiledRobot::BallOf(const Node& node, int body) const {

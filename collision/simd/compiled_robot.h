@@ -63,11 +63,10 @@ struct CompiledRobot {
   /// A tree of balls fixed to a link, given in the link's frame, around something that is not the
   /// robot's: doubtful.
   CompiledTree AddTree(int link, const BallTree& tree_L);
-  /// The same of the shapes themselves, which must outlive it. `meshes`: of one link.
+  /// A tree of such shapes themselves, which must outlive it. `meshes`: of one link.
   CompiledTree AddTree(const RobotMeshes& meshes);
 
-  /// A link's or an attached object's tree and one that was added, of different bodies, unless they
-  /// can never meet within the joint limits.
+  /// A link's or an attached object's tree and one that was added, of different bodies.
   void AddAttachedPair(const CompiledTree& other, const CompiledTree& tree);
   /// The pairs of links of two bodies (or one) that `checks` names, as few pairs of trees as serve.
   /// Those of one body do not move relative to each other: the least of `distance` (m) and theirs

@@ -19,20 +19,28 @@ using kernels::kBlock;
 
 /// Balls around an attached object.
 constexpr std::size_t kAttachedBalls = 32;
-/// Of a mesh whose triangles are judged as they are.
+/// Of meshes that are judged as they are.
 constexpr std::size_t kMostTriangles = 5000;
+/// What reaches further from its link, m, loses too much to single precision.
+constexpr double kLargestAttached = 20;
 
-/// Whether the kernels can judge an attached object, at a set-up that is worth it.
-bool HasExactKernels(const SceneObject& object) {
-  const auto is_exact = [](const PlacedShape& placed) {
+/// Whether the kernels can judge an attached object, covered by these balls, at a set-up that is
+/// worth it.
+bool HasExactKernels(const SceneObject& object, const std::vector<Ball>& balls) {
+  std::size_t num_triangles = 0;
+  const auto is_exact = [&](const PlacedShape& placed) {
     if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
-      return mesh->triangles->triangles.size() <= kMostTriangles;
+      num_triangles += mesh->triangles->triangles.size();
+      return num_triangles <= kMostTriangles;
     }
     return std::holds_alternative<Box>(placed.shape) ||
            std::holds_alternative<Cylinder>(placed.shape) ||
            std::holds_alternative<Sphere>(placed.shape);
   };
-  return std::all_of(object.shapes.begin(), object.shapes.end(), is_exact);
+  return std::all_of(object.shapes.begin(), object.shapes.end(), is_exact) &&
+         std::all_of(balls.begin(), balls.end(), [](const Ball& ball) {
+           return ball.center.norm() + ball.radius <= kLargestAttached;
+         });
 }
 
 BallTree TreeAround(const SceneObject& object, std::vector<Ball> balls) {
@@ -213,13 +221,17 @@ void CompiledScene::AttachObjects(const PairRules& rules) {
 
 CompiledTree CompiledScene::Attach(const SceneObject& object, int link, std::vector<Ball> balls) {
   // With a field distances are the kernels', which know balls only.
-  if (field_ != nullptr || !HasExactKernels(object)) {
-    return compiled_robot_->AddTree(link, TreeAround(object, std::move(balls)));
+  if (field_ == nullptr && HasExactKernels(object, balls)) {
+    LinkGeometry geometry{link, object.shapes};
+    for (PlacedShape& placed : geometry.shapes) placed.X_FS = object.X_WO * placed.X_FS;
+    const RobotMeshes& meshes = attached_meshes_.emplace_back(geometry, balls);
+    const LinkMeshes& shapes = meshes.links.front();
+    // Nothing tells whether what has no area is inside of something.
+    if (!shapes.points.empty() && shapes.tree.Depth() <= kernels::kMaxDepth) {
+      return compiled_robot_->AddTree(meshes);
+    }
   }
-  LinkGeometry geometry{link, object.shapes};
-  for (PlacedShape& placed : geometry.shapes) placed.X_FS = object.X_WO * placed.X_FS;
-  attached_meshes_.emplace_back(geometry, balls);
-  return compiled_robot_->AddTree(attached_meshes_.back());
+  return compiled_robot_->AddTree(link, TreeAround(object, std::move(balls)));
 }
 
 void CompiledScene::CompileTrees(const PairRules& rules) {

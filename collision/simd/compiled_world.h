@@ -26,11 +26,11 @@ class CompiledWorld {
 
   /// Takes the objects of a scene, as far as they are near `reach`, which the robot and what is
   /// attached to it never leave. Throws InputError, naming the object, for a shape that is none.
-  /// Solids too large for single precision become doubtful boxes; so do cones, where the robot is
-  /// meshes. Of meshes that the objects set before had, too, the trees are kept.
+  /// Solids too large for single precision become doubtful boxes; so do cones, where the robot has
+  /// triangles. Of meshes that the objects set before had, too, the trees are kept.
   void SetObjects(const Scene& scene, const CompiledRobot& robot, Ball reach);
 
-  /// Lists what a link's or body's tree, or an attached object's ball, is to be tested against.
+  /// Lists what a link's, a body's or an attached object's tree is to be tested against.
   /// `checked[i]`: whether object i of the scene counts.
   void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked);
 

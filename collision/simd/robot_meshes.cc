@@ -38,7 +38,7 @@ constexpr double kPrismError = 2e-5;
 TriangleMesh MeshOf(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return BoxMesh(box->size);
   if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->triangles;
-  // A URDF has no other shapes.
+  // There are no other shapes: in a URDF, and of what is attached see CompiledScene.
   const auto& cylinder = std::get<Cylinder>(shape);
   const double half_angle = std::acos(cylinder.radius / (cylinder.radius + kPrismError));
   const int sides = std::max(8, static_cast<int>(std::ceil(std::numbers::pi / half_angle)));

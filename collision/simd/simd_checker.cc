@@ -169,10 +169,9 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
   return verdicts;
 }
 
-void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
-                                  std::span<double> distances) {
+void SimdChecker::FindBounds(std::span<const double> qs, int num, double most,
+                             std::span<double> distances) {
   const auto n = static_cast<std::size_t>(space().size());
-  const double most = std::min(at_most, CompiledWorld::kMaxDistance);
   const double limit = std::min(most, compiled_.standing().distance_m);
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
@@ -185,18 +184,43 @@ void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at
       double& distance = At(distances, first + lane);
       distance = std::min(limit, static_cast<double>(block[lane]));
       if ((unfit >> lane & 1) != 0) distance = std::min(distance, ExactDistance(q, most));
-      if (HasPatches() && distance < most) distance = MeshDistance(q, most);
+    }
+  }
+}
+
+void SimdChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,
+                                  std::span<double> distances) {
+  const double most = std::min(at_most, CompiledWorld::kMaxDistance);
+  FindBounds(qs, num, most, distances);
+  if (!HasPatches()) return;
+  const auto n = static_cast<std::size_t>(space().size());
+  for (int i = 0; i < num; ++i) {
+    const auto q = qs.subspan(static_cast<std::size_t>(i) * n, n);
+    double& distance = At(distances, i);
+    if (distance < most) {
+      distance = PatchDistance(q, most);
+    } else if (!DoIsFree(q)) {
+      distance = 0;  // inside of something, far from its surface
     }
   }
 }
 
 void SimdChecker::DoFindClearances(std::span<const double> qs, int num, double at_most,
                                    std::span<double> clearances) {
-  if (!HasPatches()) return DoFindDistances(qs, num, at_most, clearances);
   const double most = std::min(at_most, CompiledWorld::kMaxDistance);
   const auto n = static_cast<std::size_t>(space().size());
-  for (int i = 0; i < num; ++i) {
-    At(clearances, i) = MarginAround(qs.subspan(static_cast<std::size_t>(i) * n, n), most);
+  const bool is_mesh = model() == CollisionModel::kMeshes;
+  if (!is_mesh) FindBounds(qs, num, most, clearances);
+  for (int i = 0; HasPatches() && i < num; ++i) {
+    const auto q = qs.subspan(static_cast<std::size_t>(i) * n, n);
+    double& clearance = At(clearances, i);
+    if (is_mesh) {
+      clearance = MarginAround(q, most);
+    } else if (clearance <= 0) {
+      clearance = PatchDistance(q, most);
+    } else if (!DoIsFree(q)) {
+      clearance = 0;  // likewise
+    }
   }
 }
 
@@ -225,7 +249,7 @@ double SimdChecker::MarginAround(std::span<const double> q, double at_most) {
   return num_clear == kBlock ? at_most : margins[static_cast<std::size_t>(num_clear) - 1];
 }
 
-double SimdChecker::MeshDistance(std::span<const double> q, double at_most) {
+double SimdChecker::PatchDistance(std::span<const double> q, double at_most) {
   const double distance = ExactDistance(q, at_most);
   // Next to contact the verdict decides the sign, so that the two never disagree.
   return distance > 0 && distance < kBand_m && !DoIsFree(q) ? 0 : distance;

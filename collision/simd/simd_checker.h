@@ -18,10 +18,10 @@ namespace planbench {
 ///
 /// Its verdict is that of exact geometry wherever the exact distance is more than 0.1 mm from zero,
 /// for robots that reach up to about 5 m; nearer than that it errs towards collision. What the
-/// kernels do not know (attached objects, prismatic joints far beyond their limits, objects of tens
-/// of metres that are not boxes, cones against meshes) they pass on as doubts, which the FCL engine
-/// decides, over the pairs that are in doubt; it also names contacts and nearest pairs, in double
-/// precision.
+/// kernels do not know (some attached objects, prismatic joints far beyond their limits, objects of
+/// tens of metres that are not boxes, cones against triangles) they pass on as doubts, which the
+/// FCL engine decides, over the pairs that are in doubt; it also names contacts and nearest pairs,
+/// in double precision.
 ///
 /// Meshes: balls around the triangles of a link stand for its spheres; where one touches, planes
 /// between hulls are looked for, and triangles decide.
@@ -69,9 +69,12 @@ class SimdChecker : public CollisionChecker {
   /// Whether something is not made of balls: then those around it are but a lower bound of
   /// distances.
   bool HasPatches() const { return !compiled_.robot().patches.empty(); }
-  /// Of patches: the largest of some margins, at most so large, that nothing is within.
+  /// Distances, where something is not made of balls lower bounds of those of surfaces; at most
+  /// `most`.
+  void FindBounds(std::span<const double> qs, int num, double most, std::span<double> distances);
+  /// Of meshes: the largest of some margins, at most so large, that nothing is within.
   double MarginAround(std::span<const double> q, double at_most);
-  double MeshDistance(std::span<const double> q, double at_most);
+  double PatchDistance(std::span<const double> q, double at_most);
   double ExactDistance(std::span<const double> q, double at_most);
   /// The distance of a tree from the field alone, at most CompiledWorld::kMaxDistance.
   double FieldDistance(const CompiledTree& tree, std::span<const double> q);

@@ -10,9 +10,6 @@
 
 namespace planbench::kernels {
 
-/// Levels of a tree of balls, at most (its builder sees to it): each may hold a list of solids.
-inline constexpr int kMaxDepth = 16;
-
 struct SphereScratch::Buffers {
   std::size_t num_bodies = 0;
   std::size_t num_nodes = 0;

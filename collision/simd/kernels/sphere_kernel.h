@@ -32,6 +32,9 @@ struct Body {
   float axis[3] = {0, 0, 1};                        ///< Of a prismatic joint, in P.
 };
 
+/// Levels of a tree of balls, at most (its builder sees to it): each may hold a list of solids.
+inline constexpr int kMaxDepth = 16;
+
 /// A ball of a tree, in its body's frame (m): if it has no children a sphere of the robot, or what
 /// encloses a patch of triangles; else it encloses all of its descendants. Children stand next to
 /// each other.
@@ -128,7 +131,8 @@ struct SphereRobot {
   std::vector<Body> bodies;  ///< Parents first; [0] is the base.
   std::vector<Node> nodes;
   std::vector<TreePair> pairs;
-  /// Of meshes, in their bodies' frames; arrays are their owner's to keep.
+  /// Of links of meshes and attached objects, in their bodies' frames; arrays are their owner's to
+  /// keep.
   std::vector<Patch> patches;
   std::vector<NodeHull> hulls;  ///< By node.
   const PointGroup* points = nullptr;

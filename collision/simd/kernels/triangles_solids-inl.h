@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
 
-// Triangles of the robot, one a lane, against solids. With a margin all that is nearer touches;
+// Triangles of what moves, one a lane, against solids. With a margin all that is nearer touches;
 // of boxes and cylinders also some that is not, by up to sqrt(3) of the margin.
 
 /// Of a box centred at the origin, along the axes: no plane along a face of the one or the other,
