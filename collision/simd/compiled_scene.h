@@ -91,7 +91,7 @@ class CompiledScene {
   std::optional<CompiledRobot::Extent> without_attached_;
   std::unordered_set<std::string> allowed_names_;  ///< Bodies that the matrix names.
   std::vector<std::pair<const AttachedObject*, CompiledTree>> attached_;  ///< Of scene_'s.
-  std::list<RobotMeshes> attached_meshes_;
+  std::list<RobotMeshes> attached_meshes_;  ///< Of these; trees point to them.
   bool attached_are_compiled_ = false;
   bool attached_stand_ = false;  ///< Some do not move relative to something they are checked with.
   double links_distance_ = 0;    ///< Of links that do not move relative to each other, m.
