@@ -78,6 +78,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "crowding_joints",
                   "bridge_after",
                   "tip_guide",
+                  "arm_by_arm",
                   "cost",
                   "evaluation",
                   "burs",
@@ -118,6 +119,7 @@ void AraSettings::Apply(const YamlNode& node) {
     crowding_joints = joints->Strings();
   }
   tip_guide = NonNegative(node, "tip_guide", tip_guide);
+  arm_by_arm = node.BoolOr("arm_by_arm", arm_by_arm);
   if (const std::optional<YamlNode> value = node.Find("cost")) cost = value->Enum<MoveCost>();
   if (const std::optional<YamlNode> file = node.Find("experience")) experience = file->String();
   if (const std::optional<YamlNode> value = node.Find("recall")) recall = ReadRecall(*value);
@@ -160,6 +162,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
       {"bridge_after", TextOrWord(bridge_after, kNever)},
       {"crowding", fmt::format("{}", crowding)},
       {"tip_guide", fmt::format("{}", tip_guide)},
+      {"arm_by_arm", fmt::format("{}", arm_by_arm)},
       {"cost", std::string(EnumName(cost))},
       {"evaluation", std::string(EnumName(evaluation))},
       {"burs", fmt::format("{}", burs)},

@@ -69,6 +69,9 @@ struct AraSettings {
   /// (TipDistance) adds to the heuristic in the order of the search, rad/m; >= 0. Does not touch
   /// the reported bound.
   double tip_guide = 3;
+  /// Whether a group with several tips is searched arm by arm (Guide): each arm has the move to
+  /// where it stands at the goal, and one moves after the other where that will do.
+  bool arm_by_arm = true;
   MoveCost cost = MoveCost::kDistance;
   /// When the edges out of a state are checked: as its neighbours' turn comes, or all as it is
   /// expanded.

@@ -48,22 +48,6 @@ std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> r
   return major;
 }
 
-std::vector<std::vector<char>> JointsOnOneArm(const RobotModel& model, const PlanningGroup& group) {
-  const auto moves = [&](int joint, int other) {
-    while (other >= 0 && other != joint) {
-      const int link = model.joints()[static_cast<std::size_t>(other)].parent_link;
-      other = model.links()[static_cast<std::size_t>(link)].parent_joint;
-    }
-    return other == joint;
-  };
-  std::vector<std::vector<char>> on_one_arm;
-  for (const int a : group.joints) {
-    std::vector<char>& row = on_one_arm.emplace_back();
-    for (const int b : group.joints) row.push_back(moves(a, b) || moves(b, a));
-  }
-  return on_one_arm;
-}
-
 double DefaultCell(const JointSpace::Joint& joint) {
   return joint.prismatic ? std::min(0.005, (joint.upper - joint.lower) / 40) : kDegree;
 }

@@ -19,14 +19,11 @@ std::vector<double> JointReaches(const Robot& robot, const PlanningGroup& group)
 /// reach and prismatic ones; false for a wrist.
 std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches);
 
-/// By pair of joints of a group: true if one of the two moves the other.
-std::vector<std::vector<char>> JointsOnOneArm(const RobotModel& model, const PlanningGroup& group);
-
 /// Size of a cell, rad or m: 1 degree; 5 mm, or 1/40 of a shorter travel.
 double DefaultCell(const JointSpace::Joint& joint);
 
 /// Long moves: each joint alone, by 20 degrees (40 for joints that are not major) or 0.1 m, but at
-/// most a third of its range; every two major revolute joints of one arm (`on_one_arm`) together,
+/// most a third of its range; every two major revolute joints of one arm (JointsOnOneArm) together,
 /// in the same and in opposite directions. Short moves: each joint by half of that. Of a continuous
 /// joint the moves divide the circle where a divisor is near, so that different orders of moves
 /// meet.

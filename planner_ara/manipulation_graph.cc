@@ -13,15 +13,10 @@
 namespace planbench {
 namespace {
 
-constexpr std::size_t kCrowdSlots = 1 << 14;  // a power of two
-
 // No spine is longer, in motion of the collision geometry, m.
 constexpr double kLongestSpine = 0.5;
 // What a move counts at least, m: those of a joint that moves no geometry would have no end.
 constexpr double kLeastMotion = 1e-3;
-
-// Soon felt, and more and more where the search has been hundreds of times.
-double Crowd(double visits) { return std::log2(1 + visits) + visits / 5; }
 
 }  // namespace
 
@@ -62,6 +57,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.burs = settings.burs;
   options.wrap_heuristic = settings.wrap_heuristic;
   options.crowding = settings.crowding;
+  options.arm_by_arm = settings.arm_by_arm;
   options.crowded_joints = major;
   if (!settings.crowding_joints.empty()) {
     options.crowded_joints.assign(major.size(), false);
@@ -82,6 +78,9 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       lattice_(edges->space(), start, options_.discretization),
       points_(edges->space().size()),
       goal_distance_(edges->space(), goal_, options_.weights),
+      arms_(options_.arm_by_arm ? ArmsOf(edges->checker().robot().model, edges->checker().group())
+                                : OneArm(edges->checker().group())),
+      goal_cells_(start.size()),
       from_(start.size()),
       to_(start.size()),
       target_(start.size()) {
@@ -100,6 +99,7 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
   const JointSpace& space = edges_->space();
   for (int j = 0; j < space.size(); ++j) {
     const auto i = static_cast<std::size_t>(j);
+    goal_cells_[i] = lattice_.Nearest(j, goal_.nominal[i]);
     std::vector<double>& to_goal = goal_terms_.emplace_back();
     std::vector<double>& to_start = start_terms_.emplace_back();
     for (int k = 0; k < lattice_.num_cells(j); ++k) {
@@ -109,15 +109,18 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       to_start.push_back(from_start * from_start);
     }
   }
-  MakeRoomForKnowledge();
-  if (options_.crowding > 0) {
-    visits_.resize(kCrowdSlots);
-    crowd_cells_.assign(start.size(), 0);
-    for (std::size_t j = 0; j < start.size(); ++j) {
-      if (!options_.crowded_joints[j]) continue;
-      for (const Move& move : moves_) crowd_cells_[j] = std::max(crowd_cells_[j], move.cells[j]);
-    }
+  // The turns of a state are known of moves alone.
+  if (arms_.num > 1 && options_.wrap_heuristic) {
+    first_move_ = static_cast<std::uint16_t>(kArmToGoal + arms_.num);
   }
+  MakeRoomForKnowledge();
+  std::vector<int> place_cells(start.size(), 0);
+  for (std::size_t j = 0; j < options_.crowded_joints.size(); ++j) {
+    if (!options_.crowded_joints[j]) continue;
+    for (const Move& move : moves_) place_cells[j] = std::max(place_cells[j], move.cells[j]);
+  }
+  guide_.emplace(&lattice_, &goal_terms_, &goal_cells_, arms_, unit_, options_.crowding,
+                 std::move(place_cells));
   points_.FindOrAdd(lattice_.anchor());
   if (!options_.wrap_heuristic) {
     turns_.emplace(start.size());
@@ -126,8 +129,7 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
 }
 
 void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double weight) {
-  tip_distance_ = std::move(distance);
-  tip_weight_ = weight;
+  guide_->ByTip(std::move(distance), weight);
 }
 
 void ManipulationGraph::AddPaths(std::span<const Path> paths) {
@@ -158,7 +160,7 @@ bool ManipulationGraph::Refine() {
 
 // Of one record a state, which is wide enough for all of its edges.
 void ManipulationGraph::MakeRoomForKnowledge() {
-  const std::size_t words = (2 * (kFirstMove + moves_.size()) + 63) / 64;
+  const std::size_t words = (2 * (first_move_ + moves_.size()) + 63) / 64;
   if (words <= known_edges_.width()) return;
   ChunkedArray<std::uint64_t> wider(words);
   for (std::size_t state = 0; state < known_edges_.size(); ++state) {
@@ -252,7 +254,7 @@ double ManipulationGraph::CostOf(double length) const {
 }
 
 const ManipulationGraph::Move& ManipulationGraph::MoveOf(std::uint16_t action) const {
-  return moves_[static_cast<std::size_t>((action & ~kSpine) - kFirstMove)];
+  return moves_[static_cast<std::size_t>((action & ~kSpine) - first_move_)];
 }
 
 float ManipulationGraph::ClearanceOf(StateId state) {
@@ -306,6 +308,14 @@ bool ManipulationGraph::MoveFrom(StateId source, const Move& move, int times) {
   return true;
 }
 
+// Sets target_ to where such an edge leads.
+void ManipulationGraph::MoveArmToGoal(StateId source, std::uint16_t action) {
+  std::ranges::copy(points_.Coordinates(source - 1), target_.begin());
+  for (std::size_t j = 0; j < target_.size(); ++j) {
+    if (arms_.of_joint[j] == action - kArmToGoal) target_[j] = goal_cells_[j];
+  }
+}
+
 // The waypoint that such an edge leads to, kNone if the state has fewer of them.
 int ManipulationGraph::WaypointOf(StateId source, std::uint16_t action) {
   if (source != joined_) {
@@ -317,14 +327,11 @@ int ManipulationGraph::WaypointOf(StateId source, std::uint16_t action) {
 }
 
 void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>* candidates) {
-  // Cells of different hashes may share a count: it only guides.
-  const double crowd = visits_.empty() ? 1 : 1 + options_.crowding * Crowd(CountVisit(state));
-  double detour = 0;
   // Where the goal can be had at once, no guide is needed.
-  if (tip_distance_ && !(state == kStart && IsValidEdge(state, kToNearestGoal))) {
-    SelectSource(state);
-    detour = unit_ * tip_weight_ * (*tip_distance_)(from_);
-  }
+  const bool by_tip = guide_->by_tip() && !(state == kStart && IsValidEdge(state, kToNearestGoal));
+  if (by_tip) SelectSource(state);
+  guide_->SelectSource(points_.Coordinates(state - 1),
+                       by_tip ? std::span<const double>(from_) : std::span<const double>());
   const bool eager = options_.evaluation == Evaluation::kEager;
   const auto is_candidate = [&](std::uint16_t action) {
     return !eager || IsValidEdge(state, action);
@@ -340,7 +347,7 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     candidates->push_back({CostOf(distance), 0, 0, kToNominalGoal});
   }
 
-  for (std::uint16_t action = kToRecalled; recalled_ && action < kFirstMove; ++action) {
+  for (std::uint16_t action = kToRecalled; recalled_ && action < kArmToGoal; ++action) {
     const int waypoint = WaypointOf(state, action);
     if (waypoint == RecalledPaths::kNone || !is_candidate(action)) continue;
     SelectEdge(state, action);
@@ -348,6 +355,17 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     const double heuristic =
         unit_ * std::sqrt(SquaredDistance(goal_terms_, recalled_->CoordinatesOf(waypoint)));
     candidates->push_back({CostOf(length), heuristic, 0, action});
+  }
+
+  for (std::uint16_t action = kArmToGoal; action < first_move_; ++action) {
+    MoveArmToGoal(state, action);
+    if (std::ranges::equal(target_, points_.Coordinates(state - 1)) || !is_candidate(action)) {
+      continue;
+    }
+    SelectEdge(state, action);
+    const double length = WeightedDistance(edges_->space(), options_.weights, from_, to_);
+    const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
+    candidates->push_back({CostOf(length), heuristic, (*guide_)(target_, heuristic), action});
   }
 
   bool use_long = true;
@@ -366,10 +384,10 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
     const auto offer = [&](std::uint16_t action, int times) {
       const double heuristic = turns_ ? Heuristic(TargetPoint(state, move, times) + 1)
                                       : unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
-      candidates->push_back({CostOf(times * move.length), heuristic,
-                             static_cast<float>(crowd * (heuristic + detour)), action});
+      candidates->push_back(
+          {CostOf(times * move.length), heuristic, (*guide_)(target_, heuristic), action});
     };
-    const auto action = static_cast<std::uint16_t>(kFirstMove + m);
+    const auto action = static_cast<std::uint16_t>(first_move_ + m);
     if (options_.burs) {
       const int times = SpineLength(state, move);
       if (times > 0) Remember(state, action, Knowledge::kFree);
@@ -381,8 +399,12 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
 
 StateId ManipulationGraph::Target(StateId source, std::uint16_t action) {
   if (action < kToRecalled) return kGoal;
-  if (action < kFirstMove) {
+  if (action < kArmToGoal) {
     return points_.FindOrAdd(recalled_->CoordinatesOf(WaypointOf(source, action))) + 1;
+  }
+  if (action < first_move_) {
+    MoveArmToGoal(source, action);
+    return points_.FindOrAdd(target_) + 1;
   }
   const Move& move = MoveOf(action);
   const int times = (action & kSpine) != 0 ? SpineLength(source, move) : 1;
@@ -397,7 +419,7 @@ bool ManipulationGraph::IsValidEdge(StateId source, std::uint16_t action) {
   if (action < kToRecalled) ++num_goal_connections_tried_;
   SelectEdge(source, action);
   const bool valid = edges_->IsValidEdge(from_, to_, /*from_is_free=*/true);
-  if (valid && action >= kToRecalled && action < kFirstMove) ++num_recalled_edges_;
+  if (valid && action >= kToRecalled && action < kArmToGoal) ++num_recalled_edges_;
   Remember(source, action, valid ? Knowledge::kFree : Knowledge::kBlocked);
   return valid;
 }
@@ -409,11 +431,15 @@ void ManipulationGraph::SelectEdge(StateId source, std::uint16_t action) {
     GoalConfiguration(action, from_, to_);
     return;
   }
-  if (action < kFirstMove) {
+  if (action < kArmToGoal) {
     std::ranges::copy(recalled_->ConfigurationOf(WaypointOf(source, action)), to_.begin());
     return;
   }
-  MoveFrom(source, MoveOf(action));
+  if (action < first_move_) {
+    MoveArmToGoal(source, action);
+  } else {
+    MoveFrom(source, MoveOf(action));
+  }
   for (std::size_t j = 0; j < to_.size(); ++j) {
     to_[j] = lattice_.Value(static_cast<int>(j), target_[j]);
   }
@@ -440,21 +466,6 @@ void ManipulationGraph::Remember(StateId source, std::uint16_t action, Knowledge
   std::uint64_t& word = known_edges_.Record(source)[bit / 64];
   word = (word & ~(std::uint64_t{3} << bit % 64)) | static_cast<std::uint64_t>(knowledge)
                                                         << bit % 64;
-}
-
-// Counts an expansion in the cell of crowding that the state lies in; returns the number of those
-// before.
-double ManipulationGraph::CountVisit(StateId state) {
-  const std::span<const Lattice::Coordinate> coordinates = points_.Coordinates(state - 1);
-  std::uint64_t hash = 0;
-  for (std::size_t j = 0; j < coordinates.size(); ++j) {
-    if (crowd_cells_[j] == 0) continue;
-    hash = (hash ^ static_cast<std::uint64_t>(coordinates[j] / crowd_cells_[j])) *
-           0x9e3779b97f4a7c15ULL;
-    hash ^= hash >> 32;
-  }
-  std::uint16_t& visits = visits_[hash & (kCrowdSlots - 1)];
-  return visits < std::numeric_limits<std::uint16_t>::max() ? visits++ : visits;
 }
 
 double ManipulationGraph::CostOf(const Path& path) const {

@@ -13,7 +13,9 @@
 #include "collision/edge_checker.h"
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/ara_star.h"
+#include "planner_ara/arms.h"
 #include "planner_ara/goal_distance.h"
+#include "planner_ara/guide.h"
 #include "planner_ara/lattice.h"
 #include "planner_ara/motion_primitives.h"
 #include "planner_ara/recalled_paths.h"
@@ -38,6 +40,7 @@ struct ManipulationGraphOptions {
   bool wrap_heuristic = true;        ///< See AraSettings::wrap_heuristic.
   double crowding = 0;               ///< See AraSettings::crowding.
   std::vector<char> crowded_joints;  ///< n joints: whether the joint counts in a cell of crowding.
+  bool arm_by_arm = false;           ///< See AraSettings::arm_by_arm.
 };
 
 /// Resolves settings against a group. Throws InputError, prefixed by `origin`, for joints of the
@@ -49,7 +52,8 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
 /// The graph an ARA* search of a manipulation problem runs on (SearchGraph): the points of a
 /// lattice anchored at the start, joined by motion primitives, and the goal as one more state,
 /// joined to every lattice point by the straight motion to the nearest point of the goal box (and
-/// to its nominal point, if that is another).
+/// to its nominal point, if that is another). Of several arms each has an edge to where it stands
+/// at the goal, or in the nearest cell.
 ///
 /// Costs and heuristic are in one unit: weighted joint distance, or, with uniform costs, moves: a
 /// move costs 1, and the motion to the goal its weighted length, but at least 1. (Weighted lengths
@@ -97,12 +101,12 @@ class ManipulationGraph {
   std::size_t bytes() const { return points_.bytes() + known_edges_.bytes() + clearances_.bytes(); }
 
  private:
-  /// Beyond kFirstMove the number of a move; with kSpine, of the spine in its direction.
+  /// From first_move_ on the number of a move; with kSpine, of the spine in its direction.
   enum Action : std::uint16_t {
     kToNearestGoal = 0,
     kToNominalGoal = 1,
     kToRecalled = 2,  ///< And the one after it: to a waypoint of RecalledPaths::NeighboursOf.
-    kFirstMove = 4,
+    kArmToGoal = 4,   ///< And those after it, of several arms: one to the goal.
     kSpine = 0x8000
   };
   // Of an edge, two bits each.
@@ -131,6 +135,7 @@ class ManipulationGraph {
   void SelectSource(StateId state);
   int WaypointOf(StateId source, std::uint16_t action);
   bool MoveFrom(StateId source, const Move& move, int times = 1);
+  void MoveArmToGoal(StateId source, std::uint16_t action);
   const Move& MoveOf(std::uint16_t action) const;
   double CostOf(double length) const;
   float ClearanceOf(StateId state);
@@ -138,7 +143,6 @@ class ManipulationGraph {
   void SelectEdge(StateId source, std::uint16_t action);
   Knowledge Recall(StateId source, std::uint16_t action);
   void Remember(StateId source, std::uint16_t action, Knowledge knowledge);
-  double CountVisit(StateId state);
 
   EdgeChecker* edges_;
   GoalBox goal_;
@@ -146,6 +150,9 @@ class ManipulationGraph {
   Lattice lattice_;
   LatticePoints points_;
   GoalDistance goal_distance_;
+  Arms arms_;
+  std::vector<Lattice::Coordinate> goal_cells_;  // The nearest to its nominal point.
+  std::uint16_t first_move_ = kArmToGoal;
   std::vector<Move> moves_;
   std::vector<std::vector<int>> finest_moves_;  // that Refine halves, one of each two senses
   double unit_ = 1;                             // cost of a motion of weighted length 1
@@ -157,11 +164,7 @@ class ManipulationGraph {
   ChunkedArray<float> clearances_;           // by state, m; 0 where it is not known
   // Without wrapping: by point, how many turns of each joint its first arrival was beyond Value().
   std::optional<ChunkedArray<std::int8_t>> turns_;
-  // By joint, the cells of one cell of crowding; 0 for joints that do not count.
-  std::vector<int> crowd_cells_;
-  std::vector<std::uint16_t> visits_;  // by hash of the cell of crowding
-  std::unique_ptr<TipDistance> tip_distance_;
-  double tip_weight_ = 0;
+  std::optional<Guide> guide_;
   std::optional<RecalledPaths> recalled_;
   std::int64_t num_goal_connections_tried_ = 0;
   std::int64_t num_recalled_edges_ = 0;

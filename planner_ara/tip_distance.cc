@@ -155,15 +155,17 @@ int TipDistance::StepsTo(std::size_t cell, Wave* wave) const {
   return wave->steps[cell] != kUnseen ? wave->steps[cell] : wave->layer + 1;
 }
 
-double TipDistance::operator()(std::span<const double> q) {
+std::span<const double> TipDistance::operator()(std::span<const double> q) {
   if (waves_.empty()) {
     grid_->Mark();
     for (const std::size_t cell : grid_->CellsOf(goal_)) waves_.push_back(StartAt(cell));
   }
   const std::vector<std::size_t>& cells = grid_->CellsOf(q);
-  int steps = 0;
-  for (std::size_t t = 0; t < waves_.size(); ++t) steps += StepsTo(cells[t], &waves_[t]);
-  return steps * grid_->resolution();
+  distances_.resize(waves_.size());
+  for (std::size_t t = 0; t < waves_.size(); ++t) {
+    distances_[t] = StepsTo(cells[t], &waves_[t]) * grid_->resolution();
+  }
+  return distances_;
 }
 
 }  // namespace planbench

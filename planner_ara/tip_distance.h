@@ -48,16 +48,17 @@ class TipGrid {
 };
 
 /// How far the origins of a group's tip links are from where they are at the goal, as the crow
-/// would fly round the obstacles, all tips together: breadth-first search over a TipGrid, diagonal
+/// would fly round the obstacles: breadth-first search over a TipGrid, diagonal
 /// steps counting as one (the workspace heuristic of Cohen, Chitta and Likhachev, "Search-based
 /// planning for manipulation with motion primitives", ICRA 2010). A guide: it bounds no cost.
 class TipDistance {
  public:
   TipDistance(std::shared_ptr<TipGrid> grid, std::span<const double> goal);
 
-  /// Distance at q, m; beyond the grid that of its nearest cell, in a cell that the goal cannot be
-  /// reached from more than the longest of all. The first call marks the grid, and throws as that.
-  double operator()(std::span<const double> q);
+  /// Distances at q by tip, m; beyond the grid those of its nearest cells, in a cell that the goal
+  /// cannot be reached from more than the longest of all. The first call marks the grid, and throws
+  /// as that.
+  std::span<const double> operator()(std::span<const double> q);
 
  private:
   static constexpr int kUnseen = -1;
@@ -79,6 +80,7 @@ class TipDistance {
   std::shared_ptr<TipGrid> grid_;
   std::vector<double> goal_;
   std::vector<Wave> waves_;  // By tip; none before the first call.
+  std::vector<double> distances_;
 };
 
 }  // namespace planbench

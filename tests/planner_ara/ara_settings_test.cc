@@ -30,6 +30,7 @@ burs: true
 refine: false
 shorten: false
 tip_guide: 1.5
+arm_by_arm: false
 crowding: 0.3
 crowding_joints: [lift]
 cost: uniform
@@ -56,6 +57,7 @@ memory_limit_mb: 100
   EXPECT_FALSE(settings.refine);
   EXPECT_FALSE(settings.shorten);
   EXPECT_EQ(settings.tip_guide, 1.5);
+  EXPECT_FALSE(settings.arm_by_arm);
   EXPECT_EQ(settings.crowding, 0.3);
   EXPECT_EQ(settings.crowding_joints, std::vector<std::string>{"lift"});
   EXPECT_EQ(settings.cost, MoveCost::kUniform);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "planner_ara/arms.h"
 #include "planner_ara/default_primitives.h"
 #include "support/expect_input_error.h"
 #include "support/planning_problems.h"

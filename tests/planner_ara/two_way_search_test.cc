@@ -6,12 +6,12 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "common/numbers.h"
 #include "support/planning_problems.h"
+#include "tests/planner_ara/lattice_optimum.h"
 #include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
@@ -34,31 +34,9 @@ class TwoWaySearchTest : public testing::Test {
     options_.crowded_joints.assign(3, true);
   }
 
-  // Cost of the best path of the lattice anchored at `start`, by Dijkstra's algorithm.
   double Optimum(const Configuration& start, const Configuration& goal,
                  const std::vector<Path>& recalled = {}) {
-    ManipulationGraph graph(edges_.get(), start, PointGoal(goal), options_);
-    graph.AddPaths(recalled);
-    std::vector<double> costs(2, kInfinity);
-    costs[ManipulationGraph::kStart] = 0;
-    std::priority_queue<std::pair<double, StateId>> queue;
-    queue.push({0, ManipulationGraph::kStart});
-    std::vector<CandidateEdge> candidates;
-    while (!queue.empty()) {
-      const auto [negative, s] = queue.top();
-      queue.pop();
-      if (-negative > costs[s] || s == ManipulationGraph::kGoal) continue;
-      candidates.clear();
-      graph.CandidateEdges(s, &candidates);
-      for (const CandidateEdge& edge : candidates) {
-        const StateId t = graph.Target(s, edge.action);
-        if (t >= costs.size()) costs.resize(t + 1, kInfinity);
-        if (costs[s] + edge.cost >= costs[t] || !graph.IsValidEdge(s, edge.action)) continue;
-        costs[t] = costs[s] + edge.cost;
-        queue.push({-costs[t], t});
-      }
-    }
-    return costs[ManipulationGraph::kGoal];
+    return LatticeOptimum(edges_.get(), start, goal, options_, recalled);
   }
 
   void ExpectJoins(const Path& path, double cost) { ExpectJoins(kLeft_, kRight_, path, cost); }
