@@ -87,13 +87,11 @@ TipDistance::Wave TipDistance::StartAt(std::size_t cell) const {
   const auto nx = static_cast<std::size_t>(grid_->size()[0]);
   const auto ny = static_cast<std::size_t>(grid_->size()[1]);
   Wave wave;
-  wave.steps.assign(grid_->num_cells(), kUnseen);
-  wave.steps[cell] = 0;
   for (auto* bits : {&wave.front, &wave.seen, &wave.next})
     bits->assign(grid_->passages().size(), 0);
+  const auto [word, bit] = grid_->BitOf(cell);
+  wave.front[word] = wave.seen[word] = bit;
   const std::size_t row = cell / nx;
-  const std::size_t word = row * grid_->words_a_row() + cell % nx / 64;
-  wave.front[word] = wave.seen[word] = std::uint64_t{1} << cell % nx % 64;
   wave.first = wave.last = {static_cast<int>(row % ny), static_cast<int>(row / ny)};
   return wave;
 }
@@ -106,6 +104,10 @@ void TipDistance::Spread(Wave* wave) const {
   std::array<int, 2> first = {ny, nz};
   std::array<int, 2> last = {-1, -1};
   std::vector<std::uint64_t> near(words);
+  const auto steps = static_cast<unsigned>(wave->layer + 1);
+  if (wave->digits.size() < static_cast<std::size_t>(std::bit_width(steps))) {
+    wave->digits.emplace_back(wave->seen.size(), 0);
+  }
   for (int k = wave->first[1] - 1; k <= wave->last[1] + 1; ++k) {
     for (int j = wave->first[0] - 1; j <= wave->last[0] + 1; ++j) {
       std::fill(near.begin(), near.end(), 0);
@@ -123,10 +125,8 @@ void TipDistance::Spread(Wave* wave) const {
             (near[w] | near[w] << 1 | near[w] >> 1 | below | above) & ~wave->seen[row + w];
         if (reached == 0) continue;
         wave->seen[row + w] |= reached;
-        int* steps = wave->steps.data() +
-                     static_cast<std::size_t>(k * ny + j) * static_cast<std::size_t>(nx) + 64 * w;
-        for (std::uint64_t bits = reached; bits != 0; bits &= bits - 1) {
-          steps[std::countr_zero(bits)] = wave->layer + 1;
+        for (unsigned bits = steps; bits != 0; bits &= bits - 1) {
+          wave->digits[static_cast<std::size_t>(std::countr_zero(bits))][row + w] |= reached;
         }
         const std::uint64_t passed = reached & grid_->passages()[row + w];
         if (passed == 0) continue;
@@ -151,8 +151,15 @@ void TipDistance::Spread(Wave* wave) const {
 }
 
 int TipDistance::StepsTo(std::size_t cell, Wave* wave) const {
-  while (wave->steps[cell] == kUnseen && !wave->spent) Spread(wave);
-  return wave->steps[cell] != kUnseen ? wave->steps[cell] : wave->layer + 1;
+  const auto [word, bit] = grid_->BitOf(cell);
+  const auto has = [&, word = word, bit = bit](const std::vector<std::uint64_t>& bits) {
+    return (bits[word] & bit) != 0;
+  };
+  while (!has(wave->seen) && !wave->spent) Spread(wave);
+  if (!has(wave->seen)) return wave->layer + 1;
+  int steps = 0;
+  for (std::size_t i = 0; i < wave->digits.size(); ++i) steps += has(wave->digits[i]) ? 1 << i : 0;
+  return steps;
 }
 
 std::span<const double> TipDistance::operator()(std::span<const double> q) {

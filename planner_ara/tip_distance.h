@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "collision/voxels/voxel_grid.h"
@@ -31,6 +32,11 @@ class TipGrid {
   const std::array<int, 3>& size() const { return grid_.size(); }
   std::size_t num_cells() const { return grid_.cells().size(); }
   std::size_t words_a_row() const { return words_; }
+  /// The word that a cell has its bit in, and the bit.
+  std::pair<std::size_t, std::uint64_t> BitOf(std::size_t cell) const {
+    const auto nx = static_cast<std::size_t>(size()[0]);
+    return {cell / nx * words_ + cell % nx / 64, std::uint64_t{1} << cell % nx % 64};
+  }
   /// A bit a cell, so many words a row of cells along x; empty: not marked yet. No way leads along
   /// the border, so that every passage has all its neighbours.
   const std::vector<std::uint64_t>& passages() const { return passages_; }
@@ -61,8 +67,6 @@ class TipDistance {
   std::span<const double> operator()(std::span<const double> q);
 
  private:
-  static constexpr int kUnseen = -1;
-
   // The search from where one tip is at the goal, which goes no further than it has been asked for.
   struct Wave {
     int layer = 0;                     // Steps to the front.
@@ -71,7 +75,8 @@ class TipDistance {
     std::vector<std::uint64_t> seen;
     std::vector<std::uint64_t> next;  // Scratch, all zero between layers.
     std::array<int, 2> first, last;   // Rows (j, k) that bound the front.
-    std::vector<int> steps;           // By cell.
+    // The steps to cells that have been seen, a binary digit each: that of 2^i of all cells.
+    std::vector<std::vector<std::uint64_t>> digits;
   };
   Wave StartAt(std::size_t cell) const;
   void Spread(Wave* wave) const;
