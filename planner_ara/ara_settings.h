@@ -63,7 +63,7 @@ struct AraSettings {
   /// computed.
   double crowding = 0.05;
   /// The joints whose positions make up a cell of crowding, its sides the longest move of each.
-  /// Empty: the joints with at least half the longest reach, and prismatic ones.
+  /// Empty: the joints with at least half the longest reach of their arm, and prismatic ones.
   std::vector<std::string> crowding_joints;
   /// Until there is a first path, what the distance of the tip link round the obstacles
   /// (TipDistance) adds to the heuristic in the order of the search, rad/m; >= 0. Does not touch

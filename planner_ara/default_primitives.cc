@@ -33,17 +33,20 @@ std::vector<double> JointReaches(const Robot& robot, const PlanningGroup& group)
   return MotionBound(robot.model, group, robot.model.DefaultPositions(), balls).reach();
 }
 
-std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches) {
-  double longest = 0;
-  for (int j = 0; j < space.size(); ++j) {
-    if (!space.joint(j).prismatic) {
-      longest = std::max(longest, reaches[static_cast<std::size_t>(j)]);
-    }
+std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches,
+                              const Arms& arms) {
+  std::vector<double> longest(static_cast<std::size_t>(arms.num) + 1, 0.0);  // by arm
+  const auto longest_beside = [&](std::size_t j) -> double& {
+    return longest[static_cast<std::size_t>(arms.of_joint[j])];
+  };
+  for (std::size_t j = 0; j < reaches.size(); ++j) {
+    if (space.joint(static_cast<int>(j)).prismatic) continue;
+    longest_beside(j) = std::max(longest_beside(j), reaches[j]);
   }
   std::vector<char> major;
-  for (int j = 0; j < space.size(); ++j) {
-    major.push_back(space.joint(j).prismatic ||
-                    reaches[static_cast<std::size_t>(j)] >= longest / 2);
+  for (std::size_t j = 0; j < reaches.size(); ++j) {
+    major.push_back(space.joint(static_cast<int>(j)).prismatic ||
+                    reaches[j] >= longest_beside(j) / 2);
   }
   return major;
 }

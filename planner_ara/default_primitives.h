@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "planner_ara/arms.h"
 #include "planner_ara/motion_primitives.h"
 #include "robot_model/robot_folder.h"
 
@@ -15,9 +16,10 @@ namespace planbench {
 /// robot's collision spheres, or the origins of its links where it has none.
 std::vector<double> JointReaches(const Robot& robot, const PlanningGroup& group);
 
-/// By joint: true for the joints that carry the arm about, those with at least half of the longest
-/// reach and prismatic ones; false for a wrist.
-std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches);
+/// By joint: true for the joints that carry an arm about, those with at least half of the longest
+/// reach of its own (what arms share has a longer one) and prismatic ones; false for a wrist.
+std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> reaches,
+                              const Arms& arms);
 
 /// Size of a cell, rad or m: 1 degree; 5 mm, or 1/40 of a shorter travel.
 double DefaultCell(const JointSpace::Joint& joint);

@@ -23,7 +23,8 @@ constexpr double kLeastMotion = 1e-3;
 ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
                                         const PlanningGroup& group, const std::string& origin) {
   const JointSpace& space = group.space;
-  const std::vector<char> major = MajorJoints(space, JointReaches(robot, group));
+  const std::vector<char> major =
+      MajorJoints(space, JointReaches(robot, group), ArmsOf(robot.model, group));
   ManipulationGraphOptions options;
   for (const JointSpace::Joint& joint : space.joints()) {
     const auto cell = settings.discretization.find(joint.name);

@@ -12,6 +12,7 @@
 #include "support/planning_problems.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
+#include "support/two_arm_robot.h"
 
 namespace planbench {
 namespace {
@@ -138,19 +139,20 @@ TEST(MotionPrimitives, RefusesAFileThatIsNotThere) {
   }
 }
 
-std::vector<std::vector<char>> OneArm(std::size_t num_joints) {
+std::vector<std::vector<char>> AllOnOneArm(std::size_t num_joints) {
   return std::vector(num_joints, std::vector<char>(num_joints, 1));
 }
 
 TEST(DefaultPrimitives, FollowFromLimitsAndReaches) {
   const JointSpace space = ThreeJoints();
-  const std::vector<char> major = MajorJoints(space, std::vector<double>{1.0, 0.4, 1.0});
+  const std::vector<char> major =
+      MajorJoints(space, std::vector<double>{1.0, 0.4, 1.0}, Arms{1, {0, 0, 0}, {0}});
   EXPECT_EQ(major, (std::vector<char>{1, 0, 1}));
   std::vector<double> cells;
   for (const JointSpace::Joint& joint : space.joints()) cells.push_back(DefaultCell(joint));
   EXPECT_DOUBLE_EQ(cells[0], std::numbers::pi / 180);
   EXPECT_DOUBLE_EQ(cells[2], 0.005);
-  const MotionPrimitives primitives = DefaultPrimitives(space, cells, major, OneArm(3));
+  const MotionPrimitives primitives = DefaultPrimitives(space, cells, major, AllOnOneArm(3));
   // A third of 4 rad is more than the 40 degrees of a joint of short reach.
   EXPECT_EQ(primitives.long_moves, (Rows{{20, 0, 0}, {0, 40, 0}, {0, 0, 20}}));
   EXPECT_EQ(primitives.short_moves, (Rows{{10, 0, 0}, {0, 20, 0}, {0, 0, 10}}));
@@ -160,8 +162,8 @@ TEST(DefaultPrimitives, DivideTheCircleWhereADivisorIsNear) {
   const JointSpace space({{"a", true, false, -std::numbers::pi, std::numbers::pi, 1},
                           {"b", true, false, -std::numbers::pi, std::numbers::pi, 1}});
   const double cell = 2 * std::numbers::pi / 100;  // 20 degrees are 5.6 cells
-  const MotionPrimitives primitives =
-      DefaultPrimitives(space, std::vector<double>{cell, cell}, std::vector<char>{1, 1}, OneArm(2));
+  const MotionPrimitives primitives = DefaultPrimitives(space, std::vector<double>{cell, cell},
+                                                        std::vector<char>{1, 1}, AllOnOneArm(2));
   EXPECT_EQ(primitives.long_moves, (Rows{{5, 0}, {0, 5}, {5, 5}, {5, -5}}));
   EXPECT_EQ(primitives.short_moves, (Rows{{2, 0}, {0, 2}}));
 }
@@ -195,14 +197,24 @@ TEST(DefaultPrimitives, JointsOfTwoArmsDoNotMoveTogether) {
   }
 }
 
+TEST(DefaultPrimitives, ATorsosReachIsNoMeasureForTheArmsItCarries) {
+  const Robot robot = MakeTwoArmRobot(/*with_torso=*/true);
+  const PlanningGroup& group = robot.groups.front();
+  const std::vector<double> reaches = JointReaches(robot, group);
+  ASSERT_LT(reaches[2], reaches[0] / 2);  // an elbow, the torso
+  EXPECT_EQ(
+      MajorJoints(group.space, std::vector<double>{3, 1, 0.6, 1, 0.4}, ArmsOf(robot.model, group)),
+      (std::vector<char>{1, 1, 1, 1, 0}));
+}
+
 TEST(DefaultPrimitives, OfTheFetchMoveItsArmInPairsAndItsWristByMore) {
   const Robot fetch = LoadFetch();
   const PlanningGroup& group = fetch.groups.front();
   std::vector<double> cells;
   for (const JointSpace::Joint& joint : group.space.joints()) cells.push_back(DefaultCell(joint));
-  const MotionPrimitives primitives =
-      DefaultPrimitives(group.space, cells, MajorJoints(group.space, JointReaches(fetch, group)),
-                        JointsOnOneArm(fetch.model, group));
+  const MotionPrimitives primitives = DefaultPrimitives(
+      group.space, cells, MajorJoints(group.space, JointReaches(fetch, group), OneArm(group)),
+      JointsOnOneArm(fetch.model, group));
   const std::vector<int> moves = {20, 20, 20, 20, 20, 40, 40, 40};  // torso to wrist roll
   Rows long_moves;
   Rows short_moves;
