@@ -9,6 +9,7 @@
 // searched.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -235,12 +236,15 @@ void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& dir
               const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     const PlanResult& result = run.result;
-    *csv << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{},{},{:.6g},{:.6g}", set, direction,
+    std::vector<std::string> counters;
+    for (const auto& [name, value] : result.counters) {
+      counters.push_back(fmt::format("{}={}", name, value));
+    }
+    *csv << fmt::format("{},{},{},{},{},{:.3f},{:.3f},{},{},{:.6g},{:.6g},{}\n", set, direction,
                         run.index, EnumName(result.status), run.referee_valid ? 1 : 0,
                         1e3 * result.planning_time_s, 1e3 * result.phases.collision_s,
-                        result.path.size(), result.progress.size(), result.epsilon, result.cost);
-    for (const auto& [name, value] : result.counters) *csv << fmt::format(",{}={}", name, value);
-    *csv << "\n";
+                        result.path.size(), result.progress.size(), result.epsilon, result.cost,
+                        fmt::join(counters, " "));
   }
 }
 
