@@ -51,6 +51,25 @@ double GoalDistance::SquaredTerm(int j, double value) const {
   return weighted * weighted;
 }
 
+std::vector<double> GoalDistance::SquaredTerms(int j, std::span<const double> values) const {
+  std::vector<double> terms(values.size());
+  if (space_->joint(j).continuous) {
+    std::transform(values.begin(), values.end(), terms.begin(),
+                   [&](double value) { return SquaredTerm(j, value); });
+    return terms;
+  }
+  // As ApproachOf has it, without branches: lattices ask for thousands.
+  const Side& side = sides_[static_cast<std::size_t>(j)];
+  const double weight = weights_[static_cast<std::size_t>(j)];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double offset = values[i] - side.nominal;
+    const double beyond = std::max(side.below - offset, offset - side.above);
+    const double weighted = weight * std::max(0.0, beyond);
+    terms[i] = weighted * weighted;
+  }
+  return terms;
+}
+
 double GoalDistance::operator()(std::span<const double> q) const {
   double sum = 0;
   for (int j = 0; j < space_->size(); ++j) sum += SquaredTerm(j, q[static_cast<std::size_t>(j)]);

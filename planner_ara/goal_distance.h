@@ -20,6 +20,8 @@ class GoalDistance {
 
   /// (w_j d_j)^2 of joint j at position `value`.
   double SquaredTerm(int j, double value) const;
+  /// The same at many positions.
+  std::vector<double> SquaredTerms(int j, std::span<const double> values) const;
   /// The distance from q.
   double operator()(std::span<const double> q) const;
   /// The nearest point of the box within the joint limits; the nominal point itself where the box

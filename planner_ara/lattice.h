@@ -33,6 +33,8 @@ class Lattice {
   /// Position of joint j in cell k: rad or m; in [-pi, pi) for continuous joints, except that the
   /// anchor's own cell holds the anchor's position unchanged.
   double Value(int j, Coordinate k) const { return Axis(j).values[k]; }
+  /// Value() by cell.
+  std::span<const double> values(int j) const { return Axis(j).values; }
   /// Coordinates of the anchor.
   const std::vector<Coordinate>& anchor() const { return anchor_; }
 

@@ -98,17 +98,13 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       options_.long_moves_beyond > 0 || std::isfinite(options_.short_moves_within);
 
   const JointSpace& space = edges_->space();
+  const Configuration root(start.begin(), start.end());
+  const GoalDistance start_distance(space, {root, root, root}, options_.weights);
   for (int j = 0; j < space.size(); ++j) {
     const auto i = static_cast<std::size_t>(j);
     goal_cells_[i] = lattice_.Nearest(j, goal_.nominal[i]);
-    std::vector<double>& to_goal = goal_terms_.emplace_back();
-    std::vector<double>& to_start = start_terms_.emplace_back();
-    for (int k = 0; k < lattice_.num_cells(j); ++k) {
-      const double value = lattice_.Value(j, static_cast<Lattice::Coordinate>(k));
-      const double from_start = options_.weights[i] * space.Difference(j, start[i], value);
-      to_goal.push_back(goal_distance_.SquaredTerm(j, value));
-      to_start.push_back(from_start * from_start);
-    }
+    goal_terms_.push_back(goal_distance_.SquaredTerms(j, lattice_.values(j)));
+    start_terms_.push_back(start_distance.SquaredTerms(j, lattice_.values(j)));
   }
   // The turns of a state are known of moves alone.
   if (arms_.num > 1 && options_.wrap_heuristic) {

@@ -56,6 +56,15 @@ TEST(GoalDistance, OfABoxIsTheDistanceToItsNearestPoint) {
     EXPECT_TRUE(box.Contains(space, nearest));
     EXPECT_NEAR(distance(test.q), space.Distance(test.q, nearest), 1e-12);
   }
+  for (int j = 0; j < 3; ++j) {
+    std::vector<double> values;
+    for (int k = -40; k <= 40; ++k) values.push_back(0.1 * k);
+    const std::vector<double> terms = distance.SquaredTerms(j, values);
+    ASSERT_EQ(terms.size(), values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      EXPECT_EQ(terms[k], distance.SquaredTerm(j, values[k])) << values[k];
+    }
+  }
 }
 
 TEST(GoalDistance, BoxEndsAtTheLimits) {
