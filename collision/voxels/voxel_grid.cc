@@ -4,7 +4,9 @@
 #include <cmath>
 #include <type_traits>
 
+#include "collision/object_cover.h"
 #include "collision/shape_check.h"
+#include "common/numbers.h"
 #include "geometry/solid_mesh.h"
 
 namespace planbench {
@@ -18,6 +20,13 @@ using Eigen::Vector3d;
 /// Solids that are less apart touch, m. Above the rounding of coordinates, so that a board that
 /// ends where a cell begins meets that cell whatever its pose was computed from.
 constexpr double kTouching = 1e-9;
+
+/// Around a box given in S, in W.
+AlignedBox3d Around(const AlignedBox3d& box, const Isometry3d& X_WS) {
+  const Vector3d center = X_WS * box.center();
+  const Vector3d half = X_WS.linear().cwiseAbs() * box.sizes() / 2;
+  return {center - half, center + half};
+}
 
 Vector2d NearestOnSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d along = b - a;
@@ -256,12 +265,12 @@ VoxelGrid::VoxelGrid(const VoxelSettings& settings)
 
 void VoxelGrid::Clear() { std::fill(cells_.begin(), cells_.end(), std::uint8_t{0}); }
 
-VoxelGrid::Range VoxelGrid::CellsAround(const Vector3d& center, double radius) const {
+VoxelGrid::Range VoxelGrid::CellsAround(const AlignedBox3d& box) const {
   Range range;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
-    const double from = (center[a] - radius - kTouching - origin_[a]) / resolution_;
-    const double to = (center[a] + radius + kTouching - origin_[a]) / resolution_;
+    const double from = (box.min()[a] - kTouching - origin_[a]) / resolution_;
+    const double to = (box.max()[a] + kTouching - origin_[a]) / resolution_;
     const double end = size_[axis];
     range.first[axis] = static_cast<int>(std::clamp(std::floor(from) - 1, 0.0, end));
     range.last[axis] = static_cast<int>(std::clamp(std::floor(to) + 1, -1.0, end - 1));
@@ -276,8 +285,8 @@ AlignedBox3d VoxelGrid::BoxOf(int first, int last, int j, int k) const {
 
 // The cells of a row that a convex solid meets stand together: both ends are found by bisection.
 template <typename Solid>
-void VoxelGrid::MarkConvex(const Solid& solid, const Vector3d& center, double radius) {
-  const Range range = CellsAround(center, radius);
+void VoxelGrid::MarkConvex(const Solid& solid, const AlignedBox3d& around) {
+  const Range range = CellsAround(around);
   const int left = range.first[0];
   const int right = range.last[0];
   if (left > right) return;
@@ -310,21 +319,20 @@ void VoxelGrid::MarkConvex(const Solid& solid, const Vector3d& center, double ra
 }
 
 void VoxelGrid::MarkMesh(const TriangleMesh& mesh, const Isometry3d& X_WS) {
+  AlignedBox3d all;
   for (const auto& t : mesh.triangles) {
     const Triangle triangle{X_WS * mesh.vertices[t[0]], X_WS * mesh.vertices[t[1]],
                             X_WS * mesh.vertices[t[2]]};
-    const Vector3d center = (triangle.a + triangle.b + triangle.c) / 3;
-    MarkConvex(triangle, center,
-               std::sqrt(std::max({(triangle.a - center).squaredNorm(),
-                                   (triangle.b - center).squaredNorm(),
-                                   (triangle.c - center).squaredNorm()})));
+    AlignedBox3d around(triangle.a);
+    around.extend(triangle.b).extend(triangle.c);
+    MarkConvex(triangle, around);
+    all.extend(around);
   }
   if (hollow_) return;
   const SolidMesh solid(mesh);
   if (!solid.has_inside()) return;
   const Isometry3d X_SW = X_WS.inverse();
-  const BoundingSphere bound = ComputeBoundingSphere(Mesh{"", Vector3d::Ones(), mesh});
-  const Range range = CellsAround(X_WS * bound.center, bound.radius);
+  const Range range = CellsAround(all);
   for (int k = range.first[2]; k <= range.last[2]; ++k) {
     for (int j = range.first[1]; j <= range.last[1]; ++j) {
       // From a cell without surface to the next no surface is crossed: both are in or out.
@@ -351,8 +359,9 @@ void VoxelGrid::Mark(const Shape& shape, const Isometry3d& X_WS) {
         if constexpr (std::is_same_v<S, Mesh>) {
           MarkMesh(s.triangles, X_WS);
         } else {
-          const BoundingSphere bound = ComputeBoundingSphere(shape);
-          MarkConvex(typename SolidOf<S>::Type(s, X_WS), X_WS * bound.center, bound.radius);
+          AlignedBox3d around(Vector3d::Constant(-kInfinity), Vector3d::Constant(kInfinity));
+          if constexpr (!std::is_same_v<S, HalfSpace>) around = Around(BoxAround(shape), X_WS);
+          MarkConvex(typename SolidOf<S>::Type(s, X_WS), around);
         }
       },
       shape);

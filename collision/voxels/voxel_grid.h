@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,10 +48,10 @@ class VoxelGrid {
   struct Range {
     std::array<int, 3> first, last;  // cells; last < first: none
   };
-  Range CellsAround(const Eigen::Vector3d& center, double radius) const;
+  Range CellsAround(const Eigen::AlignedBox3d& box) const;
   Eigen::AlignedBox3d BoxOf(int first, int last, int j, int k) const;
   template <typename Solid>
-  void MarkConvex(const Solid& solid, const Eigen::Vector3d& center, double radius);
+  void MarkConvex(const Solid& solid, const Eigen::AlignedBox3d& around);
   void MarkMesh(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WS);
 
   Eigen::Vector3d origin_;
