@@ -89,6 +89,7 @@ TipDistance::Wave TipDistance::StartAt(std::size_t cell) const {
   Wave wave;
   for (auto* bits : {&wave.front, &wave.seen, &wave.next})
     bits->assign(grid_->passages().size(), 0);
+  wave.beside.assign(grid_->words_a_row() * ny * static_cast<std::size_t>(grid_->size()[2] + 2), 0);
   const auto [word, bit] = grid_->BitOf(cell);
   wave.front[word] = wave.seen[word] = bit;
   const std::size_t row = cell / nx;
@@ -96,52 +97,58 @@ TipDistance::Wave TipDistance::StartAt(std::size_t cell) const {
   return wave;
 }
 
-// By one step, whole words of cells at once. Cells that are no passage have a distance, too, but
-// the way ends in them.
+// By one step, whole words of cells at once: first to the rows beside each, then to the planes
+// above and below, then along the rows. Cells that are no passage have a distance, too, but the way
+// ends in them. Nothing of the front is on the border of the grid.
 void TipDistance::Spread(Wave* wave) const {
-  const std::size_t words = grid_->words_a_row();
+  const auto words = static_cast<std::ptrdiff_t>(grid_->words_a_row());
   const auto [nx, ny, nz] = grid_->size();
+  const std::ptrdiff_t plane = ny * words;
+  const std::ptrdiff_t begin = (wave->first[0] - 1) * words;
+  const std::ptrdiff_t end = (wave->last[0] + 2) * words;
+  for (int k = std::max(1, wave->first[1] - 2); k <= std::min(nz - 2, wave->last[1] + 2); ++k) {
+    const std::uint64_t* front = wave->front.data() + k * plane;
+    std::uint64_t* beside = wave->beside.data() + (k + 1) * plane;
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      beside[i] = front[i - words] | front[i] | front[i + words];
+    }
+  }
+
   std::array<int, 2> first = {ny, nz};
   std::array<int, 2> last = {-1, -1};
-  std::vector<std::uint64_t> near(words);
   const auto steps = static_cast<unsigned>(wave->layer + 1);
   if (wave->digits.size() < static_cast<std::size_t>(std::bit_width(steps))) {
     wave->digits.emplace_back(wave->seen.size(), 0);
   }
   for (int k = wave->first[1] - 1; k <= wave->last[1] + 1; ++k) {
-    for (int j = wave->first[0] - 1; j <= wave->last[0] + 1; ++j) {
-      std::fill(near.begin(), near.end(), 0);
-      for (int b = std::max(k - 1, wave->first[1]); b <= std::min(k + 1, wave->last[1]); ++b) {
-        for (int a = std::max(j - 1, wave->first[0]); a <= std::min(j + 1, wave->last[0]); ++a) {
-          const std::size_t row = static_cast<std::size_t>(b * ny + a) * words;
-          for (std::size_t w = 0; w < words; ++w) near[w] |= wave->front[row + w];
-        }
+    const std::uint64_t* below = wave->beside.data() + k * plane;
+    const auto near = [&](std::ptrdiff_t i) {
+      return below[i] | below[i + plane] | below[i + 2 * plane];
+    };
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      std::uint64_t reached = near(i);
+      reached |= reached << 1 | reached >> 1;
+      if (words > 1) {
+        if (i % words > 0) reached |= near(i - 1) >> 63;
+        if (i % words + 1 < words) reached |= near(i + 1) << 63;
       }
-      const std::size_t row = static_cast<std::size_t>(k * ny + j) * words;
-      for (std::size_t w = 0; w < words; ++w) {
-        const std::uint64_t below = w > 0 ? near[w - 1] >> 63 : 0;
-        const std::uint64_t above = w + 1 < words ? near[w + 1] << 63 : 0;
-        const std::uint64_t reached =
-            (near[w] | near[w] << 1 | near[w] >> 1 | below | above) & ~wave->seen[row + w];
-        if (reached == 0) continue;
-        wave->seen[row + w] |= reached;
-        for (unsigned bits = steps; bits != 0; bits &= bits - 1) {
-          wave->digits[static_cast<std::size_t>(std::countr_zero(bits))][row + w] |= reached;
-        }
-        const std::uint64_t passed = reached & grid_->passages()[row + w];
-        if (passed == 0) continue;
-        wave->next[row + w] = passed;
-        first = {std::min(first[0], j), std::min(first[1], k)};
-        last = {std::max(last[0], j), std::max(last[1], k)};
+      const auto word = static_cast<std::size_t>(k * plane + i);
+      reached &= ~wave->seen[word];
+      if (reached == 0) continue;
+      wave->seen[word] |= reached;
+      for (unsigned bits = steps; bits != 0; bits &= bits - 1) {
+        wave->digits[static_cast<std::size_t>(std::countr_zero(bits))][word] |= reached;
       }
+      const std::uint64_t passed = reached & grid_->passages()[word];
+      if (passed == 0) continue;
+      wave->next[word] = passed;
+      const int j = static_cast<int>(i / words);
+      first = {std::min(first[0], j), std::min(first[1], k)};
+      last = {std::max(last[0], j), std::max(last[1], k)};
     }
   }
   for (int k = wave->first[1]; k <= wave->last[1]; ++k) {
-    for (int j = wave->first[0]; j <= wave->last[0]; ++j) {
-      std::fill_n(wave->front.begin() +
-                      static_cast<std::ptrdiff_t>(k * ny + j) * static_cast<std::ptrdiff_t>(words),
-                  words, 0);
-    }
+    std::fill(wave->front.begin() + k * plane + begin, wave->front.begin() + k * plane + end, 0);
   }
   wave->front.swap(wave->next);
   wave->first = first;

@@ -74,7 +74,9 @@ class TipDistance {
     std::vector<std::uint64_t> front;  // As TipGrid::passages.
     std::vector<std::uint64_t> seen;
     std::vector<std::uint64_t> next;  // Scratch, all zero between layers.
-    std::array<int, 2> first, last;   // Rows (j, k) that bound the front.
+    // Scratch: the front and the rows beside it, with a plane that is zero below and above.
+    std::vector<std::uint64_t> beside;
+    std::array<int, 2> first, last;  // Rows (j, k) that bound the front.
     // The steps to cells that have been seen, a binary digit each: that of 2^i of all cells.
     std::vector<std::vector<std::uint64_t>> digits;
   };
