@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kSlots = 1 << 14;  // a power of two
 
 // What each arm under way beyond the first adds: 0.1 is too little where both are in narrow places,
-// 1 too much where one has to make way for the other.
+// more is worse where one has to make way for the other.
 constexpr double kEachUnderWay = 0.2;
 
 // Soon felt, and more and more where the search has been hundreds of times.

@@ -20,9 +20,9 @@ namespace planbench {
 /// the tip of the state's source, c = 1 + crowding (log2(1 + n) + n / 5), n how many states were
 /// expanded before in the source's place, a cell of the joints that count in it.
 ///
-/// Of several arms it is the sum of that over the arms, and over the joints that they share. One
-/// that waits where the search began or has arrived at the goal is in no place, and has c = 1.
-/// Where more than one arm is under way, the sum counts 0.3 times more for each further one:
+/// Of several arms it is the sum of that over the arms, and over the joints that they share. Those
+/// that wait where the search began or have arrived at the goal are no part of the place, and have
+/// c = 1. Where more than one arm is under way, the sum counts 0.2 times more for each further one:
 /// without that a search tries all positions of the one arm with all of the other.
 class Guide {
  public:

@@ -355,11 +355,9 @@ void ManipulationGraph::CandidateEdges(StateId state, std::vector<CandidateEdge>
   }
 
   for (std::uint16_t action = kArmToGoal; action < first_move_; ++action) {
-    MoveArmToGoal(state, action);
-    if (std::ranges::equal(target_, points_.Coordinates(state - 1)) || !is_candidate(action)) {
-      continue;
-    }
     SelectEdge(state, action);
+    const bool is_there = std::ranges::equal(target_, points_.Coordinates(state - 1));
+    if (is_there || !is_candidate(action)) continue;
     const double length = WeightedDistance(edges_->space(), options_.weights, from_, to_);
     const double heuristic = unit_ * std::sqrt(SquaredDistance(goal_terms_, target_));
     candidates->push_back({CostOf(length), heuristic, (*guide_)(target_, heuristic), action});

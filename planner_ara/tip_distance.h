@@ -54,9 +54,9 @@ class TipGrid {
 };
 
 /// How far the origins of a group's tip links are from where they are at the goal, as the crow
-/// would fly round the obstacles: breadth-first search over a TipGrid, diagonal
-/// steps counting as one (the workspace heuristic of Cohen, Chitta and Likhachev, "Search-based
-/// planning for manipulation with motion primitives", ICRA 2010). A guide: it bounds no cost.
+/// would fly round the obstacles: breadth-first search over a TipGrid, diagonal steps counting as
+/// one (the workspace heuristic of Cohen, Chitta and Likhachev, "Search-based planning for
+/// manipulation with motion primitives", ICRA 2010). A guide: it bounds no cost.
 class TipDistance {
  public:
   TipDistance(std::shared_ptr<TipGrid> grid, std::span<const double> goal);

@@ -1,6 +1,5 @@
 #include "planner_ara/motion_primitives.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -169,22 +168,9 @@ TEST(DefaultPrimitives, DivideTheCircleWhereADivisorIsNear) {
 }
 
 TEST(DefaultPrimitives, JointsOfTwoArmsDoNotMoveTogether) {
-  std::string urdf = "<robot name='two_arms'><link name='base'/>";
-  for (const std::string side : {"left", "right"}) {
-    std::string parent = "base";
-    for (const std::string part : {"upper", "lower"}) {
-      urdf += fmt::format(
-          "<link name='{0}_{1}'/><joint name='{0}_{1}_joint' type='revolute'><parent link='{2}'/>"
-          "<child link='{0}_{1}'/><limit lower='-2' upper='2' velocity='1' effort='1'/></joint>",
-          side, part, parent);
-      parent = side + "_" + part;
-    }
-  }
-  const RobotModel model = RobotModel::FromUrdf(urdf + "</robot>", "two_arms.urdf");
-  const PlanningGroup group = model.MakeGroup(
-      "both", {"left_upper_joint", "left_lower_joint", "right_upper_joint", "right_lower_joint"},
-      "left_lower", {"right_lower"});
-  const auto on_one_arm = JointsOnOneArm(model, group);
+  const Robot robot = MakeTwoArmRobot();
+  const PlanningGroup& group = robot.groups.front();
+  const auto on_one_arm = JointsOnOneArm(robot.model, group);
   EXPECT_EQ(on_one_arm, (std::vector<std::vector<char>>{
                             {1, 1, 0, 0}, {1, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 1, 1}}));
   const MotionPrimitives primitives =

@@ -15,12 +15,12 @@
 namespace planbench {
 namespace {
 
-// The tip of the planar arm is 1.2 m from the axis when the arm is stretched.
 double Only(std::span<const double> distances) {
   EXPECT_EQ(distances.size(), 1u);
   return distances.front();
 }
 
+// The tip of the planar arm is 1.2 m from the axis when the arm is stretched.
 class TipDistanceTest : public testing::Test {
  protected:
   TipDistance Distance(const Scene& scene, const Configuration& start, const Configuration& goal) {
