@@ -13,10 +13,12 @@ namespace {
 /// What the guide to a first path counts beside the cost so far, whatever epsilon is asked for: the
 /// bound is computed afterwards, and most often a path found in haste and shortened has it.
 constexpr double kFirstGuideWeight = 100;
-/// A search goes on until it has done this much more work than the other.
+/// A search goes on for this much work before the other may.
 constexpr std::int64_t kSlice = 200;
 /// Work of an expansion, a configuration checked being 1.
 constexpr std::int64_t kExpansionWork = 10;
+/// The search that is in the narrower place does at most so many times the work of the other.
+constexpr double kMostWorkRatio = 5;
 /// The bridge's search goes on for this much work after each turn of another, as long as it has
 /// done less than they.
 constexpr std::int64_t kBridgeSlice = 1000;
@@ -50,6 +52,12 @@ struct TwoWaySearch::Side {
         target(goal.nominal),
         graph(edges, start, goal, options),
         search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal) {}
+
+  /// The less of them, the more often moves are blocked: the narrower the place. 1 before the
+  /// first.
+  double ExpansionsPerWork() const {
+    return static_cast<double>(1 + search.num_expansions()) / static_cast<double>(1 + work);
+  }
 
   Configuration root;
   Configuration target;
@@ -110,11 +118,20 @@ void TwoWaySearch::AddPaths(std::span<const Path> paths) {
 }
 
 TwoWaySearch::Side* TwoWaySearch::NextSide() const {
-  Side* next = nullptr;
-  for (const auto& side : sides_) {
-    if (!side->converged && (next == nullptr || side->work < next->work)) next = side.get();
-  }
-  return next;
+  Side* first = sides_.front().get();
+  Side* last = sides_.back().get();
+  if (first->converged) return last->converged ? nullptr : last;
+  if (last->converged) return first;
+  return WorkRatio(*first, *last) * static_cast<double>(first->work) <=
+                 static_cast<double>(last->work)
+             ? first
+             : last;
+}
+
+// How many times as much work as the first side the last one is to do.
+double TwoWaySearch::WorkRatio(const Side& first, const Side& last) {
+  const double ratio = first.ExpansionsPerWork() / last.ExpansionsPerWork();
+  return std::clamp(ratio * ratio * ratio, 1 / kMostWorkRatio, kMostWorkRatio);
 }
 
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
@@ -215,10 +232,14 @@ bool TwoWaySearch::ShortenPath(const std::function<bool()>& should_stop) {
   return true;
 }
 
+double TwoWaySearch::MeanWork() const {
+  return static_cast<double>(sides_.front()->work + sides_.back()->work) / 2;
+}
+
 // Looks at the clearance of a state that has just been expanded, if it may be an end of the next
 // bridge.
 void TwoWaySearch::LookAround(Side* side) {
-  if (static_cast<double>(side->work) < bridge_at_ / 2) return;
+  if (MeanWork() < bridge_at_ / 2) return;
   const StateId state = side->search.last_expanded();
   Configuration q(side->root.size());
   side->graph.ConfigurationOf(state, q);
@@ -255,12 +276,11 @@ void TwoWaySearch::GiveUpBridge() {
 }
 
 bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& should_stop) {
-  const std::int64_t done = std::min(sides_[0]->work, sides_[1]->work);
-  if (static_cast<double>(done) >= bridge_at_) {
+  if (MeanWork() >= bridge_at_) {
     BeginBridge();
     bridge_at_ *= 2;
   }
-  if (!bridge_ || bridge_->work >= done) return false;
+  if (!bridge_ || static_cast<double>(bridge_->work) >= MeanWork()) return false;
   TwoWaySearch& search = bridge_->search;
   const WorkMeter meter(edges_, search.counts().expansions);
   search.Improve(

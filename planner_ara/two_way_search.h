@@ -16,16 +16,16 @@
 namespace planbench {
 
 /// ARA* from the start and, if asked for, from the goal, in turn within one request. Each search
-/// has the lattice anchored at its own root, with the other end as its goal; the one that has done
-/// less work goes next, so that the better direction finds its path in twice the work it would need
-/// alone, whichever it is (with bridges, below, in four times). Neither follows edges that cannot
-/// lead to a path cheaper than the best of both, once the bound is what is left to do. Where a
-/// lattice holds no path, its search goes on with finer moves (ManipulationGraph::Refine), the
-/// states kept.
+/// has the lattice anchored at its own root, with the other end as its goal. The way out of a
+/// narrow place is found sooner than the way into it, so the one whose expansions take more work,
+/// since more of its moves are blocked, does more: the ratio to the third power, at most five times
+/// as much. Neither follows edges that cannot lead to a path cheaper than the best of both, once
+/// the bound is what is left to do. Where a lattice holds no path, its search goes on with finer
+/// moves (ManipulationGraph::Refine), the states kept.
 ///
 /// Where both have long been without success, each stuck before the narrow place in which the other
-/// began, a search for a bridge between the widest states of both takes their place: for as much
-/// work as each of them has done, and again when that has doubled.
+/// began, a search for a bridge between the widest states of both takes their place: for half as
+/// much work as they have done together, and again when that has doubled.
 class TwoWaySearch {
  public:
   /// What the searches have done, both together.
@@ -84,6 +84,8 @@ class TwoWaySearch {
   };
   void BeginPhase(Phase phase);
   Side* NextSide() const;
+  static double WorkRatio(const Side& first, const Side& last);
+  double MeanWork() const;
   bool Offer(const Side* side, const std::function<bool()>& should_stop);
   void TakePath(double cost, Path path, bool is_backward);
   void SetCost(double cost);
