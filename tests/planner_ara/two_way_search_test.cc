@@ -178,12 +178,17 @@ TEST_F(TwoWaySearchTest, FirstPathIsFoundInTheSameWayWhateverTheEpsilon) {
 }
 
 // Start and goal lie in slots that the arm has to draw its hand out of.
+// The straight arm between two walls along x that leave it 2 cm to either side, likewise along y.
+void AddSlots(Scene* scene, bool ahead, bool left) {
+  for (const double side : {-0.09, 0.09}) {
+    if (ahead) AddBox(scene, fmt::format("ahead {}", side), {1.0, side, 0}, {0.3, 0.02, 0.2});
+    if (left) AddBox(scene, fmt::format("left {}", side), {side, 1.0, 0}, {0.02, 0.3, 0.2});
+  }
+}
+
 TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
   Scene scene = EmptyPlanarScene();
-  for (const double side : {-0.09, 0.09}) {
-    AddBox(&scene, fmt::format("ahead {}", side), {1.0, side, 0}, {0.3, 0.02, 0.2});
-    AddBox(&scene, fmt::format("left {}", side), {side, 1.0, 0}, {0.02, 0.3, 0.2});
-  }
+  AddSlots(&scene, true, true);
   checker_->SetScene(scene, std::vector<double>(4, 0.0));
   const Configuration ahead = {0, 0, 0};
   const Configuration left = {kPi / 2, 0, 0};
@@ -195,6 +200,25 @@ TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
   EXPECT_TRUE(search.is_bridged());
   ExpectJoins(ahead, left, search.path(), search.cost());
   EXPECT_LT(search.ProveBound(), kInfinity);
+}
+
+TEST_F(TwoWaySearchTest, TheSearchOutOfTheNarrowerPlaceDoesMostOfTheWork) {
+  Scene scene = EmptyPlanarScene();
+  AddSlots(&scene, true, false);
+  checker_->SetScene(scene, std::vector<double>(4, 0.0));
+  const Configuration narrow = {0, 0, 0};
+  const Configuration wide = {kPi / 2, 0, 0};
+  options_.discretization.assign(3, 0.05);
+  options_.bridge_after = kInfinity;
+  const auto find = [&](const Configuration& start, const Configuration& goal, bool two_way) {
+    TwoWaySearch search(edges_.get(), start, PointGoal(goal), options_, two_way);
+    EXPECT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
+    EXPECT_EQ(search.found_backward(), two_way && start == wide);
+    return search.counts().expansions;
+  };
+  const auto alone = static_cast<double>(find(narrow, wide, false));
+  EXPECT_LT(find(narrow, wide, true), 1.5 * alone);
+  EXPECT_LT(find(wide, narrow, true), 1.5 * alone);
 }
 
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
