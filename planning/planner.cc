@@ -190,7 +190,8 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
   try {
     const std::string origin =
         request.request_id.empty() ? "request" : "request " + request.request_id;
-    const PlannerDescription description = Describe();
+    if (!description_) description_ = Describe();
+    const PlannerDescription& description = *description_;
     RequireValid(request, description, origin);
     const PlanningGroup& group = robot_->Group(request.group);
     ResolvedQuery resolved = ResolveQuery(*robot_, group, request.start, request.goal, origin);

@@ -37,6 +37,7 @@ class Planner {
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
+  /// Always the same.
   virtual PlannerDescription Describe() const = 0;
   const Robot& robot() const { return *robot_; }
 
@@ -92,6 +93,7 @@ class Planner {
                std::span<const double> base_positions);
 
   const Robot* robot_;
+  std::optional<PlannerDescription> description_;  // from the first request on
   std::map<std::pair<std::string, CollisionModel>, Compiled> compiled_;
   int num_compilations_ = 0;
 };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "collision/object_cover.h"
 #include "collision/shape_check.h"
@@ -20,6 +22,8 @@ using Eigen::Vector3d;
 /// Solids that are less apart touch, m. Above the rounding of coordinates, so that a board that
 /// ends where a cell begins meets that cell whatever its pose was computed from.
 constexpr double kTouching = 1e-9;
+/// Sine of the tilt below which a solid counts as upright.
+constexpr double kUpright = 1e-12;
 
 /// Around a box given in S, in W.
 AlignedBox3d Around(const AlignedBox3d& box, const Isometry3d& X_WS) {
@@ -165,6 +169,19 @@ bool Touches(const PosedBox& box, const AlignedBox3d& other) {
   return true;
 }
 
+/// Whether horizontal planes cut the same out of a solid, wherever they cut it.
+template <typename Solid>
+bool IsUpright(const Solid& /*solid*/) {
+  return false;
+}
+bool IsUpright(const PosedBox& box) {
+  const auto row = box.absolute.row(2);
+  return row.sum() - row.maxCoeff() < kUpright;
+}
+bool IsUpright(const Posed<Cylinder>& cylinder) {
+  return cylinder.X_WS.linear().col(2).head<2>().norm() < kUpright;
+}
+
 struct PosedHalfSpace {
   Vector3d normal;
   double offset;  // normal . p of the points of the plane
@@ -283,39 +300,56 @@ AlignedBox3d VoxelGrid::BoxOf(int first, int last, int j, int k) const {
           origin_ + resolution_ * Vector3d(last + 1, j + 1, k + 1)};
 }
 
-// The cells of a row that a convex solid meets stand together: both ends are found by bisection.
+// The cells of a row that a convex solid meets stand together: both ends are found by bisection. Of
+// an upright one they are the same in all planes that it meets.
 template <typename Solid>
 void VoxelGrid::MarkConvex(const Solid& solid, const AlignedBox3d& around) {
   const Range range = CellsAround(around);
   const int left = range.first[0];
   const int right = range.last[0];
-  if (left > right) return;
+  if (left > right || range.first[1] > range.last[1]) return;
+  const bool is_upright = IsUpright(solid);
+  // Of an upright one, by row of a plane.
+  std::vector<std::optional<Cells>> met(
+      static_cast<std::size_t>(range.last[1] - range.first[1] + 1));
   for (int k = range.first[2]; k <= range.last[2]; ++k) {
     for (int j = range.first[1]; j <= range.last[1]; ++j) {
-      if (!Touches(solid, BoxOf(left, right, j, k))) continue;
-      int first = left;  // the first cell met is among [first, beyond]
-      for (int beyond = right; first < beyond;) {
-        const int middle = (first + beyond) / 2;
-        if (Touches(solid, BoxOf(first, middle, j, k))) {
-          beyond = middle;
-        } else {
-          first = middle + 1;
-        }
+      std::optional<Cells>& known = met[static_cast<std::size_t>(j - range.first[1])];
+      Cells cells = known.value_or(Cells{left, right});
+      if (!Touches(solid, BoxOf(cells.first, cells.last, j, k))) continue;
+      if (!known) {
+        cells = CellsMet(solid, j, k, cells);
+        if (is_upright) known = cells;
       }
-      int last = right;
-      for (int before = first; before < last;) {
-        const int middle = (before + last + 1) / 2;
-        if (Touches(solid, BoxOf(middle, last, j, k))) {
-          before = middle;
-        } else {
-          last = middle - 1;
-        }
-      }
-      for (int i = first; i <= last; ++i) {
+      for (int i = cells.first; i <= cells.last; ++i) {
         if (!hollow_ || !Holds(solid, BoxOf(i, i, j, k))) cells_[Index(i, j, k)] = 1;
       }
     }
   }
+}
+
+// Those cells of a row that a convex solid meets, of some of which it meets one.
+template <typename Solid>
+VoxelGrid::Cells VoxelGrid::CellsMet(const Solid& solid, int j, int k, const Cells& of) const {
+  int first = of.first;  // the first cell met is among [first, beyond]
+  for (int beyond = of.last; first < beyond;) {
+    const int middle = (first + beyond) / 2;
+    if (Touches(solid, BoxOf(first, middle, j, k))) {
+      beyond = middle;
+    } else {
+      first = middle + 1;
+    }
+  }
+  int last = of.last;
+  for (int before = first; before < last;) {
+    const int middle = (before + last + 1) / 2;
+    if (Touches(solid, BoxOf(middle, last, j, k))) {
+      before = middle;
+    } else {
+      last = middle - 1;
+    }
+  }
+  return {first, last};
 }
 
 void VoxelGrid::MarkMesh(const TriangleMesh& mesh, const Isometry3d& X_WS) {

@@ -48,8 +48,13 @@ class VoxelGrid {
   struct Range {
     std::array<int, 3> first, last;  // cells; last < first: none
   };
+  struct Cells {
+    int first, last;  // of a row
+  };
   Range CellsAround(const Eigen::AlignedBox3d& box) const;
   Eigen::AlignedBox3d BoxOf(int first, int last, int j, int k) const;
+  template <typename Solid>
+  Cells CellsMet(const Solid& solid, int j, int k, const Cells& of) const;
   template <typename Solid>
   void MarkConvex(const Solid& solid, const Eigen::AlignedBox3d& around);
   void MarkMesh(const TriangleMesh& mesh, const Eigen::Isometry3d& X_WS);
