@@ -53,8 +53,7 @@ struct TwoWaySearch::Side {
         graph(edges, start, goal, options),
         search(&graph, ManipulationGraph::kStart, ManipulationGraph::kGoal) {}
 
-  /// The less of them, the more often moves are blocked: the narrower the place. 1 before the
-  /// first.
+  /// The fewer, the more often moves are blocked: the narrower the place. 1 at first.
   double ExpansionsPerWork() const {
     return static_cast<double>(1 + search.num_expansions()) / static_cast<double>(1 + work);
   }
@@ -122,16 +121,10 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
   Side* last = sides_.back().get();
   if (first->converged) return last->converged ? nullptr : last;
   if (last->converged) return first;
-  return WorkRatio(*first, *last) * static_cast<double>(first->work) <=
-                 static_cast<double>(last->work)
-             ? first
-             : last;
-}
-
-// How many times as much work as the first side the last one is to do.
-double TwoWaySearch::WorkRatio(const Side& first, const Side& last) {
-  const double ratio = first.ExpansionsPerWork() / last.ExpansionsPerWork();
-  return std::clamp(ratio * ratio * ratio, 1 / kMostWorkRatio, kMostWorkRatio);
+  const double r = first->ExpansionsPerWork() / last->ExpansionsPerWork();
+  // How many times as much work as the first the last is to do.
+  const double share = std::clamp(r * r * r, 1 / kMostWorkRatio, kMostWorkRatio);
+  return share * static_cast<double>(first->work) <= static_cast<double>(last->work) ? first : last;
 }
 
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,

@@ -84,7 +84,6 @@ class TwoWaySearch {
   };
   void BeginPhase(Phase phase);
   Side* NextSide() const;
-  static double WorkRatio(const Side& first, const Side& last);
   double MeanWork() const;
   bool Offer(const Side* side, const std::function<bool()>& should_stop);
   void TakePath(double cost, Path path, bool is_backward);
