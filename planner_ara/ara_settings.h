@@ -54,8 +54,8 @@ struct AraSettings {
   /// Searches from start and goal in turn within one request; else from the start alone (the goal,
   /// if the request's direction is backward).
   bool two_way = true;
-  /// Two-way: how many configurations each search has checked (an expansion counts as 10) before a
-  /// third one tries to join them (TwoWaySearch); > 0, `never`: infinity.
+  /// Two-way: how many configurations the two searches have checked in the mean (an expansion
+  /// counts as 10) before a third one tries to join them (TwoWaySearch); > 0, `never`: infinity.
   double bridge_after = 100'000;
   /// How much states in crowded places are put off until there is a first path: a state's heuristic
   /// counts 1 + crowding (log2(1 + n) + n / 5) times in the order of the search, n the number of

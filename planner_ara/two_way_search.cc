@@ -20,7 +20,7 @@ constexpr std::int64_t kExpansionWork = 10;
 /// The search that is in the narrower place does at most so many times the work of the other.
 constexpr double kMostWorkRatio = 5;
 /// The bridge's search goes on for this much work after each turn of another, as long as it has
-/// done less than they.
+/// done less than they in the mean.
 constexpr std::int64_t kBridgeSlice = 1000;
 constexpr std::uint64_t kShortcutSeed = 1;
 constexpr int kShortcutRounds = 4;

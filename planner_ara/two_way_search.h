@@ -112,7 +112,7 @@ class TwoWaySearch {
   bool is_bridged_ = false;
   bool may_be_shortened_ = false;
   std::unique_ptr<Bridge> bridge_;
-  double bridge_at_;      // work of each side when the next bridge is begun
+  double bridge_at_;      // mean work of the sides when the next bridge is begun
   Counts bridge_counts_;  // of those given up
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
-#include <vector>
 
 #include "collision/object_cover.h"
 #include "collision/shape_check.h"
@@ -307,14 +306,11 @@ void VoxelGrid::MarkConvex(const Solid& solid, const AlignedBox3d& around) {
   const Range range = CellsAround(around);
   const int left = range.first[0];
   const int right = range.last[0];
-  if (left > right || range.first[1] > range.last[1]) return;
+  if (left > right) return;
   const bool is_upright = IsUpright(solid);
-  // Of an upright one, by row of a plane.
-  std::vector<std::optional<Cells>> met(
-      static_cast<std::size_t>(range.last[1] - range.first[1] + 1));
-  for (int k = range.first[2]; k <= range.last[2]; ++k) {
-    for (int j = range.first[1]; j <= range.last[1]; ++j) {
-      std::optional<Cells>& known = met[static_cast<std::size_t>(j - range.first[1])];
+  for (int j = range.first[1]; j <= range.last[1]; ++j) {
+    std::optional<Cells> known;  // of an upright one
+    for (int k = range.first[2]; k <= range.last[2]; ++k) {
       Cells cells = known.value_or(Cells{left, right});
       if (!Touches(solid, BoxOf(cells.first, cells.last, j, k))) continue;
       if (!known) {

@@ -34,6 +34,17 @@ class TwoWaySearchTest : public testing::Test {
     options_.crowded_joints.assign(3, true);
   }
 
+  // A scene of slots for the hand of the straight arm, walls 4 cm to either side of it: along x,
+  // along y.
+  void SetSlots(bool ahead, bool left) {
+    Scene scene = EmptyPlanarScene();
+    for (const double side : {-0.09, 0.09}) {
+      if (ahead) AddBox(&scene, fmt::format("ahead {}", side), {1.0, side, 0}, {0.3, 0.02, 0.2});
+      if (left) AddBox(&scene, fmt::format("left {}", side), {side, 1.0, 0}, {0.02, 0.3, 0.2});
+    }
+    checker_->SetScene(scene, std::vector<double>(4, 0.0));
+  }
+
   double Optimum(const Configuration& start, const Configuration& goal,
                  const std::vector<Path>& recalled = {}) {
     return LatticeOptimum(edges_.get(), start, goal, options_, recalled);
@@ -178,18 +189,8 @@ TEST_F(TwoWaySearchTest, FirstPathIsFoundInTheSameWayWhateverTheEpsilon) {
 }
 
 // Start and goal lie in slots that the arm has to draw its hand out of.
-// The straight arm between two walls along x that leave it 2 cm to either side, likewise along y.
-void AddSlots(Scene* scene, bool ahead, bool left) {
-  for (const double side : {-0.09, 0.09}) {
-    if (ahead) AddBox(scene, fmt::format("ahead {}", side), {1.0, side, 0}, {0.3, 0.02, 0.2});
-    if (left) AddBox(scene, fmt::format("left {}", side), {side, 1.0, 0}, {0.02, 0.3, 0.2});
-  }
-}
-
 TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
-  Scene scene = EmptyPlanarScene();
-  AddSlots(&scene, true, true);
-  checker_->SetScene(scene, std::vector<double>(4, 0.0));
+  SetSlots(true, true);
   const Configuration ahead = {0, 0, 0};
   const Configuration left = {kPi / 2, 0, 0};
   options_.discretization.assign(3, 0.03);
@@ -203,9 +204,7 @@ TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
 }
 
 TEST_F(TwoWaySearchTest, TheSearchOutOfTheNarrowerPlaceDoesMostOfTheWork) {
-  Scene scene = EmptyPlanarScene();
-  AddSlots(&scene, true, false);
-  checker_->SetScene(scene, std::vector<double>(4, 0.0));
+  SetSlots(true, false);
   const Configuration narrow = {0, 0, 0};
   const Configuration wide = {kPi / 2, 0, 0};
   options_.discretization.assign(3, 0.05);
