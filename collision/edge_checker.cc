@@ -15,6 +15,8 @@ namespace {
 
 /// Samples that CheckSamples takes at once.
 constexpr int kMaxBlock = 64;
+/// Stretches that an edge seldom has more of: room for them is made before there is one.
+constexpr std::size_t kUsualStretches = 256;
 /// Within an edge, whether to stop is asked after this many samples: seldom enough to cost nothing,
 /// often enough where each is the work of an exact engine on meshes.
 constexpr std::int64_t kSamplesUnasked = 64;
@@ -55,6 +57,7 @@ EdgeChecker::EdgeChecker(CollisionChecker* checker, double edge_resolution_m, Ed
     throw InputError(
         fmt::format("edge resolution must be a positive length in m, it is {}", edge_resolution_m));
   }
+  Reserve();
 }
 
 EdgeChecker::EdgeChecker(CollisionChecker* checker, EdgeSampling sampling)
@@ -65,6 +68,14 @@ EdgeChecker::EdgeChecker(CollisionChecker* checker, EdgeSampling sampling)
   }
   RequireSize(sampling.weights);
   sampling_ = std::move(sampling);
+  Reserve();
+}
+
+// So that no edge has to wait for memory.
+void EdgeChecker::Reserve() {
+  motion_.reserve(static_cast<std::size_t>(space().size()));
+  block_.reserve(kMaxBlock);
+  pending_.reserve(kUsualStretches);
 }
 
 void EdgeChecker::RequireSize(std::span<const double> q) const {
@@ -164,10 +175,11 @@ double EdgeChecker::Move(std::span<const double> from, std::span<const double> t
   return squares ? std::sqrt(sum) : sum;
 }
 
-SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from) {
-  counters_.configurations += static_cast<std::int64_t>(block_.size());
-  unasked_ += static_cast<std::int64_t>(block_.size());
-  return checker_->CheckSamples(from, motion_, block_);
+SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from,
+                                       std::span<const MotionSample> block) {
+  counters_.configurations += static_cast<std::int64_t>(block.size());
+  unasked_ += static_cast<std::int64_t>(block.size());
+  return checker_->CheckSamples(from, motion_, block);
 }
 
 std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> from, double motion,
@@ -188,7 +200,7 @@ std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> fro
       part = NextSample(part, num_parts);
     }
     if (GiveUp()) return block_.front().position;
-    const std::uint64_t blocked = CheckBlock(from).blocked;
+    const std::uint64_t blocked = CheckBlock(from, block_).blocked;
     if (blocked != 0) return block_[static_cast<std::size_t>(std::countr_zero(blocked))].position;
   }
   return std::nullopt;
@@ -200,29 +212,33 @@ std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> fr
   // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
   std::int64_t parts = RequireFewIntervals(NumIntervals(motion_m / kFirstStretch));
   parts = (parts + batch - 1) / batch * batch;
-  pending_.clear();
-  for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
-    // The sample at the far end of interval `part` stands for the interval.
-    const double half_length = 0.5 / static_cast<double>(parts);
-    pending_.push_back({SamplePosition(part, parts) - half_length, half_length});
+  if (parts != first_parts_) {  // Else they are as for the edge before.
+    pending_.clear();
+    for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
+      // The sample at the far end of interval `part` stands for the interval.
+      const double half_length = 0.5 / static_cast<double>(parts);
+      pending_.push_back({SamplePosition(part, parts) - half_length, half_length});
+    }
+    first_parts_ = parts;
   }
-  for (std::size_t next = 0; next < pending_.size(); next += block_.size()) {
+  pending_.resize(static_cast<std::size_t>(parts));  // without its cuts
+  for (std::size_t next = 0; next < pending_.size();) {
     const auto size = std::min(static_cast<std::size_t>(batch), pending_.size() - next);
-    const auto begin = pending_.begin() + static_cast<std::ptrdiff_t>(next);
-    block_.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
-    if (GiveUp()) return block_.front().position;
-    const SampleVerdicts verdicts = CheckBlock(from);
+    if (GiveUp()) return pending_[next].position;
+    const SampleVerdicts verdicts = CheckBlock(from, {&pending_[next], size});
     if (verdicts.certain != 0) {
-      return block_[static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;
+      return pending_[next + static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;
     }
     for (std::uint64_t open = verdicts.blocked; open != 0; open &= open - 1) {
-      const MotionSample& stretch = block_[static_cast<std::size_t>(std::countr_zero(open))];
+      const MotionSample stretch =
+          pending_[next + static_cast<std::size_t>(std::countr_zero(open))];
       if (2 * stretch.half_length * motion_m <= kCertifiedDepth) return stretch.position;
       const double half_length = stretch.half_length / kCuts;
       for (int cut = 0; cut < kCuts; ++cut) {
         pending_.push_back({stretch.position + (2 * cut + 1 - kCuts) * half_length, half_length});
       }
     }
+    next += size;
   }
   return std::nullopt;
 }

@@ -50,7 +50,7 @@ class EdgeChecker {
     std::uint64_t ticks = 0;  ///< Time spent in all (Ticks).
   };
 
-  /// The checker must outlive this and have its scene set. Throws InputError unless
+  /// The checker must outlive this; its scene is set before it is asked. Throws InputError unless
   /// edge_resolution_m > 0.
   EdgeChecker(CollisionChecker* checker, double edge_resolution_m, EdgeCheck method);
   /// Edges are sampled as `sampling` says. Throws InputError unless its weights are those of n
@@ -106,6 +106,7 @@ class EdgeChecker {
   const Counters& counters() const { return counters_; }
 
  private:
+  void Reserve();
   void RequireSize(std::span<const double> q) const;
   double NumIntervals(double motion) const;
   /// Sets `motion` to the edge's and returns its size, in the unit of the resolution.
@@ -118,7 +119,7 @@ class EdgeChecker {
   std::optional<double> FindBlockedSample(std::span<const double> from, double motion,
                                           bool from_is_free);
   std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
-  SampleVerdicts CheckBlock(std::span<const double> from);
+  SampleVerdicts CheckBlock(std::span<const double> from, std::span<const MotionSample> block);
   /// True if the edge at hand is to be given up.
   bool GiveUp();
 
@@ -133,8 +134,9 @@ class EdgeChecker {
 
   // Scratch.
   std::vector<double> motion_;         ///< The edge's signed motion, by joint.
-  std::vector<MotionSample> block_;    ///< To be checked at once.
-  std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked.
+  std::vector<MotionSample> block_;    ///< Fixed: samples to be checked at once.
+  std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked, first the parts
+  std::int64_t first_parts_ = 0;       ///< of the whole edge, so many.
 };
 
 }  // namespace planbench

@@ -191,17 +191,19 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
     const std::string origin =
         request.request_id.empty() ? "request" : "request " + request.request_id;
     if (!description_) description_ = Describe();
-    const PlannerDescription& description = *description_;
-    RequireValid(request, description, origin);
+    RequireValid(request, *description_, origin);
     const PlanningGroup& group = robot_->Group(request.group);
     ResolvedQuery resolved = ResolveQuery(*robot_, group, request.start, request.goal, origin);
     resolved.initial_path = ResolveInitialPath(group, resolved, request.initial_joint_names,
                                                request.initial_path, origin);
     Compile(group, request.collision_model, scene, resolved.base_positions);
+    // Not on the clock: whoever first asks for much memory has to wait until what the reading of
+    // scenes left in small pieces is swept together.
+    EdgeChecker edges = EdgesOf(group, request);
     PlanControl unwatched;
     clock = Stopwatch();
-    PlanInScene(request, description, std::move(resolved), scene,
-                control != nullptr ? control : &unwatched, clock, &result);
+    PlanInScene(request, std::move(resolved), scene, control != nullptr ? control : &unwatched,
+                clock, &edges, &result);
   } catch (const InputError& error) {
     result = Unsearched(PlanStatus::kInvalidRequest, error.what(), clock);
   } catch (const std::bad_alloc&) {
@@ -261,26 +263,29 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
   return found;
 }
 
-void Planner::PlanInScene(const PlanRequest& request, const PlannerDescription& description,
-                          ResolvedQuery resolved, const Scene& scene, PlanControl* control,
-                          const Stopwatch& clock, PlanResult* result) {
-  const PlanningGroup& group = robot_->Group(request.group);
-  CollisionChecker& checker = CheckerFor(group, request.collision_model);
-  // Even for the scene of the request before: what a request costs must not depend on its place in
-  // the run.
-  checker.SetScene(scene, resolved.base_positions);
+EdgeChecker Planner::EdgesOf(const PlanningGroup& group, const PlanRequest& request) {
+  CollisionChecker* checker = compiled_.at({group.name, request.collision_model}).checker.get();
   const EdgeCheck method = request.edge_check.value_or(robot_->edge_check);
   const double resolution_m = request.edge_resolution_m.value_or(robot_->edge_resolution_m);
   std::optional<EdgeSampling> own_sampling = OwnEdgeSampling(group, method, resolution_m);
-  EdgeChecker edges = own_sampling ? EdgeChecker(&checker, std::move(*own_sampling))
-                                   : EdgeChecker(&checker, resolution_m, method);
+  return own_sampling ? EdgeChecker(checker, std::move(*own_sampling))
+                      : EdgeChecker(checker, resolution_m, method);
+}
+
+void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
+                          PlanControl* control, const Stopwatch& clock, EdgeChecker* edges,
+                          PlanResult* result) {
+  const PlannerDescription& description = *description_;
+  // Even for the scene of the request before: what a request costs must not depend on its place in
+  // the run.
+  edges->checker().SetScene(scene, resolved.base_positions);
   const std::uint64_t setup_ticks = clock.ticks();
 
   SearchQuery query;
   const bool backward = request.direction == Direction::kBackward;
   query.scene_ = &scene;
   query.base_positions_ = &resolved.base_positions;
-  query.edges_ = &edges;
+  query.edges_ = edges;
   query.seed_ = request.seed;
   query.anytime_ = request.anytime && description.anytime;
   query.parameters_ = &request.parameters;
@@ -289,15 +294,15 @@ void Planner::PlanInScene(const PlanRequest& request, const PlannerDescription& 
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
-  if (std::string fault = FindFault(&edges, resolved.start, "start"); !fault.empty()) {
+  if (std::string fault = FindFault(edges, resolved.start, "start"); !fault.empty()) {
     found.status = PlanStatus::kStartInvalid;
     found.message = std::move(fault);
   } else if (std::any_of(resolved.goals.begin(), resolved.goals.end(), [&](const GoalBox& goal) {
-               return goal.Contains(group.space, resolved.start);
+               return goal.Contains(edges->space(), resolved.start);
              })) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
-  } else if (fault = KeepFreeGoals(&edges, resolved.start, &resolved.goals,
+  } else if (fault = KeepFreeGoals(edges, resolved.start, &resolved.goals,
                                    [&query] { return query.ShouldStop(); });
              !fault.empty()) {
     found.status = PlanStatus::kGoalInvalid;
@@ -309,7 +314,7 @@ void Planner::PlanInScene(const PlanRequest& request, const PlannerDescription& 
   result->total_time_s = clock.seconds();
   result->planning_time_s =
       query.progress_.empty() ? result->total_time_s : query.progress_.front().elapsed_s;
-  const EdgeChecker::Counters counters = edges.counters();
+  const EdgeChecker::Counters counters = edges->counters();
   SetPhases(clock.ticks(), setup_ticks, counters.ticks, found.guidance_ticks, result);
   result->status = found.status;
   result->message = std::move(found.message);
@@ -334,8 +339,8 @@ void Planner::PlanInScene(const PlanRequest& request, const PlannerDescription& 
   result->cost = found.cost;
   if (!request.simplify) return;
   const Stopwatch simplification;
-  edges.StopWhen([&query] { return query.Cancelled(); });
-  result->simplified_path = ShortcutPath(&edges, result->path, request.seed, kShortcutRounds,
+  edges->StopWhen([&query] { return query.Cancelled(); });
+  result->simplified_path = ShortcutPath(edges, result->path, request.seed, kShortcutRounds,
                                          [&query] { return query.Cancelled(); });
   result->phases.simplification_s = simplification.seconds();
 }

@@ -78,16 +78,15 @@ class Planner {
     std::vector<AttachedObject> attached;
   };
 
-  void PlanInScene(const PlanRequest& request, const PlannerDescription& description,
-                   ResolvedQuery resolved, const Scene& scene, PlanControl* control,
-                   const Stopwatch& clock, PlanResult* result);
+  /// For a request whose robot is compiled.
+  EdgeChecker EdgesOf(const PlanningGroup& group, const PlanRequest& request);
+  void PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
+                   PlanControl* control, const Stopwatch& clock, EdgeChecker* edges,
+                   PlanResult* result);
   /// Searches for goals, all with valid nominal points, one after the other until one is reached.
   /// Of k that are left each has a k-th of the time that is left; with a path in hand, all of it.
   SearchResult SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
                             bool backward, SearchQuery* query);
-  CollisionChecker& CheckerFor(const PlanningGroup& group, CollisionModel model) {
-    return *compiled_.at({group.name, model}).checker;
-  }
   /// Has a checker compiled for what it keeps from one scene to the next.
   void Compile(const PlanningGroup& group, CollisionModel model, const Scene& scene,
                std::span<const double> base_positions);
