@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner_ara/lattice.h"
 #include "robot_model/motion_bound.h"
 
 namespace planbench {
@@ -52,7 +53,11 @@ std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> r
 }
 
 double DefaultCell(const JointSpace::Joint& joint) {
-  return joint.prismatic ? std::min(0.005, (joint.upper - joint.lower) / 40) : kDegree;
+  if (joint.continuous) return kDegree;
+  const double range = joint.upper - joint.lower;
+  // Wide ranges have larger cells: a lattice can number so many only.
+  return std::max(joint.prismatic ? std::min(0.005, range / 40) : kDegree,
+                  range / (Lattice::kMaxCells - 1));
 }
 
 MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const double> discretization,

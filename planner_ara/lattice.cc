@@ -9,11 +9,6 @@
 #include "common/error.h"
 
 namespace planbench {
-namespace {
-
-constexpr double kMaxCells = 65535;
-
-}  // namespace
 
 Lattice::Lattice(const JointSpace& space, std::span<const double> anchor,
                  std::span<const double> discretization) {

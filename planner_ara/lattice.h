@@ -19,9 +19,10 @@ class Lattice {
  public:
   /// Coordinate of one joint: the index of a cell, in [0, num_cells(j)).
   using Coordinate = std::uint16_t;
+  static constexpr double kMaxCells = 65535;
 
   /// `anchor`: n joints, within limits. `discretization`: n joints, rad or m, > 0. Throws
-  /// InputError naming the joint if a joint would have more than 65535 cells, or a continuous one
+  /// InputError naming the joint if a joint would have more than kMaxCells, or a continuous one
   /// fewer than 3.
   Lattice(const JointSpace& space, std::span<const double> anchor,
           std::span<const double> discretization);

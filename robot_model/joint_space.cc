@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "common/numbers.h"
@@ -29,9 +30,13 @@ double WrapAngle(double angle) {
 JointSpace::JointSpace(std::vector<Joint> joints) : joints_(std::move(joints)) {
   for (const Joint& joint : joints_) {
     constexpr double kLargest = std::numeric_limits<double>::max();  // that is finite
+    // Turned further, an angle is rounded by more than paths may be off their ends.
+    constexpr double kFarthestTurned = 1e6;  // rad
     const bool bounded = !joint.continuous;
-    lowest_.push_back(bounded ? std::max(-kLargest, joint.lower - kLimitTolerance) : -kLargest);
-    highest_.push_back(bounded ? std::min(kLargest, joint.upper + kLimitTolerance) : kLargest);
+    lowest_.push_back(bounded ? std::max(-kLargest, joint.lower - kLimitTolerance)
+                              : -kFarthestTurned);
+    highest_.push_back(bounded ? std::min(kLargest, joint.upper + kLimitTolerance)
+                               : kFarthestTurned);
   }
 }
 
@@ -75,6 +80,18 @@ void JointSpace::Wrap(std::span<double> q) const {
   for (int j = 0; j < size(); ++j) {
     const auto i = static_cast<std::size_t>(j);
     if (joint(j).continuous) q[i] = WrapAngle(q[i]);
+  }
+}
+
+void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) const {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (int j = 0; j < size(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    if (joint(j).continuous || joint(j).prismatic) continue;
+    const double most = std::floor((highest_[i] - q[i]) / kTurn);
+    const double least = std::ceil((lowest_[i] - q[i]) / kTurn);
+    if (least > most) continue;
+    q[i] += kTurn * std::clamp(std::round((to[i] - q[i]) / kTurn), least, most);
   }
 }
 

@@ -43,6 +43,9 @@ class JointSpace {
                    std::span<double> out) const;
   /// Brings continuous joints into [-pi, pi).
   void Wrap(std::span<double> q) const;
+  /// Brings joints that may turn more than once round to the turn, within their limits, that is
+  /// nearest to where they are at `to`.
+  void ToNearestTurn(std::span<const double> to, std::span<double> q) const;
   /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1
   /// if none.
   int FirstOutsideLimits(std::span<const double> q) const;
@@ -50,7 +53,8 @@ class JointSpace {
 
  private:
   std::vector<Joint> joints_;
-  // What positions may be, with the tolerance; any finite one of continuous joints.
+  // What positions may be, with the tolerance; of continuous joints any from which a turn can be
+  // told.
   std::vector<double> lowest_;
   std::vector<double> highest_;
 };

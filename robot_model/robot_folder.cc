@@ -125,7 +125,7 @@ std::vector<std::string> LinksWithout(const std::vector<LinkSphere>& spheres, st
   return unchecked;
 }
 
-void WarnOfUncheckedLinks(const YamlNode& root, Robot* robot) {
+void WarnOfUncheckedLinks(const YamlNode& root, const std::string& spheres, Robot* robot) {
   std::set<int> meant;
   if (const auto names = root.Find("links_without_spheres")) {
     for (const YamlNode& name : names->Elements()) {
@@ -138,8 +138,7 @@ void WarnOfUncheckedLinks(const YamlNode& root, Robot* robot) {
   robot->warnings.push_back(fmt::format(
       "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
       "meant, name them in links_without_spheres",
-      root.Find("spheres") ? root.At("spheres").Where() : root.At("srdf").Where(),
-      fmt::join(unchecked, ", ")));
+      spheres, fmt::join(unchecked, ", ")));
 }
 
 VoxelSettings ReadVoxels(const YamlNode& node) {
@@ -286,11 +285,12 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   if (!spheres.empty()) {
     robot.spheres = read_spheres(spheres);
     if (robot.spheres.empty()) throw InputError(spheres.string() + ": no spheres");
-  } else {
-    if (const auto named = root.Find("spheres")) {
-      robot.spheres = read_spheres(NamedFile(folder, *named));
-    }
-    WarnOfUncheckedLinks(root, &robot);
+    WarnOfUncheckedLinks(root, spheres.string(), &robot);
+  } else if (const auto named = root.Find("spheres")) {
+    robot.spheres = read_spheres(NamedFile(folder, *named));
+    WarnOfUncheckedLinks(root, named->Where(), &robot);
+  } else if (const auto srdf = root.Find("srdf")) {
+    WarnOfUncheckedLinks(root, srdf->Where(), &robot);
   }
   if (const auto named = root.Find("enclosing_spheres")) {
     robot.enclosing_spheres = read_spheres(NamedFile(folder, *named));

@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 
 // Limits that differ by less were meant to be the same (rad or m).
 constexpr double kLimitRounding = 1e-9;
+// Beyond, rad or m, limits are none.
+constexpr double kWidestLimit = 1e4;
 
 Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -279,6 +281,21 @@ void FollowLeaders(const UrdfConverter& converter, const RobotModel& model, std:
   follower->position_index = leader.position_index;
 }
 
+// Narrows limits that stand for "none", 1e16 for example: nothing can be planned over such a range.
+// A note of that, and of limits that leave no range; "" for nothing.
+std::string KeepWithinReason(Joint* joint) {
+  if (NumPositions(joint->type) != 1 || joint->type == JointType::kContinuous) return "";
+  const double lower = joint->lower;
+  const double upper = joint->upper;
+  if (lower == upper) return fmt::format("its limits leave it no range: both are {}", lower);
+  if (lower > kWidestLimit || upper < -kWidestLimit) return "";
+  joint->lower = std::max(lower, -kWidestLimit);
+  joint->upper = std::min(upper, kWidestLimit);
+  if (joint->lower == lower && joint->upper == upper) return "";
+  return fmt::format("its limits [{}, {}] are too wide to plan in; they count as [{}, {}]", lower,
+                     upper, joint->lower, joint->upper);
+}
+
 // Keeps a leader where its follower is within its limits, and gives the follower the range it then
 // has. A note of what changes, "" for nothing: a follower whose limits leave no range at all has
 // wrong ones (signs that do not fit the multiplier are common), and is not heeded.
@@ -374,6 +391,10 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
   if (!converter.soft_limits().empty()) {
     notes.push_back(fmt::format("{}: soft limits (safety_controller) narrow {}", origin,
                                 fmt::join(converter.soft_limits(), ", ")));
+  }
+  for (Joint& joint : model.joints_) {
+    const std::string note = KeepWithinReason(&joint);
+    if (!note.empty()) notes.push_back(converter.WhereJoint(joint.name) + ": " + note);
   }
   for (std::size_t j = 0; j < model.joints_.size(); ++j) {
     if (converter.MimicOf(model.joints_[j]) == nullptr) continue;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/numbers.h"
+#include "planner_ara/default_primitives.h"
 #include "support/expect_input_error.h"
 
 namespace planbench {
@@ -18,6 +19,16 @@ JointSpace LatticeSpace() {
   return JointSpace({{"lift", false, true, 0.0, 0.38, 0.1},
                      {"elbow", false, false, -1.0, 2.0, 1.0},
                      {"roll", true, false, -kPi, kPi, 1.0}});
+}
+
+TEST(Lattice, DefaultCellsOfWideRangesAreNotTooMany) {
+  const JointSpace space({{.name = "rail", .prismatic = true, .lower = -1000, .upper = 1000},
+                          {.name = "winch", .lower = -1e4, .upper = 1e4},
+                          {.name = "bend", .lower = -3, .upper = 3}});
+  std::vector<double> cells;
+  for (const JointSpace::Joint& joint : space.joints()) cells.push_back(DefaultCell(joint));
+  EXPECT_NEAR(cells[2], kPi / 180, 1e-15);
+  EXPECT_NO_THROW(Lattice(space, std::vector<double>{0, 0, 0}, cells));
 }
 
 TEST(Lattice, AnchorIsAPointOfIt) {

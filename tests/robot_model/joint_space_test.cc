@@ -45,6 +45,25 @@ TEST(JointSpace, FindsJointsByName) {
   EXPECT_EQ(space.Find("nod"), -1);
 }
 
+TEST(JointSpace, FindsTheTurnThatIsNearestWithinLimits) {
+  const JointSpace space({{.name = "slide", .prismatic = true, .lower = -9, .upper = 9},
+                          {.name = "twice", .lower = -2 * kPi, .upper = 2 * kPi},
+                          {.name = "once", .lower = -2, .upper = 2},
+                          {.name = "roll", .continuous = true, .lower = -kPi, .upper = kPi}});
+  std::vector<double> q = {8, 6, 1, 3};
+  space.ToNearestTurn(std::vector<double>{0, -0.5, 0, -3}, q);
+  EXPECT_EQ(q[0], 8);
+  EXPECT_NEAR(q[1], 6 - 2 * kPi, 1e-12);
+  EXPECT_EQ(q[2], 1);
+  EXPECT_EQ(q[3], 3);
+  q[1] = -1;
+  space.ToNearestTurn(std::vector<double>{0, 6.2, 0, 0}, q);
+  EXPECT_NEAR(q[1], 2 * kPi - 1, 1e-12);
+  q[1] = 1;
+  space.ToNearestTurn(std::vector<double>{0, 6.2, 0, 0}, q);
+  EXPECT_EQ(q[1], 1) << "a turn more is beyond the limit";
+}
+
 TEST(JointSpace, OnlyContinuousJointsGoTheShortWay) {
   const JointSpace space = Space();
   EXPECT_NEAR(space.Difference(2, 3, -3), 2 * kPi - 6, 1e-15);

@@ -297,6 +297,9 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
   EXPECT_NE(warnings[0].find("robot.yaml:3: spheres: no spheres for base, which"),
             std::string::npos)
       << warnings[0];
+  const auto others = folder.Write("mine.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
+  EXPECT_THAT(LoadRobot(folder.path(), {}, others).warnings,
+              testing::ElementsAre(testing::HasSubstr("mine.yaml: no spheres for base, which")));
 
   folder.Write("robot.yaml", yaml + "links_without_spheres: [base]\n");
   EXPECT_TRUE(LoadRobot(folder.path()).warnings.empty());

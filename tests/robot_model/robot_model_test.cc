@@ -44,6 +44,29 @@ constexpr char kTree[] = R"(<robot name="tree">
 </robot>
 )";
 
+TEST(RobotModelLimits, ThatStandForNoneAreNarrowedAndThatLeaveNothingAreNamed) {
+  const auto model_with = [](const std::string& limit, std::vector<std::string>* warnings) {
+    return RobotModel::FromUrdf(
+        "<robot name='r'><link name='a'/><link name='b'/>\n<joint name='j' type='revolute'>"
+        "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit velocity='1' effort='1' " +
+            limit + "/></joint></robot>",
+        "r.urdf", warnings);
+  };
+  std::vector<std::string> warnings;
+  const RobotModel wide = model_with("lower='-1e16' upper='2'", &warnings);
+  EXPECT_EQ(wide.joints()[0].lower, -1e4);
+  EXPECT_EQ(wide.joints()[0].upper, 2);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("too wide"), std::string::npos) << warnings[0];
+  warnings.clear();
+  model_with("", &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("no range"), std::string::npos) << warnings[0];
+  warnings.clear();
+  model_with("lower='-7' upper='7'", &warnings);
+  EXPECT_TRUE(warnings.empty());
+}
+
 class RobotModelTest : public testing::Test {
  protected:
   const RobotModel model_ = RobotModel::FromUrdf(kTree, "tree.urdf");
