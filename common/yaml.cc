@@ -442,6 +442,16 @@ std::string YamlNode::String() const {
   return node_.Scalar();
 }
 
+std::optional<int> YamlNode::RawByte() const {
+  if (!IsScalar()) return std::nullopt;
+  const bool is_binary = ShortTag(node_) == "!!binary";
+  const std::string text = is_binary ? "" : node_.Scalar();
+  const std::vector<std::uint8_t> bytes =
+      is_binary ? Bytes() : std::vector<std::uint8_t>(text.begin(), text.end());
+  if (bytes.size() != 1 || (!is_binary && bytes[0] >= 0x20)) return std::nullopt;
+  return bytes[0];
+}
+
 std::vector<double> YamlNode::Doubles() const {
   std::vector<double> values;
   for (const YamlNode& element : Elements()) values.push_back(element.Double());

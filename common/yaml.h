@@ -60,6 +60,8 @@ class YamlNode {
   /// A finite decimal number, exactly rounded; NaN and infinities throw. `!degrees 90` and
   /// `deg(90)` are 1.57..., `!radians pi/2` and `rad(pi/2)` likewise (products and quotients of
   /// numbers and pi).
+  /// A byte as it is where it stands for a number: one control character, or one byte of !!binary.
+  std::optional<int> RawByte() const;
   double Double() const;
   double PositiveDouble() const;  ///< A finite number greater than zero.
   long long Int() const;          ///< A decimal integer.

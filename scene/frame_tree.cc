@@ -27,7 +27,7 @@ std::string WithoutSlash(const std::string& frame) {
 FrameTree::FrameTree(const RobotModel& model, std::span<const double> start_positions,
                      const PlanningFrame& planning_frame,
                      const std::vector<FixedTransform>& transforms)
-    : model_(&model) {
+    : model_(&model), planning_frame_(planning_frame.name) {
   const std::vector<Isometry3d> X_BL = ComputeLinkPoses(model, start_positions);
   for (int link = 0; link < model.num_links(); ++link) {
     const auto l = static_cast<std::size_t>(link);
@@ -85,7 +85,7 @@ void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) co
 }
 
 void FrameTree::AddObjectFrame(const std::string& name, const Isometry3d& X_BF) {
-  if (model_->FindLink(name) < 0) X_BF_[name] = X_BF;
+  if (model_->FindLink(name) < 0 && name != planning_frame_) X_BF_[name] = X_BF;
 }
 
 const Isometry3d* FrameTree::Find(const std::string& name) const {

@@ -42,7 +42,8 @@ class FrameTree {
   FrameTree(const RobotModel& model, std::span<const double> start_positions,
             const PlanningFrame& planning_frame, const std::vector<FixedTransform>& transforms);
 
-  /// Adds a frame of an object; those of the robot's links keep their meaning.
+  /// Adds a frame of an object; those of the robot's links and the planning frame keep
+  /// their meaning.
   void AddObjectFrame(const std::string& name, const Eigen::Isometry3d& X_BF);
 
   /// X_BF of a frame, null if it is unknown. A leading slash in `name` does not count.
@@ -56,6 +57,7 @@ class FrameTree {
   void CheckAgreement(const std::vector<FixedTransform>& transforms) const;
 
   const RobotModel* model_;
+  std::string planning_frame_;
   std::map<std::string, Eigen::Isometry3d> X_BF_;
 };
 

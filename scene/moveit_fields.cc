@@ -1,7 +1,10 @@
 #include "scene/moveit_fields.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "common/text.h"
 #include "scene/frame_tree.h"
 #include "scene/pose.h"
 
@@ -12,15 +15,29 @@ namespace {
 // that was meant to be a rotation at all.
 constexpr double kRounding = 1e-3;
 constexpr double kFarthest = 0.05;
+constexpr double kFarthestAway = 1e9;  // m; poses are multiplied, and must stay finite
 
 }  // namespace
 
-Eigen::Vector3d ReadVector3(const YamlNode& node) {
-  if (node.IsMap()) {
-    return {node.At("x").Double(), node.At("y").Double(), node.At("z").Double()};
+std::string ReadName(const YamlNode& node) {
+  const std::string name = node.String();
+  if (name.empty()) node.Fail("must not be empty");
+  if (const std::string printable = Printable(name); printable != name) {
+    node.Fail("a name must be one line without tabs, found '" + printable + "'");
   }
-  const std::vector<double> xyz = node.Doubles(3);
-  return {xyz[0], xyz[1], xyz[2]};
+  return name;
+}
+
+Eigen::Vector3d ReadVector3(const YamlNode& node) {
+  const std::vector<double> xyz =
+      node.IsMap()
+          ? std::vector{node.At("x").Double(), node.At("y").Double(), node.At("z").Double()}
+          : node.Doubles(3);
+  const Eigen::Vector3d vector(xyz[0], xyz[1], xyz[2]);
+  if (vector.cwiseAbs().maxCoeff() > kFarthestAway) {
+    node.Fail(fmt::format("is beyond {} m", kFarthestAway));
+  }
+  return vector;
 }
 
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {

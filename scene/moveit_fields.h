@@ -13,6 +13,9 @@ namespace planbench {
 // Pieces that several MoveIt messages share. Every function throws InputError naming file, line and
 // field.
 
+/// A name: not empty, in one line.
+std::string ReadName(const YamlNode& node);
+
 /// geometry_msgs/Point or Vector3: [x, y, z] or {x: .., y: .., z: ..}.
 Eigen::Vector3d ReadVector3(const YamlNode& node);
 

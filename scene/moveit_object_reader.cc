@@ -1,5 +1,7 @@
 #include "scene/moveit_object_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -13,6 +15,8 @@
 
 namespace planbench {
 namespace {
+
+constexpr double kLargestShape = 1e9;  // m
 
 // MoveIt's name for the octomap as a body, in the allowed-collision matrix for one.
 constexpr const char* kOctomapId = "<octomap>";
@@ -51,14 +55,16 @@ Mesh LoadMeshResource(const YamlNode& uri, const Eigen::Vector3d& scale,
 }
 
 Eigen::Vector3d ReadScale(const YamlNode& mesh) {
+  std::optional<Eigen::Vector3d> scale;
   for (const char* key : {"dimensions", "scale"}) {
     const std::optional<YamlNode> node = mesh.Find(key);
     if (!node) continue;
-    const Eigen::Vector3d scale = ReadVector3(*node);
-    if (!(scale.array() > 0).all()) node->Fail("scales must be greater than zero");
-    return scale;
+    const Eigen::Vector3d read = ReadVector3(*node);
+    if (!(read.array() > 0).all()) node->Fail("scales must be greater than zero");
+    if (scale && *scale != read) node->Fail("says another scale than the mesh's dimensions");
+    scale = read;
   }
-  return Eigen::Vector3d::Ones();
+  return scale.value_or(Eigen::Vector3d::Ones());
 }
 
 Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
@@ -67,9 +73,10 @@ Mesh ReadMesh(const YamlNode& node, const ResourceResolver& resources) {
     return LoadMeshResource(*uri, ReadScale(node), resources);
   }
   TriangleMesh mesh;
+  const Eigen::Vector3d scale = ReadScale(node);
   const YamlNode vertices = node.At("vertices");
   for (const YamlNode& vertex : vertices.Elements()) {
-    mesh.vertices.push_back(ReadVector3(vertex));
+    mesh.vertices.push_back(scale.cwiseProduct(ReadVector3(vertex)));
   }
   const auto num_vertices = static_cast<long long>(mesh.vertices.size());
   const YamlNode triangles = node.At("triangles");
@@ -159,7 +166,9 @@ bool HasPose(const YamlNode& object) {
 void RequireAddOperation(const YamlNode& object) {
   const std::optional<YamlNode> operation = object.Find("operation");
   if (!operation) return;
-  const std::string text = LowerCase(operation->String());
+  // ROS 2 prints the byte itself.
+  const std::optional<int> byte = operation->RawByte();
+  const std::string text = byte ? std::to_string(*byte) : LowerCase(operation->String());
   if (text != "0" && text != "add") {
     operation->Fail("only the operation ADD (0) is supported, found '" + text + "'");
   }
@@ -184,8 +193,7 @@ bool HasBody(const Robot& robot, int link) {
 
 std::string ReadId(const YamlNode& object, const Robot& robot) {
   const YamlNode node = object.At("id");
-  const std::string id = node.String();
-  if (id.empty()) node.Fail("must not be empty");
+  const std::string id = ReadName(node);
   const int link = robot.model.FindLink(id);
   if (link >= 0 && HasBody(robot, link)) {
     node.Fail("the object has the name of a link, '" + id +
@@ -231,6 +239,9 @@ Shape ReadPrimitive(const YamlNode& node) {
   std::vector<double> values;
   for (const YamlNode& dimension : dimensions.Elements()) {
     values.push_back(dimension.PositiveDouble());
+    if (values.back() > kLargestShape) {
+      dimension.Fail(fmt::format("is more than {} m", kLargestShape));
+    }
   }
   if (type == "box") return Box{{values[0], values[1], values[2]}};
   if (type == "sphere") return Sphere{values[0]};
@@ -240,9 +251,7 @@ Shape ReadPrimitive(const YamlNode& node) {
 
 SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& resources) {
   SceneObject object;
-  const YamlNode id = node.At("id");
-  object.id = id.String();
-  if (object.id.empty()) id.Fail("must not be empty");
+  object.id = ReadName(node.At("id"));
   RequireAddOperation(node);
 
   const std::optional<YamlNode> pose = node.Find("pose");
@@ -295,7 +304,7 @@ void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& res
       link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
     }
     for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
-      attached.touch_links.push_back(WithoutSlash(touch_link.String()));
+      attached.touch_links.push_back(WithoutSlash(ReadName(touch_link)));
     }
     const YamlNode object = node.At("object");
     const YamlNode id_node = object.At("id");

@@ -242,6 +242,19 @@ PoseSet ReadPoseSet(const std::optional<YamlNode>& position,
   return poses;
 }
 
+// The same configuration, but for whole turns: as near to `from` as it can be had. Joints that
+// others follow at a ratio stay.
+void TurnTowards(std::span<const double> from, const RobotModel& model, const PlanningGroup& group,
+                 const JointSpace& limits, std::vector<double>* q) {
+  const std::vector<double> before = *q;
+  limits.ToNearestTurn(from, *q);
+  for (const PlanningGroup::Follower& follower : group.followers) {
+    const double ratio = model.joints()[static_cast<std::size_t>(follower.joint)].multiplier;
+    const auto leader = static_cast<std::size_t>(follower.group_index);
+    if (ratio != std::round(ratio)) (*q)[leader] = before[leader];
+  }
+}
+
 }  // namespace
 
 bool HasPoseConstraints(const YamlNode& constraints) {
@@ -259,12 +272,18 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
   PlanningGroup limited = group;
   limited.space = limits;
   InverseKinematics kinematics(model, limited, start, poses.X_TP);
+  std::vector<double> from;
+  for (const int joint : group.joints) {
+    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
+    from.push_back(start[static_cast<std::size_t>(index)]);
+  }
   std::mt19937_64 random(kSeed);
   std::vector<std::vector<double>> found;
   double best_m = kInfinity;
   double best_rad = kInfinity;
   for (int number = 0; number < kPoses && found.size() < kMostConfigurations; ++number) {
-    const IkResult result = kinematics.Solve(poses.Try(number, &random), &random, poses.Options());
+    IkResult result = kinematics.Solve(poses.Try(number, &random), &random, poses.Options());
+    TurnTowards(from, model, group, limits, &result.q);
     const Eigen::Isometry3d X_BP = kinematics.TipPose(result.q);
     const double off_m = poses.PositionExcess(X_BP);
     const double off_rad = poses.OrientationExcess(X_BP);
@@ -279,11 +298,9 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
     if (is_new) found.push_back(result.q);
   }
   if (found.empty()) {
-    (position ? *position : *orientation)
-        .Fail(
-            fmt::format("no configuration of group '{}' reaches the pose (best: {:.1f} mm, {:.3f} "
-                        "rad)",
-                        group.name, best_m * 1e3, best_rad));
+    throw OutOfReach(fmt::format(
+        "{}: no configuration of group '{}' reaches the pose (best: {:.1f} mm, {:.3f} rad)",
+        (position ? *position : *orientation).Where(), group.name, best_m * 1e3, best_rad));
   }
   return found;
 }

@@ -2,11 +2,18 @@
 
 #include <vector>
 
+#include "common/error.h"
 #include "common/yaml.h"
 #include "robot_model/robot_model.h"
 #include "scene/frame_tree.h"
 
 namespace planbench {
+
+/// No configuration of the group was found for a constraint.
+class OutOfReach : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// True if a moveit_msgs/Constraints constrains the position or orientation of a link.
 bool HasPoseConstraints(const YamlNode& constraints);
@@ -26,8 +33,8 @@ bool HasPoseConstraints(const YamlNode& constraints);
 /// not constrained is free.
 ///
 /// Throws InputError naming file, line and field for what cannot be read, more than one constraint
-/// of a kind, links that do not move as one with the group's tip, and constraints that no
-/// configuration was found for.
+/// of a kind, links that do not move as one with the group's tip; OutOfReach for constraints that
+/// no configuration was found for.
 std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, const RobotModel& model,
                                                const PlanningGroup& group, const JointSpace& limits,
                                                const std::vector<double>& start,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,9 @@
 
 namespace planbench {
 namespace {
+
+/// What a longer time limit counts as, s: there is none.
+constexpr double kLongestTime = 1e9;
 
 double ReadTolerance(const YamlNode& constraint, const std::string& key) {
   const std::optional<YamlNode> node = constraint.Find(key);
@@ -175,10 +179,17 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
   const YamlNode sets = motion_plan_request.At("goal_constraints");
   if (sets.Size() == 0) sets.Fail("holds no goal");
   std::vector<JointGoal> goal;
+  std::optional<OutOfReach> fault;  // of the first set that has one
   for (const YamlNode& set : sets.Elements()) {
-    const std::vector<JointGoal> alternatives = ReadAlternatives(set, model, group, start, frames);
-    goal.insert(goal.end(), alternatives.begin(), alternatives.end());
+    try {
+      const auto alternatives = ReadAlternatives(set, model, group, start, frames);
+      goal.insert(goal.end(), alternatives.begin(), alternatives.end());
+    } catch (const OutOfReach& error) {
+      if (sets.Size() > 1) set.Warn("is out of reach, and left out");
+      if (!fault) fault = error;
+    }
   }
+  if (goal.empty() && fault) throw OutOfReach(*fault);
   return goal;
 }
 
@@ -203,7 +214,7 @@ double ReadTimeLimit(const YamlNode& motion_plan_request) {
   if (!limit) return 0;
   const double seconds = limit->Double();
   if (seconds < 0) limit->Fail("must not be negative");
-  return seconds;
+  return std::min(seconds, kLongestTime);
 }
 
 }  // namespace planbench

@@ -59,7 +59,7 @@ AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& node) {
   }
   std::set<std::string> seen;
   for (const YamlNode& node_of_name : names) {
-    const std::string name = node_of_name.String();
+    const std::string name = ReadName(node_of_name);
     if (!seen.insert(name).second) node_of_name.Fail("'" + name + "' is named twice");
   }
   std::vector<std::vector<YamlNode>> values;
@@ -91,7 +91,7 @@ AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& node) {
               std::to_string(defaults.size()) + " default_entry_values");
   }
   for (std::size_t i = 0; i < default_names.size(); ++i) {
-    const std::string name = default_names[i].String();
+    const std::string name = ReadName(default_names[i]);
     if (matrix.default_entries().contains(name)) {
       default_names[i].Fail("'" + name + "' is named twice");
     }

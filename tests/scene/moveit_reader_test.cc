@@ -37,6 +37,19 @@ TEST(MoveItReader, PlanesAreHalfSpacesBelowThem) {
   EXPECT_TRUE(walls.shapes[2].X_FS.translation().isApprox(Eigen::Vector3d(0, 0, 0.5), 1e-12));
 }
 
+TEST(MoveItReader, ScalesMeshesThatAreWrittenOut) {
+  const auto top = [](const std::string& text) {
+    const Scene scene = ParseScene(text);
+    const auto& mesh = std::get<Mesh>(scene.objects.at(2).shapes.at(0).shape);
+    Eigen::Vector3d most = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& vertex : mesh.triangles->vertices) most = most.cwiseMax(vertex);
+    return most;
+  };
+  const Eigen::Vector3d scaled =
+      top(Replaced(kFullScene, "- vertices:", "- scale: [2, 3, 0.5]\n          vertices:"));
+  EXPECT_EQ(scaled, top(kFullScene).cwiseProduct(Eigen::Vector3d(2, 3, 0.5)));
+}
+
 TEST(MoveItReader, ReadsEveryField) {
   const Problem problem = ParseProblem(kFullScene);
   const Scene& scene = problem.scene;
@@ -121,6 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"TypeInCapitals", "type: cylinder", "type: CYLINDER"},
         Dialect{"NoOperation", "      operation: 0\n", ""},
         Dialect{"OperationAsWord", "operation: 0", "operation: ADD"},
+        Dialect{"OperationAsRos2PrintsIt", "operation: 0", "operation: \"\\0\""},
+        Dialect{"OperationAsBinary", "operation: 0", "operation: !!binary AA=="},
         Dialect{"OtherName", "name: kitchen", "name: \"\""},
         Dialect{"NameAsNull", "name: kitchen", "name: ~"},
         Dialect{"NoRobotName", "robot_model_name: fetch\n", ""},

@@ -49,6 +49,18 @@ std::vector<std::pair<double, double>> MastConfigurations(const std::string& set
   return configurations;
 }
 
+TEST(GoalSets, OneThatIsOutOfReachIsLeftOutAndSaidSo) {
+  const std::string far = Replaced(kPosition, "[0, 1, 3]", "[0, 9, 3]");
+  const std::string near =
+      "joint_constraints: [{joint_name: a_joint, position: 2}, "
+      "{joint_name: b_joint, position: 1}]";
+  const std::string request = Replaced(kMast, "SET", "{" + far + "}\n  - {" + near + "}");
+  const Problem problem = ParseProblem("robot_model_name: fetch\n", request);
+  EXPECT_EQ(problem.goal, (std::vector<JointGoal>{{"a_joint", 2, 0, 0}, {"b_joint", 1, 0, 0}}));
+  EXPECT_THAT(problem.warnings, ElementsAre(testing::HasSubstr("goal_constraints[0]: is out of")));
+  ExpectInputError([&] { MastGoals(far); }, {"goal_constraints[0]", "no configuration"});
+}
+
 TEST(GoalSets, AreAlternatives) {
   const auto goals = MastGoals(
       "joint_constraints: [{joint_name: b_joint, position: 1}, {joint_name: a_joint, position: "
