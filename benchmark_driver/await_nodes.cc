@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <vector>
@@ -9,23 +10,39 @@
 #include "common/error.h"
 
 namespace planbench {
+namespace {
+
+/// After which the user is told what is waited for.
+constexpr std::chrono::seconds kSilence{5};
+
+std::string Heard(const NodeRegistry& registry) {
+  std::vector<std::string> heard;
+  for (const NodeStatusMessage& node : registry.Live()) {
+    if (node.kind == NodeKind::kDriver) continue;
+    heard.push_back(fmt::format("{} ({})", node.name, EnumName(node.kind)));
+  }
+  return heard.empty() ? "nobody" : fmt::format("{}", fmt::join(heard, ", "));
+}
+
+}  // namespace
 
 void AwaitNodes(NodeRegistry* registry, double timeout_s,
                 const std::function<std::string()>& missing, const std::function<void()>& watch) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto deadline = begin + std::chrono::duration<double>(timeout_s);
+  bool told = false;
   while (true) {
     watch();
     const std::string what = missing();
     if (what.empty()) return;
-    if (std::chrono::steady_clock::now() >= deadline) {
-      std::vector<std::string> heard;
-      for (const NodeStatusMessage& node : registry->Live()) {
-        if (node.kind == NodeKind::kDriver) continue;
-        heard.push_back(fmt::format("{} ({})", node.name, EnumName(node.kind)));
-      }
-      if (heard.empty()) heard.emplace_back("nobody");
+    const auto now = std::chrono::steady_clock::now();
+    if (now >= deadline) {
       throw InputError(fmt::format("not on the bus within {} s: {}; heard: {}", timeout_s, what,
-                                   fmt::join(heard, ", ")));
+                                   Heard(*registry)));
+    }
+    if (!told && now - begin > kSilence) {
+      spdlog::info("waiting for {}; heard: {}", what, Heard(*registry));
+      told = true;
     }
     registry->Discover("driver");
     registry->WaitUntil([] { return false; }, std::chrono::milliseconds(200));

@@ -75,7 +75,7 @@ std::string Driver::Missing(bool need_logger) const {
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   AwaitNodes(
-      &registry_, options_.discovery_timeout_s, [&] { return Missing(need_logger); }, watch);
+      &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
     for (const NodeStatusMessage& node : registry_.Live(kind)) RequireSameBuild(node);
   }

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/name_value.h"
 
@@ -206,7 +207,7 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       ->capture_default_str();
   app->add_option("--seed", request.seed,
                   "seed of the session; every problem, direction and trial has a seed made of it")
-      ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
+      ->check(AnySeed())
       ->capture_default_str();
   AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, "robot geometry")
       ->default_str(std::string(EnumName(request.collision_model)));
@@ -233,9 +234,8 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   app->add_flag("--repeat-disturbed", options->repeat_disturbed,
                 "make disturbed runs again at the end, twice at most, and record the last");
   app->add_option("--discovery-timeout", options->discovery_timeout_s,
-                  "how long to wait for the other processes, s")
-      ->check(Positive())
-      ->capture_default_str();
+                  "how long to wait for the other processes, s; default: 5, with --launch 60")
+      ->check(Positive());
   app->add_option_function<std::vector<std::string>>(
          "--reference",
          [=](const std::vector<std::string>& texts) {

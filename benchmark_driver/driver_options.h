@@ -28,7 +28,9 @@ struct DriverOptions {
   int trials = 1;
   Shard shard;
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
-  double discovery_timeout_s = 5;
+  /// Children may take their time to load meshes, and one that fails is heard of at once.
+  std::optional<double> discovery_timeout_s;
+  double DiscoveryTimeout() const { return discovery_timeout_s.value_or(launch ? 60 : 5); }
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
   /// Share of a run's time beyond which what kept its planner from working makes it a disturbed
   /// one.

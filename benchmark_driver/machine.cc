@@ -65,6 +65,9 @@ DisturbanceMeter::DisturbanceMeter(std::vector<pid_t> pids, KernelFolders kernel
 }
 
 void DisturbanceMeter::Read(std::map<std::string, double>* counters) const {
+  for (const char* name : {"load_before", "waiting_time", "steal_time", "disturbed", "repeats"}) {
+    counters->erase(name);
+  }
   if (load_) (*counters)["load_before"] = *load_;
   const std::map<std::string, double> waiting_s = WaitingByThread();
   if (!waiting_s.empty()) {

@@ -83,7 +83,6 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor.emplace();
     LaunchPlanners(options, line_up, folder / "logs", url, &*supervisor);
-    options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
   }
   const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
   const NodeAnnouncer announcer(&bus, [&] { return self; });
@@ -93,7 +92,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
     return interrupted();
   };
   AwaitNodes(
-      &registry, options.discovery_timeout_s,
+      &registry, options.DiscoveryTimeout(),
       [&] {
         std::vector<std::string> missing;
         for (const std::string& planner : planners) {

@@ -20,6 +20,8 @@ constexpr std::chrono::milliseconds kServerRetry{250};
 constexpr std::chrono::seconds kServerPatience{10};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
+/// Of times that are added up.
+constexpr double kRounding = 1e-9;
 
 std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
                                                      const std::string& channel) {
@@ -266,6 +268,15 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
     record.message =
         fmt::format("a path came {:.1f} s after it was asked for, the limit being {} s",
                     answer.roundtrip_time_s, record.request.time_limit_s);
+    spdlog::warn("{}: {}", run.request_id, record.message);
+    return record;
+  }
+  if (const double time_s = record.result.result.planning_time_s;
+      time_s > (1 + kRounding) * record.request.time_limit_s) {
+    record.status = PlanStatus::kTimedOut;
+    record.message =
+        fmt::format("the planner says that its path took {:.6g} s, the limit being {} s", time_s,
+                    record.request.time_limit_s);
     spdlog::warn("{}: {}", run.request_id, record.message);
     return record;
   }

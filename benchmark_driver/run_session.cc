@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
@@ -61,6 +62,43 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   }
 }
 
+std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
+  std::vector<StoredSession> references;
+  for (const auto& [name, file] : options.references) {
+    references.push_back(ImportResults(file, name, options.conditions.request.time_limit_s));
+  }
+  return references;
+}
+
+/// Throws InputError for results that would be taken for those of a contestant or of another file,
+/// or that would be in no table.
+std::vector<Attempt> AttemptsOf(const std::vector<StoredSession>& references,
+                                const SessionConditions& conditions) {
+  std::vector<Attempt> attempts;
+  std::set<std::tuple<std::string, std::string, int, int, Direction>> seen;
+  for (const StoredSession& reference : references) {
+    const auto fail = [&](const std::string& what) {
+      throw InputError(fmt::format("--reference {}: {}", reference.file.string(), what));
+    };
+    bool fits = false;
+    for (const StoredRun& run : reference.runs) {
+      const std::string& name = reference.contestants[run.contestant].name;
+      for (const Contestant& contestant : conditions.contestants) {
+        if (contestant.name == name) fail("a contestant is called '" + name + "', too");
+      }
+      if (!seen.emplace(name, run.problem_set, run.problem_index, run.trial, run.direction)
+               .second) {
+        fail(fmt::format("'{}' has problem {} of '{}' from another file", name, run.problem_index,
+                         run.problem_set));
+      }
+      fits = fits || conditions.problem_sets.contains(run.problem_set);
+      attempts.push_back(AttemptOf(run, name));
+    }
+    if (!fits) fail("it has no problem of the session's sets");
+  }
+  return attempts;
+}
+
 /// Leaves processors to the planners.
 void KeepOff(const std::vector<int>& pinned) {
   std::vector<int> others = UsableProcessors();
@@ -95,14 +133,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (!earlier.sessions.empty()) run_id = earlier.sessions.back().run_id;
   }
 
-  std::vector<Attempt> references;
-  for (const auto& [name, file] : options.references) {
-    const StoredSession imported =
-        ImportResults(file, name, options.conditions.request.time_limit_s);
-    for (const StoredRun& run : imported.runs) {
-      references.push_back(AttemptOf(run, imported.contestants[run.contestant].name));
-    }
-  }
+  const std::vector<StoredSession> references = ReadReferences(options);
   std::string url = lcm_url;
   std::filesystem::path session_folder;
   const std::vector<LineUpEntry> line_up = MakeLineUp(
@@ -130,8 +161,6 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor = std::make_unique<Supervisor>();
     LaunchProcesses(options, line_up, session_folder, url, supervisor.get());
-    // Loading meshes, or a busy machine, may take its time; a child that fails is heard of at once.
-    options.discovery_timeout_s = std::max(options.discovery_timeout_s, 60.0);
   }
 
   NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
@@ -147,6 +176,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   };
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
   driver.Discover(options.launch, watch);
+  const std::vector<Attempt> reference_attempts = AttemptsOf(references, driver.conditions());
   if (new_folder) new_folder->Keep();
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {
@@ -156,7 +186,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
   const SessionTables tables =
-      MakeTables(driver.conditions(), driver.runs(), references, num_missing);
+      MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing);
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);

@@ -1,6 +1,12 @@
 #include "common/command_line.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
 #include <iostream>
+#include <limits>
+#include <system_error>
 
 #include "common/error.h"
 #include "common/exit_codes.h"
@@ -11,6 +17,18 @@ namespace planbench {
 
 void AddVersionFlag(CLI::App* app) {
   app->set_version_flag("--version", app->get_name() + " " + Version() + " (" + Commit() + ")");
+}
+
+CLI::Validator AnySeed() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc() && end == text.data() + text.size()) return std::string();
+        return fmt::format("'{}' is no whole number from 0 to {}", text,
+                           std::numeric_limits<std::uint64_t>::max());
+      },
+      "");
 }
 
 int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {

@@ -20,6 +20,10 @@ CLI::CheckedTransformer OneOf() {
   return CLI::CheckedTransformer(values);
 }
 
+/// For a flag that takes a whole number of 64 bits: CLI11 wraps those below 0, and takes the
+/// largest for what is larger.
+CLI::Validator AnySeed();
+
 /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
 /// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on
 /// stderr that begins with the app's name.

@@ -36,7 +36,14 @@ SessionFolder::SessionFolder(const fs::path& folder, bool resume) : path_(Absolu
     throw InputError("cannot create session folder " + path_.string() + ": " + error.message());
   }
   Lock();
+  const std::string session = path_.filename().string();
+  event_log_ = path_ / ((session.empty() ? "session" : session) + ".lcmlog");
   try {
+    if (resume && !fs::exists(event_log_)) {
+      for (const auto& entry : fs::directory_iterator(path_)) {
+        if (entry.path().extension() == ".lcmlog") event_log_ = entry.path();
+      }
+    }
     for (const fs::path& file : {results(), event_log()}) {
       if (resume || !fs::exists(file)) continue;
       throw InputError("session folder " + path_.string() + " holds " + file.filename().string() +
@@ -50,11 +57,6 @@ SessionFolder::SessionFolder(const fs::path& folder, bool resume) : path_(Absolu
 }
 
 SessionFolder::~SessionFolder() { close(lock_); }
-
-fs::path SessionFolder::event_log() const {
-  const std::string session = path_.filename().string();
-  return path_ / ((session.empty() ? "session" : session) + ".lcmlog");
-}
 
 void SessionFolder::RequireThere() const {
   struct stat locked = {};

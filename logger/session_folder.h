@@ -25,8 +25,8 @@ class SessionFolder {
 
   /// Absolute.
   const std::filesystem::path& path() const { return path_; }
-  /// <session>.lcmlog, the session being the folder's name.
-  std::filesystem::path event_log() const;
+  /// <session>.lcmlog, the session being the folder's name when it was begun.
+  const std::filesystem::path& event_log() const { return event_log_; }
   std::filesystem::path results() const { return path_ / "results.sqlite"; }
   std::filesystem::path run_json() const { return path_ / "run.json"; }
 
@@ -35,6 +35,7 @@ class SessionFolder {
   void WriteLcmTypes() const;
 
   std::filesystem::path path_;
+  std::filesystem::path event_log_;
   int lock_ = -1;
 };
 

@@ -37,7 +37,9 @@ std::string Displaced(const NodeStatusMessage& self, const NodeStatusMessage& ol
   }
   return "another session is on this LCM port: the " + std::string(EnumName(older.kind)) + " '" +
          older.name + "' is live already (host " + older.host + ", pid " +
-         std::to_string(older.pid) + "); choose another --name, or another port with --lcm-url";
+         std::to_string(older.pid) + "); choose " +
+         (self.kind == NodeKind::kDriver ? "" : "another --name, or ") +
+         "another port with --lcm-url";
 }
 
 }  // namespace

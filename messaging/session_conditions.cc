@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "messaging/channels.h"
@@ -15,6 +17,8 @@
 namespace planbench {
 namespace {
 
+const std::set<std::string> kFlagsThatCount = {"directions", "max-disturbance", "repeat-disturbed"};
+
 /// `session` without what may differ from `other`.
 SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   session.start_utime = 0;
@@ -22,7 +26,10 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   session.total_time_s = 0;
   session.num_runs = 0;
   session.host = session.cpu = "";
-  session.settings.clear();  // the flags: what they change is in the conditions
+  // Of the flags those that runs count by and that the conditions do not tell.
+  std::erase_if(session.settings, [&](const auto& flag) {
+    return !kFlagsThatCount.contains(flag.first) || !other.settings.contains(flag.first);
+  });
   const auto keep_common = [](auto* map, const auto& others) {
     std::erase_if(*map, [&](const auto& entry) { return !others.contains(entry.first); });
   };

@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "common/command_line.h"
 #include "common/exit_codes.h"
 #include "common/progress_line.h"
 #include "common/sibling_program.h"
@@ -28,7 +29,7 @@ void GeneratorFlags::AddTo(CLI::App* app) {
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   app->add_option("--seed", seed, "equal seeds give equal sets; another seed, other problems")
-      ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
+      ->check(AnySeed())
       ->capture_default_str();
   app->add_flag("--replace", replace, "remove the problems that the folder holds");
   app->add_option("--threads", threads, "default: as many as the machine has; the set is the same")

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -125,6 +129,9 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
   std::vector<std::string> header;
   StoredSession session;
   session.contestants = {{name, "imported from " + file_name + "\n"}};
+  using Key = std::tuple<std::string, int, Direction>;
+  std::map<Key, int> num_rows;
+  std::set<std::pair<Key, int>> trials;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -134,8 +141,16 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
       header = SplitLine(line);
       continue;
     }
-    session.runs.push_back(ReadRun(Row(file_name, number, header, SplitLine(line)), time_limit_s));
-    session.runs.back().id = number;
+    const Row row(file_name, number, header, SplitLine(line));
+    StoredRun run = ReadRun(row, time_limit_s);
+    run.id = number;
+    const Key key(run.problem_set, run.problem_index, run.direction);
+    if (!row.Has("trial")) run.trial = ++num_rows[key];
+    if (!trials.emplace(key, run.trial).second) {
+      row.Fail("trial", fmt::format("a trial of its own of problem {} of '{}'", run.problem_index,
+                                    run.problem_set));
+    }
+    session.runs.push_back(std::move(run));
   }
   return session;
 }

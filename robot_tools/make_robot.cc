@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/read_text.h"
 #include "robot_model/group_kinematics.h"
@@ -350,7 +351,7 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
   app->add_option("--seed", seed, "of these configurations")
-      ->check(CLI::NonNegativeNumber)  // CLI11 would wrap it
+      ->check(AnySeed())
       ->capture_default_str();
   app->add_option(
          "--protrusion", protrusion_m,

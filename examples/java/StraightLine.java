@@ -49,13 +49,13 @@ public class StraightLine implements LCMSubscriber {
     lcm.publish("PLAN_ACK_" + channel, ack);
   }
 
-  synchronized void announce() {
+  synchronized void announce() throws java.io.IOException {
     if (sets == null) return;  // the robot's id is the scene server's
     lcmt_node_status s = new lcmt_node_status();
     s.utime = utime(); s.start_utime = start; s.kind = lcmt_node_status.KIND_PLANNER;
     s.state = current == null ? lcmt_node_status.STATE_IDLE : lcmt_node_status.STATE_BUSY;
     s.request_id = current == null ? "" : current.request_id;
-    s.name = name; s.instance = instance; s.trouble = ""; s.host = "localhost"; s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
+    s.name = name; s.instance = instance; s.trouble = ""; s.host = java.net.InetAddress.getLocalHost().getHostName(); s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
     s.robot_name = sets.robot_name; s.robot_id = sets.robot_id;
     s.algorithm = "Straight line (Java)"; s.planner_class = "search-and-sample"; s.deterministic = true;
     s.num_collision_models = 1; s.collision_model = new String[] {"spheres"}; s.setting = new lcmt_key_value[0];

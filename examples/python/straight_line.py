@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A planner of its own, in Python: the straight line from start to goal, if the scene server finds it free. It does what
 lcmtypes/README.md says under "One request, step by step"; lcm-gen and LCM's module `lcm` are needed."""
-import collections, os, subprocess, sys, tempfile, threading, time, uuid
+import collections, os, socket, subprocess, sys, tempfile, threading, time, uuid
 
 import lcm
 
@@ -46,12 +46,13 @@ class StraightLine:
         request = pb.lcmt_plan_request.decode(data)
         if request.request_id in self.results:
             return self.send(self.results[request.request_id])
-        if self.current is None:
-            self.current = request
+        current = self.current  # another thread clears it
+        if current is None:
+            current = self.current = request
             threading.Thread(target=self.work, args=(request,), daemon=True).start()
         ack = pb.lcmt_plan_ack()
         ack.utime, ack.planner, ack.request_id = self.utime(), self.name, request.request_id
-        ack.verdict = ack.WORKING if self.current.request_id == request.request_id else ack.BUSY
+        ack.verdict = ack.WORKING if current.request_id == request.request_id else ack.BUSY
         self.lcm.publish("PLAN_ACK_" + self.channel, ack.encode())
 
     def send(self, result):
@@ -65,7 +66,7 @@ class StraightLine:
         status.utime, status.start_utime, status.instance, status.name = self.utime(), self.start, self.instance, self.name
         status.kind, status.state = status.KIND_PLANNER, status.STATE_BUSY if current else status.STATE_IDLE
         status.request_id = current.request_id if current else ""
-        status.host, status.pid, status.version, status.commit = "localhost", os.getpid(), "example", "example"
+        status.host, status.pid, status.version, status.commit = socket.gethostname(), os.getpid(), "example", "example"
         status.robot_name, status.robot_id = self.sets.robot_name, self.sets.robot_id
         status.algorithm, status.planner_class = "Straight line (Python)", "search-and-sample"
         status.deterministic, status.num_collision_models, status.collision_model = True, 1, ["spheres"]

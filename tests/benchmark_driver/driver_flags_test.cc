@@ -214,6 +214,9 @@ TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {
   ExpectRefused({"--time", "inf"}, {"--time"});
   ExpectRefused({"--time", "1e12"}, {"--time"});
   ExpectRefused({"--trials", "0"}, {"--trials"});
+  for (const char* seed : {"-1", "18446744073709551616", "1.5", "x", ""}) {
+    ExpectRefused({"--seed", seed}, {"--seed"});
+  }
   ExpectRefused({"--edge-resolution", "-0.1"}, {"--edge-resolution"});
   ExpectRefused({"--referee-step", "nan"}, {"--referee-step"});
   ExpectRefused({"--discovery-timeout", "0"}, {"--discovery-timeout"});

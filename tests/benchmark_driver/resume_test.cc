@@ -1,6 +1,7 @@
 #include "benchmark_driver/resume.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
@@ -200,6 +201,18 @@ TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
     s.num_runs = 9;
     s.host = s.cpu = "another";
   }));
+}
+
+TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {
+  for (const char* flag : {"directions", "max-disturbance", "repeat-disturbed"}) {
+    SessionMessage before;
+    SessionMessage now;
+    before.settings[flag] = "a";
+    EXPECT_NO_THROW(RequireSameConditions(before, now)) << "it is not told";
+    now.settings[flag] = "b";
+    ExpectInputError([&] { RequireSameConditions(before, now); },
+                     {"--resume", fmt::format("setting[{}].value was \"a\"", flag), "\"b\" now"});
+  }
 }
 
 TEST(ReadEarlierSessionTest, MissingFolderLogOrChoiceIsNamed) {

@@ -167,6 +167,18 @@ TEST_F(RunExecutorTest, FailureIsNotJudged) {
   EXPECT_TRUE(server.path_checks().messages().empty());
 }
 
+TEST_F(RunExecutorTest, APathThatTookLongerThanTheLimitIsNoSuccess) {
+  PlanResult result = FakePlanner::SolvedResult();
+  result.planning_time_s = result.total_time_s = 300;  // milliseconds, perhaps
+  AnswerWith(result);
+  FakeSceneServer server(&bus_);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
+  EXPECT_THAT(record->message, testing::HasSubstr("took 300 s, the limit being"));
+  EXPECT_TRUE(server.path_checks().messages().empty());
+}
+
 TEST_F(RunExecutorTest, RefusalIsAnInvalidRequest) {
   planner_.OnRequest([&](const PlanRequest& request) {
     planner_.Acknowledge(request, PlanAckVerdict::kRefused, "another robot");

@@ -28,6 +28,13 @@ TEST(SessionFolder, CreatesTheFolderAndNamesItsFiles) {
   }
 }
 
+TEST(SessionFolder, GoesOnWithTheLogOfAFolderThatWasRenamed) {
+  const TemporaryFolder temporary;
+  temporary.Write("old/old.lcmlog", "");
+  std::filesystem::rename(temporary / "old", temporary / "new");
+  EXPECT_EQ(SessionFolder(temporary / "new", true).event_log(), temporary / "new" / "old.lcmlog");
+}
+
 TEST(SessionFolder, HoldsTheMessageTypes) {
   const TemporaryFolder temporary;
   const SessionFolder folder(temporary / "s", false);

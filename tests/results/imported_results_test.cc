@@ -51,6 +51,17 @@ TEST_F(ImportedCsvTest, OptionalColumnsCount) {
   EXPECT_EQ(runs[0].problem_index, 7);
 }
 
+TEST_F(ImportedCsvTest, RowsOfAProblemAreItsTrials) {
+  const auto runs =
+      Read("problem_set,problem_index,solved,time_s\nbox,1,1,0.5\nbox,2,1,1\nbox,1,1,0.7\n");
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0].trial, 1);
+  EXPECT_EQ(runs[1].trial, 1);
+  EXPECT_EQ(runs[2].trial, 2);
+  ExpectRefused("problem_set,problem_index,trial,solved,time_s\nbox,1,2,1,0.5\nbox,1,2,1,0.7\n",
+                {"r.csv:3", "trial", "'2'", "problem 1 of 'box'"});
+}
+
 TEST_F(ImportedCsvTest, MeasuresAndReasonsAreRead) {
   const auto runs = Read(
       "problem_set,problem_index,solved,time_s,reason,path_length,clearance_simplified\n"
