@@ -27,7 +27,7 @@ class DisturbanceMeter {
   /// `pids`: none if a process is on another machine: then it is not known what it waits for.
   DisturbanceMeter(std::vector<pid_t> pids, KernelFolders kernel);
 
-  /// Adds, as far as the kernel tells, whatever a planner has said of that itself:
+  /// Puts in the place of what a planner may have said of it, as far as the kernel tells:
   ///   load_before: load average of the minute before, this session's own included;
   ///   waiting_time: s in which threads of the processes could have run and had no processor,
   ///   summed; steal_time: s that the hypervisor took, mean over the processors, in steps of 10 ms.

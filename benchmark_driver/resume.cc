@@ -5,7 +5,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -27,10 +26,7 @@ std::filesystem::path EventLogOf(const std::filesystem::path& session_folder) {
 
 /// Whether it is a launched session's folder in which the logger has not begun.
 bool HoldsNoLogYet(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder / "logs")) return false;
-  const std::filesystem::directory_iterator entries(folder);
-  return std::none_of(begin(entries), end(entries),
-                      [](const auto& entry) { return entry.path().extension() == ".lcmlog"; });
+  return std::filesystem::is_directory(folder / "logs") && EventLogsIn(folder).empty();
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "common/error.h"
 #include "logger/lcm_type_files.h"
+#include "messaging/record_log.h"
 
 namespace planbench {
 
@@ -39,11 +40,8 @@ SessionFolder::SessionFolder(const fs::path& folder, bool resume) : path_(Absolu
   const std::string session = path_.filename().string();
   event_log_ = path_ / ((session.empty() ? "session" : session) + ".lcmlog");
   try {
-    if (resume && !fs::exists(event_log_)) {
-      for (const auto& entry : fs::directory_iterator(path_)) {
-        if (entry.path().extension() == ".lcmlog") event_log_ = entry.path();
-      }
-    }
+    // The folder may have been renamed.
+    if (resume && !EventLogsIn(path_).empty()) event_log_ = FindEventLog(path_);
     for (const fs::path& file : {results(), event_log()}) {
       if (resume || !fs::exists(file)) continue;
       throw InputError("session folder " + path_.string() + " holds " + file.filename().string() +

@@ -50,19 +50,23 @@ std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log) 
   return scenes;
 }
 
+std::vector<std::filesystem::path> EventLogsIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> logs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".lcmlog") logs.push_back(entry.path());
+  }
+  return logs;
+}
+
 std::filesystem::path FindEventLog(const std::filesystem::path& session_folder) {
   const auto fail = [&](const char* what) {
     throw InputError(session_folder.string() + " " + what);
   };
   if (!std::filesystem::is_directory(session_folder)) fail("is no folder");
-  std::filesystem::path log;
-  for (const auto& entry : std::filesystem::directory_iterator(session_folder)) {
-    if (entry.path().extension() != ".lcmlog") continue;
-    if (!log.empty()) fail("holds several .lcmlog files");
-    log = entry.path();
-  }
-  if (log.empty()) fail("holds no .lcmlog file");
-  return log;
+  const std::vector<std::filesystem::path> logs = EventLogsIn(session_folder);
+  if (logs.size() > 1) fail("holds several .lcmlog files");
+  if (logs.empty()) fail("holds no .lcmlog file");
+  return logs.front();
 }
 
 }  // namespace planbench

@@ -23,6 +23,9 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log);
 /// The scenes that an LCM event log holds, by content id; errors as above.
 std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log);
 
+/// The event logs that a folder holds.
+std::vector<std::filesystem::path> EventLogsIn(const std::filesystem::path& folder);
+
 /// The event log of a session folder; throws InputError if there is none, or several.
 std::filesystem::path FindEventLog(const std::filesystem::path& session_folder);
 
