@@ -57,8 +57,13 @@ Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up
       flags_(std::move(flags)),
       earlier_(std::move(earlier)),
       start_utime_(NowUtime()),
+      begun_utime_(start_utime_),
       registry_(bus),
-      recorder_(bus, &registry_) {}
+      recorder_(bus, &registry_) {
+  if (earlier_.sessions.empty()) return;
+  begun_utime_ = earlier_.sessions.front().start_utime;
+  earlier_time_s_ = earlier_.sessions.back().total_time_s;
+}
 
 std::string Driver::Missing(bool need_logger) const {
   std::vector<std::string> missing;
@@ -110,7 +115,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
 void Driver::CheckProblems(const std::function<void()>& watch) {
   std::set<std::pair<std::string, int>> problems;
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
-  std::map<std::pair<std::string, int>, std::string> bad;  // With the reason.
+  std::set<std::pair<std::string, int>> bad;
   std::vector<std::string> warnings;
   for (const auto& [set, index] : problems) {
     const std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
@@ -118,7 +123,8 @@ void Driver::CheckProblems(const std::function<void()>& watch) {
       return false;
     });
     if (!answer->ok) {
-      bad[{set, index}] = answer->message;
+      bad.emplace(set, index);
+      left_out_[fmt::format("{} {}", set, index)] = answer->message;
     } else if (!answer->message.empty()) {
       warnings.push_back(answer->message);
     }
@@ -131,9 +137,7 @@ void Driver::CheckProblems(const std::function<void()>& watch) {
     spdlog::warn("{} more problems have warnings; see the scene server's log",
                  warnings.size() - kMostWarnings);
   }
-  for (const auto& [problem, reason] : bad) {
-    spdlog::error("{} {}: {}", problem.first, problem.second, reason);
-  }
+  for (const auto& [problem, reason] : left_out_) spdlog::error("{}: {}", problem, reason);
   if (!bad.empty() && !options_.skip_bad_problems) {
     throw InputError(
         fmt::format("{} of {} problems are bad; mend them, choose others (--problems-range), or "
@@ -143,7 +147,7 @@ void Driver::CheckProblems(const std::function<void()>& watch) {
   std::erase_if(schedule_, [&](const ScheduledRun& run) {
     return bad.contains({run.problem_set, run.problem_index});
   });
-  if (schedule_.empty() && !bad.empty()) {
+  if (schedule_.empty() && !bad.empty() && runs_.empty()) {
     throw InputError(fmt::format("all {} problems are bad: none is left to run", bad.size()));
   }
 }
@@ -239,9 +243,9 @@ SessionMessage Driver::Session(bool finished) const {
   const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
   SessionMessage session;
   session.run_id = options_.conditions.request.run_id;
-  session.start_utime = start_utime_;
+  session.start_utime = begun_utime_;
   session.finished = finished;
-  session.total_time_s = static_cast<double>(NowUtime() - start_utime_) * 1e-6;
+  session.total_time_s = earlier_time_s_ + static_cast<double>(NowUtime() - start_utime_) * 1e-6;
   session.num_runs = num_runs_;
   session.version = self.version;
   session.commit = self.commit;
@@ -250,6 +254,7 @@ SessionMessage Driver::Session(bool finished) const {
   session.robot_name = served_.robot_name;
   session.conditions = options_.conditions;
   session.settings = flags_;
+  session.left_out = left_out_;
   for (const NodeStatusMessage& node : registry_.Live()) {
     if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) {
       session.nodes.push_back(node);

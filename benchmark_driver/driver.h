@@ -43,6 +43,8 @@ class Driver {
   int num_runs() const { return num_runs_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
+  /// SessionMessage's.
+  const std::map<std::string, std::string>& left_out() const { return left_out_; }
   /// Complete once the processes are found.
   const SessionConditions& conditions() const { return options_.conditions; }
 
@@ -68,12 +70,15 @@ class Driver {
   std::vector<LineUpEntry> line_up_;
   std::map<std::string, std::string> flags_;
   EarlierSession earlier_;
-  std::int64_t start_utime_;
+  std::int64_t start_utime_;   // of this part of the session
+  std::int64_t begun_utime_;   // of its first
+  double earlier_time_s_ = 0;  // of its parts before
   NodeRegistry registry_;
   Recorder recorder_;
   ProblemSetsMessage served_;
-  std::vector<ScheduledRun> schedule_;  // what is left to do
-  int num_runs_ = 0;                    // of the session, those done earlier included
+  std::vector<ScheduledRun> schedule_;           // what is left to do
+  int num_runs_ = 0;                             // of the session, those done earlier included
+  std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::unique_ptr<RunExecutor> executor_;
 
   std::mutex mutex_;

@@ -155,8 +155,8 @@ std::string MeshTable(const SessionResults& results) {
                  fmt::format("{}", raw.valid), fmt::format("{}", simplified.judged),
                  fmt::format("{}", simplified.valid)});
       if (raw.valid == raw.judged) continue;
-      notes += fmt::format("{}, {}: {} not mesh-valid, mostly: {}\n", set.name,
-                           one.contestant->name, raw.judged - raw.valid, raw.reasons.Commonest());
+      notes += fmt::format("{}, {}: {} not mesh-valid, {}\n", set.name, one.contestant->name,
+                           raw.judged - raw.valid, raw.reasons.Summary());
     }
   }
   if (raw_of_all.judged == 0) return "";

@@ -38,8 +38,8 @@ std::string FailureSummary(const SessionResults& results) {
         for (const auto& [problem, count] : failures.by_problem)
           line += fmt::format(" {}", problem);
         text += Shortened(line) + "\n";
-        if (const std::string& reason = failures.reasons.Commonest(); !reason.empty()) {
-          text += Shortened("    mostly: " + reason) + "\n";
+        if (const std::string reason = failures.reasons.Summary(); !reason.empty()) {
+          text += Shortened("    " + reason) + "\n";
         }
       }
     }

@@ -6,7 +6,9 @@
 namespace planbench {
 namespace {
 
+/// A number, or an id of a request.
 bool IsFigure(const std::string& word) {
+  if (word.find('@') != std::string::npos) return true;
   return word.find_first_of("0123456789") == 0 &&
          word.find_first_not_of("0123456789.e+-,:;") == std::string::npos;
 }
@@ -21,11 +23,16 @@ void ReasonCount::Add(const std::string& reason) {
   if (known.count++ == 0) known.example = reason;
 }
 
-const std::string& ReasonCount::Commonest() const {
-  const auto found = std::max_element(
+std::string ReasonCount::Summary() const {
+  const auto commonest = std::max_element(
       reasons_.begin(), reasons_.end(),
       [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
-  return found == reasons_.end() ? none_ : found->second.example;
+  if (commonest == reasons_.end() || commonest->first.empty()) return "";
+  int num_runs = 0;
+  for (const auto& [words, reason] : reasons_) num_runs += reason.count;
+  const int count = commonest->second.count;
+  const char* before = 2 * count < num_runs ? "among others: " : "mostly: ";
+  return before + commonest->second.example;
 }
 
 }  // namespace planbench

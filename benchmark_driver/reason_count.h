@@ -10,8 +10,9 @@ namespace planbench {
 class ReasonCount {
  public:
   void Add(const std::string& reason);
-  /// Of those most often given the first, as it was worded; empty if there is none.
-  const std::string& Commonest() const;
+  /// "mostly: " and the one most often given, as it was first worded; "among others: " where it is
+  /// not that of half the runs. Empty without any.
+  std::string Summary() const;
 
  private:
   struct Reason {
@@ -19,7 +20,6 @@ class ReasonCount {
     int count = 0;
   };
   std::map<std::string, Reason> reasons_;  // By their words.
-  std::string none_;
 };
 
 }  // namespace planbench

@@ -273,16 +273,31 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   return text + Disturbances(results) + "\n";
 }
 
+/// Which problems are in no table, and why; "" if none.
+std::string LeftOut(const std::map<std::string, std::string>& left_out) {
+  if (left_out.empty()) return "";
+  std::string text = fmt::format(
+      "{} PROBLEM{} LEFT OUT, since the scene server refuses {}; no figure counts {}.\n",
+      left_out.size(), left_out.size() == 1 ? " IS" : "S ARE", left_out.size() == 1 ? "it" : "them",
+      left_out.size() == 1 ? "it" : "them");
+  for (const auto& [problem, reason] : left_out) {
+    text += BreakLines(fmt::format("  {}: {}\n", problem, reason));
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
-                         const std::vector<Attempt>& references, int num_missing) {
-  const std::string missing =
+                         const std::vector<Attempt>& references, int num_missing,
+                         const std::map<std::string, std::string>& left_out) {
+  std::string missing =
       num_missing == 0
           ? ""
           : fmt::format(
                 "{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.\n\n",
                 num_missing, static_cast<int>(runs.size()) + num_missing);
+  missing += LeftOut(left_out);
   if (runs.empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const SessionResults results(conditions, runs, references);
   const std::uint64_t seed = conditions.request.seed;

@@ -96,7 +96,7 @@ std::string ExperimentVersion(const SessionMessage& session) {
 ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
     : connection_(Open(file)),
       find_session_(connection_.Prepare(
-          "SELECT start_utime, finished, total_time FROM sessions WHERE run_id = ?")),
+          "SELECT start_utime, total_time, finished FROM sessions WHERE run_id = ?")),
       put_session_(connection_.Prepare(
           "INSERT OR REPLACE INTO sessions (run_id, start_utime, finished, total_time, num_runs, "
           "time_limit, version, hostname, cpuinfo, date, seed, setup, details) "
@@ -147,11 +147,9 @@ void ResultsDatabase::Store(const SessionMessage& session) {
   find_session_.BindAll(session.run_id);
   if (find_session_.Step()) {
     const auto known =
-        std::make_tuple(find_session_.Int(0), find_session_.Int(1) != 0, find_session_.Double(2));
+        std::make_tuple(find_session_.Int(0), find_session_.Double(1), find_session_.Int(2) != 0);
     find_session_.Reset();
-    if (std::make_tuple(session.start_utime, session.finished, session.total_time_s) < known) {
-      return;
-    }
+    if (SessionOrder(session) < known) return;
   }
   const std::string setup = fmt::format("run_id = {}\nrobot = {} ({})\n", session.run_id,
                                         session.robot_name, session.conditions.request.robot_id) +

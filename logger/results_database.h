@@ -31,9 +31,7 @@ class ResultsDatabase {
   ResultsDatabase(const ResultsDatabase&) = delete;
   ResultsDatabase& operator=(const ResultsDatabase&) = delete;
 
-  /// Stores a session or its later state. Of the messages about one session that with the latest
-  /// start counts, then the finished one, then the one with the longest total time: a late
-  /// repetition changes nothing.
+  /// Stores a session or its later state, by SessionOrder: a late repetition changes nothing.
   void Store(const SessionMessage& session);
 
   enum class Outcome { kStored, kAlreadyStored, kContradicts };

@@ -65,6 +65,7 @@ std::string SessionJson(const SessionMessage& session) {
   json["time_limit_s"] = request.time_limit_s;
   json["robot"] = {{"name", session.robot_name}, {"id", request.robot_id}};
   json["flags"] = session.settings;
+  json["left_out"] = session.left_out;
   json["nodes"] = Json::array();
   for (const NodeStatusMessage& node : session.nodes) json["nodes"].push_back(NodeJson(node));
   return Dump(json, -1);

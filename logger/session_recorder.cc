@@ -7,6 +7,7 @@
 #include "logger/session_json.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
+#include "messaging/event_log_reader.h"
 
 namespace planbench {
 
@@ -20,36 +21,50 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resum
       contradictions_(contradictions),
       event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew,
                  split_bytes),
-      database_(folder_.results()) {}
+      database_(folder_.results()) {
+  if (resume) Restore();
+}
+
+void SessionRecorder::Restore() {
+  ReadEventLog(folder_.event_log(), [this](const ReceivedMessage& message) {
+    std::string id;
+    Store(message, &id);  // what was refused when it came is again
+  });
+  if (tally_.runs > 0) {
+    spdlog::warn("{} lacked {} runs of the event log: they are stored again",
+                 folder_.results().string(), tally_.runs);
+  }
+  tally_ = {};
+  DescribeSessions();
+}
 
 void SessionRecorder::Record(const ReceivedMessage& message) {
   event_log_.Write(message);
   ++tally_.events;
-  if (message.channel == channel::kRunRecord) {
-    StoreAndAcknowledge(channel::kRunRecordAck, message, [&](std::string* id) {
-      const auto record = Decode<RunRecordMessage>(message.bytes, message.channel);
-      *id = record.request_id;
-      switch (database_.Store(record)) {
-        case ResultsDatabase::Outcome::kStored:
-          ++tally_.runs;
-          break;
-        case ResultsDatabase::Outcome::kAlreadyStored:
-          ++tally_.repetitions;
-          break;
-        case ResultsDatabase::Outcome::kContradicts:
-          contradictions_->Note(message.sender, message.channel,
-                                "another record of " + record.request_id + " than is stored");
-          throw InputError("it contradicts the record that is stored of this run");
-      }
-    });
-  } else if (message.channel == channel::kSession) {
-    StoreAndAcknowledge(channel::kSessionAck, message, [&](std::string* id) {
-      const auto session = Decode<SessionMessage>(message.bytes, message.channel);
-      *id = SessionAckId(session);
-      database_.Store(session);
-      DescribeSessions();
-    });
+  const char* ack_channel = message.channel == channel::kRunRecord ? channel::kRunRecordAck
+                            : message.channel == channel::kSession ? channel::kSessionAck
+                                                                   : nullptr;
+  if (ack_channel == nullptr) return;
+  std::string id;
+  std::string refusal;
+  try {
+    refusal = Store(message, &id);
+    if (refusal.empty() && message.channel == channel::kSession) DescribeSessions();
+  } catch (const SqliteError& error) {
+    if (error.kind() != SqliteError::Kind::kBusy) throw;
+    // The sender repeats what is not acknowledged.
+    ++tally_.failures;
+    spdlog::error("{} '{}' not stored: {}", message.channel, id, error.what());
+    return;
   }
+  Flush();
+  if (refusal.empty()) {
+    acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});
+    return;
+  }
+  ++tally_.failures;
+  spdlog::error("{} '{}' cannot be stored: {}", message.channel, id, refusal);
+  if (!id.empty()) acknowledge_(ack_channel, AckMessage{id, sender_, false, refusal});
 }
 
 void SessionRecorder::Flush() {
@@ -80,35 +95,38 @@ void SessionRecorder::DescribeSessions(const std::string& bus) {
   WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(), bus);
 }
 
-void SessionRecorder::StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
-                                          const std::function<void(std::string* id)>& store) {
-  std::string id;
-  std::string refusal;
+std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* id) {
   try {
-    store(&id);
-  } catch (const MessageError& error) {
-    id = error.request_id();
-    refusal = error.what();
-  } catch (const InputError& error) {
-    refusal = error.what();
-  } catch (const SqliteError& error) {
-    if (error.kind() == SqliteError::Kind::kStorage) throw;
-    if (error.kind() == SqliteError::Kind::kBusy) {
-      // The sender repeats what is not acknowledged.
-      ++tally_.failures;
-      spdlog::error("{} '{}' not stored: {}", message.channel, id, error.what());
-      return;
+    if (message.channel == channel::kSession) {
+      const auto session = Decode<SessionMessage>(message.bytes, message.channel);
+      *id = SessionAckId(session);
+      database_.Store(session);
+    } else if (message.channel == channel::kRunRecord) {
+      const auto record = Decode<RunRecordMessage>(message.bytes, message.channel);
+      *id = record.request_id;
+      switch (database_.Store(record)) {
+        case ResultsDatabase::Outcome::kStored:
+          ++tally_.runs;
+          break;
+        case ResultsDatabase::Outcome::kAlreadyStored:
+          ++tally_.repetitions;
+          break;
+        case ResultsDatabase::Outcome::kContradicts:
+          contradictions_->Note(message.sender, message.channel,
+                                "another record of " + record.request_id + " than is stored");
+          return "it contradicts the record that is stored of this run";
+      }
     }
-    refusal = error.what();
+    return "";
+  } catch (const MessageError& error) {
+    *id = error.request_id();
+    return error.what();
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const SqliteError& error) {
+    if (error.kind() != SqliteError::Kind::kConstraint) throw;
+    return error.what();
   }
-  Flush();
-  if (refusal.empty()) {
-    acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});
-    return;
-  }
-  ++tally_.failures;
-  spdlog::error("{} '{}' cannot be stored: {}", message.channel, id, refusal);
-  if (!id.empty()) acknowledge_(ack_channel, AckMessage{id, sender_, false, refusal});
 }
 
 }  // namespace planbench

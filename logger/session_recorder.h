@@ -30,7 +30,8 @@ class SessionRecorder {
   using Acknowledge = std::function<void(const std::string& channel, const AckMessage& ack)>;
 
   /// `sender`: name in the acknowledgements. `contradictions` is told of records that contradict
-  /// what is stored. `split_bytes`: EventLog's. Throws InputError if the folder cannot be used.
+  /// what is stored. `split_bytes`: EventLog's. With `resume`, the database is brought up to date
+  /// with the event log. Throws InputError if the folder cannot be used.
   SessionRecorder(const std::filesystem::path& folder, bool resume, std::string sender,
                   Acknowledge acknowledge, Contradictions* contradictions,
                   std::optional<std::uintmax_t> split_bytes = {});
@@ -53,9 +54,13 @@ class SessionRecorder {
   const RecorderTally& tally() const { return tally_; }
 
  private:
-  /// Runs `store`, which stores the message with that id; acknowledges or refuses it.
-  void StoreAndAcknowledge(const char* ack_channel, const ReceivedMessage& message,
-                           const std::function<void(std::string* id)>& store);
+  /// Stores what the database lacks of the event log: that of a session that is resumed may have
+  /// been lost or removed.
+  void Restore();
+  /// Puts a run record or session into the database; nothing of another message. `id`: that of its
+  /// acknowledgement, as far as it could be read. Returns why it can never be stored, "" if it is.
+  /// Throws SqliteError if the database fails.
+  std::string Store(const ReceivedMessage& message, std::string* id);
   void DescribeSessions(const std::string& bus = "");
 
   SessionFolder folder_;

@@ -10,10 +10,13 @@
 #include <random>
 #include <stdexcept>
 
+#include "messaging/multicast_receiver.h"
+
 namespace planbench {
 
 std::string LcmUrl(int port) {
-  return fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size=4194304", port);
+  // Spelled out for LCM's own programs, which take the system's default otherwise.
+  return fmt::format("udpm://239.255.76.67:{}?ttl=0&recv_buf_size={}", port, kReceiveBufferBytes);
 }
 
 std::string ResolveLcmUrl(const std::string& flag) {

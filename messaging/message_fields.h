@@ -487,6 +487,7 @@ struct Fields<SessionMessage> : On<lcmt_session> {
     io.Field("robot_name", v.robot_name, w.robot_name);
     io.Field("conditions", v.conditions, w.conditions);
     io.List("setting", v.settings, w.setting, w.num_settings);
+    io.List("left_out", v.left_out, w.left_out, w.num_left_out);
     io.List("node", v.nodes, w.node, w.num_nodes);
   }
 };

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "planning/path_judge.h"
@@ -254,9 +255,9 @@ struct SessionConditions {
 
 struct SessionMessage {
   std::string run_id;
-  std::int64_t start_utime = 0;
+  std::int64_t start_utime = 0;  ///< When it was begun, however often it was resumed since.
   bool finished = false;
-  double total_time_s = 0;
+  double total_time_s = 0;  ///< Of the parts that told of their end, and of the present one.
   int num_runs = 0;
   std::string version;
   std::string commit;
@@ -265,9 +266,17 @@ struct SessionMessage {
   std::string robot_name;
   SessionConditions conditions;
   std::map<std::string, std::string> settings;  ///< The driver's flags.
+  /// Problems that were to be run and that the scene server refuses, with its reasons; named
+  /// "table_pick 3".
+  std::map<std::string, std::string> left_out;
   std::vector<NodeStatusMessage> nodes;
   bool operator==(const SessionMessage&) const = default;
 };
+
+/// Of the messages about one session the last in this order tells how it stands.
+inline auto SessionOrder(const SessionMessage& session) {
+  return std::make_tuple(session.start_utime, session.total_time_s, session.finished);
+}
 
 /// What a session's acknowledgement names it by: one of its beginning is none of its end.
 inline std::string SessionAckId(const SessionMessage& session) {

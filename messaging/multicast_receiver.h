@@ -12,11 +12,14 @@
 
 namespace planbench {
 
+/// What a scene of some ten thousand objects needs.
+inline constexpr int kReceiveBufferBytes = 4 << 20;
+
 /// Where an LCM bus is: the parts of an udpm:// URL that a receiver needs.
 struct MulticastAddress {
   std::string group = "239.255.76.67";
   std::uint16_t port = 7667;
-  int receive_buffer_bytes = 0;  ///< Of the socket; 0: the system's default.
+  int receive_buffer_bytes = kReceiveBufferBytes;  ///< Of the socket; 0: the system's default.
 
   /// Throws InputError for anything but udpm://[GROUP[:PORT]][?OPTION=VALUE[&...]].
   static MulticastAddress Parse(const std::string& url);

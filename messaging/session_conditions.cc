@@ -26,6 +26,7 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   session.total_time_s = 0;
   session.num_runs = 0;
   session.host = session.cpu = "";
+  session.left_out.clear();
   // Of the flags those that runs count by and that the conditions do not tell.
   std::erase_if(session.settings, [&](const auto& flag) {
     return !kFlagsThatCount.contains(flag.first) || !other.settings.contains(flag.first);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -157,6 +158,15 @@ std::string OnTheBus(const BusRecord& bus) {
       fmt::join(odd, ", "));
 }
 
+std::string LeftOut(const std::string& name, const std::map<std::string, std::string>& left_out) {
+  std::vector<std::string> problems;
+  for (const auto& [problem, reason] : left_out) problems.push_back(problem);
+  return fmt::format("{}: {} left out, since the scene server refused {}: {} ({}: {}).", name,
+                     Count(static_cast<int>(problems.size()), "problem"),
+                     problems.size() == 1 ? "it" : "them", fmt::join(problems, ", "),
+                     problems.front(), left_out.begin()->second);
+}
+
 }  // namespace
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
@@ -197,6 +207,9 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     } else {
       cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
                                      FormatNumber(session.total_time_s)));
+    }
+    if (!session.left_out.empty()) {
+      cautions.push_back(LeftOut(name, session.left_out));
     }
     if (session.finished && session.bus) cautions.push_back(name + ": " + OnTheBus(*session.bus));
     const auto parallel = session.flags.find("parallel");

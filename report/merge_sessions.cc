@@ -77,10 +77,7 @@ class Merge {
     for (SessionMessage& session : recorded.sessions) {
       Part& part = parts_[session.run_id];
       if (!part.folder.empty()) RequireEqual(part, {folder, session, {}});
-      const auto age = [](const SessionMessage& one) {
-        return std::make_tuple(one.start_utime, one.finished, one.total_time_s);
-      };
-      if (!part.folder.empty() && age(session) < age(part.session)) continue;
+      if (!part.folder.empty() && SessionOrder(session) < SessionOrder(part.session)) continue;
       part.folder = folder;
       part.session = std::move(session);
     }
@@ -196,6 +193,7 @@ class Merge {
       hosts.push_back(session.host);
       processors.push_back(session.cpu);
       commands.push_back(ReproducingCommand(session.settings));
+      session_.left_out.insert(session.left_out.begin(), session.left_out.end());
       session_.conditions.problem_sets.insert(session.conditions.problem_sets.begin(),
                                               session.conditions.problem_sets.end());
       std::erase_if(session_.settings, [&](const auto& flag) {

@@ -215,6 +215,7 @@ class Reader {
         session.robot = fmt::format("{} ({})", robot->value("name", ""), robot->value("id", ""));
       }
       session.flags = details.value("flags", session.flags);
+      session.left_out = details.value("left_out", session.left_out);
       for (const auto& node : details.value("nodes", nlohmann::json::array())) {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);

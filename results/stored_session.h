@@ -72,8 +72,9 @@ struct StoredSession {
   double total_time_s = 0;
   int num_runs = 0;  ///< As planned.
   std::string version, commit, host, cpu, date, seed, robot;
-  std::map<std::string, std::string> flags;    ///< Of the driver.
-  std::map<std::string, std::string> machine;  ///< What the driver says of its own.
+  std::map<std::string, std::string> flags;     ///< Of the driver.
+  std::map<std::string, std::string> left_out;  ///< Problems without runs, and why.
+  std::map<std::string, std::string> machine;   ///< What the driver says of its own.
   std::optional<BusRecord> bus;  ///< Of its folder; nothing if that holds no run.json.
 
   std::vector<StoredContestant> contestants;

@@ -193,6 +193,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
 
 Problem ReadProblem(const std::filesystem::path& scene_file,
                     const std::filesystem::path& request_file, const Robot& robot) {
+  RequireProblemFiles(scene_file, request_file);
   const YamlNode scene = YamlNode::LoadFile(scene_file.string());
   const YamlNode request = YamlNode::LoadFile(request_file.string());
   Problem problem =

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 #include <regex>
+#include <system_error>
 
 #include "common/error.h"
 #include "common/file_kind.h"
@@ -11,6 +12,16 @@
 
 namespace planbench {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Where the other file of a problem should be.
+fs::path PartnerOf(const fs::path& file, const std::string& kind) {
+  const std::string name = file.filename().string();
+  return file.parent_path() / (kind + name.substr(name.find_first_of("0123456789")));
+}
+
+}  // namespace
 
 const ProblemFiles* ProblemSet::Find(int index) const {
   const auto found =
@@ -36,6 +47,17 @@ std::optional<int> ProblemIndexOf(const fs::path& scene_or_request_file) {
 std::string ProblemSetNameOf(const fs::path& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+void RequireProblemFiles(const fs::path& scene, const fs::path& request) {
+  for (const fs::path& file : {scene, request}) {
+    if (IsFile(file)) continue;
+    std::error_code ignored;
+    throw InputError(file.string() + (fs::exists(file, ignored)
+                                          ? ": is no file"
+                                          : ": is missing; a problem is a scene and a "
+                                            "request file of the same number"));
+  }
 }
 
 ProblemSet ListProblemSet(const fs::path& folder) {
@@ -64,13 +86,9 @@ ProblemSet ListProblemSet(const fs::path& folder) {
   set.name = ProblemSetNameOf(folder);
   if (FindInvalidUtf8(set.name)) throw InputError(folder.string() + ": its name is no UTF-8 text");
   set.folder = folder;
-  for (const auto& [index, files] : by_index) {
-    if (files.request.empty()) {
-      throw InputError(files.scene.string() + ": has no request file of the same number beside it");
-    }
-    if (files.scene.empty()) {
-      throw InputError(files.request.string() + ": has no scene file of the same number beside it");
-    }
+  for (auto& [index, files] : by_index) {
+    if (files.request.empty()) files.request = PartnerOf(files.scene, "request");
+    if (files.scene.empty()) files.scene = PartnerOf(files.request, "scene");
     set.problems.push_back(files);
   }
   return set;

@@ -65,8 +65,11 @@ struct ProblemSet {
   const ProblemFiles* Find(int index) const;
 };
 
-/// Lists a problem set. Throws InputError if the folder is missing, holds no pair, or holds a scene
-/// without its request or a request without its scene.
+/// Throws InputError if one of a problem's files is missing, or is a folder, a pipe or the like.
+void RequireProblemFiles(const std::filesystem::path& scene, const std::filesystem::path& request);
+
+/// Lists a problem set, problems of which a file is missing or none included. Throws InputError if
+/// the folder is missing or holds no problem, or if two files have the same number.
 ProblemSet ListProblemSet(const std::filesystem::path& folder);
 
 /// NNNN of sceneNNNN.yaml or requestNNNN.yaml (any number of digits), nothing for other names.

@@ -131,15 +131,15 @@ std::string ProblemLibrary::ContentId(const ProblemSet& set) {
   ContentHash hash;
   for (const ProblemFiles& files : set.problems) {
     hash.Add(files.index);
-    bool names_files = false;
-    for (const fs::path& file : {files.scene, files.request}) {
-      const std::string text = ReadText(file);
-      hash.Add(text);
-      names_files |= text.find("resource") != std::string::npos;
-    }
-    if (!names_files) continue;
     try {
-      hash.Add(Read(set, files).message.scene_id);
+      RequireProblemFiles(files.scene, files.request);
+      bool names_files = false;
+      for (const fs::path& file : {files.scene, files.request}) {
+        const std::string text = ReadText(file);
+        hash.Add(text);
+        names_files |= text.find("resource") != std::string::npos;
+      }
+      if (names_files) hash.Add(Read(set, files).message.scene_id);
     } catch (const InputError& error) {
       // Whoever asks for this problem is told; the others can be served.
       spdlog::warn("{}", error.what());

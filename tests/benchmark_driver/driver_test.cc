@@ -320,6 +320,8 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
   EXPECT_EQ(driver.runs().size(), 3u);
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+  EXPECT_EQ(logger.sessions().messages().back().start_utime, earlier.sessions[0].start_utime);
+  EXPECT_GT(logger.sessions().messages().back().total_time_s, earlier.sessions.back().total_time_s);
 
   options.conditions.request.time_limit_s = 7;
   Driver other(&bus_, options, LineUp({"arm"}), {}, earlier);
@@ -486,6 +488,16 @@ TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
   EXPECT_EQ(Ids(logger.records()),
             (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/3/arm/forward/1"}));
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 2);
+  const std::map<std::string, std::string> left_out = {
+      {"cans 2", "scene0002.yaml:7: world: is odd"}};
+  EXPECT_EQ(logger.sessions().messages().back().left_out, left_out);
+  EXPECT_EQ(driver.left_out(), left_out);
+  // With nothing else to do, the session is as complete as it was.
+  Driver again(&bus_, options, LineUp({"arm"}), {},
+               {logger.sessions().messages(), logger.records().messages()});
+  again.Discover(true, Idle);
+  EXPECT_TRUE(again.Run(Never, Idle));
+  EXPECT_EQ(again.runs().size(), 2u);
 
   for (const int index : {1, 3}) server.RefuseProblem(index, "is odd");
   options.conditions.request.run_id = "another";  // What was asked before is answered as before.

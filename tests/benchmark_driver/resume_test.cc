@@ -200,6 +200,7 @@ TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
     s.total_time_s = 7;
     s.num_runs = 9;
     s.host = s.cpu = "another";
+    s.left_out["cage 3"] = "is odd";
   }));
 }
 

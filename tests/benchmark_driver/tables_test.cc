@@ -340,11 +340,31 @@ TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
 
 TEST(TablesTest, ReasonsThatDifferInFiguresAloneAreOne) {
   ReasonCount count;
-  EXPECT_EQ(count.Commonest(), "");
+  EXPECT_EQ(count.Summary(), "");
   count.Add("start is in collision: 'link2' and 'can', 0.0120 m deep");
   count.Add("start is in collision: 'link3' and 'can', 0.0120 m deep");
   count.Add("start is in collision: 'link3' and 'can', 0.0310 m deep");
-  EXPECT_EQ(count.Commonest(), "start is in collision: 'link3' and 'can', 0.0120 m deep");
+  EXPECT_EQ(count.Summary(), "mostly: start is in collision: 'link3' and 'can', 0.0120 m deep");
+}
+
+TEST(TablesTest, AReasonOfFewRunsIsNoneOfMost) {
+  ReasonCount count;
+  for (const char* reason : {"no way", "no answer", "no way", "no sense", "no time"}) {
+    count.Add(reason);
+  }
+  EXPECT_EQ(count.Summary(), "among others: no way");
+}
+
+TEST(TablesTest, WhatWasLeftOutStandsAboveTheTables) {
+  const SessionTables tables =
+      MakeTables(Conditions(), Rows(FourProblems()), {}, 0,
+                 {{"box 7", "scene0007.yaml:3: world: is odd"}, {"box 9", "is even"}});
+  for (const std::string& text : {tables.brief, tables.full}) {
+    EXPECT_THAT(text, testing::StartsWith("2 PROBLEMS ARE LEFT OUT"));
+    EXPECT_THAT(text, HasSubstr("  box 7: scene0007.yaml:3: world: is odd\n"));
+    EXPECT_THAT(text, HasSubstr("  box 9: is even\n"));
+  }
+  EXPECT_THAT(Brief(FourProblems()), Not(HasSubstr("LEFT OUT")));
 }
 
 TEST(TablesTest, ContestantsAreExplained) {

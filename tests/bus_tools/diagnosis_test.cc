@@ -45,8 +45,9 @@ TEST(Diagnosis, NamesWhatTheUrlLacks) {
   const std::vector<Finding> findings = Look(bare);
   EXPECT_EQ(Of(findings, "reach").kind, Kind::kNote);
   EXPECT_THAT(Of(findings, "reach").mend, HasSubstr("ttl=0"));
-  EXPECT_EQ(Of(findings, "receive buffer").kind, Kind::kFault);
+  EXPECT_EQ(Of(findings, "receive buffer").kind, Kind::kNote);
   EXPECT_THAT(Of(findings, "receive buffer").mend, HasSubstr("recv_buf_size=4194304"));
+  EXPECT_EQ(Of(Look(bare + "&recv_buf_size=100000"), "receive buffer").kind, Kind::kFault);
   ExpectInputError([] { Look("tcpq://localhost"); }, {"tcpq://localhost", "udpm://"});
 }
 

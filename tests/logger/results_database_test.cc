@@ -293,6 +293,17 @@ TEST_F(ResultsDatabaseTest, ALateRepetitionOfASessionsBeginChangesNothing) {
   EXPECT_EQ(DumpDatabase(file_), before);
 }
 
+TEST_F(ResultsDatabaseTest, ASessionThatIsResumedAfterItsEndIsNotFinished) {
+  database_.Store(FinishedSession());
+  SessionMessage resumed = FinishedSession();
+  resumed.finished = false;
+  resumed.total_time_s += 1;
+  resumed.num_runs += 5;
+  database_.Store(resumed);
+  EXPECT_EQ(Query("SELECT finished FROM sessions"), Int(0));
+  EXPECT_EQ(Query("SELECT num_runs FROM sessions"), Int(resumed.num_runs));
+}
+
 TEST_F(ResultsDatabaseTest, ListsSessionsOldestFirst) {
   SessionMessage later = SampleSession();
   later.run_id = "session-0";

@@ -179,6 +179,29 @@ TEST_F(SessionRecorderTest, ResumesWhereItWasLeft) {
   EXPECT_EQ(Events().size(), 2);
 }
 
+TEST_F(SessionRecorderTest, AResumedDatabaseIsBroughtUpToDateWithTheLog) {
+  {
+    const auto recorder = Open();
+    recorder->Record(Received(channel::kSession, SampleSession()));
+    recorder->Record(Received(channel::kRunRecord, SampleRecord("a")));
+    recorder->Record({channel::kRunRecord, {1, 2, 3}, 0});
+    recorder->Record(Received(channel::kRunRecord, UnansweredRecord("b")));
+  }
+  const std::string before = DumpDatabase(Folder() / "results.sqlite");
+  std::filesystem::remove(Folder() / "results.sqlite");
+  std::filesystem::remove(Folder() / "run.json");
+  acks_.clear();
+  {
+    const auto recorder = Open(true);
+    EXPECT_EQ(recorder->tally().runs, 0);
+    EXPECT_EQ(recorder->tally().failures, 0);
+  }
+  EXPECT_EQ(DumpDatabase(Folder() / "results.sqlite"), before);
+  EXPECT_TRUE(std::filesystem::exists(Folder() / "run.json"));
+  EXPECT_TRUE(acks_.empty());
+  EXPECT_EQ(Events().size(), 4);
+}
+
 TEST_F(SessionRecorderTest, AReplayBuildsAnEqualDatabase) {
   {
     const auto recorder = Open();

@@ -178,6 +178,17 @@ TEST_F(ReportTest, TheMachineIsTold) {
   EXPECT_FALSE(fields.contains("cpu"));
 }
 
+TEST_F(ReportTest, ProblemsThatWereLeftOutAreTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  session.left_out = {{"shelf 3", "scene0003.yaml:7: world: is odd"}, {"shelf 9", "is even"}};
+  WriteSession(folder / "example", {{.contestant = "A"}}, session);
+  const auto cautions = Cautions(ComparedSessions(ReadSessions(folder / "example").sessions));
+  EXPECT_EQ(cautions.at(1),
+            "example: 2 problems left out, since the scene server refused them: shelf 3, shelf 9 "
+            "(shelf 3: scene0003.yaml:7: world: is odd).");
+}
+
 TEST_F(ReportTest, TheBusIsTold) {
   const TemporaryFolder folder;
   WriteSession(folder / "example", {{.contestant = "A"}}, ExampleSession());

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "common/error.h"
 #include "scene/problem.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
@@ -64,14 +66,31 @@ TEST_F(ProblemSetFolder, EmptyFolder) {
   EXPECT_THAT(Error(), testing::HasSubstr("holds no problems"));
 }
 
-TEST_F(ProblemSetFolder, SceneWithoutRequest) {
-  Touch("scene0001.yaml");
-  EXPECT_THAT(Error(), testing::HasSubstr("scene0001.yaml: has no request"));
+TEST_F(ProblemSetFolder, ListsProblemsThatLackAFile) {
+  Touch("scene01.yaml");
+  Touch("request0002.yaml");
+  const ProblemSet set = ListProblemSet(folder_);
+  ASSERT_EQ(set.problems.size(), 2);
+  EXPECT_EQ(set.problems[0].request, folder_ / "request01.yaml");
+  EXPECT_EQ(set.problems[1].scene, folder_ / "scene0002.yaml");
 }
 
-TEST_F(ProblemSetFolder, RequestWithoutScene) {
-  Touch("request0001.yaml");
-  EXPECT_THAT(Error(), testing::HasSubstr("request0001.yaml: has no scene"));
+TEST_F(ProblemSetFolder, OnlyFilesAreProblemFiles) {
+  Touch("scene1.yaml");
+  const fs::path scene = folder_ / "scene1.yaml";
+  const fs::path request = folder_ / "request1.yaml";
+  ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
+  fs::create_symlink(folder_ / "nowhere", request);
+  ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
+  fs::remove(request);
+  ASSERT_EQ(mkfifo(request.c_str(), 0600), 0);
+  ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is no file"});
+  fs::remove(request);
+  fs::create_directory(request);
+  ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is no file"});
+  fs::remove(request);
+  Touch("request1.yaml");
+  RequireProblemFiles(scene, request);
 }
 
 TEST_F(ProblemSetFolder, SameNumberTwice) {
