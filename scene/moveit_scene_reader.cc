@@ -15,12 +15,12 @@ void RequireScene(const YamlNode& planning_scene) {
   if (!planning_scene.IsMap()) {
     planning_scene.Fail("expected a moveit_msgs/PlanningScene, found no map");
   }
-  constexpr const char* kFields[] = {"world", "robot_state", "allowed_collision_matrix",
-                                     "fixed_frame_transforms", "robot_model_name"};
   RequireKnownFields(planning_scene, "moveit_msgs/PlanningScene");
-  if (std::none_of(std::begin(kFields), std::end(kFields),
-                   [&](const char* field) { return planning_scene.Find(field).has_value(); })) {
-    planning_scene.Fail("holds no field of moveit_msgs/PlanningScene (world, robot_state, ...)");
+  const std::vector<std::string> fields = planning_scene.Keys();
+  if (std::all_of(fields.begin(), fields.end(),
+                  [](const std::string& field) { return field.starts_with("x-"); })) {
+    planning_scene.Fail(
+        "holds no field of moveit_msgs/PlanningScene; an empty scene has a name, or 'world: {}'");
   }
   for (const auto& [list, field, neutral] :
        {std::tuple{"link_padding", "padding", 0.0}, std::tuple{"link_scale", "scale", 1.0}}) {

@@ -10,9 +10,9 @@ namespace planbench {
 
 // Parts of a moveit_msgs/PlanningScene. All throw InputError naming file, line and field.
 
-/// Refuses a file that is something else, say a request: every field of a scene is optional, and a
-/// scene without obstacles must not come out of a wrong file. Refuses fields that the message does
-/// not have, and link padding and scale.
+/// Refuses a file that holds nothing of a scene, so that a scene without obstacles does not come
+/// out of a wrong file, fields that the message does not have, and link padding and scale. Any
+/// field will do: all are optional.
 void RequireScene(const YamlNode& planning_scene);
 
 /// fixed_frame_transforms, canonical, in file order.

@@ -168,6 +168,27 @@ TEST(KnownFields, ADifferenceIsTakenAsTheWholeWithAWarning) {
   EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("scene.yaml:1: is_diff")));
 }
 
+TEST(KnownFields, AnyOneMakesAScene) {
+  for (const char* text : {"name: empty", "is_diff: true", "is_diff: false\nname: ''",
+                           "robot_model_name: fetch", "world: {}", "object_colors: []"}) {
+    SCOPED_TRACE(text);
+    const Problem problem = ParseProblem(text);
+    EXPECT_TRUE(problem.scene.objects.empty());
+    EXPECT_EQ(problem.goal.size(), 2u);
+  }
+  for (const char* text : {"{}", "x-only: anchors"}) {
+    ExpectInputError([&] { ParseProblem(text); },
+                     {"scene.yaml:1: ", "no field of moveit_msgs/PlanningScene"});
+  }
+  ExpectInputError(
+      [] {
+        ParseProblem("name: empty",
+                     "goal_constraints: [{joint_constraints: [{joint_name: a_joint, "
+                     "position: 0}, {joint_name: b_joint, position: 0}]}]");
+      },
+      {"request.yaml:1: ", "no start: neither the request's start_state nor the scene's"});
+}
+
 TEST(MergeKeys, ApplyAtEveryLevel) {
   const std::string merged = R"(
 x-header: &in_camera
