@@ -16,8 +16,6 @@
 namespace planbench {
 namespace {
 
-constexpr double kLargestShape = 1e9;  // m
-
 // MoveIt's name for the octomap as a body, in the allowed-collision matrix for one.
 constexpr const char* kOctomapId = "<octomap>";
 
@@ -191,18 +189,6 @@ bool HasBody(const Robot& robot, int link) {
          has_one(robot.spheres) || has_one(robot.enclosing_spheres);
 }
 
-std::string ReadId(const YamlNode& object, const Robot& robot) {
-  const YamlNode node = object.At("id");
-  const std::string id = ReadName(node);
-  const int link = robot.model.FindLink(id);
-  if (link >= 0 && HasBody(robot, link)) {
-    node.Fail("the object has the name of a link, '" + id +
-              "'; what the matrix allows the link it "
-              "would allow the object");
-  }
-  return id;
-}
-
 // Makes the frames of an object known. `X_BO`: its pose.
 void AddFrames(const YamlNode& node, const SceneObject& object, bool has_pose,
                const Eigen::Isometry3d& X_BO, FrameTree* frames) {
@@ -220,16 +206,93 @@ void AddFrames(const YamlNode& node, const SceneObject& object, bool has_pose,
   }
 }
 
-// Equal in all that bears on collisions.
-bool SameContent(const AttachedObject& a, const AttachedObject& b) {
-  Scene with_a;
-  Scene with_b;
-  with_a.attached = {a};
-  with_b.attached = {b};
-  return SceneId(with_a) == SceneId(with_b);
+AttachedObject* FindAttached(const std::string& id, Scene* scene) {
+  const auto found = std::find_if(scene->attached.begin(), scene->attached.end(),
+                                  [&](const AttachedObject& a) { return a.object.id == id; });
+  return found == scene->attached.end() ? nullptr : &*found;
+}
+
+const SceneObject* FindInWorld(const std::string& id, const Scene& scene) {
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                  [&](const SceneObject& object) { return object.id == id; });
+  return found == scene.objects.end() ? nullptr : &*found;
+}
+
+// An attached object that has shapes of its own, in the frame of its link, which is at X_BL.
+SceneObject ReadAttachedShapes(const YamlNode& node, const std::string& link,
+                               const Eigen::Isometry3d& X_BL, const ResourceResolver& resources,
+                               FrameTree* frames) {
+  SceneObject object = ReadCollisionObject(node, resources);
+  const std::string frame = ReadFrame(node);
+  if (frame.empty()) {
+    node.Warn("names no frame; taken in that of its link, '" + link + "'");
+  } else if (frame != link) {
+    const Eigen::Isometry3d X_LB = X_BL.inverse(Eigen::Isometry);
+    object.X_WO = CanonicalPose(X_LB * frames->At(frame, FrameNode(node)) * object.X_WO);
+  }
+  AddFrames(node, object, HasPose(node), X_BL * object.X_WO, frames);
+  return object;
+}
+
+// The object that a message without shapes names by its id, the world's or one that is attached
+// already, where it is: in the base frame.
+SceneObject FindNamed(const YamlNode& node, const std::string& id, const AttachedObject* known,
+                      const FrameTree& frames, const Scene& scene) {
+  RequireAddOperation(node);
+  if (HasPose(node)) {
+    node.At("pose").Warn("does not count: '" + id + "' has no shape here, and stays where it is");
+  }
+  if (const SceneObject* in_world = FindInWorld(id, scene)) return *in_world;
+  if (known == nullptr) {
+    node.At("id").Fail("the object '" + id + "' has no shape, and the world has none of that id");
+  }
+  SceneObject object = known->object;
+  object.X_WO = frames.At(known->link, node) * object.X_WO;
+  return object;
+}
+
+AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* known,
+                                  const ResourceResolver& resources, const Robot& robot,
+                                  const Scene& scene, FrameTree* frames) {
+  AttachedObject attached;
+  const YamlNode link = node.At("link_name");
+  attached.link = WithoutSlash(link.String());
+  if (robot.model.FindLink(attached.link) < 0) {
+    link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
+  }
+  for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
+    attached.touch_links.push_back(WithoutSlash(ReadName(touch_link)));
+  }
+  const YamlNode object = node.At("object");
+  const Eigen::Isometry3d X_BL = frames->At(attached.link, link);
+  if (HasShapes(object)) {
+    attached.object = ReadAttachedShapes(object, attached.link, X_BL, resources, frames);
+  } else {
+    const std::string id = object.At("id").String();
+    attached.object = FindNamed(object, id, known, *frames, scene);
+    attached.object.X_WO = CanonicalPose(X_BL.inverse(Eigen::Isometry) * attached.object.X_WO);
+    if (known != nullptr && attached.touch_links.empty()) attached.touch_links = known->touch_links;
+  }
+  for (const PlacedShape& placed : attached.object.shapes) {
+    if (std::holds_alternative<HalfSpace>(placed.shape)) {
+      object.Find("planes").value_or(object.At("id")).Fail("a plane cannot be attached to a link");
+    }
+  }
+  return attached;
 }
 
 }  // namespace
+
+std::string ReadObjectId(const YamlNode& node, const Robot& robot) {
+  const std::string id = ReadName(node);
+  const int link = robot.model.FindLink(id);
+  if (link >= 0 && HasBody(robot, link)) {
+    node.Fail("the object has the name of a link, '" + id +
+              "'; what the matrix allows the link it "
+              "would allow the object");
+  }
+  return id;
+}
 
 Shape ReadPrimitive(const YamlNode& node) {
   const std::string type = ReadPrimitiveType(node.At("type"));
@@ -285,7 +348,7 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
                      FrameTree* frames, Scene* scene) {
   std::set<std::string> ids;
   for (const YamlNode& node : OptionalElements(world, "collision_objects")) {
-    const std::string id = ReadId(node, robot);
+    const std::string id = ReadObjectId(node.At("id"), robot);
     if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
     SceneObject object = ReadCollisionObject(node, resources);
     object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
@@ -296,59 +359,34 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
 
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene) {
+  std::set<std::string> ids;
   for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
-    AttachedObject attached;
-    const YamlNode link = node.At("link_name");
-    attached.link = WithoutSlash(link.String());
-    if (robot.model.FindLink(attached.link) < 0) {
-      link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
-    }
-    for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
-      attached.touch_links.push_back(WithoutSlash(ReadName(touch_link)));
-    }
-    const YamlNode object = node.At("object");
-    const YamlNode id_node = object.At("id");
-    const std::string id = ReadId(object, robot);
-    const auto in_world = std::find_if(scene->objects.begin(), scene->objects.end(),
-                                       [&](const SceneObject& other) { return other.id == id; });
-    const auto known =
-        std::find_if(scene->attached.begin(), scene->attached.end(),
-                     [&](const AttachedObject& other) { return other.object.id == id; });
-    const Eigen::Isometry3d X_LB = frames->At(attached.link, link).inverse(Eigen::Isometry);
-    if (HasShapes(object)) {
-      const std::vector<YamlNode> planes = OptionalElements(object, "planes");
-      if (!planes.empty()) planes.front().Fail("a plane cannot be attached to a link");
-      attached.object = ReadCollisionObject(object, resources);
-      const std::string frame = ReadFrame(object);
-      if (frame.empty()) {
-        object.Warn("names no frame; taken in that of its link, '" + attached.link + "'");
-      } else if (frame != attached.link) {
-        attached.object.X_WO =
-            CanonicalPose(X_LB * frames->At(frame, FrameNode(object)) * attached.object.X_WO);
-      }
-      AddFrames(object, attached.object, HasPose(object),
-                frames->At(attached.link, link) * attached.object.X_WO, frames);
-    } else if (in_world != scene->objects.end()) {
-      RequireAddOperation(object);
-      attached.object = *in_world;
-      attached.object.X_WO = CanonicalPose(X_LB * attached.object.X_WO);
-      for (const PlacedShape& placed : attached.object.shapes) {
-        if (std::holds_alternative<HalfSpace>(placed.shape)) {
-          id_node.Fail("a plane cannot be attached to a link");
-        }
-      }
-    } else if (known != scene->attached.end() && known->link == attached.link) {
-      continue;
-    } else {
-      id_node.Fail("the object '" + id + "' has no shape, and the world has none of that id");
-    }
-    if (in_world != scene->objects.end()) scene->objects.erase(in_world);
-    if (known == scene->attached.end()) {
+    const YamlNode id_node = node.At("object").At("id");
+    const std::string id = ReadObjectId(id_node, robot);
+    if (!ids.insert(id).second) id_node.Warn("'" + id + "' is attached twice; the last one counts");
+    AttachedObject* known = FindAttached(id, scene);
+    AttachedObject attached = ReadAttachedObject(node, known, resources, robot, *scene, frames);
+    std::erase_if(scene->objects, [&](const SceneObject& other) { return other.id == id; });
+    if (known == nullptr) {
       scene->attached.push_back(std::move(attached));
-    } else if (!SameContent(*known, attached)) {
-      id_node.Fail("another object '" + id + "' is attached already");
+    } else {
+      *known = std::move(attached);
     }
   }
+}
+
+void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, Scene* scene) {
+  std::set<std::string> named;
+  for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
+    named.insert(node.At("object").At("id").String());
+  }
+  std::erase_if(scene->attached, [&](const AttachedObject& attached) {
+    const std::string& id = attached.object.id;
+    if (named.contains(id)) return false;
+    is_diff.Warn("is false, so that '" + id +
+                 "', which the scene attaches and this state does not, is left out; true keeps it");
+    return true;
+  });
 }
 
 void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "common/yaml.h"
 #include "geometry/mesh_loader.h"
 #include "robot_model/robot_folder.h"
@@ -7,6 +9,12 @@
 #include "scene/scene.h"
 
 namespace planbench {
+
+inline constexpr double kLargestShape = 1e9;  ///< What a length of a shape may be, m.
+
+/// Reads the id of an object: one line, and not the name of a link with a body, since names tell
+/// bodies apart in the allowed-collision matrix. Throws InputError.
+std::string ReadObjectId(const YamlNode& node, const Robot& robot);
 
 /// Reads a shape_msgs/SolidPrimitive: type box [x, y, z], sphere [radius], cylinder [height,
 /// radius], cone [height, radius], or the message's numbers 1 to 4.
@@ -30,19 +38,22 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
 /// Adds the objects of world.collision_objects to `scene`, in the base frame, and their frames (an
 /// object's is that of its pose, or of its one shape if it has no pose) and subframes to `frames`.
 /// An object may be given in the frame of one above it. Throws InputError, also for an id that
-/// occurs twice or is that of a link with a body: names tell bodies apart in the allowed-collision
-/// matrix.
+/// occurs twice.
 void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
                      FrameTree* frames, Scene* scene);
 
 /// Adds the attached_collision_objects of a moveit_msgs/RobotState to `scene`, with their poses in
-/// their links. Objects without shapes are those of the world by that id; in either case the
-/// object of that id leaves the world. Without a frame they are in that of their link. An object
-/// that the scene has attached already is accepted if it is the same in all that bears on
-/// collisions, or has no shapes, as when both the scene and the request state it. Throws
-/// InputError, also for links that the robot does not have.
+/// their links. As in MoveIt, an object with shapes takes the place of one that is attached by that
+/// id already, and one without is the world's of that id, where it is; in either case that leaves
+/// the world. Beyond MoveIt, one without shapes may also name an attached object, which is then
+/// attached anew where it is: to another link, with other touch links. Without a frame objects are
+/// in that of their link. Throws InputError, also for links that the robot does not have.
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene);
+
+/// Removes the attached objects that `robot_state` does not name, with a warning each, at
+/// `is_diff`.
+void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, Scene* scene);
 
 /// Adds world.octomap, if it has data, as an object "<octomap>" of boxes.
 void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene);

@@ -176,6 +176,11 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   }
   if (const auto state = request.Find("start_state")) {
     AddAttachedObjects(*state, resources, robot, &frames, &scene);
+    // A whole state says all that is attached, as in MoveIt, for which one without joints is no
+    // state. Who leaves is_diff out means what the scene attaches to stay.
+    const auto is_diff = state->Find("is_diff");
+    const bool has_joints = !start_state.joints.names.empty() || start_state.X_WR;
+    if (is_diff && !ReadFlag(*is_diff) && has_joints) DetachUnnamed(*state, *is_diff, &scene);
   }
   if (const auto matrix = planning_scene.Find("allowed_collision_matrix")) {
     scene.allowed_collisions = ReadAllowedCollisions(*matrix);

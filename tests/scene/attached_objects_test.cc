@@ -9,8 +9,10 @@ namespace planbench {
 namespace {
 
 using Eigen::Vector3d;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 // The gripper is at (1, 0, 2) at the start.
 constexpr const char* kToolRequest = R"(
@@ -79,18 +81,80 @@ TEST(AttachedObjects, WithShapesTakeTheIdOutOfTheWorld) {
   }
 }
 
-TEST(AttachedObjects, OfSceneAndRequestMayBeTheSame) {
+TEST(AttachedObjects, OfTheRequestTakeThePlaceOfTheScenes) {
   const std::string scene = Attaching(kWorld, kTool);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, kTool)).scene.attached.size(), 1u);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, "id: tool")).scene.attached.size(), 1u);
-  EXPECT_EQ(ParseProblem(scene, Attaching(kToolRequest, Replaced(kTool, "tool", "other")))
-                .scene.attached.size(),
-            2u);
-  ExpectInputError(
-      [&] { ParseProblem(scene, Attaching(kToolRequest, Replaced(kTool, "[0.2]", "[0.3]"))); },
-      {"request.yaml:4: ", "object.id: another object 'tool' is attached already"});
-  ExpectInputError([&] { ParseProblem(scene, Attaching(kToolRequest, "id: tool", "mast")); },
-                   {"'tool' has no shape"});
+  const auto attached = [&](const std::string& object) {
+    const Problem problem = ParseProblem(scene, Attaching(kToolRequest, object));
+    EXPECT_THAT(problem.warnings, IsEmpty());
+    return problem.scene.attached;
+  };
+  EXPECT_EQ(attached(kTool).size(), 1u);
+  EXPECT_EQ(attached(Replaced(kTool, "tool", "other")).size(), 2u);
+  const std::vector<AttachedObject> larger = attached(Replaced(kTool, "[0.2]", "[0.3]"));
+  ASSERT_EQ(larger.size(), 1u);
+  EXPECT_EQ(std::get<Sphere>(larger[0].object.shapes.at(0).shape).radius, 0.3);
+}
+
+TEST(AttachedObjects, ByIdMayBeAttachedAlready) {
+  const std::string scene = Attaching(kWorld, kTool);
+  const auto attached = [&](const std::string& request) {
+    const std::vector<AttachedObject> all = ParseProblem(scene, request).scene.attached;
+    EXPECT_EQ(all.size(), 1u);
+    return all.at(0);
+  };
+  const std::string by_id = Attaching(kToolRequest, "id: tool");
+  EXPECT_EQ(PlaceInLink(attached(by_id)), Vector3d(0.25, 0, 0.5));
+  EXPECT_THAT(attached(by_id).touch_links, ElementsAre("l_finger"));
+  EXPECT_THAT(attached(Replaced(by_id, "[/l_finger]", "[]")).touch_links, ElementsAre("l_finger"));
+  EXPECT_THAT(attached(Replaced(by_id, "/l_finger", "r_finger")).touch_links,
+              ElementsAre("r_finger"));
+  const AttachedObject at_base = attached(Attaching(kToolRequest, "id: tool", "base_link"));
+  EXPECT_EQ(at_base.link, "base_link");
+  EXPECT_TRUE(PlaceInLink(at_base).isApprox(Vector3d(1.25, 0, 2.5), 1e-12));
+}
+
+TEST(AttachedObjects, OfAWholeStartStateAreAllThereAre) {
+  const std::string scene = Attaching(kWorld, kTool);
+  const auto with_flag = [](const std::string& flag, const std::string& request) {
+    return Replaced(request, "start_state:", "start_state:\n  is_diff: " + flag);
+  };
+  const Problem whole = ParseProblem(scene, with_flag("False", kToolRequest));
+  EXPECT_THAT(whole.scene.attached, IsEmpty());
+  EXPECT_THAT(whole.warnings, ElementsAre(AllOf(HasSubstr("request.yaml:3: start_state.is_diff"),
+                                                HasSubstr("'tool'"), HasSubstr("left out"))));
+  const std::string named = with_flag("False", Attaching(kToolRequest, "id: tool"));
+  EXPECT_EQ(ParseProblem(scene, named).scene.attached.size(), 1u);
+  const Problem difference = ParseProblem(scene, with_flag("True", kToolRequest));
+  EXPECT_EQ(difference.scene.attached.size(), 1u);
+  EXPECT_THAT(difference.warnings, IsEmpty());
+  // Without joints it is no state.
+  const std::string empty =
+      Replaced(Replaced(kToolRequest, "[a_joint, b_joint]", "[]"), "[0, 2]", "[]");
+  const std::string with_start = Replaced(
+      scene,
+      "robot_state:", "robot_state:\n  joint_state: {name: [a_joint, b_joint], position: [0, 2]}");
+  EXPECT_EQ(ParseProblem(with_start, with_flag("False", empty)).scene.attached.size(), 1u);
+  ExpectInputError([&] { ParseProblem(scene, with_flag("2", kToolRequest)); },
+                   {"request.yaml:3: start_state.is_diff"});
+}
+
+TEST(AttachedObjects, GivenTwiceAreWhatTheLastSays) {
+  const std::string one = "{link_name: gripper_link, object: {" + std::string(kTool) + "}}";
+  const Problem problem = ParseProblem(Replaced(kWorld, "attached_collision_objects: []",
+                                                "attached_collision_objects: [" + one + ", " +
+                                                    Replaced(one, "[0.2]", "[0.3]") + "]"),
+                                       kToolRequest);
+  ASSERT_EQ(problem.scene.attached.size(), 1u);
+  EXPECT_EQ(std::get<Sphere>(problem.scene.attached[0].object.shapes.at(0).shape).radius, 0.3);
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("'tool' is attached twice")));
+}
+
+TEST(AttachedObjects, ByIdStayWhereTheyAreWhateverPoseIsGiven) {
+  const Problem problem = ParseProblem(
+      Attaching(kWorld, "id: tool, pose: {position: [1, 1, 1], orientation: [0, 0, 0, 1]}"),
+      kToolRequest);
+  EXPECT_EQ(PlaceInLink(problem.scene.attached.at(0)), Vector3d(0.25, 0, 0.5));
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("object.pose: does not count")));
 }
 
 TEST(AttachedObjects, MayBeGivenInAnyFrame) {
