@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/yaml.h"
+#include "scene/moveit_fields.h"
+#include "scene/moveit_object_reader.h"
+#include "scene/moveit_request_reader.h"
 
 namespace planbench {
 namespace {
@@ -40,9 +44,24 @@ Range3 ReadRange3(const YamlNode& node, const std::string& what) {
   return {ranges[0], ranges[1], ranges[2]};
 }
 
+// Refuses what the problems' readers would.
+void RequireNear(const YamlNode& node, const std::vector<Range>& position) {
+  for (const Range& range : position) {
+    if (std::max(-range.low, range.high) > kFarthestAway) {
+      node.Fail(fmt::format("is beyond {} m", kFarthestAway));
+    }
+  }
+}
+
+Range3 ReadPosition(const YamlNode& node) {
+  const Range3 position = ReadRange3(node, "x, y, z");
+  RequireNear(node, {position.begin(), position.end()});
+  return position;
+}
+
 Range3 PositionOr0(const YamlNode& map) {
   const auto node = map.Find("position");
-  return node ? ReadRange3(*node, "x, y, z") : kZero3;
+  return node ? ReadPosition(*node) : kZero3;
 }
 
 Range3 RpyOr0(const YamlNode& map) {
@@ -90,6 +109,7 @@ PartSpec ReadPart(const YamlNode& node) {
   }
   for (const Range& range : part.size) {
     if (range.low <= 0) size.Fail("sizes must be greater than zero");
+    if (range.high > kLargestShape) size.Fail(fmt::format("is more than {} m", kLargestShape));
   }
   part.position = PositionOr0(node);
   part.rpy = RpyOr0(node);
@@ -129,19 +149,29 @@ void ReadSupport(const YamlNode& node, const std::vector<ObjectSpec>& above, Obj
   }
 }
 
-ObjectSpec ReadObject(const YamlNode& node, const std::vector<ObjectSpec>& above) {
+// An id that the problems' readers take, and that no other object has.
+std::string ReadId(const YamlNode& node, const Robot& robot, const ProblemSpec& spec) {
+  std::string id = ReadObjectId(node, robot);
+  if (id.find('.') != std::string::npos) node.Fail("an id has no dot");
+  for (const ObjectSpec& other : spec.objects) {
+    if (other.id == id) node.Fail("another object has this id");
+  }
+  for (const auto& [pair, allowed] : spec.allowed_collisions.entries()) {
+    if (pair.first == id || pair.second == id) {
+      node.Fail("the object has the name of a link, '" + id +
+                "', whose collisions the setup allows");
+    }
+  }
+  return id;
+}
+
+ObjectSpec ReadObject(const YamlNode& node, const Robot& robot, const ProblemSpec& spec) {
+  const std::vector<ObjectSpec>& above = spec.objects;
   node.AllowOnly({"id", "parts", "probability", "stands_on", "relative_to", "position", "rpy",
                   "yaw", "about_base"});
   ObjectSpec object;
   object.where = node.Where();
-  const YamlNode id = node.At("id");
-  object.id = id.String();
-  if (object.id.empty() || object.id.find('.') != std::string::npos) {
-    id.Fail("an id has at least one character, and no dot");
-  }
-  for (const ObjectSpec& other : above) {
-    if (other.id == object.id) id.Fail("another object has this id");
-  }
+  object.id = ReadId(node.At("id"), robot, spec);
   const YamlNode parts = node.At("parts");
   if (parts.Size() == 0) parts.Fail("an object needs at least one part");
   for (const YamlNode& part : parts.Elements()) {
@@ -168,13 +198,15 @@ ObjectSpec ReadObject(const YamlNode& node, const std::vector<ObjectSpec>& above
   if (support) {
     ReadSupport(*support, above, &object);
     if (const auto rpy = node.Find("rpy")) rpy->Fail("an object that stands has 'yaw' instead");
+    const YamlNode position = node.At("position");
     const std::vector<Range> xy =
-        ReadRanges(node.At("position"), 2, "x, y from the middle of the face it stands on");
+        ReadRanges(position, 2, "x, y from the middle of the face it stands on");
+    RequireNear(position, xy);
     object.position = {xy[0], xy[1], kZero};
     object.rpy = {kZero, kZero, RangeOr0(node, "yaw")};
   } else {
     if (const auto yaw = node.Find("yaw")) yaw->Fail("only with 'stands_on'; otherwise 'rpy'");
-    object.position = ReadRange3(node.At("position"), "x, y, z");
+    object.position = ReadPosition(node.At("position"));
     object.rpy = RpyOr0(node);
   }
   return object;
@@ -206,11 +238,6 @@ void ReadJoints(const YamlNode& map, const RobotModel& model, const PlanningGrou
 struct Setup {
   std::map<std::string, std::vector<double>> configurations;  // Group order.
 };
-
-Eigen::Vector3d ReadCorner(const YamlNode& node) {
-  const std::vector<double> values = node.Doubles(3);
-  return {values[0], values[1], values[2]};
-}
 
 Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   node.AllowOnly({"robot", "group", "rest", "configurations", "workspace", "time_limit_s",
@@ -248,9 +275,7 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   }
   if (const auto workspace = node.Find("workspace")) {
     workspace->AllowOnly({"min_corner", "max_corner"});
-    spec->workspace = {.frame = model.links().front().name,
-                       .min_corner = ReadCorner(workspace->At("min_corner")),
-                       .max_corner = ReadCorner(workspace->At("max_corner"))};
+    spec->workspace = ReadCorners(*workspace, model.links().front().name);
   }
   const auto limit = node.Find("time_limit_s");
   spec->time_limit_s = limit ? limit->PositiveDouble() : 60.0;
@@ -281,7 +306,7 @@ GripperSpec ReadGripper(const YamlNode& node, const std::vector<ObjectSpec>& obj
     gripper.objects.push_back(FindObject(objects, object, object.String()));
   }
   gripper.around = RangeOr0(node, "around");
-  gripper.position = ReadRange3(node.At("position"), "x, y, z");
+  gripper.position = ReadPosition(node.At("position"));
   gripper.rpy = RpyOr0(node);
   if (const auto tolerance = node.Find("position_tolerance")) {
     gripper.position_tolerance_m = NonNegative(*tolerance);
@@ -345,7 +370,7 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
   spec.min_joint_distance = NonNegative(root.At("min_joint_distance"));
   spec.effort = ReadEffort(root.At("effort"));
   for (const YamlNode& object : root.At("objects").Elements()) {
-    spec.objects.push_back(ReadObject(object, spec.objects));
+    spec.objects.push_back(ReadObject(object, robot, spec));
   }
   const YamlNode queries = root.At("queries");
   if (queries.Size() == 0) queries.Fail("a specification needs at least one query");

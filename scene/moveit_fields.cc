@@ -15,7 +15,6 @@ namespace {
 // that was meant to be a rotation at all.
 constexpr double kRounding = 1e-3;
 constexpr double kFarthest = 0.05;
-constexpr double kFarthestAway = 1e9;  // m; poses are multiplied, and must stay finite
 
 }  // namespace
 

@@ -10,6 +10,8 @@
 
 namespace planbench {
 
+inline constexpr double kFarthestAway = 1e9;  ///< m; poses are multiplied, and must stay finite
+
 // Pieces that several MoveIt messages share. Every function throws InputError naming file, line and
 // field.
 

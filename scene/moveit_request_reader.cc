@@ -196,11 +196,14 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
 std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request) {
   const std::optional<YamlNode> node = motion_plan_request.Find("workspace_parameters");
   if (!node) return std::nullopt;
-  Workspace workspace;
-  workspace.frame = ReadFrame(*node);
-  const YamlNode max_corner = node->At("max_corner");
-  workspace.min_corner = ReadVector3(node->At("min_corner"));
-  workspace.max_corner = ReadVector3(max_corner);
+  return ReadCorners(*node, ReadFrame(*node));
+}
+
+std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& frame) {
+  const YamlNode max_corner = node.At("max_corner");
+  const Workspace workspace{.frame = frame,
+                            .min_corner = ReadVector3(node.At("min_corner")),
+                            .max_corner = ReadVector3(max_corner)};
   // All zero is how a message leaves it unset.
   if (workspace.min_corner.isZero(0) && workspace.max_corner.isZero(0)) return std::nullopt;
   if (!(workspace.min_corner.array() < workspace.max_corner.array()).all()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/yaml.h"
@@ -29,6 +30,8 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
                                 const FrameTree& frames);
 
 std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request);
+/// min_corner and max_corner of `node`, in a frame; nothing if all are zero, which is unset.
+std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& frame);
 
 /// allowed_planning_time, s; 0 without one.
 double ReadTimeLimit(const YamlNode& motion_plan_request);

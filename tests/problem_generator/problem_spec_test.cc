@@ -126,6 +126,28 @@ INSTANTIATE_TEST_SUITE_P(
                 {"spec.yaml:14: objects[1].position", "x, y"}},
         BadSpec{"SameId", "id: can", "id: table", {"spec.yaml:12: objects[1].id"}},
         BadSpec{"IdWithADot", "id: can", "id: can.1", {"spec.yaml:12: objects[1].id", "dot"}},
+        BadSpec{"NoId", "id: can", "id: ''", {"spec.yaml:12: objects[1].id", "empty"}},
+        BadSpec{"IdOfTwoLines",
+                "id: can",
+                "id: \"can\\n1\"",
+                {"spec.yaml:12: objects[1].id", "one line"}},
+        BadSpec{"IdWithATab", "id: can", "id: \"can\\t1\"", {"spec.yaml:12: objects[1].id"}},
+        BadSpec{"IdOfALink",
+                "id: can",
+                "id: gripper_link",
+                {"spec.yaml:12: objects[1].id", "name of a link, 'gripper_link'"}},
+        BadSpec{"TooLarge",
+                "[0.12, 0.03]",
+                "[[0.12, 2e9], 0.03]",
+                {"spec.yaml:15: objects[1].parts[0].cylinder", "more than 1000000000 m"}},
+        BadSpec{"TooFar",
+                "position: [1.0, 0, [0.6, 0.8]]",
+                "position: [1.0, -2e9, [0.6, 0.8]]",
+                {"spec.yaml:10: objects[0].position", "beyond 1000000000 m"}},
+        BadSpec{"StandsTooFar",
+                "[-0.3, [-0.2, 0.2]]",
+                "[-0.3, [-0.2, 2e9]]",
+                {"spec.yaml:14: objects[1].position", "beyond"}},
         BadSpec{"UnknownSupport",
                 "stands_on: table.top",
                 "stands_on: shelf.top",
@@ -193,6 +215,31 @@ INSTANTIATE_TEST_SUITE_P(
                 {"spec.yaml:17: queries[0]", "both"}}),
     [](const auto& info) { return info.param.name; });
 
+TEST(ProblemSpec, RefusesTheNameOfALinkThatTheSetupAllowsCollisions) {
+  const Robot fetch = LoadFetch();
+  const auto load = [&](const std::string& partner) {
+    const TemporaryFolder folder;
+    folder.Write(
+        "fetch_setup.yaml",
+        "robot: fetch\ngroup: arm_with_torso\nconfigurations:\n  tuck: {torso_lift_joint: 0, "
+        "shoulder_pan_joint: 0, shoulder_lift_joint: 0, upperarm_roll_joint: 0, "
+        "elbow_flex_joint: 0, forearm_roll_joint: 0, wrist_flex_joint: 0, "
+        "wrist_roll_joint: 0}\nallowed_collisions: {base_link: [" +
+            partner + "]}\n");
+    // This link has no body, and its name would do otherwise.
+    const std::string spec =
+        "setup: fetch_setup.yaml\nclearance: 0\nobject_gap: 0\nmin_joint_distance: 0\n"
+        "effort: {scenes: 1, poses: 1, solutions: 1, ik_starts: 1}\nobjects:\n"
+        "  - {id: head_camera_link, position: [1, 0, 1], parts: [{sphere: 0.1}]}\n"
+        "queries: [{name: reach, start: {configuration: tuck}, goal: {gripper: {object: "
+        "head_camera_link, position: [0, 0, 1]}}}]\n";
+    return LoadProblemSpec(folder.Write("spec.yaml", spec), fetch);
+  };
+  ExpectInputError([&] { load("head_camera_link"); },
+                   {"spec.yaml:7: objects[0].id", "'head_camera_link'", "the setup allows"});
+  EXPECT_EQ(load("laser_link").objects.size(), 1);
+}
+
 struct BadSetup {
   const char* name;
   const char* text;
@@ -234,6 +281,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "robot: fetch\ngroup: arm_with_torso\n"
                  "configurations:\n  tuck: {wrist_flex_joint: 0}\n",
                  {"fetch_setup.yaml:4: configurations.tuck", "torso_lift_joint"}},
+        BadSetup{"WorkspaceTheWrongWayRound",
+                 "robot: fetch\ngroup: arm_with_torso\n"
+                 "workspace: {min_corner: [0, 0, 1], max_corner: [1, 1, 0]}\n",
+                 {"fetch_setup.yaml:3: workspace.max_corner", "greater than min_corner"}},
         BadSetup{"UnknownLink",
                  "robot: fetch\ngroup: arm_with_torso\n"
                  "allowed_collisions:\n  base_link: [laser_link, tail]\n",
