@@ -38,9 +38,10 @@ ProblemGenerator::Result ProblemGenerator::Generate(int k, int attempt) {
     if (!sampled) continue;
     checker_->SetScene(sampled->scene, rest_);
     QuerySampler sampler(*spec_, &kinematics_, checker_.get());
-    const auto start = sampler.Sample(query.start, *sampled, &random, &result.rejections);
+    const auto start = sampler.Sample(query.start, *sampled, query.goal.configuration, &random,
+                                      &result.rejections);
     if (!start) continue;
-    const auto goal = sampler.Sample(query.goal, *sampled, &random, &result.rejections);
+    const auto goal = sampler.Sample(query.goal, *sampled, start, &random, &result.rejections);
     if (!goal) continue;
     if (space.Distance(*start, *goal) < spec_->min_joint_distance) {
       result.rejections.Add(query.name + ": goal too near to the start", query.goal.where);

@@ -35,10 +35,17 @@ bool QuerySampler::Clear(const EndSpec& end, const std::vector<double>& q, Rejec
   return true;
 }
 
-std::optional<std::vector<double>> QuerySampler::Sample(const EndSpec& end,
-                                                        const SampledScene& scene,
-                                                        RandomStream* random,
-                                                        Rejections* rejections) {
+std::vector<double> QuerySampler::Turned(const std::vector<double>& q,
+                                         const std::vector<double>& other) const {
+  std::vector<double> turned = q;
+  checker_->space().ToNearestTurn(other, turned);
+  // Joints that follow at a ratio, which is no whole number, would be elsewhere.
+  return kinematics_->TipPose(turned).isApprox(kinematics_->TipPose(q), 1e-6) ? turned : q;
+}
+
+std::optional<std::vector<double>> QuerySampler::Sample(
+    const EndSpec& end, const SampledScene& scene, const std::optional<std::vector<double>>& other,
+    RandomStream* random, Rejections* rejections) {
   if (end.configuration) {
     return Clear(end, *end.configuration, rejections) ? end.configuration : std::nullopt;
   }
@@ -61,7 +68,8 @@ std::optional<std::vector<double>> QuerySampler::Sample(const EndSpec& end,
         rejections->Add(end.name + ": no inverse kinematics solution", end.where);
         break;
       }
-      if (Clear(end, result.q, rejections)) return result.q;
+      const std::vector<double> q = other ? Turned(result.q, *other) : result.q;
+      if (Clear(end, q, rejections)) return q;
     }
   }
   return std::nullopt;

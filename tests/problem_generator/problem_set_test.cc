@@ -6,6 +6,7 @@
 
 #include "collision/collision_checker.h"
 #include "collision/edge_checker.h"
+#include "common/read_text.h"
 #include "problem_generator/problem_set_maker.h"
 #include "problem_generator/query_sampler.h"
 #include "robot_model/full_positions.h"
@@ -129,6 +130,51 @@ TEST(ShippedSets, OfOtherRobotsHaveFreeEndsFromTheRobotsOwnStates) {
       }
     }
   }
+}
+
+// The UR5e as its maker has it: its joints turn twice round.
+Robot Ur5eThatTurnsTwice() {
+  Robot robot = LoadRobot("ur5e");
+  std::string urdf =
+      ReadText(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "robots/ur5e/ur5e.urdf");
+  const std::string pi = "\"3.141592653589793\" velocity";
+  const std::string minus_pi = "lower=\"-3.141592653589793\"";
+  for (std::size_t at = 0; (at = urdf.find(minus_pi, at)) != std::string::npos;) {
+    urdf.replace(at, minus_pi.size(), "lower=\"-6.283185307179586\"");
+    at = urdf.find(pi, at);
+    urdf.replace(at, pi.size(), "\"6.283185307179586\" velocity");
+  }
+  robot.model = RobotModel::FromUrdf(urdf, "ur5e.urdf");
+  PlanningGroup& group = robot.groups.front();
+  std::vector<std::string> joints;
+  for (const JointSpace::Joint& joint : group.space.joints()) joints.push_back(joint.name);
+  const std::string& tip = robot.model.links()[static_cast<std::size_t>(group.tip_link)].name;
+  const auto states = group.states;
+  group = robot.model.MakeGroup(group.name, joints, tip);
+  group.states = states;
+  return robot;
+}
+
+TEST(MadeProblems, HaveEndsAtTheTurnsNearestToEachOther) {
+  const Robot robot = Ur5eThatTurnsTwice();
+  const JointSpace& space = robot.groups.front().space;
+  ASSERT_GT(space.joint(0).upper, 6);
+  const ProblemSpec spec = LoadProblemSpec(ShippedProblems() / "table_ur5e.yaml", robot);
+  const std::vector<double>& ready = *spec.queries[0].start.configuration;
+  int starts = 0;
+  int goals = 0;
+  for (const Problem& problem : MakeProblems(spec, robot, 1, FirstIndices(12), 0, 2).problems) {
+    std::vector<double> goal;
+    for (const JointGoal& joint : problem.goal) goal.push_back(joint.position);
+    const std::vector<double>& start = problem.start.positions;  // There are no other joints.
+    ASSERT_EQ(start.size(), goal.size());
+    std::vector<double> nearest = start == ready ? goal : start;
+    ++(start == ready ? goals : starts);
+    space.ToNearestTurn(ready, nearest);
+    EXPECT_EQ(nearest, start == ready ? goal : start) << problem.index;
+  }
+  EXPECT_GT(starts, 0);
+  EXPECT_GT(goals, 0);
 }
 
 TEST_F(ProblemSetTest, GripperIsWhereTheQuerySaysWithinTolerances) {
