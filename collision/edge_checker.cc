@@ -22,6 +22,9 @@ constexpr std::size_t kUsualStretches = 256;
 constexpr std::int64_t kSamplesUnasked = 64;
 /// Certified edges are first cut into stretches of this many edge resolutions ...
 constexpr double kFirstStretch = 4;
+/// ... but no more of them than motions of some hundred metres have: where a thing is attached far
+/// away, an edge of many kilometres must not be listed before the first of it is checked.
+constexpr double kMostFirstStretches = 4096;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
 
@@ -210,7 +213,8 @@ std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> fr
                                                       double motion_m) {
   const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
   // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
-  std::int64_t parts = RequireFewIntervals(NumIntervals(motion_m / kFirstStretch));
+  auto parts = static_cast<std::int64_t>(
+      std::min(NumIntervals(motion_m / kFirstStretch), kMostFirstStretches));
   parts = (parts + batch - 1) / batch * batch;
   if (parts != first_parts_) {  // Else they are as for the edge before.
     pending_.clear();

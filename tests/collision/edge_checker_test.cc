@@ -305,5 +305,36 @@ TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
   }
 }
 
+TEST(EdgeCheckerTest, CertifiesWhatIsAttachedFarAwayWithoutListingTheWholeEdge) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0, 0};
+  const std::vector<double> to = {0, 2};
+  const auto box_at = [](const std::string& id, const Eigen::Vector3d& place) {
+    SceneObject box{.id = id, .shapes = {{.shape = Box{{1, 1, 1}}}}};
+    box.X_WO.translation() = place;
+    return box;
+  };
+  for (const auto make : {MakeCollisionChecker, MakeReferenceChecker}) {
+    const auto checker = make(robot, robot.groups.front(), CollisionModel::kSpheres);
+    SCOPED_TRACE(checker->EngineName());
+    EdgeChecker edges(checker.get(), 0.02, EdgeCheck::kCertified);
+    for (const double distance : {2e3, 1e5, 9e8}) {
+      SCOPED_TRACE(distance);
+      Scene scene;
+      scene.attached = {{"rod", box_at("tool", {distance, 0, 0}), {}}};
+      checker->SetScene(scene, robot.model.DefaultPositions());
+      const std::int64_t before = edges.counters().configurations;
+      EXPECT_TRUE(edges.IsValidEdge(from, to));
+      EXPECT_LE(edges.counters().configurations - before, 10'000);
+    }
+    const double distance = 1e5;
+    Scene scene;
+    scene.attached = {{"rod", box_at("tool", {distance, 0, 0}), {}}};
+    scene.objects = {box_at("wall", {distance * std::cos(1.3), distance * std::sin(1.3), 0})};
+    checker->SetScene(scene, robot.model.DefaultPositions());
+    EXPECT_FALSE(edges.IsValidEdge(from, to));
+  }
+}
+
 }  // namespace
 }  // namespace planbench
