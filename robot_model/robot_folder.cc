@@ -13,6 +13,7 @@
 #include "common/file_kind.h"
 #include "common/read_text.h"
 #include "common/yaml.h"
+#include "robot_model/group_kinematics.h"
 #include "robot_model/link_spheres.h"
 #include "robot_model/shipped_robots.h"
 #include "robot_model/srdf.h"
@@ -39,6 +40,16 @@ auto AtField(const YamlNode& field, Parse parse) {
   }
 }
 
+// A tip elsewhere in the tree could be brought nowhere.
+void RequireMovedTips(const YamlNode& node, const RobotModel& model, const PlanningGroup& group) {
+  const GroupKinematics kinematics(model, group, model.DefaultPositions());
+  for (const int tip : group.tips()) {
+    if (kinematics.Moves(tip)) continue;
+    node.Fail(fmt::format("none of the joints of group '{}' moves the link '{}'", group.name,
+                          model.links()[static_cast<std::size_t>(tip)].name));
+  }
+}
+
 PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
   node.AllowOnly({"name", "joints", "tip_link", "states"});
   const std::string name = node.At("name").String();
@@ -51,6 +62,7 @@ PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
   PlanningGroup group = AtField(node, [&] {
     return model.MakeGroup(name, joints, tips.front(), {tips.begin() + 1, tips.end()});
   });
+  RequireMovedTips(tip, model, group);
   if (const auto states = node.Find("states")) {
     for (const std::string& state : states->Keys()) {
       group.states[state] = states->At(state).Doubles(group.space.size());
@@ -78,6 +90,22 @@ int LinkAt(const YamlNode& node, const std::string& name, const RobotModel& mode
   return link;
 }
 
+std::vector<VirtualJoint> ReadVirtualJoints(const YamlNode& node, const RobotModel& model) {
+  std::vector<VirtualJoint> joints;
+  for (const YamlNode& element : node.Elements()) {
+    element.AllowOnly({"name", "type", "parent_frame", "child_link"});
+    const YamlNode type = element.At("type");
+    const std::optional<JointType> parsed = ParseVirtualJointType(type.String());
+    if (!parsed) {
+      type.Fail(fmt::format("expected fixed, planar or floating, found '{}'", type.String()));
+    }
+    const YamlNode child = element.At("child_link");
+    joints.push_back({element.At("name").String(), *parsed, element.At("parent_frame").String(),
+                      LinkAt(child, child.String(), model)});
+  }
+  return joints;
+}
+
 void ReadAllowedPairs(const YamlNode& node, const RobotModel& model,
                       std::vector<std::pair<int, int>>* pairs) {
   for (const YamlNode& element : node.Elements()) {
@@ -89,7 +117,8 @@ void ReadAllowedPairs(const YamlNode& node, const RobotModel& model,
   }
 }
 
-// Groups, pairs and spheres: those of the SRDF, if there is one, and what robot.yaml says itself.
+// Groups, pairs, virtual joints and spheres: those of the SRDF, if there is one, and what
+// robot.yaml says itself.
 void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, ContentHash* hash) {
   const auto groups = root.Find("groups");
   if (const auto file = root.Find("srdf")) {
@@ -100,10 +129,17 @@ void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, C
     robot->allowed_pairs = std::move(srdf.disabled_pairs);
     robot->spheres = std::move(srdf.spheres);
     robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
-    if (!groups && srdf.groups.empty()) {
-      file->Fail(path.string() + " has no group with joints that can be planned with");
+    robot->virtual_joints = std::move(srdf.virtual_joints);
+    if (!groups) {
+      if (srdf.groups.empty()) file->Fail(NoGroupFault(srdf, path.string()));
+      robot->warnings.insert(robot->warnings.end(), srdf.group_warnings.begin(),
+                             srdf.group_warnings.end());
+      robot->why_no_group = std::move(srdf.why_no_group);
     }
     robot->groups = std::move(srdf.groups);
+  }
+  if (const auto joints = root.Find("virtual_joints")) {
+    robot->virtual_joints = ReadVirtualJoints(*joints, robot->model);
   }
   if (groups || robot->groups.empty()) robot->groups = ReadGroups(root.At("groups"), robot->model);
   if (const auto pairs = root.Find("allowed_pairs")) {
@@ -250,7 +286,9 @@ const PlanningGroup& Robot::Group(const std::string& group_name) const {
     if (group.name == group_name) return group;
     known.push_back(group.name);
   }
-  throw InputError(fmt::format("robot '{}' has no group '{}'; known are: {}", name, group_name,
+  const auto why = why_no_group.find(group_name);
+  throw InputError(fmt::format("robot '{}' has no group '{}'{}; known are: {}", name, group_name,
+                               why == why_no_group.end() ? "" : " (" + why->second + ")",
                                fmt::join(known, ", ")));
 }
 
@@ -266,7 +304,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
   root.AllowOnly({"name", "urdf", "srdf", "spheres", "enclosing_spheres", "edge_resolution_m",
                   "edge_check", "groups", "allowed_pairs", "links_without_spheres", "planners",
-                  "voxels"});
+                  "voxels", "virtual_joints"});
   ContentHash hash;
   hash.Add(robot_text);
 

@@ -21,7 +21,7 @@ namespace planbench {
 ///   name: fetch
 ///   urdf: fetch.urdf
 ///   srdf: fetch.srdf               # optional: groups with their states, pairs that are never
-///                                  #   checked, and sphere approximations (Srdf)
+///                                  #   checked, virtual joints, sphere approximations (Srdf)
 ///   spheres: spheres.yaml          # or a URDF or SRDF with spheres (ReadLinkSpheres); optional:
 ///                                  #   without any the spheres and voxels models cannot be used
 ///   enclosing_spheres: enclosing.yaml   # optional, likewise: those of the enclosing model, which
@@ -31,8 +31,11 @@ namespace planbench {
 ///   groups:                        # instead of the SRDF's; needed without one
 ///     - name: arm_with_torso
 ///       joints: [torso_lift_joint, ...]
-///       tip_link: gripper_link     # or a list: one an arm
+///       tip_link: gripper_link     # or a list: one an arm; the joints move it
 ///       states: {tuck: [0.1, ...]}                # optional: named configurations
+///   virtual_joints:                # optional, instead of the SRDF's: how the robot stands in its
+///                                  #   surroundings; fixed, planar or floating
+///     - {name: world_joint, type: fixed, parent_frame: world, child_link: base_link}
 ///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other,
 ///                                                #   beside those of the SRDF
 ///   links_without_spheres: [link, ...]           # optional: links with a body that `spheres`
@@ -51,6 +54,8 @@ struct Robot {
                            ///< equal robots, equal ids.
   RobotModel model;
   std::vector<PlanningGroup> groups;
+  std::map<std::string, std::string> why_no_group;  ///< Srdf::why_no_group, if the groups are its.
+  std::vector<VirtualJoint> virtual_joints;
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.
   std::vector<LinkSphere> enclosing_spheres;       ///< Those of the enclosing model, likewise.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
@@ -63,7 +68,8 @@ struct Robot {
   /// a user says it.
   std::vector<std::string> warnings;
 
-  /// The group of that name; throws InputError naming the known ones. An empty name is the first
+  /// The group of that name; throws InputError naming the known ones, or why the SRDF's group of
+  /// that name is none. An empty name is the first
   /// group.
   const PlanningGroup& Group(const std::string& group_name) const;
 };

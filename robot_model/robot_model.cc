@@ -51,6 +51,17 @@ Isometry3d JointMotion(const Joint& joint, std::span<const double> full_position
   return X_JC;
 }
 
+std::optional<JointType> ParseVirtualJointType(const std::string& name) {
+  const std::optional<JointType> type = ParseEnum<JointType>(name);
+  return type && NumPositions(*type) == 1 ? std::nullopt : type;
+}
+
+std::vector<int> PlanningGroup::tips() const {
+  std::vector<int> tips = {tip_link};
+  tips.insert(tips.end(), more_tips.begin(), more_tips.end());
+  return tips;
+}
+
 int RobotModel::FindLink(const std::string& name) const {
   const auto entry = link_index_.find(name);
   return entry == link_index_.end() ? -1 : entry->second;
@@ -113,7 +124,7 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
     if (joint.type == JointType::kFixed) fail(fmt::format("joint '{}' is fixed", joint_name));
     if (NumPositions(joint.type) != 1) {
       fail(fmt::format("joint '{}' is {}; such joints cannot be planned with", joint_name,
-                       joint.type == JointType::kPlanar ? "planar" : "floating"));
+                       EnumName(joint.type)));
     }
     if (joint.leader >= 0) {
       fail(fmt::format("joint '{}' follows joint '{}' (mimic); name that one", joint_name,

@@ -3,17 +3,24 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/enum_names.h"
 #include "geometry/shapes.h"
 #include "robot_model/joint_space.h"
 
 namespace planbench {
 
 enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating };
+template <>
+struct EnumNames<JointType> {
+  static constexpr auto kNames = std::to_array<std::string_view>(
+      {"fixed", "revolute", "continuous", "prismatic", "planar", "floating"});
+};
 
 /// Positions a joint of that type has: none, one, or, if it is planar or floating, the seven of a
 /// pose: translation x, y, z (m) and rotation x, y, z, w (a quaternion).
@@ -48,6 +55,16 @@ Eigen::Isometry3d JointMotion(const Joint& joint, double position);
 /// The same for every joint, at full positions of its robot.
 Eigen::Isometry3d JointMotion(const Joint& joint, std::span<const double> full_positions);
 
+/// Joins the robot to its surroundings, which are no part of the URDF: an SRDF's virtual joint.
+struct VirtualJoint {
+  std::string name;
+  JointType type = JointType::kFixed;  ///< Fixed, planar or floating.
+  std::string parent_frame;            ///< Of the surroundings; at the child link if it is fixed.
+  int child_link = -1;
+};
+/// The type of a virtual joint of that name, nothing if it is the name of none.
+std::optional<JointType> ParseVirtualJointType(const std::string& name);
+
 struct Link {
   std::string name;
   std::string where;      ///< For messages: file, line and name.
@@ -76,7 +93,8 @@ struct PlanningGroup {
   std::vector<int> joints;  ///< Joint indices, in group order.
   std::vector<Follower> followers;
   int tip_link = -1;
-  std::vector<int> more_tips;  ///< Of further arms.
+  std::vector<int> more_tips;     ///< Of further arms.
+  std::vector<int> tips() const;  ///< All of them, tip_link first.
   JointSpace space;
   std::map<std::string, std::vector<double>> states;  ///< Named configurations, in group order.
 };

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -17,6 +18,8 @@ namespace planbench {
 namespace {
 
 using Element = tinyxml2::XMLElement;
+
+constexpr int kLeastJointsOfAnArm = 3;
 
 // Elements of a robot that say nothing of how it plans.
 const std::set<std::string>& IgnoredElements() {
@@ -57,8 +60,9 @@ class SrdfReader {
 
  private:
   struct Members {
-    std::set<int> joints;  // In URDF order.
-    std::vector<std::string> tips;
+    std::set<int> joints;                     // In URDF order.
+    std::vector<int> tips;                    // Links, of chains.
+    std::vector<std::string> virtual_joints;  // Planar and floating ones.
   };
 
   std::string Where(const Element& element) const {
@@ -140,14 +144,14 @@ class SrdfReader {
   }
 
   void ReadVirtualJoint(const Element& element) {
-    Srdf::VirtualJoint joint{Attribute(element, "name"), Attribute(element, "type"),
-                             Attribute(element, "parent_frame"),
-                             LinkName(LinkAt(element, "child_link"))};
-    if (joint.type != "fixed" && joint.type != "planar" && joint.type != "floating") {
-      Fail(element,
-           fmt::format("type: expected fixed, planar or floating, found '{}'", joint.type));
+    const std::string type = Attribute(element, "type");
+    const std::optional<JointType> parsed = ParseVirtualJointType(type);
+    if (!parsed) {
+      Fail(element, fmt::format("type: expected fixed, planar or floating, found '{}'", type));
     }
-    srdf_.virtual_joints.push_back(std::move(joint));
+    srdf_.virtual_joints.push_back({Attribute(element, "name"), *parsed,
+                                    Attribute(element, "parent_frame"),
+                                    LinkAt(element, "child_link")});
   }
 
   void ReadGroups() {
@@ -157,37 +161,75 @@ class SrdfReader {
         Fail(*e, fmt::format("the group '{}' occurs twice", name));
       }
     }
+    for (const Element* e : Children(*root_, "end_effector")) FindHandJoints(*e);
     for (const Element* e : Children(*root_, "group")) ReadGroup(*e);
+  }
+
+  void FindHandJoints(const Element& effector) {
+    const auto group = groups_.find(Attribute(effector, "group"));
+    if (group != groups_.end()) hand_joints_.merge(MembersOf(*group->second, {}).joints);
   }
 
   void ReadGroup(const Element& element) {
     const std::string name = Attribute(element, "name");
-    Members members = MembersOf(element, {});
-    std::vector<std::string> joints;
-    std::vector<std::string> held;
+    const Members members = MembersOf(element, {});
+    std::set<int> joints;
+    std::vector<std::string> passive;
+    std::vector<std::string> with_pose = members.virtual_joints;
     for (const int index : members.joints) {
       const Joint& joint = JointAt(index);
       if (joint.type == JointType::kFixed || joint.leader >= 0) continue;
-      const bool can_plan = NumPositions(joint.type) == 1 && !passive_.contains(joint.name);
-      (can_plan ? joints : held).push_back(joint.name);
+      if (NumPositions(joint.type) > 1) {
+        with_pose.push_back(joint.name);
+      } else if (passive_.contains(joint.name)) {
+        passive.push_back(joint.name);
+      } else {
+        joints.insert(index);
+      }
     }
-    if (!held.empty()) {
-      srdf_.left_out.push_back(fmt::format(
-          "{}: group '{}': {} held where problems say (passive, planar or floating): {}",
-          Where(element), name, held.size() == 1 ? "a joint is" : "joints are",
-          fmt::join(held, ", ")));
-    }
-    if (joints.empty()) {
-      srdf_.left_out.push_back(fmt::format("{}: group '{}' has no joint that can be planned with",
-                                           Where(element), name));
+    const std::string group = fmt::format("{}: group '{}'", Where(element), name);
+    if (!joints.empty()) {
+      if (!with_pose.empty()) {
+        srdf_.group_warnings.push_back(
+            fmt::format("{}: planar and floating joints cannot be planned with, and are held where "
+                        "problems say: {}",
+                        group, fmt::join(with_pose, ", ")));
+      }
+      if (!passive.empty()) {
+        srdf_.left_out.push_back(fmt::format("{}: passive joints are held where problems say: {}",
+                                             group, fmt::join(passive, ", ")));
+      }
+      AddGroup(element, name, joints, members.tips);
       return;
     }
-    if (members.tips.empty()) members.tips = OutermostLinks(joints);
-    const std::vector<std::string> more(members.tips.begin() + 1, members.tips.end());
+    std::string& why = srdf_.why_no_group[name];
+    if (members.joints.empty() && with_pose.empty()) {
+      why = group + " is left out: it has no joint; name chains, joints, links or groups";
+      srdf_.group_warnings.push_back(why);
+      return;
+    }
+    why = group + " is left out: it has no joint that can be planned with";
+    std::vector<std::string>& lines = with_pose.empty() ? srdf_.left_out : srdf_.group_warnings;
+    with_pose.insert(with_pose.end(), passive.begin(), passive.end());
+    if (!with_pose.empty()) {
+      why += fmt::format("; held where problems say: {}", fmt::join(with_pose, ", "));
+    }
+    lines.push_back(why);
+  }
+
+  void AddGroup(const Element& element, const std::string& name, const std::set<int>& joints,
+                const std::vector<int>& chain_tips) {
+    std::vector<std::string> joint_names;
+    for (const int joint : joints) joint_names.push_back(JointAt(joint).name);
+    std::vector<std::string> tips;
+    for (const int tip : TipsOf(joints, chain_tips)) tips.push_back(LinkName(tip));
     try {
-      srdf_.groups.push_back(model_.MakeGroup(name, joints, members.tips.front(), more));
+      srdf_.groups.push_back(
+          model_.MakeGroup(name, joint_names, tips.front(), {tips.begin() + 1, tips.end()}));
     } catch (const InputError& error) {
-      Fail(element, error.what());
+      std::string& why = srdf_.why_no_group[name];
+      why = fmt::format("{}: group '{}' is left out: {}", Where(element), name, error.what());
+      srdf_.group_warnings.push_back(why);
     }
   }
 
@@ -198,20 +240,19 @@ class SrdfReader {
            fmt::format("the groups are parts of each other: {}, {}", fmt::join(path, ", "), name));
     }
     path.push_back(name);
-    if (group.FirstChildElement() == nullptr) {
-      Fail(group,
-           fmt::format("the group '{}' has no joints: name chains, joints, links or groups", name));
-    }
     Members members;
     for (const Element* e : Children(group, "joint")) {
       const std::string joint_name = Attribute(*e, "name");
       const int joint = model_.FindJoint(joint_name);
-      const auto is_it = [&](const Srdf::VirtualJoint& v) { return v.name == joint_name; };
       if (joint >= 0) {
         members.joints.insert(joint);
-      } else if (std::none_of(srdf_.virtual_joints.begin(), srdf_.virtual_joints.end(), is_it)) {
-        FailUnknown(*e, "joint", joint_name);
+        continue;
       }
+      const auto virtual_joint =
+          std::find_if(srdf_.virtual_joints.begin(), srdf_.virtual_joints.end(),
+                       [&](const VirtualJoint& v) { return v.name == joint_name; });
+      if (virtual_joint == srdf_.virtual_joints.end()) FailUnknown(*e, "joint", joint_name);
+      if (virtual_joint->type != JointType::kFixed) AddNew(joint_name, &members.virtual_joints);
     }
     for (const Element* e : Children(group, "link")) {
       const int joint = ParentJoint(LinkAt(*e, "name"));
@@ -225,7 +266,10 @@ class SrdfReader {
       }
       Members others = MembersOf(*part->second, path);
       members.joints.merge(others.joints);
-      for (const std::string& tip : others.tips) AddTip(tip, &members);
+      for (const int tip : others.tips) AddNew(tip, &members.tips);
+      for (const std::string& joint : others.virtual_joints) {
+        AddNew(joint, &members.virtual_joints);
+      }
     }
     return members;
   }
@@ -233,39 +277,94 @@ class SrdfReader {
   void AddChain(const Element& element, Members* members) const {
     const int base = LinkAt(element, "base_link");
     const int tip = LinkAt(element, "tip_link");
-    int link = tip;
-    while (link != base) {
-      const int joint = ParentJoint(link);
-      if (joint < 0) {
-        Fail(element, fmt::format("no chain of joints leads from link '{}' out to link '{}'",
-                                  LinkName(base), LinkName(tip)));
-      }
-      members->joints.insert(joint);
-      link = JointAt(joint).parent_link;
+    std::vector<int> from_tip = JointsToRoot(tip);
+    std::vector<int> from_base = JointsToRoot(base);
+    int beneath = -1;  // The joint where they meet, -1 at the root.
+    while (!from_tip.empty() && !from_base.empty() && from_tip.back() == from_base.back()) {
+      beneath = from_tip.back();
+      from_tip.pop_back();
+      from_base.pop_back();
     }
-    AddTip(LinkName(tip), members);
+    members->joints.insert(from_tip.begin(), from_tip.end());
+    if (!from_tip.empty()) AddNew(tip, &members->tips);
+    if (from_base.empty()) return;
+    // The base is not on the way from the root to the tip.
+    members->joints.insert(from_base.begin(), from_base.end());
+    if (beneath >= 0) members->joints.insert(beneath);
+    AddNew(base, &members->tips);
   }
 
-  static void AddTip(const std::string& tip, Members* members) {
-    auto& tips = members->tips;
-    if (std::find(tips.begin(), tips.end(), tip) == tips.end()) tips.push_back(tip);
+  std::vector<int> JointsToRoot(int link) const {
+    std::vector<int> joints;
+    for (; ParentJoint(link) >= 0; link = JointAt(joints.back()).parent_link) {
+      joints.push_back(ParentJoint(link));
+    }
+    return joints;
   }
 
-  // Child links of joints below which there is no other joint of the list.
-  std::vector<std::string> OutermostLinks(const std::vector<std::string>& joints) const {
-    std::set<int> has_more_below;
-    for (const std::string& name : joints) {
-      for (int link = JointAt(model_.FindJoint(name)).parent_link; ParentJoint(link) >= 0;
-           link = JointAt(ParentJoint(link)).parent_link) {
-        has_more_below.insert(ParentJoint(link));
-      }
+  template <typename Value>
+  static void AddNew(const Value& value, std::vector<Value>* values) {
+    if (std::find(values->begin(), values->end(), value) == values->end()) values->push_back(value);
+  }
+
+  // Tips of a group of these joints, which has chains with these tips.
+  std::vector<int> TipsOf(const std::set<int>& joints, const std::vector<int>& chain_tips) const {
+    std::vector<int> tips;
+    std::copy_if(chain_tips.begin(), chain_tips.end(), std::back_inserter(tips),
+                 [&](int tip) { return IsMoved(tip, joints); });
+    for (const int link : OutermostLinks(joints)) {
+      const bool has_tip = std::any_of(tips.begin(), tips.end(), [&](int tip) {
+        return IsBeyond(tip, link) || (IsBeyond(link, tip) && !ArmLeadsOn(tip, link, joints));
+      });
+      if (!has_tip) tips.push_back(link);
     }
-    std::vector<std::string> tips;
-    for (const std::string& name : joints) {
-      const int joint = model_.FindJoint(name);
-      if (!has_more_below.contains(joint)) tips.push_back(LinkName(JointAt(joint).child_link));
-    }
+    const std::vector<int> all = tips;
+    std::erase_if(tips, [&](int tip) {
+      return std::any_of(all.begin(), all.end(),
+                         [&](int other) { return ArmLeadsOn(tip, other, joints); });
+    });
     return tips;
+  }
+
+  bool IsMoved(int link, const std::set<int>& joints) const {
+    const std::vector<int> path = JointsToRoot(link);
+    return std::any_of(path.begin(), path.end(), [&](int joint) {
+      return joints.contains(joint) || joints.contains(JointAt(joint).leader);
+    });
+  }
+
+  // Whether `link` is `inner`, or carried by it.
+  bool IsBeyond(int link, int inner) const {
+    const std::vector<int> path = JointsToRoot(link);
+    return link == inner || std::any_of(path.begin(), path.end(), [&](int joint) {
+             return JointAt(joint).parent_link == inner;
+           });
+  }
+
+  // Whether the joints between two links, of which one carries the other, are an arm's and not
+  // those of a hand.
+  bool ArmLeadsOn(int from, int to, const std::set<int>& joints) const {
+    if (!IsBeyond(to, from)) return false;
+    int count = 0;
+    for (int link = to; link != from; link = JointAt(ParentJoint(link)).parent_link) {
+      if (!joints.contains(ParentJoint(link))) continue;
+      if (hand_joints_.contains(ParentJoint(link))) return false;
+      ++count;
+    }
+    return count >= kLeastJointsOfAnArm;
+  }
+
+  // Child links of joints below which there is no other joint of the set.
+  std::vector<int> OutermostLinks(const std::set<int>& joints) const {
+    std::set<int> has_more_below;
+    for (const int joint : joints) {
+      for (const int inner : JointsToRoot(JointAt(joint).parent_link)) has_more_below.insert(inner);
+    }
+    std::vector<int> links;
+    for (const int joint : joints) {
+      if (!has_more_below.contains(joint)) links.push_back(JointAt(joint).child_link);
+    }
+    return links;
   }
 
   void ReadEndEffector(const Element& element) {
@@ -370,11 +469,19 @@ class SrdfReader {
   const Element* root_ = nullptr;
   std::string robot_name_;
   std::set<std::string> passive_;
+  std::set<int> hand_joints_;  // Of end effectors.
   std::map<std::string, const Element*> groups_;
   Srdf srdf_;
 };
 
 }  // namespace
+
+std::string NoGroupFault(const Srdf& srdf, const std::string& origin) {
+  std::vector<std::string> lines;
+  for (const auto& [name, why] : srdf.why_no_group) lines.push_back(why);
+  return fmt::format("{} has no group with joints that can be planned with{}{}", origin,
+                     lines.empty() ? "" : ": ", fmt::join(lines, "; "));
+}
 
 Srdf ParseSrdf(const std::string& srdf_text, const std::string& origin, const RobotModel& model) {
   return SrdfReader(srdf_text, origin, model).Read();

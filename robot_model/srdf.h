@@ -18,18 +18,14 @@ struct Srdf {
     std::string parent_link;   ///< That it is mounted on.
     std::string parent_group;  ///< That moves it; "" if the file does not say.
   };
-  /// How the robot stands in the world.
-  struct VirtualJoint {
-    std::string name;
-    std::string type;  ///< fixed, planar or floating
-    std::string parent_frame;
-    std::string child_link;
-  };
 
   /// Those with a joint that can be planned with, in file order; joints in URDF order, without
-  /// fixed, planar and floating ones, passive ones and those that follow others. Tips are those of
-  /// the chains, else the outermost links. States are complete: joints that the file does not name
-  /// are at their default position.
+  /// fixed, planar and floating ones, passive ones and those that follow others. A chain is all
+  /// joints between two links; where neither carries the other, it has two branches, two tips, and,
+  /// as MoveIt takes it, the joint beneath where they meet. Tips are those of the chains, but for
+  /// those that an arm leads on from (three joints or more, none of an end effector), and the
+  /// outermost links of branches without one. States are complete: joints that the file does not
+  /// name are at their default position.
   std::vector<PlanningGroup> groups;
   std::vector<EndEffector> end_effectors;
   std::vector<VirtualJoint> virtual_joints;
@@ -39,9 +35,17 @@ struct Srdf {
   /// What of the file does not count, one line each: pairs of links that the robot does not have,
   /// elements that are not known.
   std::vector<std::string> warnings;
+  /// What of the groups does not count although it was meant to, one line each: groups that name
+  /// nothing or cannot be planned with, planar and floating joints of groups.
+  std::vector<std::string> group_warnings;
   /// Groups, joints of groups and states that planning has no use for, one line each.
   std::vector<std::string> left_out;
+  /// Why a group of the file is not in `groups`, by its name: its line in one of the two above.
+  std::map<std::string, std::string> why_no_group;
 };
+
+/// For messages: that it has no group to plan with, and why.
+std::string NoGroupFault(const Srdf& srdf, const std::string& origin);
 
 /// Reads SRDF text; `origin` names it. Throws InputError with file and line: for text that is no
 /// SRDF, and for groups, end effectors and spheres that name what the robot or the file does not

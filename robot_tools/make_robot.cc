@@ -128,18 +128,18 @@ class RobotMaker {
   void MakeGroups() {
     if (srdf_) {
       if (srdf_->groups.empty()) {
-        throw InputError(fmt::format("{}: has no group with joints that can be planned with",
-                                     flags_.srdf.string()));
+        throw InputError(NoGroupFault(*srdf_, flags_.srdf.string()));
       }
       robot().groups = srdf_->groups;
+      robot().virtual_joints = srdf_->virtual_joints;
     } else {
       robot().groups = ProposeGroups(robot().model);
     }
     Say("groups, {}:", srdf_ ? "from the SRDF" : "proposed from the tree of joints");
     std::set<int> planned;
     for (const PlanningGroup& group : robot().groups) {
-      std::vector<std::string> tips = {LinkName(group.tip_link)};
-      for (const int tip : group.more_tips) tips.push_back(LinkName(tip));
+      std::vector<std::string> tips;
+      for (const int tip : group.tips()) tips.push_back(LinkName(tip));
       std::vector<std::string> states;
       for (const auto& [name, q] : group.states) states.push_back(name);
       planned.insert(group.joints.begin(), group.joints.end());
@@ -147,13 +147,16 @@ class RobotMaker {
           states.empty() ? "" : "; states ", fmt::join(states, ", "));
     }
     if (srdf_) {
+      for (const std::string& line : srdf_->group_warnings) Say("  {}", line);
       for (const std::string& line : srdf_->left_out) Say("  {}", line);
       for (const Srdf::EndEffector& effector : srdf_->end_effectors) {
         Say("  end effector '{}' on {}", effector.name, effector.parent_link);
       }
-      for (const Srdf::VirtualJoint& joint : srdf_->virtual_joints) {
-        Say("  {} stands in {} by the {} joint '{}': problems may give its pose", joint.child_link,
-            joint.parent_frame, joint.type, joint.name);
+      for (const VirtualJoint& joint : srdf_->virtual_joints) {
+        const bool is_fixed = joint.type == JointType::kFixed;
+        Say("  {} stands {} {} by the {} joint '{}'{}", LinkName(joint.child_link),
+            is_fixed ? "at" : "in", joint.parent_frame, EnumName(joint.type), joint.name,
+            is_fixed ? "" : ": problems may give its pose");
       }
     }
     std::vector<std::string> held;

@@ -50,14 +50,25 @@ std::string GroupYaml(const PlanningGroup& group, const RobotModel& model) {
   std::vector<std::string> joints;
   for (const JointSpace::Joint& joint : group.space.joints())
     joints.push_back(YamlText(joint.name));
-  std::vector<std::string> tips = {LinkYaml(model, group.tip_link)};
-  for (const int tip : group.more_tips) tips.push_back(LinkYaml(model, tip));
+  std::vector<std::string> tips;
+  for (const int tip : group.tips()) tips.push_back(LinkYaml(model, tip));
   std::string yaml =
       fmt::format("  - name: {}\n    joints: {}\n    tip_link: {}\n", YamlText(group.name),
                   List(joints, 13), tips.size() == 1 ? tips.front() : List(tips, 15));
   if (!group.states.empty()) yaml += "    states:  # rad or m, in the order of the joints\n";
   for (const auto& [name, q] : group.states) {
     yaml += fmt::format("      {}: {}\n", YamlText(name), List(Numbers(q), 8));
+  }
+  return yaml;
+}
+
+std::string VirtualJointsYaml(const Robot& robot) {
+  if (robot.virtual_joints.empty()) return "";
+  std::string yaml = "\n# How the robot stands in its surroundings.\nvirtual_joints:\n";
+  for (const VirtualJoint& joint : robot.virtual_joints) {
+    yaml += fmt::format("  - {{name: {}, type: {}, parent_frame: {}, child_link: {}}}\n",
+                        YamlText(joint.name), EnumName(joint.type), YamlText(joint.parent_frame),
+                        LinkYaml(robot.model, joint.child_link));
   }
   return yaml;
 }
@@ -89,6 +100,7 @@ std::string RobotYaml(const RobotDraft& draft) {
       "edge_resolution_m: {}\nedge_check: {}\n\ngroups:\n",
       YamlNumber(robot.edge_resolution_m), EnumName(robot.edge_check));
   for (const PlanningGroup& group : robot.groups) yaml += GroupYaml(group, robot.model);
+  yaml += VirtualJointsYaml(robot);
   const std::string pairs = PairsYaml(draft);
   if (!pairs.empty()) yaml += "\n# Never checked against each other.\nallowed_pairs:\n" + pairs;
   if (!draft.links_without_spheres.empty()) {

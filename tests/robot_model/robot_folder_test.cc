@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 fs::path FetchFolder() { return fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"; }
 
 constexpr char kSmallUrdf[] = R"(<robot name="small">
-  <link name="base"/>
+  <link name="base"/><link name="hand"/>
+  <joint name="weld" type="fixed"><parent link="arm"/><child link="hand"/></joint>
   <link name="arm"><collision><geometry>
     <mesh filename="package://small_description/meshes/arm.stl"/></geometry></collision></link>
   <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
@@ -178,18 +179,76 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
   folder.Write(
       "robot.yaml",
       "name: small\nurdf: small.urdf\nsrdf: small.srdf\nspheres: spheres.yaml\n"
-      "groups:\n  - {name: own, joints: [turn], tip_link: [arm, base], states: {up: [1]}}\n");
+      "groups:\n  - {name: own, joints: [turn], tip_link: [arm, hand], states: {up: [1]}}\n");
   folder.Write("spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
   const Robot own = LoadRobot(folder.path());
   EXPECT_EQ(own.groups[0].name, "own");
   EXPECT_EQ(own.groups[0].states.at("up"), std::vector<double>{1});
-  EXPECT_EQ(own.groups[0].more_tips, std::vector<int>{own.model.FindLink("base")});
+  EXPECT_EQ(own.groups[0].more_tips, std::vector<int>{own.model.FindLink("hand")});
   EXPECT_EQ(own.spheres[0].radius, 2);
   EXPECT_EQ(own.allowed_pairs.size(), 1u);
 
   folder.Write("small.srdf", "<robot name='small'/>");
   folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");
   ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:3", "srdf", "no group"});
+}
+
+TEST(LoadRobot, SaysWhyAGroupOfTheSrdfIsNone) {
+  TemporaryFolder folder;
+  folder.Write("small.urdf", kSmallUrdf);
+  folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");
+  const std::string none = "<robot name='small'>\n<group name='none'/>";
+  const std::string turning = "<group name='turning'><joint name='turn'/></group>";
+  folder.Write("small.srdf", none + turning + "</robot>");
+  const Robot robot = LoadRobot(folder.path());
+  EXPECT_EQ(robot.Group("").name, "turning");
+  EXPECT_THAT(robot.warnings,
+              testing::ElementsAre(testing::HasSubstr("small.srdf:2: group 'none' is left out")));
+  ExpectInputError([&] { robot.Group("none"); },
+                   {"no group 'none'", "small.srdf:2", "it has no joint", "known are: turning"});
+  // Another one is none.
+  folder.Write("small.srdf", none + "</robot>");
+  ExpectInputError([&] { LoadRobot(folder.path()); },
+                   {"robot.yaml:3", "no group with joints", "small.srdf:2", "'none'"});
+  // Groups of robot.yaml take the place of all of them.
+  folder.Write("robot.yaml",
+               "name: small\nurdf: small.urdf\nsrdf: small.srdf\ngroups:\n"
+               "  - {name: own, joints: [turn], tip_link: arm}\n");
+  EXPECT_THAT(LoadRobot(folder.path()).warnings, testing::IsEmpty());
+}
+
+TEST(LoadRobot, VirtualJointsAreTheSrdfsOrItsOwn) {
+  TemporaryFolder folder;
+  folder.Write("small.urdf", kSmallUrdf);
+  folder.Write("small.srdf",
+               "<robot name='small'><group name='turning'><joint name='turn'/></group>"
+               "<virtual_joint name='v' type='planar' parent_frame='odom' child_link='base'/>"
+               "</robot>");
+  const std::string yaml = "name: small\nurdf: small.urdf\nsrdf: small.srdf\n";
+  folder.Write("robot.yaml", yaml);
+  const auto only = [&] {
+    const Robot robot = LoadRobot(folder.path());
+    EXPECT_EQ(robot.virtual_joints.size(), 1u);
+    return robot.virtual_joints.at(0);
+  };
+  EXPECT_EQ(only().type, JointType::kPlanar);
+  EXPECT_EQ(only().parent_frame, "odom");
+  const std::string own =
+      "virtual_joints:\n  - {name: w, type: fixed, parent_frame: world, child_link: base}\n";
+  folder.Write("robot.yaml", yaml + own);
+  EXPECT_EQ(only().type, JointType::kFixed);
+  EXPECT_EQ(only().name, "w");
+  EXPECT_EQ(only().child_link, 0);
+  const auto refuse = [&](const std::string& what, const std::string& by,
+                          const std::vector<std::string>& parts) {
+    std::string text = own;
+    folder.Write("robot.yaml", yaml + text.replace(text.find(what), what.size(), by));
+    ExpectInputError(only, parts);
+  };
+  refuse("fixed", "revolute",
+         {"robot.yaml:5: virtual_joints[0].type", "fixed, planar or floating"});
+  refuse("base", "leg", {"robot.yaml:5: virtual_joints[0].child_link", "no link 'leg'"});
+  refuse("name: w", "nam: w", {"robot.yaml:5: virtual_joints[0]", "unknown key 'nam'"});
 }
 
 TEST(LoadRobot, SpheresMayBeTheGeometryOfAUrdf) {
@@ -413,7 +472,7 @@ TEST(LoadRefereeRobot, TakesARobotFolderToo) {
   WriteSmallRobot(folder, "exact");
   folder.Write("exact/robot.yaml",
                "name: exact\nurdf: small.urdf\n"
-               "groups: [{name: own, joints: [turn], tip_link: base}]\n");
+               "groups: [{name: own, joints: [turn], tip_link: arm}]\n");
   const Robot planning = LoadRobot(folder.path() / "small");
   const Robot referee = LoadRefereeRobot(folder.path() / "exact", planning);
   EXPECT_EQ(referee.name, "exact");

@@ -101,7 +101,23 @@ TEST_F(MakeRobotTest, AnSrdfSaysGroupsStatesAndPairs) {
   EXPECT_THAT(report, HasSubstr("1 of 2 disabled pairs"));
   EXPECT_THAT(report, HasSubstr("wheel"));
   EXPECT_THAT(report, HasSubstr("'bent' of jib is out of the limits: luff at 3"));
-  EXPECT_THAT(report, HasSubstr("base stands in world by the fixed joint 'yard'"));
+  EXPECT_THAT(report, HasSubstr("base stands at world by the fixed joint 'yard'"));
+  ASSERT_EQ(robot.virtual_joints.size(), 1u);
+  EXPECT_EQ(robot.virtual_joints[0].name, "yard");
+  EXPECT_EQ(robot.virtual_joints[0].type, JointType::kFixed);
+  EXPECT_EQ(robot.virtual_joints[0].parent_frame, "world");
+  EXPECT_EQ(robot.virtual_joints[0].child_link, robot.model.FindLink("base"));
+}
+
+TEST_F(MakeRobotTest, AGroupThatIsNoneIsLeftOutAndSaid) {
+  Srdf(
+      "<robot name='crane'>\n<group name='none'/><group name='jib'><joint name='slew'/></group>"
+      "</robot>");
+  EXPECT_THAT(Make(), HasSubstr("crane.srdf:2: group 'none' is left out: it has no joint"));
+  EXPECT_EQ(LoadRobot(flags_.out).groups.size(), 1u);
+  flags_.out = folder_.path() / "nothing";
+  Srdf("<robot name='crane'>\n<group name='none'/></robot>");
+  ExpectRefused({"crane.srdf has no group", "crane.srdf:2", "'none'"});
 }
 
 TEST_F(MakeRobotTest, TheWrittenRobotIsTheOneThatItWasMadeFrom) {
