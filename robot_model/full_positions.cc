@@ -13,6 +13,8 @@ namespace {
 
 // Positions that differ by less say the same (rad or m): they were measured, or written as text.
 constexpr double kAgreement = 1e-3;
+// The same for what must be none at all: how far a planar joint is off its plane (m; rad).
+constexpr double kOffPlane = 1e-4;
 
 // Index of the position of that name, the joint's own or its leader's; -1 if there is none.
 int PositionIndex(const RobotModel& model, const std::string& name, const Joint** joint) {
@@ -38,14 +40,46 @@ bool IsFixedAt(const Joint& joint, double position) {
          equal(Eigen::AngleAxisd(Eigen::Matrix3d(joint.X_PJ.linear())).angle());
 }
 
+// Why a position that is a part of a joint's pose cannot have that value.
+std::optional<std::string> FindPartFault(const RobotModel& model, int position_index,
+                                         double position) {
+  for (const Joint& joint : model.joints()) {
+    if (joint.type != JointType::kPlanar) continue;
+    const int part = position_index - joint.position_index;  // x, y, z and those of a quaternion.
+    if ((part == 2 || part == 3 || part == 4) && std::abs(position) > kOffPlane) {
+      return fmt::format("is of a planar joint and cannot be at {}, only at 0", position);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::optional<std::string> FindPoseFault(JointType type, const Eigen::Isometry3d& X_JC) {
+  if (NumPositions(type) == 1) return "is not one that takes a pose";
+  if (type == JointType::kFixed &&
+      (X_JC.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff() > kOffPlane) {
+    return "is fixed and cannot be at a pose other than the identity";
+  }
+  if (type != JointType::kPlanar) return std::nullopt;
+  const double height = X_JC.translation().z();
+  if (std::abs(height) > kOffPlane) {
+    return fmt::format("is planar and cannot be off its plane, at z = {}", height);
+  }
+  const Eigen::Vector3d& z_J = X_JC.linear().col(2);
+  const double tilt = std::atan2(z_J.head<2>().norm(), z_J.z());
+  if (tilt > kOffPlane) {
+    return fmt::format("is planar and cannot be tilted, here by {:.4g} rad", tilt);
+  }
+  return std::nullopt;
+}
 
 std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
                                              double position) {
   const Joint* joint = nullptr;
   const int index = PositionIndex(model, name, &joint);
   if (joint == nullptr) {
-    if (index >= 0) return std::nullopt;
+    if (index >= 0) return FindPartFault(model, index, position);
     return fmt::format("is unknown; robot '{}' has none of that name", model.name());
   }
   if (NumPositions(joint->type) > 1) return "takes a pose (multi_dof_joint_state), not a position";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,14 @@ namespace planbench {
 
 /// Why a joint of that name cannot be at that position ("is unknown"), nothing if it can be named
 /// so. Names are those of joints, and RobotModel::position_names. A fixed joint may be named at 0,
-/// and where its origin shows that the description has fixed it.
+/// and where its origin shows that the description has fixed it; what would lift or tilt a planar
+/// joint, at 0.
 std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
                                              double position);
+
+/// Why a joint of that type cannot have its child link at pose X_JC in its own frame ("is planar
+/// and cannot be tilted"), nothing if it can. Planar ones move in x and y, and turn about z.
+std::optional<std::string> FindPoseFault(JointType type, const Eigen::Isometry3d& X_JC);
 
 /// Full positions from named ones: `names[i]` takes `positions[i]`, others their default. A joint
 /// that follows another is where that one puts it; if only the follower is named, the leader is

@@ -24,32 +24,50 @@ std::string WithoutSlash(const std::string& frame) {
   return frame.starts_with('/') ? frame.substr(1) : frame;
 }
 
-FrameTree::FrameTree(const RobotModel& model, std::span<const double> start_positions,
+FrameTree::FrameTree(const Robot& robot, std::span<const double> start_positions,
                      const PlanningFrame& planning_frame,
                      const std::vector<FixedTransform>& transforms)
-    : model_(&model), planning_frame_(planning_frame.name) {
-  const std::vector<Isometry3d> X_BL = ComputeLinkPoses(model, start_positions);
-  for (int link = 0; link < model.num_links(); ++link) {
+    : not_of_objects_{planning_frame.name} {
+  const std::vector<Isometry3d> X_BL = ComputeLinkPoses(robot.model, start_positions);
+  for (int link = 0; link < robot.model.num_links(); ++link) {
     const auto l = static_cast<std::size_t>(link);
-    X_BF_[model.links()[l].name] = X_BL[l];
+    X_BF_[robot.model.links()[l].name] = X_BL[l];
+    not_of_objects_.insert(robot.model.links()[l].name);
   }
   std::vector<FixedTransform> named = transforms;  // With the planning frame by its name.
   for (FixedTransform& transform : named) {
     if (transform.header.empty()) transform.header = planning_frame.name;
   }
+  // What the file says comes before what the robot's description says, and that before what is
+  // taken where neither says anything.
   Follow(named);
-  const Isometry3d X_BW =
-      planning_frame.X_WR ? planning_frame.X_WR->inverse(Eigen::Isometry) : Isometry3d::Identity();
-  const auto [frame, is_new] = X_BF_.try_emplace(planning_frame.name, X_BW);
-  if (!is_new && planning_frame.X_WR && !Agree(frame->second, X_BW)) {
-    planning_frame.node->Fail(
-        "places the robot in the frame '" + planning_frame.name +
-        "', which has another pose already: it is the robot's own, or a fixed "
-        "transform joins it to the robot");
-  }
-  X_BF_[""] = frame->second;
+  if (planning_frame.X_WR) Place(planning_frame);
+  Follow(named);
+  PlaceSurroundings(robot);
+  Follow(named);
+  X_BF_.try_emplace(planning_frame.name, Isometry3d::Identity());
+  X_BF_[""] = X_BF_.at(planning_frame.name);
   Follow(named);
   CheckAgreement(named);
+}
+
+void FrameTree::Place(const PlanningFrame& planning_frame) {
+  const Isometry3d X_BW = planning_frame.X_WR->inverse(Eigen::Isometry);
+  const auto [frame, is_new] = X_BF_.try_emplace(planning_frame.name, X_BW);
+  if (is_new || Agree(frame->second, X_BW)) return;
+  planning_frame.node->Fail("places the robot in the frame '" + planning_frame.name +
+                            "', which has another pose already: it is the robot's own, or a fixed "
+                            "transform joins it to the robot");
+}
+
+void FrameTree::PlaceSurroundings(const Robot& robot) {
+  for (const VirtualJoint& joint : robot.virtual_joints) {
+    if (joint.type != JointType::kFixed) continue;
+    const std::string frame = WithoutSlash(joint.parent_frame);
+    const std::string& link = robot.model.links()[static_cast<std::size_t>(joint.child_link)].name;
+    X_BF_.try_emplace(frame, X_BF_.at(link));
+    not_of_objects_.insert(frame);
+  }
 }
 
 void FrameTree::Follow(const std::vector<FixedTransform>& transforms) {
@@ -85,7 +103,7 @@ void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) co
 }
 
 void FrameTree::AddObjectFrame(const std::string& name, const Isometry3d& X_BF) {
-  if (model_->FindLink(name) < 0 && name != planning_frame_) X_BF_[name] = X_BF;
+  if (!not_of_objects_.contains(name)) X_BF_[name] = X_BF;
 }
 
 const Isometry3d* FrameTree::Find(const std::string& name) const {

@@ -3,12 +3,13 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/yaml.h"
-#include "robot_model/robot_model.h"
+#include "robot_model/robot_folder.h"
 
 namespace planbench {
 
@@ -34,16 +35,17 @@ struct PlanningFrame {
 /// of the latter in the former, whichever of the two the header names. That is what MoveIt means,
 /// which writes the planning frame as the child, and what tf means, where it is the header. Chains
 /// are followed. The planning frame, if neither a link nor joined to one, is where it has the root
-/// link at X_WR, by default at its origin.
+/// link at X_WR, by default at its origin. The parent frame of a fixed virtual joint is, unless the
+/// file says otherwise, at its child link.
 class FrameTree {
  public:
   /// Throws InputError, at its node, for a transform that contradicts others (by more than 1e-6),
   /// and for a root link that has a pose in a frame of the robot itself.
-  FrameTree(const RobotModel& model, std::span<const double> start_positions,
+  FrameTree(const Robot& robot, std::span<const double> start_positions,
             const PlanningFrame& planning_frame, const std::vector<FixedTransform>& transforms);
 
-  /// Adds a frame of an object; those of the robot's links and the planning frame keep
-  /// their meaning.
+  /// Adds a frame of an object; those of the robot's links and surroundings and the planning frame
+  /// keep their meaning.
   void AddObjectFrame(const std::string& name, const Eigen::Isometry3d& X_BF);
 
   /// X_BF of a frame, null if it is unknown. A leading slash in `name` does not count.
@@ -52,12 +54,15 @@ class FrameTree {
   const Eigen::Isometry3d& At(const std::string& name, const YamlNode& node) const;
 
  private:
+  // Places the frame by the pose that a file gives the robot in it.
+  void Place(const PlanningFrame& planning_frame);
+  // Places the surroundings that the robot is fixed in.
+  void PlaceSurroundings(const Robot& robot);
   // Follows the transforms from known frames to unknown ones, as far as they go.
   void Follow(const std::vector<FixedTransform>& transforms);
   void CheckAgreement(const std::vector<FixedTransform>& transforms) const;
 
-  const RobotModel* model_;
-  std::string planning_frame_;
+  std::set<std::string> not_of_objects_;  // Names that no object takes.
   std::map<std::string, Eigen::Isometry3d> X_BF_;
 };
 

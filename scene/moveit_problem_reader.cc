@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
 
@@ -13,6 +16,9 @@
 namespace planbench {
 namespace {
 
+// Positions that were measured, or written as text, may be this far outside (rad or m).
+constexpr double kBeyondLimit = 1e-3;
+
 // The message itself, of a file that holds it as the one field of a service's request or answer.
 YamlNode Unwrapped(const YamlNode& file, const char* field) {
   if (!file.IsMap() || file.Keys() != std::vector<std::string>{field}) return file;
@@ -21,7 +27,7 @@ YamlNode Unwrapped(const YamlNode& file, const char* field) {
 
 RobotStateFields OptionalState(const YamlNode& message, const char* field, const Robot& robot) {
   const std::optional<YamlNode> state = message.Find(field);
-  return state ? ReadRobotState(*state, robot.model) : RobotStateFields();
+  return state ? ReadRobotState(*state, robot) : RobotStateFields();
 }
 
 void RequireRobot(const YamlNode& scene, const Robot& robot) {
@@ -60,6 +66,22 @@ void PlaceFollowers(const RobotModel& model, const std::vector<double>& full, Jo
   }
 }
 
+// Joints outside the group stay where they are: no planner and no referee asks for their limits.
+void WarnOfHeldJoints(const YamlNode& node, const RobotModel& model, const PlanningGroup& group,
+                      const std::vector<double>& full) {
+  std::vector<std::string> outside;
+  for (const Joint& joint : model.joints()) {
+    if (NumPositions(joint.type) != 1 || joint.leader >= 0) continue;
+    if (group.space.Find(joint.name) >= 0) continue;
+    const double position = full[static_cast<std::size_t>(joint.position_index)];
+    if (position >= joint.lower - kBeyondLimit && position <= joint.upper + kBeyondLimit) continue;
+    outside.push_back(
+        fmt::format("'{}' at {} of [{}, {}]", joint.name, position, joint.lower, joint.upper));
+  }
+  if (outside.empty()) return;
+  node.Warn(fmt::format("held joints are outside their limits: {}", fmt::join(outside, ", ")));
+}
+
 void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
                          const JointState& start) {
   const YamlNode node = request.Find("start_state").value_or(request);
@@ -77,8 +99,8 @@ void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
 
 // The frame that the file is in: that which fixed_frame_transforms relate to themselves, else what
 // the robot's state is in, else, of a transform between frames that the robot does not have, the
-// child, which is where MoveIt writes it.
-PlanningFrame FindPlanningFrame(const RobotModel& model, const RobotStateFields& scene_state,
+// child, which is where MoveIt writes it, else what the robot's virtual joint joins it to.
+PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& scene_state,
                                 const RobotStateFields& start_state,
                                 const std::vector<FixedTransform>& transforms) {
   const RobotStateFields& with_root = start_state.X_WR ? start_state : scene_state;
@@ -91,13 +113,21 @@ PlanningFrame FindPlanningFrame(const RobotModel& model, const RobotStateFields&
     frame.name = name;
     if (!frame.name.empty()) return frame;
   }
+  const auto is_of_robot = [&](const std::string& name) {
+    return robot.model.FindLink(name) >= 0 ||
+           std::any_of(
+               robot.virtual_joints.begin(), robot.virtual_joints.end(),
+               [&](const VirtualJoint& joint) { return WithoutSlash(joint.parent_frame) == name; });
+  };
   for (const FixedTransform& transform : transforms) {
-    if (transform.header.empty() || model.FindLink(transform.header) >= 0 ||
-        model.FindLink(transform.child) >= 0) {
+    if (transform.header.empty() || is_of_robot(transform.header) || is_of_robot(transform.child)) {
       continue;
     }
     frame.name = transform.child;
-    break;
+    return frame;
+  }
+  if (!robot.virtual_joints.empty()) {
+    frame.name = WithoutSlash(robot.virtual_joints.front().parent_frame);
   }
   return frame;
 }
@@ -157,10 +187,10 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
       robot.model, problem.start.names, problem.start.positions, "start", &start_warnings);
   for (const std::string& warning : start_warnings) start_node.Warn(warning);
   PlaceFollowers(robot.model, start, &problem.start);
+  WarnOfHeldJoints(start_node, robot.model, group, start);
 
   const std::vector<FixedTransform> transforms = ReadFixedTransforms(planning_scene);
-  FrameTree frames(robot.model, start,
-                   FindPlanningFrame(robot.model, scene_state, start_state, transforms),
+  FrameTree frames(robot, start, FindPlanningFrame(robot, scene_state, start_state, transforms),
                    transforms);
   Scene& scene = problem.scene;
   scene.name = planning_scene.StringOr("name", "");

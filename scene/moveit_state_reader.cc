@@ -53,7 +53,17 @@ void AddPose(const Joint& joint, const RobotModel& model, const Eigen::Isometry3
   }
 }
 
-void ReadMultiDofState(const YamlNode& node, const RobotModel& model, RobotStateFields* fields) {
+// Of a joint that may have a pose; one that neither the URDF nor a virtual joint describes is free.
+JointType TypeOf(const std::string& joint, const Robot& robot) {
+  const int index = robot.model.FindJoint(joint);
+  if (index >= 0) return robot.model.joints()[static_cast<std::size_t>(index)].type;
+  for (const VirtualJoint& virtual_joint : robot.virtual_joints) {
+    if (virtual_joint.name == joint) return virtual_joint.type;
+  }
+  return JointType::kFloating;
+}
+
+void ReadMultiDofState(const YamlNode& node, const Robot& robot, RobotStateFields* fields) {
   const std::vector<YamlNode> names = OptionalElements(node, "joint_names");
   const std::vector<YamlNode> transforms = OptionalElements(node, "transforms");
   if (names.size() != transforms.size()) {
@@ -63,14 +73,15 @@ void ReadMultiDofState(const YamlNode& node, const RobotModel& model, RobotState
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = names[i].String();
     const Eigen::Isometry3d pose = ReadTransform(transforms[i]);
-    const int index = model.FindJoint(name);
+    const JointType type = TypeOf(name, robot);
+    if (const auto fault = FindPoseFault(type, pose)) {
+      const YamlNode& at_fault = NumPositions(type) == 1 ? names[i] : transforms[i];
+      at_fault.Fail("the joint '" + name + "' " + *fault);
+    }
+    const int index = robot.model.FindJoint(name);
     if (index >= 0) {
-      const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
-      if (NumPositions(joint.type) > 1) {
-        AddPose(joint, model, pose, names[i], &fields->joints);
-      } else if (joint.type != JointType::kFixed || !pose.isApprox(Eigen::Isometry3d::Identity())) {
-        names[i].Fail("the joint '" + name + "' is not one that takes a pose");
-      }
+      const Joint& joint = robot.model.joints()[static_cast<std::size_t>(index)];
+      if (NumPositions(type) > 1) AddPose(joint, robot.model, pose, names[i], &fields->joints);
       continue;
     }
     if (fields->X_WR) {
@@ -85,13 +96,13 @@ void ReadMultiDofState(const YamlNode& node, const RobotModel& model, RobotState
 
 }  // namespace
 
-RobotStateFields ReadRobotState(const YamlNode& robot_state, const RobotModel& model) {
+RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot) {
   RobotStateFields fields;
   if (const auto joint_state = robot_state.Find("joint_state")) {
-    ReadJointState(*joint_state, model, &fields);
+    ReadJointState(*joint_state, robot.model, &fields);
   }
   if (const auto multi_dof = robot_state.Find("multi_dof_joint_state")) {
-    ReadMultiDofState(*multi_dof, model, &fields);
+    ReadMultiDofState(*multi_dof, robot, &fields);
   }
   return fields;
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/yaml.h"
-#include "robot_model/robot_model.h"
+#include "robot_model/robot_folder.h"
 #include "scene/problem.h"
 
 namespace planbench {
@@ -24,8 +24,9 @@ struct RobotStateFields {
 };
 
 /// Throws InputError naming the line: names with another number of positions or transforms, joints
-/// that occur twice or that the robot does not have, positions of fixed joints other than 0, more
-/// than one joint that could join the robot to its surroundings.
-RobotStateFields ReadRobotState(const YamlNode& robot_state, const RobotModel& model);
+/// that occur twice or that the robot does not have, positions and poses that a joint's type rules
+/// out (FindPositionFault, FindPoseFault), those of virtual joints too, more than one joint that
+/// could join the robot to its surroundings.
+RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot);
 
 }  // namespace planbench

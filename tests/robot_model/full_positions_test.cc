@@ -70,6 +70,21 @@ TEST_F(FullPositionsTest, AFixedJointMayBeNamedWhereItIs) {
   ExpectInputError([&] { Full({"still"}, {0.1}); }, {"start: joint 'still' is fixed", "0.1"});
 }
 
+TEST(FullPositions, APlanarJointStaysInItsPlane) {
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='base'/><link name='l'/><joint name='cart' type='planar'>"
+      "<parent link='base'/><child link='l'/></joint></robot>",
+      "r.urdf");
+  const auto at = [&](const std::string& part, double position) {
+    return FindPositionFault(model, "cart/" + part, position);
+  };
+  for (const char* free : {"trans_x", "trans_y", "rot_z"}) EXPECT_FALSE(at(free, 0.5)) << free;
+  for (const char* off : {"trans_z", "rot_x", "rot_y"}) {
+    EXPECT_FALSE(at(off, -5e-5)) << off;
+    EXPECT_THAT(at(off, -0.5).value_or(""), HasSubstr("cannot be at -0.5")) << off;
+  }
+}
+
 TEST_F(FullPositionsTest, FollowersFollow) {
   EXPECT_EQ(Full({"grip_b", "grip_a", "far"}, {-0.1, 0.4, 0.8}).back(), 0.4);
   EXPECT_TRUE(warnings_.empty());

@@ -270,6 +270,47 @@ TEST(Frames, OfARobotOnAPedestal) {
            0.8);
 }
 
+TEST(Frames, OfAFixedVirtualJoint) {
+  Robot robot = TextRobot();
+  robot.virtual_joints = {
+      {"stand", JointType::kFixed, "/world", robot.model.FindLink("base_link")}};
+  const auto ball = [&](const std::string& scene) {
+    const Scene read = ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
+                                    YamlNode::Parse(kBallRequest, "request.yaml"), robot, {})
+                           .scene;
+    return PlaceOf(read.objects.at(0));
+  };
+  for (const char* frame : {"world", "/world", ""}) ExpectAt(ball(BallIn(frame)), 1, 0, 0);
+  // Whatever frame the file is in.
+  for (const char* planning_frame : {"base_link", "gripper_link", "map", "world"}) {
+    const std::string state =
+        std::string("robot_state: {joint_state: {header: {frame_id: ") + planning_frame + "}}}\n";
+    ExpectAt(ball(BallIn("world", state)), 1, 0, 0);
+  }
+  // Transforms lead on from there, and it is no frame of theirs that the robot stands at.
+  const std::string camera = kTransforms + Transform("world", "camera", "0, 0, 3");
+  ExpectAt(ball(BallIn("camera", camera)), 1, 0, 3);
+  ExpectAt(ball(BallIn("world", camera)), 1, 0, 0);
+  ExpectAt(ball(BallIn("", camera)), 1, 0, 0);
+  // The file may say otherwise.
+  ExpectAt(ball(BallIn("world", kTransforms + Transform("base_link", "world", "0, 5, 0"))), 1, 5,
+           0);
+  ExpectAt(ball(BallIn("world", "robot_state:\n" + RootAt("world", "0, 0, 2"))), 1, 0, -2);
+  // An object of that name does not.
+  ExpectAt(ball(Replaced(BallIn("world"), "world:\n  collision_objects:\n",
+                         "world:\n  collision_objects:\n    - {id: world, header: {frame_id: "
+                         "gripper_link}, primitives: [{type: sphere, dimensions: [1]}], "
+                         "primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}\n")),
+           0, 1, 0);
+  // Another joint's surroundings are not known where no file places the robot in them.
+  robot.virtual_joints[0].type = JointType::kPlanar;
+  ExpectInputError(
+      [&] {
+        ball(BallIn("world", "robot_state: {joint_state: {header: {frame_id: base_link}}}\n"));
+      },
+      {"unknown frame 'world'"});
+}
+
 TEST(Frames, FixedOnesComeOutInTheBaseFrame) {
   const Scene scene =
       ParseProblem(BallIn("base_link", kTransforms + Transform("camera", "base_link", "0, 2, 0") +

@@ -107,6 +107,65 @@ TEST(StartState, RefusesWhatTheRobotCannotDo) {
       "'drive' is named twice");
 }
 
+TEST(StartState, PlanarAndFixedJointsTakeNoPoseThatTheyCannotHave) {
+  Robot robot = CartRobot();
+  robot.virtual_joints = {{"wheels", JointType::kPlanar, "odom", 0},
+                          {"bolt", JointType::kFixed, "world", 0},
+                          {"wings", JointType::kFloating, "sky", 0}};
+  const auto state = [&](const std::string& joint, const std::string& translation,
+                         const std::string& rotation = "0, 0, 0, 1") {
+    ParseProblem(YamlNode::Parse("robot_model_name: cart\n", "scene.yaml"),
+                 YamlNode::Parse("start_state:\n  joint_state: {name: [wrist], position: [0]}\n"
+                                 "  multi_dof_joint_state:\n    joint_names: [" +
+                                     joint + "]\n    transforms:\n      - {translation: [" +
+                                     translation + "], rotation: [" + rotation +
+                                     "]}\ngoal_constraints: "
+                                     "[{joint_constraints: [{joint_name: wrist, position: 1}]}]\n",
+                                 "request.yaml"),
+                 robot, {});
+  };
+  const auto refuse = [&](const std::string& joint, const std::string& says,
+                          const std::string& translation,
+                          const std::string& rotation = "0, 0, 0, 1") {
+    ExpectInputError(
+        [&] { state(joint, translation, rotation); },
+        {"request.yaml:6: start_state.multi_dof_joint_state.transforms[0]: the joint '" + joint +
+         "' " + says});
+  };
+  for (const char* joint : {"drive", "wheels"}) {
+    state(joint, "1, 2, 0", "0, 0, 1, 0");
+    state(joint, "1, 2, 0.00005", "0.00002, 0, 0, 1");
+    refuse(joint, "is planar and cannot be off its plane, at z = 0.3", "1, 2, 0.3");
+    refuse(joint, "is planar and cannot be tilted, here by 0.2 rad", "1, 2, 0",
+           "0.0998334166468, 0, 0, 0.9950041652780");
+    refuse(joint, "is planar and cannot be tilted, here by 3.142 rad", "0, 0, 0", "1, 0, 0, 0");
+  }
+  for (const char* joint : {"weld", "bolt"}) {
+    state(joint, "0, 0, 0");
+    refuse(joint, "is fixed", "0.01, 0, 0");
+  }
+  state("wings", "1, 2, 3", "1, 0, 0, 0");
+  ExpectInputError(
+      [&] { Parse("", "joint_state: {name: [wrist, drive/trans_z], position: [0, 1]}"); },
+      {"request.yaml:2: start_state.joint_state.name[1]", "planar"});
+}
+
+TEST(StartState, WarnsOfHeldJointsOutsideTheirLimits) {
+  const auto warnings = [](const std::string& f1, const std::string& group) {
+    return Parse("joint_state: {name: [f1, wrist], position: [" + f1 + ", 0.2]}", "",
+                 "{joint_name: wrist, position: 1}, {joint_name: f1, position: 0.01}", group)
+        .warnings;
+  };
+  Problem problem = Parse("", "joint_state: {name: [f1, wrist], position: [0.5, 0.2]}");
+  EXPECT_THAT(problem.warnings,
+              ElementsAre("request.yaml:2: start_state: held joints are outside their limits: 'f1' "
+                          "at 0.5 of [0, 0.04]"));
+  EXPECT_EQ(problem.start.positions[0], 0.5) << "it is held there";
+  problem = Parse("", "joint_state: {name: [f1, wrist], position: [0.0405, 0.2]}");
+  EXPECT_THAT(problem.warnings, IsEmpty()) << "measured";
+  EXPECT_THAT(warnings("0.5", "grip"), IsEmpty()) << "planners say it of the group's own";
+}
+
 TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
   const std::string start = "joint_state: {name: [wrist, f1], position: [0, 0.02]}";
   const auto goals = [&](const std::string& more, const std::string& group = "wrist") {
