@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "planning/motion_time.h"
@@ -37,7 +38,7 @@ std::span<const PathMeasure> PathMeasures() {
        .column = {.heading = "length", .heading_simplified = "simplified"}},
       {.name = "tip_travel",
        .unit = "m",
-       .meaning = "travel of the tip link's origin",
+       .meaning = "travel of the tip link's origin; of several tips, the sum",
        .take = [](P& p) { return p.TipTravel(); },
        .column = {.heading = "tip m"}},
       {.name = "smoothness",
@@ -80,13 +81,15 @@ MeasuredValues TakeMeasures(PathSurvey* path, bool with_clearance) {
 double PathSurvey::TipTravel() const {
   const PlanningGroup& group = edges_->checker().group();
   GroupKinematics kinematics(edges_->checker().robot().model, group, base_positions_);
+  const std::vector<int> tips = group.tips();
   double travel_m = 0;
-  std::optional<Eigen::Vector3d> previous;
+  std::vector<Eigen::Vector3d> previous;  // By tip.
   VisitSamples(*edges_, *path_, [&](int, double, const Configuration& q, double) {
     kinematics.Update(q);
-    const Eigen::Vector3d p_BT = kinematics.X_BL(group.tip_link).translation();
-    if (previous) travel_m += (p_BT - *previous).norm();
-    previous = p_BT;
+    std::vector<Eigen::Vector3d> p_BT;
+    for (const int tip : tips) p_BT.push_back(kinematics.X_BL(tip).translation());
+    for (std::size_t i = 0; i < previous.size(); ++i) travel_m += (p_BT[i] - previous[i]).norm();
+    previous = std::move(p_BT);
     return true;
   });
   return travel_m;

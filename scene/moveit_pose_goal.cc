@@ -1,6 +1,7 @@
 #include "scene/moveit_pose_goal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "common/numbers.h"
 #include "common/random.h"
+#include "robot_model/group_kinematics.h"
 #include "robot_model/inverse_kinematics.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_object_reader.h"
@@ -26,7 +28,7 @@ constexpr int kStartsOfPose = 8;
 // The same for all problems: two files that say the same in other frames get the same goals.
 constexpr std::uint64_t kSeed = 1;
 
-// P is the frame that is constrained: fixed to the tip link T, with its origin at the constrained
+// P is the frame that is constrained: fixed to a tip link T, with its origin at the constrained
 // point and the axes of the link whose orientation is constrained. B is the base frame.
 
 struct Orientation {
@@ -96,6 +98,7 @@ struct Region {
 struct PoseSet {
   std::vector<Region> regions;
   std::optional<Orientation> orientation;
+  int tip_link = -1;
   Eigen::Isometry3d X_TP = Eigen::Isometry3d::Identity();
 
   // In turn the middle of each region with the wanted orientation, and one from all that is
@@ -144,34 +147,29 @@ std::optional<YamlNode> OneOf(const YamlNode& constraints, const std::string& ki
   return elements.empty() ? std::nullopt : std::optional(elements.front());
 }
 
-// Pose X_TL of the constraint's link in the tip link.
-Eigen::Isometry3d ReadLink(const YamlNode& constraint, const RobotModel& model,
-                           const PlanningGroup& group, const std::vector<double>& start) {
+// The link that a constraint is of, and the tip that it moves as one with.
+struct ConstrainedLink {
+  int tip_link;
+  Eigen::Isometry3d X_TL;
+  YamlNode node;  // That names it.
+};
+
+ConstrainedLink ReadLink(const YamlNode& constraint, const RobotModel& model,
+                         const PlanningGroup& group, const std::vector<double>& start) {
   const YamlNode node = constraint.At("link_name");
   const std::string name = WithoutSlash(node.String());
   const int link = model.FindLink(name);
   if (link < 0) node.Fail("the robot has no link '" + name + "'");
-  const auto moves = [&](int joint) {
-    return std::find(group.joints.begin(), group.joints.end(), joint) != group.joints.end() ||
-           std::any_of(group.followers.begin(), group.followers.end(),
-                       [&](const PlanningGroup::Follower& f) { return f.joint == joint; });
-  };
-  // The link's nearest joint, towards the root, that moves with the group; -1: none.
-  const auto carrier = [&](int l) {
-    while (true) {
-      const int joint = model.links()[static_cast<std::size_t>(l)].parent_joint;
-      if (joint < 0 || moves(joint)) return joint;
-      l = model.joints()[static_cast<std::size_t>(joint)].parent_link;
+  const GroupKinematics kinematics(model, group, start);
+  std::vector<std::string> tips;
+  for (const int tip : group.tips()) {
+    if (!kinematics.MoveRelatively(link, tip)) {
+      return {tip, kinematics.X_BL(tip).inverse(Eigen::Isometry) * kinematics.X_BL(link), node};
     }
-  };
-  if (carrier(link) != carrier(group.tip_link)) {
-    node.Fail("the link '" + name + "' does not move as one with '" +
-              model.links()[static_cast<std::size_t>(group.tip_link)].name +
-              "', the tip of group '" + group.name + "'");
+    tips.push_back("'" + model.links()[static_cast<std::size_t>(tip)].name + "'");
   }
-  const std::vector<Eigen::Isometry3d> X_BL = ComputeLinkPoses(model, start);
-  return X_BL[static_cast<std::size_t>(group.tip_link)].inverse(Eigen::Isometry) *
-         X_BL[static_cast<std::size_t>(link)];
+  node.Fail(fmt::format("the link '{}' does not move as one with {}, the tip{} of group '{}'", name,
+                        fmt::join(tips, " or "), tips.size() > 1 ? "s" : "", group.name));
 }
 
 std::vector<Region> ReadRegions(const YamlNode& constraint, const FrameTree& frames) {
@@ -229,14 +227,22 @@ PoseSet ReadPoseSet(const std::optional<YamlNode>& position,
                     const FrameTree& frames) {
   PoseSet poses;
   if (position) {
+    const ConstrainedLink link = ReadLink(*position, model, group, start);
     const auto offset = position->Find("target_point_offset");
+    poses.tip_link = link.tip_link;
     poses.X_TP.translation() =
-        ReadLink(*position, model, group, start) *
-        (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+        link.X_TL * (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
     poses.regions = ReadRegions(*position, frames);
   }
   if (orientation) {
-    poses.X_TP.linear() = ReadLink(*orientation, model, group, start).linear();
+    const ConstrainedLink link = ReadLink(*orientation, model, group, start);
+    if (position && link.tip_link != poses.tip_link) {
+      link.node.Fail("moves with another tip of group '" + group.name +
+                     "' than the link whose position is constrained; one pose is supported in a "
+                     "goal");
+    }
+    poses.tip_link = link.tip_link;
+    poses.X_TP.linear() = link.X_TL.linear();
     poses.orientation = ReadOrientation(*orientation, frames);
   }
   return poses;
@@ -271,6 +277,7 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
   const PoseSet poses = ReadPoseSet(position, orientation, model, group, start, frames);
   PlanningGroup limited = group;
   limited.space = limits;
+  limited.tip_link = poses.tip_link;
   InverseKinematics kinematics(model, limited, start, poses.X_TP);
   std::vector<double> from;
   for (const int joint : group.joints) {

@@ -33,8 +33,8 @@ bool HasPoseConstraints(const YamlNode& constraints);
 /// not constrained is free.
 ///
 /// Throws InputError naming file, line and field for what cannot be read, more than one constraint
-/// of a kind, links that do not move as one with the group's tip; OutOfReach for constraints that
-/// no configuration was found for.
+/// of a kind, links that do not move as one with a tip of the group, the same for both; OutOfReach
+/// for constraints that no configuration was found for.
 std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, const RobotModel& model,
                                                const PlanningGroup& group, const JointSpace& limits,
                                                const std::vector<double>& start,

@@ -14,6 +14,7 @@
 #include "common/numbers.h"
 #include "support/planning_problems.h"
 #include "tests/planning/three_joints.h"
+#include "tests/support/two_arm_robot.h"
 
 namespace planbench {
 namespace {
@@ -124,6 +125,27 @@ TEST_F(TakeMeasuresTest, TakesEachUnlessItIsAClearanceNotAskedFor) {
   for (const PathMeasure& measure : PathMeasures()) {
     EXPECT_EQ(FindMeasure(values, measure.name).has_value(), !measure.is_clearance) << measure.name;
   }
+}
+
+TEST(TipTravel, IsTheSumOverTheTips) {
+  Robot robot = MakeTwoArmRobot();
+  const std::vector<double> positions = robot.model.DefaultPositions();
+  const auto travel = [&](const PlanningGroup& group) {
+    const auto checker = MakeCollisionChecker(robot, group, CollisionModel::kSpheres);
+    Scene scene = EmptyPlanarScene();
+    checker->SetScene(scene, positions);
+    const EdgeChecker edges(checker.get(), 0.01, EdgeCheck::kFixed);
+    const auto n = static_cast<std::size_t>(group.space.size());
+    const Path path = {Configuration(n, 0.0), Configuration(n, 0.2)};
+    return PathSurvey(edges, path, positions).TipTravel();
+  };
+  const PlanningGroup both = robot.groups.front();
+  PlanningGroup left = both;
+  left.more_tips.clear();
+  PlanningGroup right = left;
+  right.tip_link = both.more_tips.front();
+  EXPECT_GT(travel(right), 0.05);
+  EXPECT_NEAR(travel(both), travel(left) + travel(right), 1e-12);
 }
 
 TEST(PathMeasuresTest, AreDocumentedAsTheyDescribeThemselves) {

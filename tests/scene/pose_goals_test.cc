@@ -12,6 +12,7 @@
 #include "tests/robot_model/random_configuration.h"
 #include "tests/scene/problem_texts.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/two_arm_robot.h"
 
 namespace planbench {
 namespace {
@@ -109,6 +110,58 @@ TEST(PoseGoals, JointConstraintsBesideThemRestrict) {
                   ", joint_constraints: [{joint_name: b_joint, position: 10}]");
       },
       {"request.yaml:4: goal_constraints[0].joint_constraints: ", "'b_joint'", "limits"});
+}
+
+TEST(PoseGoals, OfAnyTipOfTheGroup) {
+  const Robot robot = MakeTwoArmRobot();
+  const PlanningGroup& group = robot.Group("both");
+  std::vector<std::string> names;
+  for (const JointSpace::Joint& joint : group.space.joints()) names.push_back(joint.name);
+  const std::vector<double> start = robot.model.DefaultPositions();
+  std::vector<double> reached = start;
+  for (double& position : reached) position += 0.3;
+  const auto goals = [&](const std::string& constraints) {
+    const std::string request = fmt::format(
+        "group_name: both\nstart_state: {{joint_state: {{name: [{}], position: [{}]}}}}\n"
+        "goal_constraints:\n  - {{{}}}\n",
+        fmt::join(robot.model.position_names(), ", "), fmt::join(start, ", "), constraints);
+    return ParseProblem(YamlNode::Parse("robot_model_name: two_arms\n", "scene.yaml"),
+                        YamlNode::Parse(request, "request.yaml"), robot, {})
+        .goal;
+  };
+  const auto position_of = [&](const std::string& link) {
+    const Eigen::Vector3d p =
+        ComputeLinkPoses(robot.model, reached)[static_cast<std::size_t>(robot.model.FindLink(link))]
+            .translation();
+    return fmt::format(
+        "position_constraints: [{{link_name: {}, constraint_region: {{primitives: [{{type: 2, "
+        "dimensions: [0.001]}}], primitive_poses: [{{position: [{}, {}, {}], orientation: [0, 0, "
+        "0, 1]}}]}}}}]",
+        link, p.x(), p.y(), p.z());
+  };
+  for (const char* link : {"left_hand", "right_hand"}) {
+    const std::vector<JointGoal> found = goals(position_of(link));
+    ASSERT_GE(found.size(), names.size());
+    std::vector<double> q;
+    for (std::size_t k = 0; k < names.size(); ++k) q.push_back(found[k].position);
+    const auto at = [&](const std::vector<double>& full) -> Eigen::Vector3d {
+      return ComputeLinkPoses(robot.model,
+                              full)[static_cast<std::size_t>(robot.model.FindLink(link))]
+          .translation();
+    };
+    EXPECT_LT((at(WithGroupAt(robot.model, group, start, q)) - at(reached)).norm(), 0.001 + 2e-6)
+        << link;
+  }
+  ExpectInputError(
+      [&] { goals(position_of("left_upper")); },
+      {"request.yaml:4: goal_constraints[0].position_constraints[0].link_name",
+       "'left_upper' does not move as one with 'left_hand' or 'right_hand', the tips"});
+  ExpectInputError(
+      [&] {
+        goals(position_of("left_hand") +
+              ", orientation_constraints: [{link_name: right_hand, orientation: [0, 0, 0, 1]}]");
+      },
+      {"goal_constraints[0].orientation_constraints[0].link_name", "another tip"});
 }
 
 TEST(PoseGoals, StandBesideOtherAlternatives) {
