@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/error.h"
+
 namespace planbench {
 namespace {
 
@@ -92,6 +94,16 @@ int EditDistance(const std::string& a, const std::string& b) {
   return distance[a.size()][b.size()];
 }
 
+// What iconv calls the UTF-16 that `text` is in; "" if it is in none. Without a mark, text that
+// begins with ASCII characters has every other byte 0.
+std::string Utf16Name(std::string_view text) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return "UTF-16";
+  if (text.size() < 4) return "";
+  const auto is_zero = [&](std::size_t i) { return text[i] == '\0'; };
+  if (is_zero(0) == is_zero(1) || is_zero(0) != is_zero(2) || is_zero(1) != is_zero(3)) return "";
+  return is_zero(1) ? "UTF-16LE" : "UTF-16BE";
+}
+
 }  // namespace
 
 std::optional<std::size_t> FindInvalidUtf8(std::string_view text) {
@@ -101,6 +113,13 @@ std::optional<std::size_t> FindInvalidUtf8(std::string_view text) {
     at += length;
   }
   return std::nullopt;
+}
+
+void RefuseUtf16(std::string_view text, const std::string& file) {
+  const std::string name = Utf16Name(text);
+  if (name.empty()) return;
+  throw InputError(file + ": is UTF-16 text; it must be UTF-8: iconv -f " + name + " -t UTF-8 " +
+                   file + " > " + file + ".utf8");
 }
 
 std::string Printable(std::string_view text) {

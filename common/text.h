@@ -11,6 +11,10 @@ namespace planbench {
 /// Offset of the first byte that cannot be UTF-8; nothing if all can.
 std::optional<std::size_t> FindInvalidUtf8(std::string_view text);
 
+/// Refuses UTF-16, with or without a byte order mark: InputError that names `file` and how to
+/// convert it.
+void RefuseUtf16(std::string_view text, const std::string& file);
+
 /// `text` as it may be printed in one line: control characters and bytes that are no UTF-8 escaped
 /// (\n, \x1b), what runs on for hundreds of bytes without a space shortened, all cut at 1000 bytes.
 std::string Printable(std::string_view text);

@@ -10,6 +10,10 @@
 
 #include "common/error.h"
 #include "common/name_value.h"
+#include "common/read_text.h"
+#include "geometry/obj_text.h"
+#include "geometry/stl_reader.h"
+#include "geometry/text_words.h"
 
 namespace planbench {
 namespace {
@@ -24,7 +28,10 @@ constexpr std::string_view kFileScheme = "file://";
 // of every triangle anew, and tools that follow a surface need to know which corners meet.
 class MeshBuilder {
  public:
+  explicit MeshBuilder(const std::string& file) : file_(file) {}
+
   std::uint32_t AddVertex(const Vector3d& vertex) {
+    if (!vertex.allFinite()) throw InputError(file_ + ": a vertex is not finite");
     // Adding 0.0 turns -0.0 into 0.0, which compares equal but orders apart nowhere.
     const std::array<double, 3> key = {vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0};
     const auto [entry, is_new] =
@@ -33,14 +40,17 @@ class MeshBuilder {
     return entry->second;
   }
 
-  void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  // Mirroring turns surfaces inside out; the order of the corners turns them back.
+  void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool mirrored) {
     if (a == b || b == c || c == a) return;  // Joining made it a line: no surface.
+    if (mirrored) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
   }
 
   TriangleMesh Take() { return std::move(mesh_); }
 
  private:
+  const std::string& file_;
   TriangleMesh mesh_;
   std::map<std::array<double, 3>, std::uint32_t> index_;
 };
@@ -55,9 +65,8 @@ Eigen::Matrix4d ToEigen(const aiMatrix4x4& m) {
 // Adds the meshes of a node and of all below it. `to_shape` maps the node's parent into the shape's
 // frame.
 void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to_shape,
-             const std::string& file, MeshBuilder* builder) {
+             MeshBuilder* builder) {
   const Eigen::Matrix4d transform = to_shape * ToEigen(node.mTransformation);
-  // A mirroring transform turns surfaces inside out; the order of the corners turns them back.
   const bool mirrored = transform.topLeftCorner<3, 3>().determinant() < 0;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
@@ -66,24 +75,51 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D& p = mesh.mVertices[v];
       const Vector3d vertex = (transform * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>();
-      if (!vertex.allFinite()) throw InputError(file + ": a vertex is not finite");
       indices.push_back(builder->AddVertex(vertex));
     }
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
-      const std::uint32_t a = indices.at(face.mIndices[0]);
-      const std::uint32_t b = indices.at(face.mIndices[1]);
-      const std::uint32_t c = indices.at(face.mIndices[2]);
-      if (mirrored) {
-        builder->AddTriangle(a, c, b);
-      } else {
-        builder->AddTriangle(a, b, c);
-      }
+      builder->AddTriangle(indices.at(face.mIndices[0]), indices.at(face.mIndices[1]),
+                           indices.at(face.mIndices[2]), mirrored);
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    AddNode(scene, *node.mChildren[i], transform, file, builder);
+    AddNode(scene, *node.mChildren[i], transform, builder);
+  }
+}
+
+// Adds what assimp makes of a file; OBJ files are made plain for it first.
+void AddScene(const fs::path& path, const std::string& format, const Vector3d& scale,
+              MeshBuilder* builder) {
+  const std::string file = path.string();
+  Assimp::Importer importer;
+  // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = nullptr;
+  if (format == ".obj") {
+    const std::string plain = PlainObj(ReadText(path), file);
+    if (plain.empty()) return;
+    scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
+  } else {
+    scene = importer.ReadFile(file, aiProcess_Triangulate);
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw InputError(
+        fmt::format("{}: cannot be read as a mesh: {}", file, importer.GetErrorString()));
+  }
+  Eigen::Matrix4d scaling = Eigen::Matrix4d::Identity();
+  scaling.diagonal().head<3>() = scale;
+  AddNode(*scene, *scene->mRootNode, scaling, builder);
+}
+
+void AddStl(const fs::path& path, const Vector3d& scale, MeshBuilder* builder) {
+  for (const auto& corners : ReadStl(ReadText(path), path.string())) {
+    std::array<std::uint32_t, 3> indices;
+    for (std::size_t i = 0; i < 3; ++i) {
+      indices[i] = builder->AddVertex(corners[i].cwiseProduct(scale));
+    }
+    builder->AddTriangle(indices[0], indices[1], indices[2], scale.prod() < 0);
   }
 }
 
@@ -153,19 +189,13 @@ TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
                                  scale.x(), scale.y(), scale.z()));
   }
 
-  Assimp::Importer importer;
-  // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw InputError(
-        fmt::format("{}: cannot be read as a mesh: {}", file, importer.GetErrorString()));
+  const std::string format = LowerCase(path.extension().string());
+  MeshBuilder builder(file);
+  if (format == ".stl") {
+    AddStl(path, scale, &builder);
+  } else {
+    AddScene(path, format, scale, &builder);
   }
-
-  Eigen::Matrix4d scaling = Eigen::Matrix4d::Identity();
-  scaling.diagonal().head<3>() = scale;
-  MeshBuilder builder;
-  AddNode(*scene, *scene->mRootNode, scaling, file, &builder);
   TriangleMesh mesh = builder.Take();
   if (mesh.triangles.empty()) throw InputError(file + ": the mesh has no triangles");
   return mesh;

@@ -168,6 +168,109 @@ TEST_F(LoadMeshTest, SplitsPolygonsIntoTriangles) {
   EXPECT_EQ(mesh.vertices.size(), 4u);
 }
 
+std::string Replaced(std::string text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != std::string::npos;
+       at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+TEST_F(LoadMeshTest, ReadsObjFilesAsTheyAreWrittenInTheField) {
+  TriangleMesh box = UnevenBoxMesh();
+  for (Vector3d& vertex : box.vertices) vertex *= 0.5;
+  const std::string plain = Obj(box);
+  const std::vector<std::pair<std::string, std::string>> forms = {
+      {"no zero before the point", Replaced(plain, "0.5", ".5")},
+      {"plus", Replaced(plain, "0.5", "+.5")},
+      {"exponent", Replaced(plain, "0.5", "5E-01")},
+      {"CRLF", Replaced(plain, "\n", "\r\n")},
+      {"CR", Replaced(plain, "\n", "\r")},
+      {"mark of UTF-8", "\xef\xbb\xbf" + plain},
+      {"tabs", Replaced(plain, " ", "\t")},
+      {"spaces at the end", Replaced(plain, "\n", "  \n")},
+      {"indented", Replaced(Replaced(plain, "v ", "  v "), "f ", "\tf ")},
+      {"comments", Replaced(plain, "\n", " # 1 2 3 C:\\\n")},
+      {"continued", Replaced(plain, " ", " \\\n ")},
+      {"colours", Replaced(plain, "\nv", " 0.1 0.2 0.3\nv")},
+      {"weights of curves", Replaced(plain, "\nv", " 2\nv")},
+      {"groups", "mtllib none.mtl\no box\n" + Replaced(plain, "f ", "g a b\nusemtl x\ns off\nf ")}};
+  for (const auto& [name, content] : forms) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(TriangleSet(LoadMesh(folder_.Write("box.obj", content))), TriangleSet(box));
+  }
+}
+
+TEST_F(LoadMeshTest, ReadsObjFacesOfEveryForm) {
+  const std::string square = "v 0. 0. -0\nv 1. 0 0\nv +1 1e0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  for (const char* face :
+       {"f 1 2 3 4", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/1/1 3/1/1 4/1/1",
+        "f -4 -3 -2 -1", "f -4//-1 -3//-1 -2//-1 4"}) {
+    SCOPED_TRACE(face);
+    const TriangleMesh mesh = LoadMesh(folder_.Write("square.obj", square + face + "\nf 1 2\n"));
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.vertices.size(), 4u);
+  }
+  EXPECT_EQ(LoadMesh(folder_.Write("early.obj", "f 1 2 3\n" + square)).triangles.size(), 1u);
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {"f 1 2 5", "no vertex 5"}, {"f 0 1 2", "'0'"},   {"f -5 1 2", "'-5'"},   {"f 1 2 c", "'c'"},
+      {"v 1 2", "three"},         {"v 1 x 2", "three"}, {"v 1 nan 2", "finite"}};
+  for (const auto& [line, what] : bad) {
+    const auto file = folder_.Write("bad.obj", square + line + "\nf 1 2 3\n");
+    ExpectInputError([&file] { LoadMesh(file); }, {file.string() + ":7:", what});
+  }
+}
+
+TEST_F(LoadMeshTest, TakesStlFilesForWhatTheyAreAndNotForWhatTheyCallThemselves) {
+  const TriangleMesh box = UnevenBoxMesh();
+  const std::string ascii = AsciiStl(box);
+  const std::string binary = BinaryStl(box);
+  const std::vector<std::pair<std::string, std::string>> forms = {
+      {"binary that begins with solid", std::string(binary).replace(0, 5, "solid")},
+      {"binary, filled up", std::string(binary).replace(0, 5, "solid") + std::string(7, '\0')},
+      {"no endsolid", ascii.substr(0, ascii.find("endsolid"))},
+      {"upper case", Replaced(Replaced(ascii, "vertex", "VERTEX"), "solid", "SOLID")},
+      {"spaces before", "\n  " + ascii},
+      {"CRLF", Replaced(ascii, "\n", "\r\n")},
+      {"mark of UTF-8", "\xef\xbb\xbf" + ascii},
+      {"name", Replaced(ascii, "solid box", "solid caf\xe9 facet vertex")},
+      {"numbers", Replaced(ascii, "1.000000e+00", "+.1E1")}};
+  for (const auto& [name, content] : forms) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(TriangleSet(LoadMesh(folder_.Write("box.stl", content))), TriangleSet(box));
+  }
+}
+
+TEST_F(LoadMeshTest, SaysWhereStlFilesAreCutOff) {
+  const std::string ascii = AsciiStl(UnevenBoxMesh());
+  const std::string binary = BinaryStl(UnevenBoxMesh());
+  const std::vector<std::pair<std::string, std::vector<std::string>>> files = {
+      {binary.substr(0, 200), {"12 triangles", "684 bytes", "has 200", "cut off"}},
+      {std::string(binary).replace(0, 5, "solid").substr(0, 300), {"684 bytes", "has 300"}},
+      {binary + std::string(50, '\1'), {"684 bytes", "has 734", "damaged"}},
+      {binary.substr(0, 60), {"is no STL", "60 bytes"}},
+      {ascii.substr(0, ascii.find("endloop")), {":7:", "within a facet"}},
+      {ascii.substr(0, ascii.find("vertex") + 9), {":4:", "three numbers"}},
+      {Replaced(ascii, "endloop", "vertex 0 0 0 endloop"), {":8:", "4 corners"}}};
+  for (const auto& [content, message] : files) {
+    const auto file = folder_.Write("cut.stl", content);
+    std::vector<std::string> parts = message;
+    parts.push_back(file.string());
+    ExpectInputError([&file] { LoadMesh(file); }, parts);
+  }
+}
+
+TEST_F(LoadMeshTest, Utf16IsToldHowToBecomeUtf8) {
+  for (const char* name : {"wide.stl", "wide.obj"}) {
+    std::string wide;
+    for (const char c : std::string("solid box")) wide += {c, '\0'};
+    const auto file = folder_.Write(name, wide);
+    ExpectInputError([&file] { LoadMesh(file); }, {file.string(), "iconv -f UTF-16LE"});
+    folder_.Write(name, "\xff\xfe" + wide);
+    ExpectInputError([&file] { LoadMesh(file); }, {file.string(), "iconv -f UTF-16 "});
+  }
+}
+
 TEST_F(LoadMeshTest, AppliesTheUnitOfColladaFilesAndIgnoresTheirUpAxis) {
   const TriangleMesh box = UnevenBoxMesh();
   for (const double unit : {1.0, 0.01, 0.0254}) {

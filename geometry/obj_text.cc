@@ -1,0 +1,114 @@
+#include "geometry/obj_text.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "common/error.h"
+#include "common/text.h"
+#include "geometry/text_words.h"
+
+namespace planbench {
+namespace {
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {
+    while (const auto line = NextStatement()) Read(*line);
+    if (highest_index_ > num_vertices_) {
+      Fail(line_of_highest_,
+           fmt::format("f: there is no vertex {}; the file has {}", highest_index_, num_vertices_));
+    }
+  }
+
+  std::string Plain() const { return faces_.empty() ? "" : vertices_ + faces_; }
+
+ private:
+  [[noreturn]] void Fail(int line, const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, line, what));
+  }
+
+  // A line without its comment, and those that a backslash at its end continues it by.
+  std::optional<std::string> NextStatement() {
+    std::string statement;
+    while (const auto line = lines_.Next()) {
+      statement += line->substr(0, line->find('#'));
+      if (!statement.ends_with('\\')) return statement;
+      statement.back() = ' ';
+    }
+    if (statement.empty()) return std::nullopt;
+    return statement;
+  }
+
+  void Read(std::string_view statement) {
+    const std::string_view keyword = TakeWord(&statement);
+    if (keyword == "v") {
+      ReadVertex(statement);
+    } else if (keyword == "f" || keyword == "fo") {  // The second is what it was called once.
+      ReadFace(statement);
+    }
+  }
+
+  void ReadVertex(std::string_view words) {
+    vertices_ += 'v';
+    for (int i = 0; i < 3; ++i) {  // A weight or a colour may follow.
+      const auto number = ParseNumber(TakeWord(&words));
+      if (!number || !std::isfinite(*number)) {
+        Fail(lines_.number(), "v: expected three finite numbers");
+      }
+      fmt::format_to(std::back_inserter(vertices_), " {}", *number);
+    }
+    vertices_ += '\n';
+    ++num_vertices_;
+  }
+
+  void ReadFace(std::string_view words) {
+    std::vector<int> corners;
+    for (std::string_view word = TakeWord(&words); !word.empty(); word = TakeWord(&words)) {
+      corners.push_back(ReadIndex(word));
+    }
+    if (corners.size() < 3) return;  // Points and lines have no surface.
+    faces_ += 'f';
+    for (const int corner : corners) fmt::format_to(std::back_inserter(faces_), " {}", corner);
+    faces_ += '\n';
+  }
+
+  // The vertex of "7", "7/1", "7//3" or "7/1/3"; -1 is the last one so far.
+  int ReadIndex(std::string_view word) {
+    const std::string_view digits = word.substr(0, word.find('/'));
+    int index = 0;
+    const char* const last = digits.data() + digits.size();
+    const auto [end, error] = std::from_chars(digits.data(), last, index);
+    const bool is_relative = index < 0;
+    if (is_relative) index += num_vertices_ + 1;
+    if (error != std::errc() || end != last || index < 1) {
+      Fail(lines_.number(), fmt::format("f: '{}' names no vertex", word));
+    }
+    if (index > highest_index_) {
+      highest_index_ = index;
+      line_of_highest_ = lines_.number();
+    }
+    return index;
+  }
+
+  TextLines lines_;
+  const std::string& file_;
+  std::string vertices_;
+  std::string faces_;
+  int num_vertices_ = 0;
+  int highest_index_ = 0;  // That a face names: vertices may follow later.
+  int line_of_highest_ = 0;
+};
+
+}  // namespace
+
+std::string PlainObj(std::string_view text, const std::string& file) {
+  RefuseUtf16(text, file);
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // The mark of UTF-8.
+  return ObjReader(text, file).Plain();
+}
+
+}  // namespace planbench
