@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
+#include <charconv>
+#include <optional>
 #include <utility>
 
 #include "common/error.h"
@@ -123,10 +125,66 @@ void AddStl(const fs::path& path, const Vector3d& scale, MeshBuilder* builder) {
   }
 }
 
-fs::path Existing(const fs::path& path, const std::string& uri) {
+// Characters that URLs write as %20 and the like.
+std::string DecodePercent(const std::string& text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned char byte = 0;
+    const char* const digits = text.data() + i + 1;
+    const bool is_code = text[i] == '%' && i + 2 < text.size() &&
+                         std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    decoded += is_code ? static_cast<char>(byte) : text[i];
+    if (is_code) i += 2;
+  }
+  return decoded;
+}
+
+bool IsFile(const fs::path& path) {
   std::error_code error;
-  if (fs::is_regular_file(path, error)) return path;
+  return fs::is_regular_file(path, error);
+}
+
+// The file that the rest of a URL names below a folder: as it is written, else decoded. Nothing if
+// there is none.
+std::optional<fs::path> FindFile(const fs::path& folder, const std::string& rest) {
+  for (const std::string& name : {rest, DecodePercent(rest)}) {
+    if (IsFile(folder / name)) return folder / name;
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void FailNoFile(const std::string& uri, const fs::path& path) {
   throw InputError(fmt::format("resource '{}': no file {}", uri, path.string()));
+}
+
+// `rest`: "NAME/path".
+fs::path ResolvePackage(const ResourceResolver& resources, const std::string& uri,
+                        const std::string& rest) {
+  const std::size_t slash = rest.find('/');
+  if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size()) {
+    throw InputError(fmt::format("resource '{}': expected package://NAME/path", uri));
+  }
+  const std::string package = rest.substr(0, slash);
+  const std::string path = rest.substr(slash + 1);
+  const auto known = resources.packages.find(package);
+  if (known != resources.packages.end()) {
+    if (const auto file = FindFile(known->second, path)) return *file;
+    FailNoFile(uri, known->second / path);
+  }
+  fs::path nearest;  // Folder of that name.
+  for (fs::path place = fs::absolute(resources.base_folder / "x").lexically_normal().parent_path();
+       const int level : {0, 1, 2, 3}) {
+    const fs::path folder = place / package;
+    if (const auto file = FindFile(folder, path)) return *file;
+    std::error_code error;
+    if (nearest.empty() && fs::is_directory(folder, error)) nearest = folder;
+    if (level < 3) place = place.parent_path();
+  }
+  if (!nearest.empty()) FailNoFile(uri, nearest / path);
+  throw InputError(
+      fmt::format("resource '{}': no folder of package '{}' in or around {}; give it by "
+                  "--package-path {}=DIR",
+                  uri, package, resources.base_folder.string(), package));
 }
 
 }  // namespace
@@ -134,37 +192,19 @@ fs::path Existing(const fs::path& path, const std::string& uri) {
 fs::path ResourceResolver::Resolve(const std::string& uri) const {
   if (uri.empty()) throw InputError("resource '': the name is empty");
   if (uri.starts_with(kPackageScheme)) {
-    const std::string rest = uri.substr(kPackageScheme.size());
-    const std::size_t slash = rest.find('/');
-    if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size()) {
-      throw InputError(fmt::format("resource '{}': expected package://NAME/path", uri));
-    }
-    const std::string package = rest.substr(0, slash);
-    const fs::path path = rest.substr(slash + 1);
-    const auto known = packages.find(package);
-    if (known != packages.end()) return Existing(known->second / path, uri);
-    fs::path nearest;  // Folder of that name.
-    for (fs::path place = fs::absolute(base_folder / "x").lexically_normal().parent_path();
-         const int level : {0, 1, 2, 3}) {
-      const fs::path folder = place / package;
-      std::error_code error;
-      if (fs::is_regular_file(folder / path, error)) return folder / path;
-      if (nearest.empty() && fs::is_directory(folder, error)) nearest = folder;
-      if (level < 3) place = place.parent_path();
-    }
-    if (!nearest.empty()) return Existing(nearest / path, uri);
-    throw InputError(
-        fmt::format("resource '{}': no folder of package '{}' in or around {}; give it by "
-                    "--package-path {}=DIR",
-                    uri, package, base_folder.string(), package));
+    return ResolvePackage(*this, uri, uri.substr(kPackageScheme.size()));
   }
   if (uri.starts_with(kFileScheme)) {
-    return Existing(fs::path(uri.substr(kFileScheme.size())), uri);
+    const std::string path = uri.substr(kFileScheme.size());
+    if (const auto file = FindFile("", path)) return *file;
+    FailNoFile(uri, path);
   }
   if (uri.find("://") != std::string::npos) {
     throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
   }
-  return Existing(base_folder / uri, uri);  // An absolute path replaces the base.
+  const fs::path path = base_folder / uri;  // An absolute path replaces the base.
+  if (!IsFile(path)) FailNoFile(uri, path);
+  return path;
 }
 
 std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {
@@ -182,8 +222,7 @@ std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {
 
 TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
   const std::string file = path.string();
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw InputError(file + ": no such mesh file");
+  if (!IsFile(path)) throw InputError(file + ": no such mesh file");
   if (!scale.allFinite() || (scale.array() == 0).any()) {
     throw InputError(fmt::format("{}: mesh scale [{}, {}, {}] must be finite and not zero", file,
                                  scale.x(), scale.y(), scale.z()));

@@ -11,7 +11,7 @@ namespace planbench {
 /// Finds the files that URIs name. package://NAME/rest resolves through the packages given by name
 /// (`--package-path NAME=DIR`), else through a folder called NAME: in base_folder, base_folder
 /// itself or beside it, or so for the two folders above it. file:// URIs and absolute paths are
-/// taken as they are, relative paths from base_folder.
+/// taken as they are, relative paths from base_folder. URIs may write characters as %20.
 struct ResourceResolver {
   std::filesystem::path base_folder;
   std::map<std::string, std::filesystem::path> packages;
@@ -24,8 +24,8 @@ struct ResourceResolver {
 std::pair<std::string, std::filesystem::path> ParsePackagePath(const std::string& argument);
 
 /// Reads an STL (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
-/// transforms and the file's unit applied, vertices scaled per axis. Throws InputError if it cannot
-/// be read or has no triangles.
+/// transforms and the file's unit applied, vertices scaled per axis. What other formats assimp
+/// knows is read as well. Throws InputError if it cannot be read or has no triangles.
 TriangleMesh LoadMesh(const std::filesystem::path& path,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 

@@ -60,6 +60,21 @@ TEST_F(ResourceResolverTest, TakesFileUrisAbsoluteAndRelativePaths) {
   EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), own);
 }
 
+TEST_F(ResourceResolverTest, UrisMayWriteCharactersInPercent) {
+  const fs::path spaced = folder_.Write("robot/meshes/sp\xc3\xa4t er.stl", "own");
+  const fs::path literal = folder_.Write("robot/meshes/100%25.stl", "own");
+  const std::string folder = (folder_.path() / "robot").string();
+  EXPECT_EQ(resolver_.Resolve("file://" + folder + "/meshes/sp%C3%a4t%20er.stl"), spaced);
+  EXPECT_EQ(resolver_.Resolve("package://robot/meshes/sp%c3%A4t%20er.stl"), spaced);
+  EXPECT_EQ(resolver_.Resolve("package://robot/meshes/100%25.stl"), literal);
+  EXPECT_EQ(resolver_.Resolve("meshes/100%25.stl"), literal);
+  // What is no URI, and no code, stays what it is.
+  for (const char* uri : {"meshes/sp%C3%A4t%20er.stl", "package://robot/meshes/a%2.stl",
+                          "package://robot/meshes/a%xy.stl", "package://robot/meshes/a%"}) {
+    ExpectInputError([&] { resolver_.Resolve(uri); }, {uri, "no file"});
+  }
+}
+
 TEST_F(ResourceResolverTest, SaysWhatItTriedAndHowToMendIt) {
   ExpectInputError([&] { resolver_.Resolve("package://lost/meshes/a.stl"); },
                    {"package://lost/meshes/a.stl", (folder_.path() / "robot").string(),
