@@ -161,11 +161,12 @@ std::optional<fs::path> FindFile(const fs::path& folder, const std::string& rest
 fs::path ResolvePackage(const ResourceResolver& resources, const std::string& uri,
                         const std::string& rest) {
   const std::size_t slash = rest.find('/');
-  if (slash == std::string::npos || slash == 0 || slash + 1 == rest.size()) {
+  const std::size_t begin = rest.find_first_not_of('/', slash);
+  if (slash == 0 || begin == std::string::npos) {
     throw InputError(fmt::format("resource '{}': expected package://NAME/path", uri));
   }
   const std::string package = rest.substr(0, slash);
-  const std::string path = rest.substr(slash + 1);
+  const std::string path = rest.substr(begin);
   const auto known = resources.packages.find(package);
   if (known != resources.packages.end()) {
     if (const auto file = FindFile(known->second, path)) return *file;

@@ -69,6 +69,7 @@ class RobotMaker {
         robot().edge_resolution_m);
     Say("planners follow their own rules for this robot: no settings files are needed");
     const MeshFiles meshes = FindRobotMeshes();
+    RenameMeshesOfUrdf(meshes);
     WriteRobotFolder(draft_, flags_.out);
     CopyMeshes(meshes, flags_.out);
     LoadRobot(flags_.out);  // What was written must be what it is meant to be.
@@ -321,13 +322,25 @@ class RobotMaker {
   }
 
   MeshFiles FindRobotMeshes() {
-    MeshFiles meshes = FindMeshes(robot().model, robot().resources);
+    MeshFiles meshes = FindMeshes(robot().model, robot().resources, flags_.out);
     if (!meshes.files.empty()) Say("{} mesh files copied", meshes.files.size());
+    for (const auto& [uri, name] : meshes.renamed) Say("  {} is {} in the URDF here", uri, name);
     if (meshes.missing.empty()) return meshes;
     if (robot().spheres.empty()) throw InputError(meshes.missing.front());
     Say("{} meshes are missing, so that --collision-model meshes cannot be used: {}",
         meshes.missing.size(), meshes.missing.front());
     return meshes;
+  }
+
+  void RenameMeshesOfUrdf(const MeshFiles& meshes) {
+    const fs::path target = UrdfPath(draft_, flags_.out);
+    std::error_code error;
+    if (!meshes.renamed.empty() && fs::equivalent(target, flags_.urdf, error)) {
+      throw InputError(fmt::format("{}: would be written over, with {} for {}; name another --out",
+                                   target.string(), meshes.renamed.begin()->second,
+                                   meshes.renamed.begin()->first));
+    }
+    draft_.urdf_text = RenameMeshes(draft_.urdf_text, meshes.renamed);
   }
 
   const MakeRobotFlags& flags_;

@@ -113,11 +113,15 @@ std::string RobotYaml(const RobotDraft& draft) {
   return yaml;
 }
 
+fs::path UrdfPath(const RobotDraft& draft, const fs::path& folder) {
+  return folder / (draft.robot.name + ".urdf");
+}
+
 void WriteRobotFolder(const RobotDraft& draft, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError("cannot make the folder " + folder.string());
-  WriteFile(folder / (draft.robot.name + ".urdf"), draft.urdf_text);
+  WriteFile(UrdfPath(draft, folder), draft.urdf_text);
   if (!draft.robot.spheres.empty())
     WriteFile(folder / "spheres.yaml", SpheresYaml(draft.robot.model, draft.robot.spheres, {}));
   WriteFile(folder / "robot.yaml", RobotYaml(draft));

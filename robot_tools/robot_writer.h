@@ -26,6 +26,9 @@ struct RobotDraft {
 /// robot.yaml for a draft whose files are NAME.urdf and, if it has spheres, spheres.yaml.
 std::string RobotYaml(const RobotDraft& draft);
 
+/// Where the folder has a draft's URDF.
+std::filesystem::path UrdfPath(const RobotDraft& draft, const std::filesystem::path& folder);
+
 /// Writes the folder. Throws InputError if a file cannot be written.
 void WriteRobotFolder(const RobotDraft& draft, const std::filesystem::path& folder);
 

@@ -29,6 +29,7 @@ TEST_F(ResourceResolverTest, FindsFilesOfGivenPackages) {
 TEST_F(ResourceResolverTest, PackagesAreFoldersOfTheirNameAround) {
   const fs::path own = folder_.path() / "robot/meshes/own.stl";
   EXPECT_EQ(resolver_.Resolve("package://robot/meshes/own.stl"), own);
+  EXPECT_EQ(resolver_.Resolve("package://robot//meshes/own.stl"), own);
   EXPECT_EQ(resolver_.Resolve("package://meshes/own.stl"), own);
   EXPECT_EQ(resolver_.Resolve("package://other/meshes/theirs.stl"),
             folder_.path() / "other/meshes/theirs.stl");

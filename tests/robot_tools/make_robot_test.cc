@@ -196,6 +196,69 @@ TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
   }
 }
 
+// The crane with a mesh of that name for its hook and another for its base.
+std::string MeshCrane(const std::string& hook, const std::string& base) {
+  std::string urdf = kCraneUrdf;
+  const auto replace = [&](const std::string& shape, const std::string& mesh) {
+    urdf.replace(urdf.find(shape), shape.size(), "<mesh filename=\"" + mesh + "\"/>");
+  };
+  replace("<sphere radius=\"0.06\"/>", hook);
+  replace("<box size=\"0.4 0.4 0.2\"/>", base);
+  return urdf;
+}
+
+TEST_F(MakeRobotTest, AWrittenFolderCanBeMovedWhateverTheUrdfCallsItsMeshes) {
+  namespace fs = std::filesystem;
+  flags_.without_spheres = true;
+  const fs::path outer = folder_.path() / "pkg";
+  const std::string hook = MeshAsObj(TorusMesh(0.1, 0.03, 20, 10));
+  const std::string base = MeshAsObj(TorusMesh(0.2, 0.05, 20, 10));
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {"../meshes/a.obj", "../meshes/base/a.obj"},
+      {"package://pkg/meshes/a.obj", (outer / "meshes/base/a.obj").string()},
+      {"file://" + (outer / "meshes/a.obj").string(), "package://pkg/meshes/base/a.obj"},
+      {"package://pkg/meshes/sp%20ace&amp;.obj", "../meshes/base/a.obj"},
+      {"meshes/a.obj", "../meshes/base/a.obj"}};
+  for (const auto& [of_hook, of_base] : names) {
+    SCOPED_TRACE(of_hook);
+    folder_.Write("pkg/meshes/a.obj", hook);
+    folder_.Write("pkg/meshes/sp ace&.obj", hook);
+    folder_.Write("pkg/urdf/meshes/a.obj", hook);
+    folder_.Write("pkg/meshes/base/a.obj", base);
+    flags_.urdf = folder_.Write("pkg/urdf/crane.urdf", MeshCrane(of_hook, of_base));
+    Make();
+    fs::rename(flags_.out, folder_.path() / "moved");
+    fs::remove_all(outer);
+    const Robot robot = LoadRobot(folder_.path() / "moved");
+    const auto text_of = [&](const char* link) {
+      const auto& shape = robot.model.links()[robot.model.FindLink(link)].collision[0].shape;
+      return ReadText(robot.resources.Resolve(std::get<Mesh>(shape).resource));
+    };
+    EXPECT_EQ(text_of("hook"), hook);
+    EXPECT_EQ(text_of("base"), base);
+    fs::remove_all(folder_.path() / "moved");
+  }
+}
+
+TEST_F(MakeRobotTest, FilesOfTheUrdfsOwnFolderAreKept) {
+  flags_.without_spheres = true;
+  const std::string hook = MeshAsObj(TorusMesh(0.1, 0.03, 20, 10));
+  folder_.Write("else/a.obj", hook);
+  folder_.Write("in/meshes/a.obj", "another");
+  folder_.Write("in/base.obj", hook);
+  const std::string urdf = MeshCrane("../else/a.obj", "base.obj");
+  flags_.urdf = folder_.Write("in/crane.urdf", urdf);
+  flags_.out = folder_.path() / "in";
+  ExpectInputError([&] { MakeRobot(flags_); }, {"in/crane.urdf", "written over", "--out"});
+  EXPECT_EQ(ReadText(flags_.urdf), urdf);
+  flags_.name = "crane2";
+  EXPECT_THAT(Make(), AllOf(HasSubstr("2 mesh files copied"),
+                            HasSubstr("../else/a.obj is meshes/a_2.obj in the URDF")));
+  EXPECT_EQ(ReadText(flags_.urdf), urdf);
+  EXPECT_EQ(ReadText(flags_.out / "meshes/a.obj"), "another");
+  EXPECT_EQ(ReadText(flags_.out / "meshes/a_2.obj"), hook);
+}
+
 TEST_F(MakeRobotTest, RefusesInOneLine) {
   folder_.Write("in/spheres.yaml", "links:\n  toe: [{center: [0, 0, 0], radius: 0.1}]\n");
   flags_.spheres = folder_.path() / "in/spheres.yaml";
