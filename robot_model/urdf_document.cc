@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -41,22 +44,78 @@ class ReportCapture : private console_bridge::OutputHandler {
   std::string errors_;
 };
 
-// Notes where links and joints are defined.
-void FindElements(std::string_view text, UrdfDocument* document) {
-  XmlTagReader tags(text);
-  int order = 0;
-  while (const auto tag = tags.Next()) {
-    const std::optional<std::string> name = tag->Attribute("name");
-    if (!name || tag->closing) continue;
-    if (tag->element == "link") {
-      document->link_lines.try_emplace(*name, tag->line);
-    } else if (tag->element == "joint" && tag->Attribute("type")) {
-      // Transmissions mention joints by the same tag, without a type.
-      document->joint_lines.try_emplace(*name, tag->line);
-      document->joint_order.try_emplace(*name, order++);
+// Notes where links and joints are defined, and refuses what urdfdom passes over in silence: a
+// second element where it takes the first.
+class ElementFinder {
+ public:
+  ElementFinder(std::string_view text, const std::string& origin, UrdfDocument* document)
+      : origin_(origin), document_(*document) {
+    XmlTagReader tags(text);
+    while (const auto tag = tags.Next()) {
+      if (tag->closing) {
+        open_.pop_back();
+        continue;
+      }
+      Note(*tag);
+      CheckOnlyOne(*tag);
+      if (!tag->empty) open_.push_back({*tag, {}});
     }
   }
-}
+
+ private:
+  struct Open {
+    XmlTag tag;
+    std::vector<std::string_view> only_ones;  // Those that it holds already.
+  };
+
+  // Elsewhere (transmissions, gazebo) the same tags mention them.
+  void Note(const XmlTag& tag) {
+    const std::optional<std::string> name = tag.Attribute("name");
+    if (!name || open_.size() != 1) return;
+    if (tag.element == "link") {
+      document_.link_lines.try_emplace(*name, tag.line);
+    } else if (tag.element == "joint") {
+      document_.joint_lines.try_emplace(*name, tag.line);
+      document_.joint_order.try_emplace(*name, static_cast<int>(document_.joint_order.size()));
+    }
+  }
+
+  bool Within(std::initializer_list<std::string_view> path) const {
+    return open_.size() == 1 + path.size() &&
+           std::equal(path.begin(), path.end(), open_.begin() + 1,
+                      [](std::string_view name, const Open& o) { return o.tag.element == name; });
+  }
+
+  bool IsShape(const XmlTag& tag) const {
+    return Within({"link", "collision", "geometry"}) && tag.element.find(':') == tag.element.npos;
+  }
+
+  bool IsOnlyOne(const XmlTag& tag) const {
+    static const std::set<std::string_view> kOfJoint = {
+        "origin", "parent", "child", "axis", "limit", "mimic", "safety_controller"};
+    if (Within({"joint"})) return kOfJoint.contains(tag.element);
+    return IsShape(tag) || (Within({"link", "collision"}) &&
+                            (tag.element == "geometry" || tag.element == "origin"));
+  }
+
+  void CheckOnlyOne(const XmlTag& tag) {
+    if (!IsOnlyOne(tag)) return;
+    std::vector<std::string_view>& before = open_.back().only_ones;
+    const auto other = IsShape(tag) ? before.begin() : std::ranges::find(before, tag.element);
+    if (other != before.end()) {
+      const XmlTag& place = open_[1].tag;
+      throw InputError(fmt::format(
+          "{}:{}: {} '{}': <{}> holds <{}> and <{}>, but can hold one{}", origin_, tag.line,
+          place.element, place.Attribute("name").value_or(""), open_.back().tag.element, *other,
+          tag.element, place.element == "link" ? "; give each a <collision> of its own" : ""));
+    }
+    before.push_back(tag.element);
+  }
+
+  const std::string& origin_;
+  UrdfDocument& document_;
+  std::vector<Open> open_;
+};
 
 // ":LINE" of the first link or joint that urdfdom's report names, in brackets or quotes; "" if it
 // names none.
@@ -81,7 +140,7 @@ std::string LineOfReport(const std::string& report, const UrdfDocument& document
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin) {
   CheckXmlText(urdf_text, origin);
   UrdfDocument document;
-  FindElements(urdf_text, &document);
+  const ElementFinder found(urdf_text, origin, &document);
   std::string errors;
   const auto fail = [&](const std::string& report) {
     throw InputError(

@@ -19,8 +19,8 @@ struct UrdfDocument {
 };
 
 /// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed),
-/// and for what it would not report: text that is no UTF-8, xacro that is not expanded. `origin`
-/// names the text.
+/// and for what it would not report: text that is no UTF-8, xacro that is not expanded, a second
+/// element where one counts. `origin` names the text.
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
 
 }  // namespace planbench

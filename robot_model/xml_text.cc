@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <vector>
 
 #include "common/error.h"
@@ -70,7 +71,15 @@ class TagChecker {
     }
     if (what.empty()) return;
     Fail(tag.line,
-         fmt::format("{}; expand the file first: xacro {} > expanded.urdf", what, origin_));
+         fmt::format("{}; expand the file first: xacro {} > {}", what, origin_, ExpandedName()));
+  }
+
+  // arm.srdf.xacro becomes arm.srdf; a name that does not say what it is of, expanded.
+  std::string ExpandedName() const {
+    std::filesystem::path name = origin_;
+    if (name.extension() == ".xacro") name.replace_extension();
+    if (name != origin_ && name.has_extension()) return name.string();
+    return "expanded" + (name.has_extension() ? name.extension().string() : ".xml");
   }
 
   bool Within(std::string_view element) const {
@@ -153,6 +162,7 @@ XmlTag XmlTagReader::Read() {
 }
 
 void CheckXmlText(std::string_view text, const std::string& origin) {
+  RefuseUtf16(text, origin);
   const TagChecker checked(text, origin);
 }
 

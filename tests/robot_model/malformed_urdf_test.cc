@@ -187,6 +187,28 @@ const MalformedUrdf kMalformed[] = {
     {"FlatCylinder",
      WithCollision("<geometry><cylinder radius='1' length='0'/></geometry>"),
      {":3:", "link 'a'", "cylinder length"}},
+    {"TwoShapesInOneGeometry",
+     WithCollision("<geometry><box size='1 1 1'/>\n<sphere radius='1'/></geometry>"),
+     {":4:", "link 'a'", "<geometry>", "<box> and <sphere>", "<collision> of its own"}},
+    {"TwoGeometriesInOneCollision",
+     WithCollision("<geometry><sphere radius='1'/></geometry>\n"
+                   "<geometry><sphere radius='2'/></geometry>"),
+     {":4:", "link 'a'", "<collision>", "<geometry>", "<collision> of its own"}},
+    {"TwoOriginsOfACollision",
+     WithCollision("<origin/>\n<origin xyz='0 0 1'/><geometry><sphere radius='1'/></geometry>"),
+     {":4:", "link 'a'", "<origin>", "one"}},
+    {"TwoLimits",
+     WithJoint("revolute", std::string(kLimit) + "\n" + kLimit),
+     {":3:", "joint 'j'", "<limit>", "one"}},
+    {"TwoAxes", WithJoint("fixed", "<axis xyz='1 0 0'/><axis xyz='0 1 0'/>"), {":2:", "<axis>"}},
+    {"JointWithoutType",
+     "<robot name='r'><link name='a'/><link name='b'/>\n"
+     "<joint name='j'><parent link='a'/><child link='b'/></joint></robot>",
+     {":2:", "[j]", "type"}},
+    {"Utf16",
+     std::string("\xff\xfe<\0r\0", 6),
+     {"UTF-16", "iconv -f UTF-16 -t UTF-8 robots/r.urdf"}},
+    {"Utf16WithoutMark", std::string("\0<\0r\0o", 6), {"iconv -f UTF-16BE"}},
     {"FlatMesh",
      WithCollision("<geometry><mesh filename='a.stl' scale='1 1 0'/></geometry>"),
      {":3:", "link 'a'", "mesh scale"}},
@@ -211,6 +233,28 @@ TEST(UrdfText, CommentsAndOtherToolsElementsMayHoldAnything) {
       "<link name='a > b'><visual><geometry><sphere radius='1'/></geometry></visual></link>\n"
       "</robot>\n",
       "r"));
+}
+
+TEST(UrdfText, SeveralCollisionsAndElementsOfOtherToolsAreFine) {
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='a'>"
+      "<visual><geometry><box size='1 1 1'/></geometry></visual>"
+      "<collision><geometry><sphere radius='1'/><drake:capsule/></geometry></collision>"
+      "<collision><geometry><sphere radius='2'/></geometry></collision></link>"
+      "<transmission name='t'><joint name='j'/><limit/><limit/></transmission></robot>",
+      "r");
+  EXPECT_EQ(model.links()[0].collision.size(), 2u);
+}
+
+TEST(UrdfText, TheHintToExpandXacroNamesAFileOfTheSameKind) {
+  const auto expect = [](const std::string& file, const std::string& command) {
+    ExpectInputError([&] { RobotModel::FromUrdf("<robot><xacro:arm/></robot>", file); },
+                     {file + ":1:", "expand the file first: " + command});
+  };
+  expect("in/arm.srdf.xacro", "xacro in/arm.srdf.xacro > in/arm.srdf");
+  expect("arm.urdf.xacro", "xacro arm.urdf.xacro > arm.urdf");
+  expect("arm.srdf", "xacro arm.srdf > expanded.srdf");
+  expect("arm.xacro", "xacro arm.xacro > expanded.xml");
 }
 
 }  // namespace
