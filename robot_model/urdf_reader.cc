@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 constexpr double kLimitRounding = 1e-9;
 // Beyond, rad or m, limits are none.
 constexpr double kWidestLimit = 1e4;
+// No part of a robot is larger, or further from the next, m: single precision is a millimetre
+// there.
+constexpr double kGreatestLength = 1e4;
 
 Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -29,6 +32,18 @@ Isometry3d ToEigen(const urdf::Pose& pose) {
   X.linear() = rotation.normalized().toRotationMatrix();
   X.translation() = ToEigen(pose.position);
   return X;
+}
+
+std::string TooLarge(double length) {
+  return fmt::format("{} m is more than the {} m of the largest robots; URDFs are in metres",
+                     length, kGreatestLength);
+}
+
+// What is wrong with a pose of an <origin>; "" for nothing.
+std::string FaultOf(const Isometry3d& X) {
+  if (!X.matrix().allFinite()) return "is not finite";
+  const double furthest = X.translation().cwiseAbs().maxCoeff();
+  return furthest > kGreatestLength ? TooLarge(furthest) : "";
 }
 
 // Turns a parsed URDF into the links and joints of a RobotModel.
@@ -77,7 +92,9 @@ class UrdfConverter {
     result.name = joint.name;
     result.type = ConvertType(joint);
     result.X_PJ = ToEigen(joint.parent_to_joint_origin_transform);
-    if (!result.X_PJ.matrix().allFinite()) FailJoint(joint.name, "origin: is not finite");
+    if (const std::string what = FaultOf(result.X_PJ); !what.empty()) {
+      FailJoint(joint.name, "origin: " + what);
+    }
     if (NumPositions(result.type) != 1) return result;
 
     const Vector3d axis = ToEigen(joint.axis);
@@ -94,7 +111,9 @@ class UrdfConverter {
     for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
       if (collision->geometry == nullptr) FailLink(link.name, "collision: has no geometry");
       const Isometry3d X_LS = ToEigen(collision->origin);
-      if (!X_LS.matrix().allFinite()) FailLink(link.name, "collision origin: is not finite");
+      if (const std::string what = FaultOf(X_LS); !what.empty()) {
+        FailLink(link.name, "collision origin: " + what);
+      }
       shapes.push_back({ConvertGeometry(link.name, *collision->geometry), X_LS});
     }
     return shapes;
@@ -188,9 +207,12 @@ class UrdfConverter {
     soft_limits_.push_back(joint->name);
   }
 
-  void CheckPositive(const std::string& link, const char* field, double value) const {
+  void CheckLength(const std::string& link, const char* field, double value) const {
     if (!std::isfinite(value) || value <= 0) {
       FailLink(link, fmt::format("collision {}: must be greater than zero, is {}", field, value));
+    }
+    if (value > kGreatestLength) {
+      FailLink(link, fmt::format("collision {}: {}", field, TooLarge(value)));
     }
   }
 
@@ -198,20 +220,20 @@ class UrdfConverter {
     switch (geometry.type) {
       case urdf::Geometry::SPHERE: {
         const auto& sphere = dynamic_cast<const urdf::Sphere&>(geometry);
-        CheckPositive(link, "sphere radius", sphere.radius);
+        CheckLength(link, "sphere radius", sphere.radius);
         return Sphere{sphere.radius};
       }
       case urdf::Geometry::BOX: {
         const auto& box = dynamic_cast<const urdf::Box&>(geometry);
         for (const double edge : {box.dim.x, box.dim.y, box.dim.z}) {
-          CheckPositive(link, "box size", edge);
+          CheckLength(link, "box size", edge);
         }
         return Box{ToEigen(box.dim)};
       }
       case urdf::Geometry::CYLINDER: {
         const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
-        CheckPositive(link, "cylinder radius", cylinder.radius);
-        CheckPositive(link, "cylinder length", cylinder.length);
+        CheckLength(link, "cylinder radius", cylinder.radius);
+        CheckLength(link, "cylinder length", cylinder.length);
         return Cylinder{cylinder.radius, cylinder.length};
       }
       case urdf::Geometry::MESH: {

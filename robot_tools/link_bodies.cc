@@ -87,6 +87,10 @@ LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resou
       }
       if (mesh != nullptr) {
         Remark(link.name, *mesh, filled, body.hulls().back()->inside(), &read.remarks);
+      } else if (const double extent = 2 * ComputeBoundingSphere(placed.shape).radius;
+                 extent > kGreatestExtent) {
+        read.remarks.push_back(fmt::format(
+            "link '{}': a shape is {:.3g} m large: URDFs are in metres", link.name, extent));
       }
     }
     if (body.empty()) continue;

@@ -14,7 +14,8 @@ struct LinkBodies {
   std::vector<int> links;  ///< Link indices, ascending.
   std::vector<LinkBody> bodies;
   /// What is odd about their meshes, one line each: not closed, turned inside out, parts that
-  /// disagree about where their outside is, triangles without area, sizes that no link has.
+  /// disagree about where their outside is, triangles without area, sizes that no link has. Of
+  /// other shapes such sizes.
   std::vector<std::string> remarks;
 };
 

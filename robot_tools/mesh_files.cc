@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <variant>
 
@@ -19,12 +18,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPackage = "package://";
 
-std::set<std::string> MeshUris(const RobotModel& model) {
-  std::set<std::string> uris;
+// Where the URDF names each mesh first, by URI.
+std::map<std::string, std::string> MeshUris(const RobotModel& model) {
+  std::map<std::string, std::string> uris;
   for (const Link& link : model.links()) {
     for (const PlacedShape& placed : link.collision) {
       const auto* mesh = std::get_if<Mesh>(&placed.shape);
-      if (mesh != nullptr && !mesh->resource.empty()) uris.insert(mesh->resource);
+      if (mesh != nullptr && !mesh->resource.empty()) uris.emplace(mesh->resource, link.where);
     }
   }
   return uris;
@@ -46,13 +46,13 @@ class MeshPlacer {
   MeshPlacer(const RobotModel& model, const ResourceResolver& resources, const fs::path& folder)
       : folder_(folder) {
     std::map<std::string, fs::path> others;
-    for (const std::string& uri : MeshUris(model)) {
+    for (const auto& [uri, where] : MeshUris(model)) {
       try {
         const fs::path source = resources.Resolve(uri);
         const std::optional<fs::path> place = OwnPlace(uri);
         if (!place || !Take(source, *place)) others.emplace(uri, source);
       } catch (const InputError& error) {
-        meshes_.missing.emplace_back(error.what());
+        meshes_.missing.push_back(fmt::format("{}: {}", where, error.what()));
       }
     }
     for (const auto& [uri, source] : others) meshes_.renamed[uri] = PlaceAmongMeshes(source);

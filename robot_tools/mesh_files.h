@@ -20,7 +20,7 @@ struct MeshFiles {
   /// Others (absolute, file://, with .. or %20, or of a place that is taken) to meshes/.
   std::vector<File> files;
   std::map<std::string, std::string> renamed;  ///< What the URDF must call the others, by URI.
-  std::vector<std::string> missing;            ///< Of each that cannot be found, its URI and why.
+  std::vector<std::string> missing;  ///< Of each that cannot be found, where it is named and why.
 };
 
 /// The meshes of a model for the robot folder `folder`, whose own files are kept.

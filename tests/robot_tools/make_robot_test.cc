@@ -174,7 +174,7 @@ TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
   folder_.Write("in/crane.urdf", mesh);
   ExpectRefused({"crane.urdf:7", "link 'hook'", "package://crane/hook.obj"});
   flags_.without_spheres = true;
-  ExpectRefused({"package://crane/hook.obj"});
+  ExpectRefused({"crane.urdf:7", "link 'hook'", "package://crane/hook.obj"});
 
   folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
   flags_.without_spheres = false;
@@ -257,6 +257,13 @@ TEST_F(MakeRobotTest, FilesOfTheUrdfsOwnFolderAreKept) {
   EXPECT_EQ(ReadText(flags_.urdf), urdf);
   EXPECT_EQ(ReadText(flags_.out / "meshes/a.obj"), "another");
   EXPECT_EQ(ReadText(flags_.out / "meshes/a_2.obj"), hook);
+}
+
+TEST_F(MakeRobotTest, ShapesInMillimetresAreNamed) {
+  std::string urdf = kCraneUrdf;
+  urdf.replace(urdf.find("0.06"), 4, "60");
+  folder_.Write("in/crane.urdf", urdf);
+  EXPECT_THAT(Make(), HasSubstr("link 'hook': a shape is 120 m large"));
 }
 
 TEST_F(MakeRobotTest, RefusesInOneLine) {
