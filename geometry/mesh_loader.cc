@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/name_value.h"
 #include "common/read_text.h"
+#include "common/text.h"
 #include "geometry/obj_text.h"
 #include "geometry/stl_reader.h"
 #include "geometry/text_words.h"
@@ -91,6 +92,14 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
   }
 }
 
+// Refuses what assimp has no message for: it ends the process at a <skew>.
+void CheckCollada(const std::string& text, const std::string& file) {
+  RefuseUtf16(text, file);
+  if (text.find("<skew") != std::string::npos) {
+    throw InputError(file + ": <skew> cannot be read; export the mesh with transforms applied");
+  }
+}
+
 // Adds what assimp makes of a file; OBJ files are made plain for it first.
 void AddScene(const fs::path& path, const std::string& format, const Vector3d& scale,
               MeshBuilder* builder) {
@@ -104,6 +113,7 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
     if (plain.empty()) return;
     scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
   } else {
+    if (format == ".dae") CheckCollada(ReadText(path), file);
     scene = importer.ReadFile(file, aiProcess_Triangulate);
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {

@@ -19,9 +19,8 @@ using Eigen::Vector3d;
 constexpr double kLimitRounding = 1e-9;
 // Beyond, rad or m, limits are none.
 constexpr double kWidestLimit = 1e4;
-// No part of a robot is larger, or further from the next, m: single precision is a millimetre
-// there.
-constexpr double kGreatestLength = 1e4;
+// No part of a robot is larger, or further from the next, m.
+constexpr double kGreatestLength = 1e3;
 
 Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -35,7 +34,7 @@ Isometry3d ToEigen(const urdf::Pose& pose) {
 }
 
 std::string TooLarge(double length) {
-  return fmt::format("{} m is more than the {} m of the largest robots; URDFs are in metres",
+  return fmt::format("{:g} m is more than the {:g} m of the largest robots; URDFs are in metres",
                      length, kGreatestLength);
 }
 

@@ -261,7 +261,7 @@ TEST_F(LoadMeshTest, SaysWhereStlFilesAreCutOff) {
 }
 
 TEST_F(LoadMeshTest, Utf16IsToldHowToBecomeUtf8) {
-  for (const char* name : {"wide.stl", "wide.obj"}) {
+  for (const char* name : {"wide.stl", "wide.obj", "wide.dae"}) {
     std::string wide;
     for (const char c : std::string("solid box")) wide += {c, '\0'};
     const auto file = folder_.Write(name, wide);
@@ -279,6 +279,31 @@ TEST_F(LoadMeshTest, AppliesTheUnitOfColladaFilesAndIgnoresTheirUpAxis) {
       const auto file = folder_.Write("box.dae", Dae(box, {.unit = unit, .up_axis = up_axis}));
       EXPECT_EQ(TriangleSet(LoadMesh(file)), TriangleSet(box));
     }
+  }
+}
+
+TEST_F(LoadMeshTest, ReadsColladaPolygonsOfEveryKind) {
+  const std::string dae = Dae(UnevenBoxMesh());
+  const std::size_t begin = dae.find("<triangles");
+  const std::size_t end = dae.find("</triangles>") + 12;
+  const std::string input = "<input semantic='VERTEX' source='#vertices' offset='0'/>";
+  for (const std::string& square :
+       {"<polylist count='1'>" + input + "<vcount>4</vcount><p>0 2 3 1</p></polylist>",
+        "<polygons count='1'>" + input + "<p>0 2 3 1</p></polygons>",
+        "<trifans count='1'>" + input + "<p>0 2 3 1</p></trifans>",
+        "<lines count='1'>" + input + "<p>4 5</p></lines>" + "<tristrips count='1'>" + input +
+            "<p>0 2 1 3</p></tristrips>"}) {
+    SCOPED_TRACE(square);
+    std::string text = dae;
+    text.replace(begin, end - begin, square);
+    const TriangleMesh mesh = LoadMesh(folder_.Write("square.dae", text));
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    double area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vector3d& corner = mesh.vertices[a];
+      area -= (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).z() / 2;
+    }
+    EXPECT_NEAR(area, 2, 1e-6);
   }
 }
 
@@ -319,6 +344,7 @@ TEST_F(LoadMeshTest, RefusesBadFilesByName) {
       {"points.obj", "o points\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"},
       {"flat.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"},
       {"cut.dae", Dae(UnevenBoxMesh()).substr(0, 700)},
+      {"skew.dae", Dae(UnevenBoxMesh(), {.transform = "<skew>45 0 1 0 1 0 0</skew>"})},
       {"unknown.xyz", "0 0 0\n"}};
   for (const auto& [name, content] : files) {
     SCOPED_TRACE(name);
