@@ -18,14 +18,12 @@ bool Moves(const RobotModel& model, int joint, int other) {
 }  // namespace
 
 Arms OneArm(const PlanningGroup& group) {
-  return {1, std::vector<int>(group.joints.size(), 0),
-          std::vector<int>(1 + group.more_tips.size(), 0)};
+  return {1, std::vector<int>(group.joints.size(), 0), std::vector<int>(group.tips().size(), 0)};
 }
 
 Arms ArmsOf(const RobotModel& model, const PlanningGroup& group) {
   constexpr int kShared = -1;
-  std::vector<int> tips = {group.tip_link};
-  tips.insert(tips.end(), group.more_tips.begin(), group.more_tips.end());
+  const std::vector<int> tips = group.tips();
   Arms arms{0, {}, std::vector<int>(tips.size(), kShared)};
   for (const int joint : group.joints) {
     const auto moves = [&](int tip) {

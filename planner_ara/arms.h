@@ -12,7 +12,7 @@ struct Arms {
   int num = 1;
   /// n joints: the arm, or `num` if the joint moves several tips (a torso) or none.
   std::vector<int> of_joint;
-  /// By tip, PlanningGroup::tip_link first; `num` for a tip that no joint moves alone.
+  /// By tip, in the order of PlanningGroup::tips; `num` for a tip that no joint moves alone.
   std::vector<int> of_tip;
 };
 Arms ArmsOf(const RobotModel& model, const PlanningGroup& group);

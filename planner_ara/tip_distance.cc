@@ -15,12 +15,6 @@ constexpr double kCell = 0.07;   // m
 constexpr double kMargin = 0.5;  // m
 constexpr double kMostCellsAlongAxis = 200;
 
-std::vector<int> TipsOf(const PlanningGroup& group) {
-  std::vector<int> tips{group.tip_link};
-  tips.insert(tips.end(), group.more_tips.begin(), group.more_tips.end());
-  return tips;
-}
-
 VoxelSettings GridAround(GroupKinematics* kinematics, const std::vector<int>& tips,
                          std::span<const double> start, std::span<const double> goal) {
   Eigen::AlignedBox3d box;
@@ -42,7 +36,7 @@ TipGrid::TipGrid(const Scene& scene, const RobotModel& model, const PlanningGrou
                  std::span<const double> base_positions, std::span<const double> start,
                  std::span<const double> goal)
     : kinematics_(model, group, base_positions),
-      tips_(TipsOf(group)),
+      tips_(group.tips()),
       scene_(&scene),
       grid_(GridAround(&kinematics_, tips_, start, goal)),
       cells_(tips_.size()) {}

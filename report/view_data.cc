@@ -116,10 +116,14 @@ class View {
     for (std::size_t i = 1; i < waypoints.size(); ++i) {
       length += group_.space.Distance(waypoints[i - 1], waypoints[i]);
     }
-    Json motion = {{"name", name}, {"frames", Json::array()}, {"tip", Json::array()}};
+    Json motion = {{"name", name}, {"frames", Json::array()}};
+    const std::vector<int> tips = group_.tips();
+    motion["tips"] = std::vector<Json>(tips.size(), Json::array());
     const auto add_frame = [&](const Configuration& q) {
       motion["frames"].push_back(Poses(q));
-      motion["tip"].push_back(Point(kinematics_.X_BL(group_.tip_link).translation()));
+      for (std::size_t i = 0; i < tips.size(); ++i) {
+        motion["tips"][i].push_back(Point(kinematics_.X_BL(tips[i]).translation()));
+      }
     };
     const bool hit = verdict != nullptr && !verdict->valid && verdict->segment >= 0;
     add_frame(waypoints.front());

@@ -17,7 +17,7 @@ namespace planbench {
 ///    links: [{name, pose (at the start), moves, spheres: [[x, y, z, radius], ...]}],
 ///    goal: [pose of each link that moves],
 ///    motions: [{name, frames: [[pose of each link that moves, all in one list], ...],
-///               tip: [[x, y, z], ...], collision: frame, contact: text}]}
+///               tips: [[[x, y, z], ...], ...], collision: frame, contact: text}]}
 /// Throws InputError for a problem that does not fit the robot.
 Json ProblemView(const Robot& robot, const Problem& problem);
 

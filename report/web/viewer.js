@@ -122,9 +122,11 @@ function makeViewer(container, data, previous = null) {
     scene.add(body.group);
     let hit = null;
     if (motion) {
-      const trail = new THREE.BufferGeometry();
-      trail.setAttribute("position", new THREE.Float32BufferAttribute(motion.tip.flat(), 3));
-      scene.add(new THREE.Line(trail, new THREE.LineBasicMaterial({color: colour("--accent")})));
+      for (const tip of motion.tips) {
+        const trail = new THREE.BufferGeometry();
+        trail.setAttribute("position", new THREE.Float32BufferAttribute(tip.flat(), 3));
+        scene.add(new THREE.Line(trail, new THREE.LineBasicMaterial({color: colour("--accent")})));
+      }
       if (motion.collision !== undefined) {
         hit = robot(material(colour("--failure"), 0.55), motion.frames[motion.collision], true);
         scene.add(hit.group);

@@ -54,11 +54,12 @@ TEST_F(ViewDataTest, FramesAreTheArmsPosesAlongThePath) {
   const Json view = RunView(robot_, scene_, run_, 10);
   ASSERT_EQ(view["motions"].size(), 1u);
   const Json& motion = view["motions"][0];
+  ASSERT_EQ(motion["tips"].size(), 1u);
   ASSERT_EQ(motion["frames"].size(), 12u);  // the start, ten steps, the collision
   ASSERT_EQ(motion["collision"], 7);        // after six, at 0.5 + 0.3 * 0.5
   EXPECT_EQ(motion["contact"], Describe(Contact{"hand", "box", 0.01}));
   const auto expect_tip = [&](std::size_t frame, double elbow) {
-    const Json& tip = motion["tip"][frame];
+    const Json& tip = motion["tips"][0][frame];
     EXPECT_NEAR(tip[0], 0.5 + 0.7 * std::cos(elbow), 1e-5) << frame;
     EXPECT_NEAR(tip[1], 0.7 * std::sin(elbow), 1e-5) << frame;
   };
