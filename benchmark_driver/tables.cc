@@ -139,7 +139,8 @@ std::string TimeTable(const SessionResults& results) {
       "From request and scene at hand to the first confirmed path, failed attempts before it "
       "included; simplification and the bus are not. Every solved problem counts once, by the "
       "median of its trials. [95 %]: between order statistics. 95 %: of the problems are faster. "
-      "penalised mean: over all runs, one without a confirmed path as ten time limits (PAR-10).\n";
+      "penalised mean: over all runs, one without a confirmed path as ten times the longest limit "
+      "that anybody had on its problem (PAR-10).\n";
   if (published) {
     notes += std::string(kPublishedNote) +
              "Its medians are read off a plot and of the attempt that succeeded, as the row above "
@@ -176,7 +177,8 @@ std::string PairTable(const SessionResults& results, std::uint64_t seed, bool al
   return table.Format(
              "won: share of the problems that the first solved faster, or alone; a tie is half. "
              "time ratio: geometric mean of first / second over the problems that both solved, "
-             "with a bootstrap interval; below 1 the first is faster. p: of the signed-rank test "
+             "with a bootstrap interval, of six at least; below 1 the first is faster. p: of the "
+             "signed-rank test "
              "that neither is faster, two-sided, problems that only one solved included.\n") +
          "\n";
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "common/error.h"
@@ -39,7 +40,8 @@ bool Wanted(const std::vector<std::string>& wanted, const std::string& name) {
 
 PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons) {
   PathLibrary library;
-  std::map<std::pair<std::string, int>, std::pair<double, Path>> shortest;
+  // By set, number and scene: sets of one name need not hold the same problems.
+  std::map<std::tuple<std::string, int, std::string>, std::pair<double, Path>> shortest;
   std::set<std::string> sets;
   std::set<std::string> contestants;
   for (const RunRecordMessage& run : runs) {
@@ -59,8 +61,8 @@ PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons&
       throw InputError(fmt::format("set '{}': its paths are of other joints than those before",
                                    run.problem_set));
     }
-    const auto [best, first] =
-        shortest.try_emplace({run.problem_set, run.problem_index}, *length, path);
+    const auto [best, first] = shortest.try_emplace(
+        {run.problem_set, run.problem_index, run.request.scene_id}, *length, path);
     if (!first && *length < best->second.first) best->second = {*length, path};
   }
   RequireSeen(lessons.sets, sets, "--sets");
@@ -70,8 +72,9 @@ PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons&
         "nothing to learn: no simplified path was recorded that the referee confirmed");
   }
   for (auto& [problem, path] : shortest) {
-    if (library.learned_from.empty() || library.learned_from.back() != problem.first) {
-      library.learned_from.push_back(problem.first);
+    const std::string& set = std::get<0>(problem);
+    if (library.learned_from.empty() || library.learned_from.back() != set) {
+      library.learned_from.push_back(set);
     }
     library.paths.push_back(std::move(path.second));
   }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -50,29 +51,47 @@ std::vector<const ComparedPair*> LeadersPairs(const ComparedSessions& compared,
 std::string WhoIsBest(const ComparedSessions& compared) {
   const std::string& leader = compared.contestants().front().name;
   const Outcomes& outcomes = compared.pooled().at(leader);
-  const int num_sets = static_cast<int>(compared.outcomes().size());
-  const std::string begin =
-      compared.contestants().size() == 1
-          ? leader
-          : fmt::format("Of {} contestants {} ranks first by penalised mean time: it",
-                        compared.contestants().size(), leader);
-  return fmt::format(
-      "{} solved {}{}, over {} of {}.", begin, SolvedShare(outcomes), MedianTime(outcomes),
-      Count(static_cast<int>(outcomes.by_problem.size()), "problem"), Count(num_sets, "set"));
+  const auto num_contestants = compared.contestants().size();
+  const auto solved_any = [](const auto& one) {
+    return SummarizeSuccess(one.second).confirmed > 0;
+  };
+  if (std::none_of(compared.pooled().begin(), compared.pooled().end(), solved_any)) {
+    return num_contestants == 1
+               ? fmt::format("{} solved no problem.", leader)
+               : fmt::format("None of {} contestants solved a problem.", num_contestants);
+  }
+  const auto num_sets = std::count_if(compared.outcomes().begin(), compared.outcomes().end(),
+                                      [&](const auto& set) { return set.second.contains(leader); });
+  const char* rule = std::isnan(SummarizeTimes(outcomes).penalised_mean_s)
+                         ? "the share solved, as time limits are not known"
+                         : "penalised mean time";
+  const std::string begin = num_contestants == 1
+                                ? leader
+                                : fmt::format("Of {} contestants {} ranks first by {}: it",
+                                              num_contestants, leader, rule);
+  return fmt::format("{} solved {}{}, over {} of {}.", begin, SolvedShare(outcomes),
+                     MedianTime(outcomes),
+                     Count(static_cast<int>(outcomes.by_problem.size()), "problem"),
+                     Count(static_cast<int>(num_sets), "set"));
 }
 
 std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next) {
-  std::string text = fmt::format("The next, {}, solved {}", next.second,
-                                 SolvedShare(compared.pooled().at(next.second)));
+  const bool is_second = next.second == compared.contestants()[1].name;
+  std::string text =
+      fmt::format("The next{}, {}, solved {}", is_second ? "" : " that tried a problem of its",
+                  next.second, SolvedShare(compared.pooled().at(next.second)));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
-    text += fmt::format(
-        " and took {} times as long on those that both solved (geometric mean, 95 % interval {} to "
-        "{})",
-        FormatNumber(1 / ratio->mean), FormatNumber(1 / ratio->interval.upper),
-        FormatNumber(1 / ratio->interval.lower));
-    if (ratio->interval.lower <= 1 && ratio->interval.upper >= 1) {
-      text += ", which leaves open which of the two is faster";
+    text += fmt::format(" and took {} times as long on the {} that both solved (geometric mean",
+                        FormatNumber(1 / ratio->mean), Count(ratio->num_pairs, "problem"));
+    if (const auto& interval = ratio->interval) {
+      text += fmt::format(", 95 % interval {} to {})", FormatNumber(1 / interval->upper),
+                          FormatNumber(1 / interval->lower));
+      if (interval->lower <= 1 && interval->upper >= 1) {
+        text += ", which leaves open which of the two is faster";
+      }
+    } else {
+      text += "), too few to tell which of the two is faster";
     }
   }
   return text + ".";
@@ -129,17 +148,21 @@ std::string HowSure(const ComparedSessions& compared,
 
 /// How far the planners' own word can be trusted.
 std::string Rejections(const ComparedSessions& compared) {
-  int claimed = 0, rejected = 0;
+  int claimed = 0, rejected = 0, late = 0;
   for (const ComparedContestant& contestant : compared.contestants()) {
     if (compared.sessions()[contestant.session].imported) continue;
     for (const StoredRun* run : contestant.runs) {
       claimed += run->claimed;
       rejected += run->status == PlanStatus::kInvalidPath;
+      late += run->claimed && run->status == PlanStatus::kTimedOut;
     }
   }
   if (claimed == 0) return "no path was claimed to the referee";
-  return rejected == 0 ? fmt::format("the referee confirmed every one of {} paths", claimed)
-                       : fmt::format("the referee rejected {} of {} paths", rejected, claimed);
+  const std::string judged =
+      rejected == 0 ? fmt::format("the referee confirmed every one of {} paths", claimed - late)
+                    : fmt::format("the referee rejected {} of {} paths", rejected, claimed - late);
+  return late == 0 ? judged
+                   : fmt::format("{}, and {} more came after the time limit", judged, late);
 }
 
 /// What the logger saw of the bus, by which all others heard the same session.
@@ -156,6 +179,21 @@ std::string OnTheBus(const BusRecord& bus) {
   return fmt::format(
       "on the bus {}; runs are sent until they are recorded, so that none is missing for that.",
       fmt::join(odd, ", "));
+}
+
+/// "" if all contestants of a set had the same time.
+std::string DifferentLimits(const std::string& set,
+                            const std::map<std::string, Outcomes>& by_contestant) {
+  std::set<double> limits_s;
+  for (const auto& [name, outcomes] : by_contestant) limits_s.insert(outcomes.time_limit_s);
+  if (limits_s.size() == 1) return "";
+  if (*limits_s.begin() == 0) {
+    return set + ": the time limits of some runs are not known, and so are penalised means.";
+  }
+  return fmt::format(
+      "{}: time limits differ ({} to {} s): who had longer could solve more. Penalised means count "
+      "every failure as ten times the longest.",
+      set, FormatNumber(*limits_s.begin()), FormatNumber(*limits_s.rbegin()));
 }
 
 std::string LeftOut(const std::string& name, const std::map<std::string, std::string>& left_out) {
@@ -176,7 +214,10 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
   sentences.push_back(WhoIsBest(compared));
   const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
   if (of_leader.empty()) {
-    sentences.push_back("There is nothing to compare it with; " + Rejections(compared) + ".");
+    const char* nothing = compared.contestants().size() == 1
+                              ? "There is nothing to compare it with; "
+                              : "Nobody else tried a problem that it tried; ";
+    sentences.push_back(nothing + Rejections(compared) + ".");
   } else {
     sentences.push_back(ByHowMuch(compared, *of_leader.front()));
     sentences.push_back(HowSure(compared, of_leader) + "; " + Rejections(compared) + ".");
@@ -186,6 +227,17 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
 
 std::vector<std::string> Cautions(const ComparedSessions& compared) {
   std::vector<std::string> cautions;
+  for (const std::string& set : compared.other_sets()) {
+    cautions.push_back(
+        fmt::format("{}: other scenes than those of the set of this name before; nothing is "
+                    "compared with them.",
+                    set));
+  }
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    if (const std::string limits = DifferentLimits(set, by_contestant); !limits.empty()) {
+      cautions.push_back(limits);
+    }
+  }
   for (std::size_t i = 0; i < compared.sessions().size(); ++i) {
     const StoredSession& session = compared.sessions()[i];
     const std::string& name = compared.session_names()[i];

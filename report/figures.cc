@@ -87,10 +87,10 @@ Json TimesJson(const Outcomes& outcomes) {
   // Every run, problem by problem.
   Json problems = Json::array(), trials = Json::array(), times = Json::array();
   for (const auto& [problem, of_problem] : outcomes.by_problem) {
-    for (std::size_t t = 0; t < of_problem.size(); ++t) {
+    for (const Outcome& outcome : of_problem) {
       problems.push_back(problem);
-      trials.push_back(t + 1);
-      times.push_back(Rounded(kMsPerS * of_problem[t].time_s));
+      trials.push_back(outcome.trial);
+      times.push_back(Rounded(kMsPerS * outcome.time_s));
     }
   }
   json["problem"] = std::move(problems);

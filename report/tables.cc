@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "common/numbers.h"
@@ -82,8 +83,9 @@ std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::ui
         const auto first = by_contestant.find(contestants[a].name);
         const auto second = by_contestant.find(contestants[b].name);
         if (first == by_contestant.end() || second == by_contestant.end()) continue;
-        pairs.push_back(
-            {set, first->first, second->first, Compare(first->second, second->second, seed)});
+        PairedComparison result = Compare(first->second, second->second, seed);
+        if (result.num_problems == 0) continue;
+        pairs.push_back({set, first->first, second->first, std::move(result)});
       }
     }
     AdjustSet(pairs.begin() + num_before, pairs.end());
@@ -144,7 +146,7 @@ Table TimeTable(const ComparedSessions& compared) {
       "From request and scene at hand to the first confirmed path, failed attempts before it "
       "included. Every solved problem counts once, by the median of its trials; the median's 95 % "
       "interval lies between order statistics. Penalised mean (PAR-10): over all runs, one without "
-      "a confirmed path as ten time limits.",
+      "a confirmed path as ten times the longest limit that anybody had on its problem.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"problems_solved", "problems solved", Style::kCount},
@@ -174,7 +176,8 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
       "A problem's time is the median of its trials, those that failed being longer than any. "
       "Faster, slower: problems that the first solved faster, or alone, and the other way round. "
       "Time ratio: geometric mean of first / second over the problems that both solved, with a "
-      "bootstrap 95 % interval (10,000 resamples of the problems). p: Wilcoxon's signed-rank test "
+      "bootstrap 95 % interval (10,000 resamples of the problems, six at least). p: Wilcoxon's "
+      "signed-rank test "
       "of the logarithms, two-sided, problems that only one solved included; beside it adjusted "
       "for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the first is "
       "always faster, 1 if always slower.",
@@ -359,6 +362,44 @@ Table MeshTable(const ComparedSessions& compared) {
   return table;
 }
 
+namespace {
+
+/// Settings by name, of the contestant of that name; none without one.
+std::map<std::string, std::string> SettingsOf(const StoredSession& session,
+                                              const std::string& contestant) {
+  std::map<std::string, std::string> settings;
+  for (const StoredContestant& one : session.contestants) {
+    if (one.name != contestant) continue;
+    std::istringstream lines(one.settings);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t at = line.find(" = ");
+      if (at != std::string::npos) settings[line.substr(0, at)] = line.substr(at + 3);
+    }
+  }
+  return settings;
+}
+
+/// Names of settings, of the contestants that several sessions have.
+std::map<std::string, std::set<std::string>> SettingsByContestant(
+    const ComparedSessions& compared) {
+  std::map<std::string, std::set<std::size_t>> sessions;
+  for (const ComparedContestant& one : compared.contestants()) {
+    sessions[one.own_name].insert(one.session);
+  }
+  std::map<std::string, std::set<std::string>> names;
+  for (const auto& [contestant, in] : sessions) {
+    if (in.size() < 2) continue;
+    for (const std::size_t session : in) {
+      for (const auto& [name, value] : SettingsOf(compared.sessions()[session], contestant)) {
+        names[contestant].insert(name);
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
 Table SessionTable(const ComparedSessions& compared, bool only_different) {
   Table table{"sessions", only_different ? "Where the sessions differ" : "Sessions", "", {}, {}};
   table.columns.push_back({"field", ""});
@@ -404,6 +445,17 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
       const auto found = session.flags.find(flag);
       return found == session.flags.end() ? std::string() : found->second;
     });
+  }
+  if (only_different) {
+    for (const auto& [name, keys] : SettingsByContestant(compared)) {
+      for (const std::string& key : keys) {
+        field(fmt::format("{}: {}", name, key), [&](const StoredSession& session) {
+          const auto settings = SettingsOf(session, name);
+          const auto found = settings.find(key);
+          return found == settings.end() ? std::string() : found->second;
+        });
+      }
+    }
   }
   if (!only_different) {
     field("command",

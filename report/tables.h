@@ -21,7 +21,8 @@ struct ComparedPair {
   PairedComparison result;
   double adjusted_p = 1;  ///< Holm's, over the pairs of the set.
 };
-/// All pairs, those that rank higher first; `seed` is that of the bootstrap.
+/// All pairs that tried a problem in common, those that rank higher first; `seed` is that of the
+/// bootstrap.
 std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed);
 
 /// Seed of the bootstrap: that of the first session, so that its printed tables have the same

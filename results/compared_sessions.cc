@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <set>
+#include <utility>
 
+#include "common/numbers.h"
 #include "results/comparison.h"
 
 namespace planbench {
@@ -45,6 +49,47 @@ std::vector<std::string> NameSessions(const std::vector<StoredSession>& sessions
   return names;
 }
 
+/// Scenes of a set's problems, by index, as far as a session tells.
+using Scenes = std::map<int, std::string>;
+
+bool AreAlike(const Scenes& one, const Scenes& other) {
+  return std::all_of(one.begin(), one.end(), [&](const auto& problem) {
+    const auto found = other.find(problem.first);
+    return found == other.end() || found->second == problem.second;
+  });
+}
+
+/// Renames sets that are not what an earlier session calls so; returns their new names.
+std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_names,
+                                       std::vector<StoredSession>* sessions) {
+  std::map<std::string, std::vector<std::pair<std::string, Scenes>>> known;  // By their own name.
+  std::vector<std::string> others;
+  for (std::size_t s = 0; s < sessions->size(); ++s) {
+    std::map<std::string, Scenes> sets;
+    for (const StoredRun& run : (*sessions)[s].runs) {
+      Scenes& scenes = sets[run.problem_set];
+      if (!run.scene_id.empty()) scenes[run.problem_index] = run.scene_id;
+    }
+    std::map<std::string, std::string> names;
+    for (auto& [set, scenes] : sets) {
+      auto& versions = known[set];
+      const auto found = std::find_if(
+          versions.begin(), versions.end(),
+          [&, &scenes = scenes](const auto& one) { return AreAlike(scenes, one.second); });
+      if (found != versions.end()) {
+        names[set] = found->first;
+        found->second.merge(scenes);
+        continue;
+      }
+      names[set] = versions.empty() ? set : fmt::format("{} ({})", set, session_names[s]);
+      if (!versions.empty()) others.push_back(names[set]);
+      versions.emplace_back(names[set], std::move(scenes));
+    }
+    for (StoredRun& run : (*sessions)[s].runs) run.problem_set = names.at(run.problem_set);
+  }
+  return others;
+}
+
 }  // namespace
 
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
@@ -62,7 +107,9 @@ Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
 }
 
 ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
-    : sessions_(std::move(sessions)), session_names_(NameSessions(sessions_)) {
+    : sessions_(std::move(sessions)),
+      session_names_(NameSessions(sessions_)),
+      other_sets_(TellSetsApart(session_names_, &sessions_)) {
   std::vector<std::string> names;
   for (std::size_t s = 0; s < sessions_.size(); ++s) {
     const std::size_t first = contestants_.size();
@@ -86,12 +133,14 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
   }
   outcomes_ = GroupOutcomes(attempts);
   pooled_ = PoolSets(outcomes_);
-  std::map<std::string, double> penalised_means;
+  std::map<std::string, std::pair<double, double>> ranks;  // The least first.
   for (const auto& [name, outcomes] : pooled_) {
-    penalised_means[name] = SummarizeTimes(outcomes).penalised_mean_s;
+    const double penalised_mean_s = SummarizeTimes(outcomes).penalised_mean_s;
+    ranks[name] = {std::isnan(penalised_mean_s) ? kInfinity : penalised_mean_s,
+                   -SummarizeSuccess(outcomes).share};
   }
   std::stable_sort(contestants_.begin(), contestants_.end(), [&](const auto& a, const auto& b) {
-    return penalised_means.at(a.name) < penalised_means.at(b.name);
+    return ranks.at(a.name) < ranks.at(b.name);
   });
 }
 

@@ -23,7 +23,8 @@ struct ComparedContestant {
 /// A run as the comparison knows it.
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant);
 
-/// Sessions side by side.
+/// Sessions side by side. Problems of one set and number are one problem, unless the sessions tell
+/// of different scenes.
 class ComparedSessions {
  public:
   explicit ComparedSessions(std::vector<StoredSession> sessions);
@@ -33,7 +34,10 @@ class ComparedSessions {
   const std::vector<StoredSession>& sessions() const { return sessions_; }
   /// Unique names: of their folders, or run ids where folders do not tell them apart.
   const std::vector<std::string>& session_names() const { return session_names_; }
-  /// By penalised mean time over all runs, the best first.
+  /// Sets that have the name of an earlier session's, and other scenes: what they stand as.
+  const std::vector<std::string>& other_sets() const { return other_sets_; }
+  /// By penalised mean time over all runs, the best first; those of which it is not known last, by
+  /// the share of problems solved.
   const std::vector<ComparedContestant>& contestants() const { return contestants_; }
   /// By set and the contestants' names.
   const OutcomesBySet& outcomes() const { return outcomes_; }
@@ -43,6 +47,7 @@ class ComparedSessions {
  private:
   std::vector<StoredSession> sessions_;
   std::vector<std::string> session_names_;
+  std::vector<std::string> other_sets_;
   std::vector<ComparedContestant> contestants_;
   OutcomesBySet outcomes_;
   std::map<std::string, Outcomes> pooled_;

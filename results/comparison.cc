@@ -63,13 +63,14 @@ TimeSummary SummarizeTimes(const Outcomes& outcomes) {
   summary.median_interval_s = MedianInterval(times);
   summary.solved_s = Summarize(times);
   summary.solving_s = Summarize(SolvedTimes(outcomes, &Outcome::solving_time_s));
-  std::vector<double> runs;
+  std::vector<double> solved_s, limits_s;
   for (const auto& [problem, trials] : outcomes.by_problem) {
-    const std::vector<double> solved = SortedTimes(trials, &Outcome::time_s, true);
-    runs.insert(runs.end(), solved.begin(), solved.end());
+    for (const Outcome& trial : trials) {
+      (trial.confirmed() ? solved_s : limits_s)
+          .push_back(trial.confirmed() ? trial.time_s : trial.time_limit_s);
+    }
   }
-  const int num_failed = outcomes.num_runs() - static_cast<int>(runs.size());
-  summary.penalised_mean_s = PenalisedMean(runs, num_failed, outcomes.time_limit_s);
+  summary.penalised_mean_s = PenalisedMean(solved_s, limits_s);
   return summary;
 }
 

@@ -28,8 +28,10 @@ SuccessSummary SummarizeSuccess(const Outcomes& outcomes);
 struct TimeSummary {
   Summary solved_s;  ///< Over problems.
   std::optional<Interval> median_interval_s;
-  Summary solving_s;            ///< The same of the attempt that found the path alone.
-  double penalised_mean_s = 0;  ///< Over runs; one without a confirmed path is ten time limits.
+  Summary solving_s;  ///< The same of the attempt that found the path alone.
+  /// Over runs; one without a confirmed path is ten of Outcome's time limits. NaN if one of these
+  /// is not known.
+  double penalised_mean_s = 0;
 };
 TimeSummary SummarizeTimes(const Outcomes& outcomes);
 

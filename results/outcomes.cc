@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "common/numbers.h"
 
@@ -59,7 +60,10 @@ OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts) {
     const Attempt* backward = nullptr;
   };
   std::map<std::tuple<std::string, std::string, int, int>, Pair> pairs;
+  std::map<std::pair<std::string, int>, double> limits;
   for (const Attempt& attempt : attempts) {
+    double& limit = limits[{attempt.problem_set, attempt.problem_index}];
+    limit = std::max(limit, attempt.time_limit_s);
     Pair& pair =
         pairs[{attempt.problem_set, attempt.contestant, attempt.problem_index, attempt.trial}];
     (attempt.direction == Direction::kForward ? pair.forward : pair.backward) = &attempt;
@@ -68,8 +72,14 @@ OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts) {
   for (const auto& [key, pair] : pairs) {
     const auto& [set, contestant, problem, trial] = key;
     Outcomes& outcomes = sets[set][contestant];
-    outcomes.by_problem[problem].push_back(FoldAttempts(pair.forward, pair.backward));
-    outcomes.time_limit_s = (pair.forward != nullptr ? pair.forward : pair.backward)->time_limit_s;
+    Outcome& outcome =
+        outcomes.by_problem[problem].emplace_back(FoldAttempts(pair.forward, pair.backward));
+    outcome.trial = trial;
+    outcome.time_limit_s = limits.at({set, problem});
+    for (const Attempt* attempt : {pair.forward, pair.backward}) {
+      if (attempt == nullptr) continue;
+      outcomes.time_limit_s = std::max(outcomes.time_limit_s, attempt->time_limit_s);
+    }
   }
   return sets;
 }

@@ -35,6 +35,9 @@ struct Outcome {
   bool claimed = false;
   double time_s = 0;  ///< To the confirmed path, failed attempts before it included; else infinite.
   double solving_time_s = 0;  ///< Of the attempt that found it alone; else infinite.
+  int trial = 1;
+  /// The longest that anybody had for an attempt at this problem; 0: not known.
+  double time_limit_s = 0;
 
   bool confirmed() const { return kind == Kind::kForward || kind == Kind::kBackward; }
 };
@@ -46,7 +49,7 @@ Outcome FoldAttempts(const Attempt* forward, const Attempt* backward);
 /// The outcomes of one contestant on one set.
 struct Outcomes {
   std::map<int, std::vector<Outcome>> by_problem;  ///< By index; the trials in ascending order.
-  double time_limit_s = 0;                         ///< Of a single attempt.
+  double time_limit_s = 0;                         ///< Its longest of a single attempt.
 
   int num_runs() const;
 };

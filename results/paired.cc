@@ -68,6 +68,9 @@ std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
     }
   }
   if (logs.empty()) return std::nullopt;
+  RatioEstimate estimate{std::exp(Mean(logs)), {}, static_cast<int>(logs.size())};
+  constexpr std::size_t kFewestPairs = 6;
+  if (logs.size() < kFewestPairs) return estimate;
 
   // Half of a random number's bits are enough for an index: two values are drawn at once, and
   // summed apart, since an addition that waits for the last one is what would take the time.
@@ -87,8 +90,8 @@ std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
   }
   std::sort(means.begin(), means.end());
   constexpr double kTail = (1 - kConfidence) / 2;
-  return RatioEstimate{std::exp(Mean(logs)),
-                       {std::exp(Quantile(means, kTail)), std::exp(Quantile(means, 1 - kTail))}};
+  estimate.interval = {std::exp(Quantile(means, kTail)), std::exp(Quantile(means, 1 - kTail))};
+  return estimate;
 }
 
 }  // namespace planbench

@@ -23,10 +23,12 @@ Wins CountWins(const std::vector<double>& first, const std::vector<double>& seco
 /// Geometric mean of the ratios first / second with its interval.
 struct RatioEstimate {
   double mean = 1;
-  Interval interval;
+  std::optional<Interval> interval;  ///< Nothing of fewer than six pairs.
+  int num_pairs = 0;
 };
 /// By the percentile bootstrap over the pairs (Efron), drawn with `seed`: equal seeds give equal
-/// intervals. Of the pairs in which both are finite; nothing if there are none. Throws
+/// intervals. Of the pairs in which both are finite; nothing if there are none. Resamples of a few
+/// pairs tell nothing of those that were not drawn: as MedianInterval it wants six. Throws
 /// std::invalid_argument for values that are not positive or numbers that differ.
 std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
                                            const std::vector<double>& second, std::uint64_t seed,

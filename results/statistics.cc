@@ -69,11 +69,13 @@ std::optional<Interval> MedianInterval(std::vector<double> values) {
   return Interval{values[index], values[values.size() - 1 - index]};
 }
 
-double PenalisedMean(const std::vector<double>& solved_s, int num_failed, double time_limit_s,
+double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s,
                      double factor) {
-  const double solved_sum_s = std::accumulate(solved_s.begin(), solved_s.end(), 0.0);
-  return (solved_sum_s + num_failed * factor * time_limit_s) /
-         (static_cast<double>(solved_s.size()) + num_failed);
+  double sum_s = std::accumulate(solved_s.begin(), solved_s.end(), 0.0);
+  for (const double limit_s : limits_s) {
+    sum_s += limit_s > 0 ? factor * limit_s : std::numeric_limits<double>::quiet_NaN();
+  }
+  return sum_s / static_cast<double>(solved_s.size() + limits_s.size());
 }
 
 }  // namespace planbench

@@ -40,9 +40,10 @@ Interval WilsonInterval(double successes, int trials);
 /// (fewer than six values). Values may be infinite.
 std::optional<Interval> MedianInterval(std::vector<double> values);
 
-/// Mean time of solved and failed runs, each failed one counted as `factor` times the limit (PAR-10
-/// of the algorithm-selection literature with the factor 10); NaN if there are none.
-double PenalisedMean(const std::vector<double>& solved_s, int num_failed, double time_limit_s,
+/// Mean time of solved and failed runs, each failed one counted as `factor` times its limit (PAR-10
+/// of the algorithm-selection literature with the factor 10); NaN if there are none, or if a limit
+/// is not known (0).
+double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s,
                      double factor = 10);
 
 }  // namespace planbench

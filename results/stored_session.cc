@@ -69,6 +69,7 @@ std::vector<Field> Fields() {
        [](StoredRun* run, const SqliteValue& v) {
          run->problem_index = static_cast<int>(Int(v).value_or(0));
        }},
+      {"scene_id", [](StoredRun* run, const SqliteValue& v) { run->scene_id = Text(v); }},
       {"trial", [](StoredRun* run,
                    const SqliteValue& v) { run->trial = static_cast<int>(Int(v).value_or(1)); }},
       {"direction",
@@ -151,9 +152,7 @@ class Reader {
       : file_(file), connection_(file, SqliteConnection::Mode::kReadOnly) {
     const std::int64_t version = Int(connection_.QueryValue("PRAGMA user_version")).value_or(0);
     if (version < 1 || CountTables("'runs', 'plannerConfigs', 'sessions'") < 3) {
-      throw InputError(CountTables("'runs', 'plannerConfigs'") == 2
-                           ? "was written by another program than planbench"
-                           : "is no results database of planbench");
+      throw InputError(WhyNotOurs());
     }
     if (version > kResultsSchemaVersion) {
       throw InputError(
@@ -184,6 +183,18 @@ class Reader {
     return Int(connection_.QueryValue(
                    fmt::format("SELECT count(*) FROM sqlite_master WHERE name IN ({})", names)))
         .value_or(0);
+  }
+
+  std::string WhyNotOurs() {
+    if (CountTables("'runs', 'plannerConfigs'") == 2) {
+      return "was written by another program than planbench";
+    }
+    if (Int(connection_.QueryValue("SELECT count(*) FROM sqlite_master")) == 0 &&
+        Text(connection_.QueryValue("PRAGMA journal_mode")) == "wal") {
+      return "holds nothing by itself: while a session runs, its results are in the -wal file "
+             "beside it; copy that, too";
+    }
+    return "is no results database of planbench";
   }
 
   StoredSession& Session(const std::string& run_id) {

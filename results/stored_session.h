@@ -20,6 +20,7 @@ struct StoredRun {
   std::string request_id;
   std::string problem_set;
   int problem_index = 0;
+  std::string scene_id;  ///< "" if it is not told.
   int trial = 1;
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.

@@ -32,6 +32,13 @@ TEST(LearnPaths, TakesTheShortestOfEachProblem) {
   EXPECT_EQ(library.paths, (std::vector<Path>{{{0}, {4}}, {{0}, {2}}, {{0}, {1}}}));
 }
 
+TEST(LearnPaths, ProblemsOfOneNumberInOtherScenesAreTwo) {
+  RunRecordMessage other = SolvedRun("a", 1, 5);
+  other.request.scene_id = "other";
+  EXPECT_EQ(LearnPaths({SolvedRun("a", 1, 2), other}, {}).paths,
+            (std::vector<Path>{{{0}, {2}}, {{0}, {5}}}));
+}
+
 TEST(LearnPaths, TakesOnlyWhatTheRefereeConfirmed) {
   RunRecordMessage timed_out = SolvedRun("a", 1, 1);
   timed_out.status = PlanStatus::kTimedOut;

@@ -1,5 +1,6 @@
 #include "report/tables.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -178,6 +179,34 @@ TEST_F(ReportTest, TheMachineIsTold) {
   EXPECT_FALSE(fields.contains("cpu"));
 }
 
+TEST_F(ReportTest, WhatCannotBeComparedIsTold) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "old", {{.contestant = "A"}}, ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "old").sessions;
+  sessions.push_back(sessions.front());
+  sessions[0].runs[0].scene_id = "a";
+  sessions[1].runs[0].scene_id = "b";
+  sessions[1].file = folder / "new" / "results.sqlite";
+  const auto cautions = Cautions(ComparedSessions(sessions));
+  EXPECT_EQ(cautions.at(0),
+            "shelf (new): other scenes than those of the set of this name before; nothing is "
+            "compared with them.");
+  sessions[1].runs[0].scene_id = "a";
+  sessions[1].runs[0].time_limit_s = 2;
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
+              testing::HasSubstr("shelf: time limits differ (2.00 to 10.0 s)"));
+}
+
+TEST_F(ReportTest, PathsThatCameTooLateAreNoConfirmedOnes) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "one", {{.contestant = "A"}, {.contestant = "A", .problem = 2}},
+               ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "one").sessions;
+  sessions[0].runs[1].status = PlanStatus::kTimedOut;
+  EXPECT_THAT(Answer(ComparedSessions(sessions), {}).at(1),
+              testing::HasSubstr("confirmed every one of 1 paths, and 1 more came after the time"));
+}
+
 TEST_F(ReportTest, ProblemsThatWereLeftOutAreTold) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
@@ -219,6 +248,7 @@ TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
                         kTagName));
   EXPECT_TRUE(
       answer[1].starts_with(fmt::format("The next, {}, solved 83.3 % of the", kScriptName)));
+  EXPECT_THAT(answer[1], testing::HasSubstr("on the 15 problems that both solved"));
   EXPECT_NE(answer[2].find("ranks first in 2 of the 2 sets; the referee rejected 1 of 46 paths"),
             std::string::npos)
       << answer[2];
@@ -229,10 +259,26 @@ TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
   const ComparedSessions alone = Read({{.contestant = "A"}});
   EXPECT_EQ(Answer(alone, {}).at(1),
             "There is nothing to compare it with; the referee confirmed every one of 1 paths.");
+  const ComparedSessions apart =
+      Read({{.contestant = "A"}, {.contestant = "B", .set = "table", .time_s = 2}});
+  EXPECT_EQ(
+      Answer(apart, ComparePairs(apart, 1)).at(1),
+      "Nobody else tried a problem that it tried; the referee confirmed every one of 2 paths.");
+  EXPECT_THAT(Answer(apart, {}).at(0), testing::HasSubstr("over 1 problem of 1 set."));
+  const ComparedSessions failed = Read({{.contestant = "A", .status = PlanStatus::kTimedOut},
+                                        {.contestant = "B", .status = PlanStatus::kTimedOut}});
+  EXPECT_EQ(Answer(failed, {}).at(0), "None of 2 contestants solved a problem.");
   // One problem tells nothing.
   const ComparedSessions both = Read({{.contestant = "A"}, {.contestant = "B", .time_s = 1.1}});
   EXPECT_NE(Answer(both, ComparePairs(both, 1)).at(2).find("A is not shown to be faster than B"),
             std::string::npos);
+}
+
+TEST_F(ReportTest, FiguresNameTrialsAsTheyAre) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .trial = 3}, {.contestant = "A", .problem = 2, .trial = 2}});
+  const Json json = FigureData(compared, {}, {});
+  EXPECT_EQ(json["sets"][0]["times"][0]["trial"], (Json{3, 2}));
 }
 
 TEST_F(ReportTest, FiguresHaveEveryRunAndEveryProblem) {

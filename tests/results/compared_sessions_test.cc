@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "results/comparison.h"
 #include "results/quality.h"
 
 namespace planbench {
@@ -46,6 +47,49 @@ TEST(ComparedSessionsTest, ContestantsRankByPenalisedMeanTime) {
   EXPECT_EQ(compared.contestants()[0].runs.size(), 2u);
   EXPECT_EQ(compared.outcomes().at("shelf").at("gambler").by_problem.size(), 2u);
   EXPECT_EQ(compared.session_names(), std::vector<std::string>{"one"});
+}
+
+TEST(ComparedSessionsTest, FailuresCountAsTheLongestLimitThatAnybodyHadOnTheProblem) {
+  StoredRun short_limit = MakeRun(0, 1, 0.2, PlanStatus::kTimedOut);
+  short_limit.time_limit_s = 0.2;
+  StoredRun other_problem = MakeRun(1, 2, 7, PlanStatus::kTimedOut);
+  other_problem.time_limit_s = 7;
+  const ComparedSessions compared(
+      {Session("one", {{"hasty", ""}, {"patient", ""}},
+               {short_limit, MakeRun(1, 1, 10, PlanStatus::kTimedOut), other_problem})});
+  const auto mean = [&](const char* name) {
+    return SummarizeTimes(compared.outcomes().at("shelf").at(name)).penalised_mean_s;
+  };
+  EXPECT_DOUBLE_EQ(mean("hasty"), 100);
+  EXPECT_DOUBLE_EQ(mean("patient"), (100 + 70) / 2.0);
+}
+
+TEST(ComparedSessionsTest, WithoutLimitsWhoSolvesMoreRanksFirst) {
+  std::vector<StoredRun> runs = {MakeRun(0, 1, 0.1), MakeRun(0, 2, 1, PlanStatus::kTimedOut),
+                                 MakeRun(1, 1, 9), MakeRun(1, 2, 9),
+                                 MakeRun(2, 1, 1, PlanStatus::kTimedOut)};
+  for (StoredRun& run : runs) run.time_limit_s = 0;
+  const ComparedSessions compared(
+      {Session("one", {{"half", ""}, {"all", ""}, {"none", ""}}, runs)});
+  EXPECT_EQ(Names(compared), (std::vector<std::string>{"all", "half", "none"}));
+}
+
+TEST(ComparedSessionsTest, SetsOfOneNameWithOtherScenesAreTwo) {
+  const auto in_scene = [](int problem, const char* scene) {
+    StoredRun run = MakeRun(0, problem, 1);
+    run.scene_id = scene;
+    return run;
+  };
+  const ComparedSessions compared(
+      {Session("one", {{"A", ""}}, {in_scene(1, "a"), in_scene(2, "b")}),
+       Session("more", {{"A", ""}}, {in_scene(2, "b"), in_scene(3, "c")}),
+       Session("two", {{"A", ""}}, {in_scene(1, "a"), in_scene(3, "d")}),
+       Session("again", {{"A", ""}}, {in_scene(3, "d")}),
+       Session("untold", {{"A", ""}}, {in_scene(1, "")})});
+  EXPECT_EQ(compared.other_sets(), std::vector<std::string>{"shelf (two)"});
+  ASSERT_EQ(compared.outcomes().size(), 2u);
+  EXPECT_EQ(compared.outcomes().at("shelf").size(), 3u);
+  EXPECT_EQ(compared.outcomes().at("shelf (two)").size(), 2u);
 }
 
 TEST(ComparedSessionsTest, EqualNamesAreToldApartByTheirSessions) {

@@ -12,11 +12,19 @@ namespace {
 using Kind = Outcome::Kind;
 
 Outcome Solved(double time_s, double solving_time_s) {
-  return {Kind::kForward, true, time_s, solving_time_s};
+  return {.kind = Kind::kForward,
+          .claimed = true,
+          .time_s = time_s,
+          .solving_time_s = solving_time_s,
+          .time_limit_s = 10};
 }
 Outcome Solved(double time_s) { return Solved(time_s, time_s); }
 Outcome Failed(Kind kind = Kind::kFailure) {
-  return {kind, kind == Kind::kRejected, kInfinity, kInfinity};
+  return {.kind = kind,
+          .claimed = kind == Kind::kRejected,
+          .time_s = kInfinity,
+          .solving_time_s = kInfinity,
+          .time_limit_s = 10};
 }
 
 Outcomes Of(std::vector<std::vector<Outcome>> problems) {
