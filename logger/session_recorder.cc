@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "common/file_kind.h"
 #include "logger/session_json.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
@@ -22,7 +23,8 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resum
       event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew,
                  split_bytes),
       database_(folder_.results()) {
-  if (resume) Restore();
+  // Not of a device or a pipe, which might never end.
+  if (resume && IsFile(folder_.event_log())) Restore();
 }
 
 void SessionRecorder::Restore() {
