@@ -13,7 +13,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
@@ -64,37 +64,38 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
 
 std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
   std::vector<StoredSession> references;
+  std::vector<std::string> warnings;
   for (const auto& [name, file] : options.references) {
-    references.push_back(ImportResults(file, name, options.conditions.request.time_limit_s));
+    references.push_back(
+        ImportResults(file, name, options.conditions.request.time_limit_s, &warnings));
   }
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   return references;
 }
 
 /// Throws InputError for results that would be taken for those of a contestant or of another file,
 /// or that would be in no table.
-std::vector<Attempt> AttemptsOf(const std::vector<StoredSession>& references,
+std::vector<Attempt> AttemptsOf(const DriverOptions& options, std::vector<StoredSession> references,
                                 const SessionConditions& conditions) {
-  std::vector<Attempt> attempts;
-  std::set<std::tuple<std::string, std::string, int, int, Direction>> seen;
   for (const StoredSession& reference : references) {
-    const auto fail = [&](const std::string& what) {
-      throw InputError(fmt::format("--reference {}: {}", reference.file.string(), what));
-    };
-    bool fits = false;
-    for (const StoredRun& run : reference.runs) {
-      const std::string& name = reference.contestants[run.contestant].name;
-      for (const Contestant& contestant : conditions.contestants) {
-        if (contestant.name == name) fail("a contestant is called '" + name + "', too");
-      }
-      if (!seen.emplace(name, run.problem_set, run.problem_index, run.trial, run.direction)
-               .second) {
-        fail(fmt::format("'{}' has problem {} of '{}' from another file", name, run.problem_index,
-                         run.problem_set));
-      }
-      fits = fits || conditions.problem_sets.contains(run.problem_set);
-      attempts.push_back(AttemptOf(run, name));
+    if (std::none_of(reference.runs.begin(), reference.runs.end(), [&](const StoredRun& run) {
+          return conditions.problem_sets.contains(run.problem_set);
+        })) {
+      throw InputError("--reference " + reference.file.string() +
+                       ": it has no problem of the session's sets");
     }
-    if (!fits) fail("it has no problem of the session's sets");
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, file] : options.references) names.push_back(name);
+  references = JoinImports(names, std::move(references));
+  std::set<std::string> contestants;
+  for (const Contestant& contestant : conditions.contestants) contestants.insert(contestant.name);
+  RequireOtherNames(contestants, references);
+  std::vector<Attempt> attempts;
+  for (const StoredSession& reference : references) {
+    for (const StoredRun& run : reference.runs) {
+      attempts.push_back(AttemptOf(run, reference.contestants[run.contestant].name));
+    }
   }
   return attempts;
 }
@@ -133,7 +134,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (!earlier.sessions.empty()) run_id = earlier.sessions.back().run_id;
   }
 
-  const std::vector<StoredSession> references = ReadReferences(options);
+  std::vector<StoredSession> references = ReadReferences(options);
   std::string url = lcm_url;
   std::filesystem::path session_folder;
   const std::vector<LineUpEntry> line_up = MakeLineUp(
@@ -176,7 +177,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   };
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
   driver.Discover(options.launch, watch);
-  const std::vector<Attempt> reference_attempts = AttemptsOf(references, driver.conditions());
+  const std::vector<Attempt> reference_attempts =
+      AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {

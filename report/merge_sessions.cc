@@ -2,16 +2,24 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "common/error.h"
+#include "common/file_kind.h"
+#include "common/read_text.h"
 #include "common/sibling_program.h"
+#include "common/write_file.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
@@ -26,15 +34,94 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kShard[] = "shard";
+constexpr char kAnd[] = " && ";
+
+/// Texts between separators, those that are empty left out.
+std::vector<std::string> Split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t to = std::min(text.find(separator, from), text.size());
+    if (to > from) parts.push_back(text.substr(from, to - from));
+    from = to + separator.size();
+  }
+  return parts;
+}
+
+/// Distinct texts that are not empty, in their order.
+std::string Joined(const std::vector<std::string>& texts, const char* separator) {
+  std::vector<std::string> distinct;
+  for (const std::string& text : texts) {
+    if (!text.empty() && std::find(distinct.begin(), distinct.end(), text) == distinct.end()) {
+      distinct.push_back(text);
+    }
+  }
+  return fmt::format("{}", fmt::join(distinct, separator));
+}
+
+bool IsBefore(const SessionMessage& a, const SessionMessage& b) {
+  return SessionOrder(a) < SessionOrder(b);
+}
+
+bool IsMerged(const SessionMessage& session) { return session.settings.contains(kMergedCommands); }
+
+/// Those of a merged session stand in one text.
+void AddTexts(const SessionMessage& session, const std::string& text, const char* separator,
+              std::vector<std::string>* texts) {
+  const auto parts = IsMerged(session) ? Split(text, separator) : std::vector{text};
+  texts->insert(texts->end(), parts.begin(), parts.end());
+}
+
+/// The parts "I/N" of a sharded session that it holds.
+std::set<std::string> ShardsOf(const SessionMessage& session) {
+  const auto found = session.settings.find(kShard);
+  if (found == session.settings.end()) return {};
+  const std::vector<std::string> shards = Split(found->second, ", ");
+  return {shards.begin(), shards.end()};
+}
+
+/// Of texts "I/N", of any N, those that are not there.
+std::set<std::string> MissingShards(const std::set<std::string>& shards) {
+  std::set<std::string> missing;
+  for (const std::string& shard : shards) {
+    const std::size_t slash = shard.find('/');
+    if (slash == std::string::npos) continue;
+    const int count = std::atoi(shard.c_str() + slash + 1);
+    for (int i = 1; i <= count; ++i) {
+      const std::string other = fmt::format("{}/{}", i, count);
+      if (!shards.contains(other)) missing.insert(other);
+    }
+  }
+  return missing;
+}
+
 /// A session as the folders tell of it.
 struct Part {
-  std::string folder;      ///< The last one that told of it.
-  SessionMessage session;  ///< Its last word.
+  std::string folder;                ///< The last one that told of it.
+  std::vector<SessionMessage> told;  ///< Last words of folders, by SessionOrder.
   std::set<std::string> request_ids;
 
+  const SessionMessage& session() const { return told.back(); }
   int num_missing() const {
-    return std::max(0, session.num_runs - static_cast<int>(request_ids.size()));
+    int num_runs = 0;
+    for (const SessionMessage& one : told) {
+      if (Counts(one)) num_runs = std::max(num_runs, one.num_runs);
+    }
+    return std::max(0, num_runs - static_cast<int>(request_ids.size()));
   }
+  /// Whether nothing is to come; a merged session may have been waiting for shards alone.
+  bool finished() const {
+    return std::all_of(told.begin(), told.end(), [&](const SessionMessage& one) {
+      return one.finished || !Counts(one) ||
+             (IsMerged(one) && num_missing() == 0 && !MissingShards(ShardsOf(one)).empty());
+    });
+  }
+
+ private:
+  /// A session that goes on in another folder is what that says; one that was merged into several
+  /// is all of them.
+  bool Counts(const SessionMessage& one) const { return IsMerged(one) || &one == &session(); }
 };
 
 struct Run {
@@ -57,16 +144,77 @@ RunRecordMessage Renamed(RunRecordMessage record, const std::string& run_id) {
   return record;
 }
 
-/// Distinct texts that are not empty, in their order.
-std::string Joined(const std::vector<std::string>& texts, const char* separator) {
-  std::vector<std::string> distinct;
-  for (const std::string& text : texts) {
-    if (!text.empty() && std::find(distinct.begin(), distinct.end(), text) == distinct.end()) {
-      distinct.push_back(text);
+/// Sums of what run.json files say of their buses, contradictions one after the other.
+class BusSum {
+ public:
+  /// Throws InputError if the folder's file is none of a logger's.
+  void Add(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    if (!IsFile(file)) {
+      unknown_.push_back(folder.string());
+      return;
+    }
+    try {
+      const Json run = Json::parse(ReadText(file));
+      const auto bus = run.find("bus");
+      if (bus == run.end()) return;
+      for (const auto& [name, value] : bus->items()) {
+        if (value.is_array()) {
+          for (const Json& one : value) sum_[name].push_back(one);
+        } else {
+          sum_[name] = sum_.value(name, std::int64_t{0}) + value.get<std::int64_t>();
+        }
+      }
+    } catch (const nlohmann::json::exception& error) {
+      throw InputError(fmt::format("--merge: {}: {}", file.string(), error.what()));
     }
   }
-  return fmt::format("{}", fmt::join(distinct, separator));
-}
+
+  /// Into the run.json of the folder, which its logger wrote without a bus.
+  void Write(const fs::path& folder) const {
+    if (sum_.empty()) return;
+    Json run = Json::parse(ReadText(folder / "run.json"));
+    run["bus"] = sum_;
+    WriteFile(folder / "run.json", run.dump(2) + "\n");
+  }
+
+  /// Folders that do not tell.
+  const std::vector<std::string>& unknown() const { return unknown_; }
+
+ private:
+  using Json = nlohmann::ordered_json;
+
+  Json sum_;
+  std::vector<std::string> unknown_;
+};
+
+/// A folder beside another, removed with all it holds at the end.
+class FolderBeside {
+ public:
+  /// Throws InputError if it cannot be made.
+  explicit FolderBeside(const fs::path& other) {
+    const fs::path place = (fs::absolute(other).lexically_normal() / "").parent_path();
+    std::error_code error;
+    fs::create_directories(place.parent_path(), error);
+    std::string pattern = place.string() + ".merging-XXXXXX";
+    if (error || mkdtemp(pattern.data()) == nullptr) {
+      throw InputError(fmt::format("--merge: cannot make a folder beside {}: {}", place.string(),
+                                   error ? error.message() : std::strerror(errno)));
+    }
+    path_ = pattern;
+  }
+  ~FolderBeside() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  FolderBeside(const FolderBeside&) = delete;
+  FolderBeside& operator=(const FolderBeside&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
 
 class Merge {
  public:
@@ -74,13 +222,19 @@ class Merge {
     const fs::path log = FindEventLog(folder);
     RecordedSession recorded = ReadRecords(log);
     logs_.push_back(log);
+    std::map<std::string, SessionMessage> last_words;
     for (SessionMessage& session : recorded.sessions) {
-      Part& part = parts_[session.run_id];
-      if (!part.folder.empty()) RequireEqual(part, {folder, session, {}});
-      if (!part.folder.empty() && SessionOrder(session) < SessionOrder(part.session)) continue;
-      part.folder = folder;
-      part.session = std::move(session);
+      const auto [last, is_new] = last_words.try_emplace(session.run_id, session);
+      if (!is_new && !IsBefore(session, last->second)) last->second = std::move(session);
     }
+    for (auto& [run_id, session] : last_words) {
+      Part& part = parts_[run_id];
+      if (!part.told.empty()) RequireEqual(part, {folder, {session}, {}});
+      const auto place = std::upper_bound(part.told.begin(), part.told.end(), session, IsBefore);
+      if (place == part.told.end()) part.folder = folder;
+      part.told.insert(place, std::move(session));
+    }
+    bus_.Add(folder);
     for (RunRecordMessage& record : recorded.runs) {
       const auto part = parts_.find(record.run_id);
       if (part == parts_.end()) {
@@ -130,7 +284,6 @@ class Merge {
   }
 
   void Write(const fs::path& file) const {
-    fs::remove(file);
     EventLog log(file, EventLog::Mode::kNew);
     const std::int64_t utime = session_.start_utime;
     log.Write({channel::kSession, Encode(session_), utime});
@@ -148,21 +301,28 @@ class Merge {
     log.Flush();
   }
 
+  const BusSum& bus() const { return bus_; }
+
   std::string Summary(const fs::path& out) const {
-    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}",
+    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}",
                        out.string(), runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s",
                        num_repeated_,
                        missing_shards_.empty()
                            ? ""
-                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, ", ")));
+                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, ", ")),
+                       bus_.unknown().empty()
+                           ? ""
+                           : fmt::format("; without run.json, so that what was lost on the bus is "
+                                         "not known: {}",
+                                         fmt::join(bus_.unknown(), ", ")));
   }
 
  private:
   static void RequireEqual(const Part& first, const Part& second) {
-    SessionMessage renamed = second.session;
-    renamed.run_id = first.session.run_id;
-    renamed.conditions.request.run_id = first.session.conditions.request.run_id;
-    const auto difference = FindConditionDifference(first.session, renamed);
+    SessionMessage renamed = second.session();
+    renamed.run_id = first.session().run_id;
+    renamed.conditions.request.run_id = first.session().conditions.request.run_id;
+    const auto difference = FindConditionDifference(first.session(), renamed);
     if (!difference) return;
     throw InputError(fmt::format("--merge: {} is {} in {} and {} in {}", difference->field,
                                  difference->first, first.folder, difference->second,
@@ -174,55 +334,50 @@ class Merge {
     std::vector<const Part*> parts;
     for (const auto& [run_id, part] : parts_) parts.push_back(&part);
     std::stable_sort(parts.begin(), parts.end(), [](const Part* a, const Part* b) {
-      return a->session.start_utime < b->session.start_utime;
+      return a->session().start_utime < b->session().start_utime;
     });
-    session_ = parts.front()->session;
-    std::vector<std::string> hosts, processors, commands;
-    std::set<std::string> shards;
+    session_ = parts.front()->session();
     session_.finished = true;
     session_.total_time_s = 0;
     session_.num_runs = 0;
+    Texts texts;
     for (const Part* part : parts) {
-      const SessionMessage& session = part->session;
-      session_.finished = session_.finished && session.finished;
-      if (const auto shard = session.settings.find("shard"); shard != session.settings.end()) {
-        shards.insert(shard->second);
-      }
-      session_.total_time_s += session.total_time_s;
+      session_.finished = session_.finished && part->finished();
+      session_.total_time_s += part->session().total_time_s;
       session_.num_runs += part->num_missing();
-      hosts.push_back(session.host);
-      processors.push_back(session.cpu);
-      commands.push_back(ReproducingCommand(session.settings));
-      session_.left_out.insert(session.left_out.begin(), session.left_out.end());
-      session_.conditions.problem_sets.insert(session.conditions.problem_sets.begin(),
-                                              session.conditions.problem_sets.end());
-      std::erase_if(session_.settings, [&](const auto& flag) {
-        const auto other = session.settings.find(flag.first);
-        return other == session.settings.end() || other->second != flag.second;
-      });
-      AddNew(session.conditions.contestants, &Contestant::planner,
-             &session_.conditions.contestants);
-      AddNew(session.nodes, &NodeStatusMessage::name, &session_.nodes);
+      for (const SessionMessage& told : part->told) Add(told, &texts);
     }
-    session_.host = Joined(hosts, ", ");
-    session_.cpu = Joined(processors, ", ");
-    FindMissingShards(shards);
+    session_.host = Joined(texts.hosts, ", ");
+    session_.cpu = Joined(texts.processors, ", ");
+    missing_shards_ = MissingShards(texts.shards);
     session_.finished = session_.finished && missing_shards_.empty();
-    const std::string command = Joined(commands, " && ");
+    if (!texts.shards.empty()) {
+      session_.settings[kShard] = fmt::format("{}", fmt::join(texts.shards, ", "));
+    }
+    const std::string command = Joined(texts.commands, kAnd);
     if (!command.empty()) session_.settings[kMergedCommands] = command;
   }
 
-  /// Of texts "I/N", of any N, those that are not there.
-  void FindMissingShards(const std::set<std::string>& shards) {
-    for (const std::string& shard : shards) {
-      const std::size_t slash = shard.find('/');
-      if (slash == std::string::npos) continue;
-      const int count = std::atoi(shard.c_str() + slash + 1);
-      for (int i = 1; i <= count; ++i) {
-        const std::string other = fmt::format("{}/{}", i, count);
-        if (!shards.contains(other)) missing_shards_.insert(other);
-      }
-    }
+  struct Texts {
+    std::vector<std::string> hosts, processors, commands;
+    std::set<std::string> shards;
+  };
+
+  /// What one telling of a part adds to the session and its texts.
+  void Add(const SessionMessage& told, Texts* texts) {
+    AddTexts(told, told.host, ", ", &texts->hosts);
+    AddTexts(told, told.cpu, ", ", &texts->processors);
+    AddTexts(told, ReproducingCommand(told.settings), kAnd, &texts->commands);
+    texts->shards.merge(ShardsOf(told));
+    session_.left_out.insert(told.left_out.begin(), told.left_out.end());
+    session_.conditions.problem_sets.insert(told.conditions.problem_sets.begin(),
+                                            told.conditions.problem_sets.end());
+    std::erase_if(session_.settings, [&](const auto& flag) {
+      const auto other = told.settings.find(flag.first);
+      return other == told.settings.end() || other->second != flag.second;
+    });
+    AddNew(told.conditions.contestants, &Contestant::planner, &session_.conditions.contestants);
+    AddNew(told.nodes, &NodeStatusMessage::name, &session_.nodes);
   }
 
   template <typename Value>
@@ -241,6 +396,7 @@ class Merge {
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
   std::set<std::string> missing_shards_;
+  BusSum bus_;
   SessionMessage session_;
 };
 
@@ -255,14 +411,15 @@ std::string MergeSessions(const std::vector<std::string>& session_folders, const
   for (const std::string& folder : session_folders) merge.Read(folder);
   merge.Unite();
   // The logger makes the folder of the messages, as it does of those of a bus.
-  const fs::path messages = (fs::absolute(out) / "").parent_path().string() + ".merging";
+  const FolderBeside folder(out);
+  const fs::path messages = folder.path() / "messages.lcmlog";
   merge.Write(messages);
   const int code =
       std::system(fmt::format("{} --from {} --out {}", ShellQuoted(logger.string()),
                               ShellQuoted(messages.string()), ShellQuoted(out.string()))
                       .c_str());
-  fs::remove(messages);
   if (code != 0) throw InputError("--merge: " + out.string() + " could not be written");
+  merge.bus().Write(out);
   return merge.Summary(out);
 }
 

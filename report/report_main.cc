@@ -52,6 +52,32 @@ void WriteTables(const std::string& folder, const char* extension, const std::ve
   }
 }
 
+/// What is to stand beside `sessions`, if there are any.
+std::vector<StoredSession> ReadImports(const Flags& flags,
+                                       const std::vector<StoredSession>& sessions) {
+  double time_limit_s = 0;
+  std::set<std::string> contestants;
+  for (const StoredSession& session : sessions) {
+    for (const StoredContestant& one : session.contestants) contestants.insert(one.name);
+    for (const StoredRun& run : session.runs)
+      time_limit_s = std::max(time_limit_s, run.time_limit_s);
+  }
+  if (flags.imports.size() != flags.import_names.size()) {
+    throw InputError("every --import FILE needs its --as NAME");
+  }
+  std::vector<StoredSession> imported;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < flags.imports.size(); ++i) {
+    imported.push_back(
+        ImportResults(flags.imports[i], flags.import_names[i], time_limit_s, &warnings));
+    if (!sessions.empty()) KeepProblemsOf(sessions, &imported.back());
+  }
+  imported = JoinImports(flags.import_names, std::move(imported));
+  RequireOtherNames(contestants, imported);
+  for (const std::string& warning : warnings) std::cerr << "report: " << warning << "\n";
+  return imported;
+}
+
 std::vector<StoredSession> ReadAll(const Flags& flags) {
   std::vector<StoredSession> sessions;
   for (const std::string& name : flags.sessions) {
@@ -62,20 +88,8 @@ std::vector<StoredSession> ReadAll(const Flags& flags) {
     }
     std::move(stored.sessions.begin(), stored.sessions.end(), std::back_inserter(sessions));
   }
-  const std::size_t num_own = sessions.size();
-  double time_limit_s = 0;
-  for (const StoredSession& session : sessions) {
-    for (const StoredRun& run : session.runs)
-      time_limit_s = std::max(time_limit_s, run.time_limit_s);
-  }
-  if (flags.imports.size() != flags.import_names.size()) {
-    throw InputError("every --import FILE needs its --as NAME");
-  }
-  for (std::size_t i = 0; i < flags.imports.size(); ++i) {
-    StoredSession imported = ImportResults(flags.imports[i], flags.import_names[i], time_limit_s);
-    if (num_own > 0) KeepProblemsOf({sessions.begin(), sessions.begin() + num_own}, &imported);
-    sessions.push_back(std::move(imported));
-  }
+  std::vector<StoredSession> imported = ReadImports(flags, sessions);
+  std::move(imported.begin(), imported.end(), std::back_inserter(sessions));
   return sessions;
 }
 

@@ -14,6 +14,7 @@
 
 #include "common/error.h"
 #include "common/read_text.h"
+#include "common/text.h"
 
 namespace planbench {
 namespace {
@@ -91,6 +92,12 @@ class Row {
 constexpr int kMostProblems = 1'000'000;
 constexpr double kLongest = 1e9;  // s
 
+/// Whether the path that was found came after the limit, which makes it none.
+bool IsLate(const StoredRun& run) {
+  constexpr double kRounding = 1e-9;  // relative, of times as text
+  return run.claimed && run.time_limit_s > 0 && *run.time_s > (1 + kRounding) * run.time_limit_s;
+}
+
 StoredRun ReadRun(const Row& row, double time_limit_s) {
   StoredRun run;
   run.problem_set = row.Text("problem_set");
@@ -99,8 +106,8 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
   run.claimed = row.Int("solved", 0, 1) == 1;
   run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
   run.time_s = row.Number("time_s", 0, kLongest);
-  run.time_limit_s =
-      row.Has("time_limit_s") ? row.Number("time_limit_s", 0, kLongest) : time_limit_s;
+  if (row.Has("time_limit_s")) run.time_limit_s = row.Number("time_limit_s", 0, kLongest);
+  if (run.time_limit_s == 0) run.time_limit_s = time_limit_s;
   if (row.Has("trial")) run.trial = row.Int("trial", 1, kMostProblems);
   if (row.Has("direction")) {
     const auto direction = ParseEnum<Direction>(row.Text("direction"));
@@ -108,6 +115,11 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
     run.direction = *direction;
   }
   if (row.Has("reason")) run.message = row.Text("reason");
+  if (IsLate(run)) {
+    run.status = PlanStatus::kTimedOut;
+    run.message = fmt::format("solved after {} s, beyond the time limit of {} s", *run.time_s,
+                              run.time_limit_s);
+  }
   const auto measure = [&](const std::string& column, const char* name, MeasuredValues* values) {
     if (row.Has(column) && !row.Text(column).empty()) {
       (*values)[name] = row.Number(column, 0, kLongest);
@@ -123,16 +135,19 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
 }  // namespace
 
 StoredSession ReadCsvResults(const std::filesystem::path& file, const std::string& name,
-                             double time_limit_s) {
-  std::istringstream lines(ReadText(file));
+                             double time_limit_s, std::vector<std::string>* warnings) {
   const std::string file_name = file.string();
+  std::string text = ReadText(file);
+  RefuseUtf16(text, file_name);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // The mark of UTF-8.
+  std::istringstream lines(std::move(text));
   std::vector<std::string> header;
   StoredSession session;
   session.contestants = {{name, "imported from " + file_name + "\n"}};
   using Key = std::tuple<std::string, int, Direction>;
   std::map<Key, int> num_rows;
   std::set<std::pair<Key, int>> trials;
-  int number = 0;
+  int number = 0, num_late = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.ends_with('\r')) line.pop_back();
@@ -150,7 +165,13 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
       row.Fail("trial", fmt::format("a trial of its own of problem {} of '{}'", run.problem_index,
                                     run.problem_set));
     }
+    if (IsLate(run)) ++num_late;
     session.runs.push_back(std::move(run));
+  }
+  if (num_late > 0) {
+    warnings->push_back(
+        fmt::format("{}: {} solved rows took longer than their time limit and count as TIMED_OUT",
+                    file_name, num_late));
   }
   return session;
 }

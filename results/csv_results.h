@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "results/stored_session.h"
 
@@ -11,8 +12,9 @@ namespace planbench {
 /// query_index, which counts from 0), solved (0 or 1) and time_s, and if it has them direction
 /// (forward or backward; else forward), trial (else 1), time_limit_s (else `time_limit_s`), reason,
 /// and path measures (docs/database.md), which may be empty; other columns are left alone. A run
-/// that is not solved counts as TIMED_OUT. Throws InputError with file, line and column.
+/// that is not solved counts as TIMED_OUT, and so does one that is after its time limit (0: there
+/// is none that is known), of which `warnings` tells. Throws InputError with file, line and column.
 StoredSession ReadCsvResults(const std::filesystem::path& file, const std::string& name,
-                             double time_limit_s);
+                             double time_limit_s, std::vector<std::string>* warnings);
 
 }  // namespace planbench

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <fstream>
-#include <set>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "common/error.h"
@@ -23,19 +25,49 @@ std::string Beginning(const std::filesystem::path& file) {
   return bytes;
 }
 
+/// Index of the contestant of that name, which is added if there is none.
+std::size_t ContestantOf(const StoredContestant& contestant, StoredSession* session) {
+  std::vector<StoredContestant>& known = session->contestants;
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const auto& one) { return one.name == contestant.name; });
+  if (found == known.end()) {
+    known.push_back(contestant);
+    return known.size() - 1;
+  }
+  if (found->settings.find(contestant.settings) == std::string::npos) {
+    found->settings += contestant.settings;
+  }
+  return static_cast<std::size_t>(found - known.begin());
+}
+
+/// Its files are those of both.
+void Append(StoredSession more, StoredSession* session) {
+  std::vector<std::size_t> contestants;
+  for (const StoredContestant& one : more.contestants) {
+    contestants.push_back(ContestantOf(one, session));
+  }
+  for (StoredRun& run : more.runs) {
+    run.contestant = contestants[run.contestant];
+    session->runs.push_back(std::move(run));
+  }
+  session->num_runs += more.num_runs;
+  session->run_id += ", " + more.run_id;
+  session->file.replace_filename(session->run_id);
+}
+
 }  // namespace
 
 StoredSession ImportResults(const std::filesystem::path& file, const std::string& name,
-                            double time_limit_s) {
+                            double time_limit_s, std::vector<std::string>* warnings) {
   const std::string beginning = Beginning(file);
   StoredSession session;
   if (beginning.starts_with("SQLite format 3")) {
-    session = ReadOmplDatabase(file, name);
+    session = ReadOmplDatabase(file, name, warnings);
   } else if (beginning.starts_with("Experiment ") ||
              beginning.find("\nExperiment ") != std::string::npos) {
-    session = ReadOmplLog(file, name);
+    session = ReadOmplLog(file, name, warnings);
   } else {
-    session = ReadCsvResults(file, name, time_limit_s);
+    session = ReadCsvResults(file, name, time_limit_s, warnings);
   }
   if (session.runs.empty()) throw InputError(file.string() + ": no results");
   session.file = file;
@@ -62,10 +94,51 @@ void KeepProblemsOf(const std::vector<StoredSession>& sessions, StoredSession* i
   std::erase_if(imported->runs, [&](const StoredRun& run) {
     return !problems.contains({run.problem_set, run.problem_index});
   });
+  imported->num_runs = static_cast<int>(imported->runs.size());
   if (!imported->runs.empty()) return;
   throw InputError(fmt::format(
       "{}: none of its problems is among those of the sessions; sets here: {}; there: {}",
       imported->file.string(), fmt::join(own_sets, ", "), fmt::join(sets, ", ")));
+}
+
+std::vector<StoredSession> JoinImports(const std::vector<std::string>& names,
+                                       std::vector<StoredSession> imported) {
+  std::map<std::string, std::size_t> places;
+  std::vector<StoredSession> joined;
+  std::set<std::tuple<std::string, std::string, int, int, Direction>> seen;
+  for (std::size_t i = 0; i < imported.size(); ++i) {
+    StoredSession& session = imported[i];
+    for (const StoredRun& run : session.runs) {
+      const std::string& name = session.contestants[run.contestant].name;
+      if (seen.emplace(name, run.problem_set, run.problem_index, run.trial, run.direction).second) {
+        continue;
+      }
+      throw InputError(
+          fmt::format("{}: '{}' has problem {} of '{}', trial {}, {}, from another file, too: "
+                      "number the trials "
+                      "or give it another name",
+                      session.file.string(), name, run.problem_index, run.problem_set, run.trial,
+                      EnumName(run.direction)));
+    }
+    const auto [place, is_new] = places.try_emplace(names[i], joined.size());
+    if (is_new) {
+      joined.push_back(std::move(session));
+    } else {
+      Append(std::move(session), &joined[place->second]);
+    }
+  }
+  return joined;
+}
+
+void RequireOtherNames(const std::set<std::string>& contestants,
+                       const std::vector<StoredSession>& imported) {
+  for (const StoredSession& session : imported) {
+    for (const StoredContestant& one : session.contestants) {
+      if (!contestants.contains(one.name)) continue;
+      throw InputError(session.file.string() + ": a contestant is called '" + one.name +
+                       "', too: give the results another name");
+    }
+  }
 }
 
 }  // namespace planbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,24 @@ namespace planbench {
 /// Results from elsewhere as the session of a contestant `name` that no referee has seen; of
 /// several planners one each, "NAME: PLANNER". docs/lineups.md says what the files may be: CSV,
 /// logs of OMPL's benchmarks, and OMPL's benchmark databases (of one of ours, the runs that other
-/// programs appended). `time_limit_s`: of runs whose file does not tell. Throws InputError with
+/// programs appended). `time_limit_s`: of runs whose file does not tell; 0: not known. `warnings`
+/// gets a line for each kind of run that does not count as the file says. Throws InputError with
 /// file, line and column.
 StoredSession ImportResults(const std::filesystem::path& file, const std::string& name,
-                            double time_limit_s);
+                            double time_limit_s, std::vector<std::string>* warnings);
 
 /// Leaves of imported results the problems that one of the sessions has. Throws InputError if that
 /// leaves nothing.
 void KeepProblemsOf(const std::vector<StoredSession>& sessions, StoredSession* imported);
+
+/// One session a name of what was imported under these names: its contestants of one name are one.
+/// Throws InputError naming the file if two files hold the same trial.
+std::vector<StoredSession> JoinImports(const std::vector<std::string>& names,
+                                       std::vector<StoredSession> imported);
+
+/// Throws InputError if a contestant of the imported results is called as one of `contestants`, for
+/// which it would be taken.
+void RequireOtherNames(const std::set<std::string>& contestants,
+                       const std::vector<StoredSession>& imported);
 
 }  // namespace planbench

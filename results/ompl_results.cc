@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -18,16 +19,28 @@
 namespace planbench {
 namespace {
 
+constexpr char kApproximate[] = "Approximate solution";
+
 /// Of a run, by name with '_' for spaces; those without a value are absent.
 using Properties = std::map<std::string, std::string>;
 
-/// The enumeration of OMPL's statuses, which its logs name; databases may not.
-std::vector<std::string> StatusesOfOmpl() {
-  return {"Unknown status", "Invalid start",
-          "Invalid goal",   "Unrecognized goal type",
-          "Timeout",        "Approximate solution",
-          "Exact solution", "Crash",
-          "Abort",          "Infeasible"};
+/// Names of a program's statuses by their numbers.
+using Statuses = std::map<std::int64_t, std::string>;
+
+template <typename Names>
+Statuses Numbered(const Names& names) {
+  Statuses statuses;
+  for (const auto& name : names) {
+    statuses.emplace(static_cast<std::int64_t>(statuses.size()), std::string(name));
+  }
+  return statuses;
+}
+
+/// OMPL's, which its logs name; databases may not.
+Statuses StatusesOfOmpl() {
+  return Numbered(std::vector<std::string>{"Unknown status", "Invalid start", "Invalid goal",
+                                           "Unrecognized goal type", "Timeout", kApproximate,
+                                           "Exact solution", "Crash", "Abort", "Infeasible"});
 }
 
 PlanStatus StatusNamed(const std::string& text) {
@@ -66,6 +79,15 @@ int Whole(const Properties& properties, const std::string& name, int otherwise) 
   return value ? static_cast<int>(*value) : otherwise;
 }
 
+/// A planner's on a problem.
+struct Trials {
+  std::map<std::pair<std::int64_t, Direction>, int> num_runs;  ///< By experiment.
+  /// By experiment and what that calls them.
+  std::map<std::pair<std::int64_t, int>, int> numbers;
+  std::set<int> taken;  ///< Of the numbers.
+  std::set<std::pair<int, Direction>> made;
+};
+
 /// Collects runs as a session.
 class OmplSession {
  public:
@@ -82,12 +104,15 @@ class OmplSession {
     return session_.contestants.size() - 1;
   }
 
-  StoredRun& AddRun(std::size_t contestant, const std::string& experiment, double time_limit_s,
-                    const std::vector<std::string>& statuses, const Properties& properties) {
+  /// `experiment_id` tells experiments of one name apart.
+  StoredRun& AddRun(std::size_t contestant, std::int64_t experiment_id,
+                    const std::string& experiment, double time_limit_s, const Statuses& statuses,
+                    const Properties& properties) {
     StoredRun run;
     run.id = static_cast<std::int64_t>(session_.runs.size()) + 1;
     run.contestant = contestant;
     SetProblem(experiment, properties, &run);
+    SetTrial(experiment_id, properties, &run);
     SetStatus(statuses, properties, &run);
     run.time_limit_s = time_limit_s;
     run.time_s = Number(properties, "time");
@@ -104,6 +129,22 @@ class OmplSession {
     run.phases.simplification_s = Number(properties, "simplification_time").value_or(0);
     session_.runs.push_back(std::move(run));
     return session_.runs.back();
+  }
+
+  /// What is to be said of the runs, a line each.
+  std::vector<std::string> Warnings() const {
+    std::vector<std::string> warnings;
+    if (num_contradictions_ > 0) {
+      warnings.push_back(
+          fmt::format("status and solved contradict each other in {} runs: what counts is solved",
+                      num_contradictions_));
+    }
+    if (num_unnamed_ > 0) {
+      warnings.push_back(
+          fmt::format("{} runs have a status that no list names: they are solved if solved says so",
+                      num_unnamed_));
+    }
+    return warnings;
   }
 
   StoredSession Take() {
@@ -133,36 +174,71 @@ class OmplSession {
       run->problem_set = set->second;
     }
     run->problem_index = Whole(properties, "problem_index", run->problem_index);
-    int& trials = trials_[{run->contestant, run->problem_set, run->problem_index}];
-    run->trial = Whole(properties, "trial", ++trials);
     if (const auto direction = properties.find("direction"); direction != properties.end()) {
       run->direction = ParseEnum<Direction>(direction->second).value_or(Direction::kForward);
     }
   }
 
-  static void SetStatus(const std::vector<std::string>& statuses, const Properties& properties,
-                        StoredRun* run) {
-    const int status = Whole(properties, "status", -1);
-    if (status >= 0 && status < static_cast<int>(statuses.size())) {
-      const std::string& text = statuses[static_cast<std::size_t>(status)];
-      run->status = StatusNamed(text);
-      if (run->status != PlanStatus::kSolved) run->message = text;
-    } else {
-      const bool solved =
-          Whole(properties, "solved", 0) == 1 && Whole(properties, "approximate_solution", 0) == 0;
-      run->status = solved ? PlanStatus::kSolved : PlanStatus::kTimedOut;
+  /// An experiment's trials stay those that it calls so where no other experiment has them.
+  void SetTrial(std::int64_t experiment_id, const Properties& properties, StoredRun* run) {
+    Trials& trials = trials_[{run->contestant, run->problem_set, run->problem_index}];
+    const int number = ++trials.num_runs[{experiment_id, run->direction}];
+    const int given = Whole(properties, "trial", number);
+    const auto [place, is_new] = trials.numbers.try_emplace({experiment_id, given}, given);
+    if (is_new && !trials.taken.insert(given).second) {
+      place->second = *trials.taken.rbegin() + 1;
+      trials.taken.insert(place->second);
     }
-    if (run->status == PlanStatus::kSolved && Whole(properties, "correct_solution", 1) == 0) {
+    run->trial = place->second;
+    if (trials.made.emplace(run->trial, run->direction).second) return;
+    throw InputError(fmt::format("trial: '{}' has trial {} of problem {} of '{}', {}, twice",
+                                 session_.contestants[run->contestant].name, given,
+                                 run->problem_index, run->problem_set, EnumName(run->direction)));
+  }
+
+  /// `solved` counts, not the status: that means what the list says which names it, and a database
+  /// keeps but one of the lists of its logs.
+  void SetStatus(const Statuses& statuses, const Properties& properties, StoredRun* run) {
+    const std::optional<std::string> name = StatusName(statuses, properties);
+    const PlanStatus named = name ? StatusNamed(*name) : PlanStatus::kTimedOut;
+    const bool claims = named == PlanStatus::kSolved;
+    const bool approximate =
+        Whole(properties, "approximate_solution", name == kApproximate ? 1 : 0) == 1;
+    const bool solved = Whole(properties, "solved", claims ? 1 : 0) == 1 && !approximate;
+    if (name && solved != claims) ++num_contradictions_;
+    if (solved) {
+      run->status = PlanStatus::kSolved;
+    } else if (claims) {
+      run->status = PlanStatus::kTimedOut;
+      run->message = fmt::format("not solved, though its status is '{}'", *name);
+    } else {
+      run->status = named;
+      run->message = name.value_or("");
+    }
+    if (!name && properties.contains("status")) {
+      ++num_unnamed_;
+      if (!solved) run->message = "status " + properties.at("status") + ", which no list names";
+    }
+    if (solved && Whole(properties, "correct_solution", 1) == 0) {
       run->status = PlanStatus::kInvalidPath;
       run->message = "OMPL found the path incorrect";
     }
     run->claimed = run->confirmed() || run->status == PlanStatus::kInvalidPath;
   }
 
+  /// Nothing without a status, or with one that is not among them.
+  static std::optional<std::string> StatusName(const Statuses& statuses,
+                                               const Properties& properties) {
+    const auto found = statuses.find(Whole(properties, "status", -1));
+    return found == statuses.end() ? std::nullopt : std::optional(found->second);
+  }
+
   std::string name_;
   StoredSession session_;
-  /// Runs so far, by contestant, set and problem.
-  std::map<std::tuple<std::size_t, std::string, int>, int> trials_;
+  int num_contradictions_ = 0;
+  int num_unnamed_ = 0;
+  /// By contestant, set and problem.
+  std::map<std::tuple<std::size_t, std::string, int>, Trials> trials_;
 };
 
 // ---- Logs
@@ -183,15 +259,13 @@ class LogReader {
  public:
   explicit LogReader(const std::filesystem::path& file) : file_(file), text_(ReadText(file)) {}
 
-  StoredSession Read(const std::string& name) {
-    OmplSession session(name);
+  void Read(OmplSession* session) {
     try {
-      const int num_planners = ReadHeader(&session.session());
-      for (int i = 0; i < num_planners; ++i) ReadPlanner(&session);
+      const int num_planners = ReadHeader(&session->session());
+      for (int i = 0; i < num_planners; ++i) ReadPlanner(session);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}:{}: {}", file_.string(), line_, error.what()));
     }
-    return session.Take();
   }
 
  private:
@@ -245,7 +319,9 @@ class LogReader {
       } else if (line.ends_with(" enum type") || line.ends_with(" enum types")) {
         for (int i = Count(line, "enum"); i > 0; --i) {
           std::vector<std::string> names = Split(Next(), "|");
-          if (names.front() == "status") statuses_ = {names.begin() + 1, names.end()};
+          if (names.front() != "status") continue;
+          names.erase(names.begin());
+          statuses_ = Numbered(names);
         }
       } else if (line.ends_with(" planners")) {
         return Count(line, "planners");
@@ -289,7 +365,7 @@ class LogReader {
     const int num_runs = Count(Next(), "runs");
     const std::size_t first = session->session().runs.size();
     for (int i = 0; i < num_runs; ++i) {
-      session->AddRun(contestant, experiment_, time_limit_s_, statuses_,
+      session->AddRun(contestant, 0, experiment_, time_limit_s_, statuses_,
                       ReadValues(names, Next(), "; "));
     }
     const std::string line = Next();
@@ -327,7 +403,7 @@ class LogReader {
   int line_ = 0;
   std::string experiment_;
   double time_limit_s_ = 0;
-  std::vector<std::string> statuses_ = StatusesOfOmpl();
+  Statuses statuses_ = StatusesOfOmpl();
 };
 
 // ---- Databases
@@ -348,34 +424,62 @@ std::vector<std::string> ColumnsOf(SqliteConnection* connection, const std::stri
   return columns;
 }
 
-/// Without them, and for rows that were appended to a database of planbench's, whose statuses are
-/// its own: OMPL's.
-std::vector<std::string> StatusesOf(SqliteConnection* connection, bool is_planbench) {
-  std::map<std::int64_t, std::string> named;
-  if (!is_planbench) {
+/// Of a database of several programs' logs OMPL's script keeps the statuses of the first alone.
+class StatusLists {
+ public:
+  explicit StatusLists(SqliteConnection* connection) {
+    Statuses kept;
     SqliteStatement rows =
         connection->Prepare("SELECT value, description FROM enums WHERE name = 'status'");
-    while (rows.Step()) named[rows.Int(0)] = rows.Text(1);
+    while (rows.Step()) kept[rows.Int(0)] = rows.Text(1);
+    if (kept.empty()) return;
+    const bool is_own = std::all_of(kept.begin(), kept.end(), [](const auto& status) {
+      return ParseEnum<PlanStatus>(status.second).has_value();
+    });
+    (is_own ? own_ : others_) = std::move(kept);
   }
-  if (named.empty()) return StatusesOfOmpl();
-  std::vector<std::string> statuses;
-  for (const auto& [value, text] : named) {
-    if (value == static_cast<std::int64_t>(statuses.size())) statuses.push_back(text);
+
+  /// Of a log that the program of this name and version wrote.
+  const Statuses& Of(const std::string& version) const {
+    return version.starts_with("planbench ") ? own_ : others_;
   }
-  return statuses;
+
+ private:
+  Statuses own_ = Numbered(EnumNames<PlanStatus>::kNames);
+  Statuses others_ = StatusesOfOmpl();
+};
+
+/// Experiments that are those of a log which was added before.
+std::set<std::int64_t> RepeatedExperiments(SqliteConnection* connection) {
+  const std::vector<std::string> columns = ColumnsOf(connection, "experiments");
+  std::set<std::int64_t> repeated;
+  std::set<std::vector<SqliteValue>> known;
+  SqliteStatement rows = connection->Prepare("SELECT id, * FROM experiments ORDER BY id");
+  while (rows.Step()) {
+    std::vector<SqliteValue> values;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i] != "id") values.push_back(rows.Value(static_cast<int>(i) + 1));
+    }
+    if (!known.insert(std::move(values)).second) repeated.insert(rows.Int(0));
+  }
+  return repeated;
 }
 
-void ReadRuns(SqliteConnection* connection, OmplSession* session) {
+/// Returns the number of experiments that were left out because they are there twice.
+std::size_t ReadRuns(SqliteConnection* connection, OmplSession* session) {
   const std::vector<std::string> columns = ColumnsOf(connection, "runs");
   const bool is_planbench = std::find(columns.begin(), columns.end(), "run_id") != columns.end();
-  const std::vector<std::string> statuses = StatusesOf(connection, is_planbench);
+  const StatusLists statuses(connection);
+  const std::set<std::int64_t> repeated = RepeatedExperiments(connection);
   SqliteStatement rows = connection->Prepare(
       std::string("SELECT p.name, p.settings, e.name, e.timelimit, e.hostname, e.version, e.date, "
-                  "r.* FROM runs r JOIN plannerConfigs p ON p.id = r.plannerid "
+                  "e.id, r.id, r.* FROM runs r JOIN plannerConfigs p ON p.id = r.plannerid "
                   "JOIN experiments e ON e.id = r.experimentid ") +
       (is_planbench ? "WHERE r.run_id IS NULL " : "") + "ORDER BY r.id");
-  constexpr int kFirst = 7;
+  constexpr int kFirst = 9;
   while (rows.Step()) {
+    const std::int64_t experiment_id = rows.Int(7);
+    if (repeated.contains(experiment_id)) continue;
     Properties properties;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (auto text = TextOf(rows.Value(kFirst + static_cast<int>(i)))) {
@@ -384,32 +488,57 @@ void ReadRuns(SqliteConnection* connection, OmplSession* session) {
     }
     std::string settings = TextOf(rows.Value(1)).value_or("");
     const std::size_t contestant = session->Contestant(rows.Text(0), settings);
-    session->AddRun(
-        contestant, rows.Text(2),
-        Number({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
-        statuses, properties);
+    const std::string version = TextOf(rows.Value(5)).value_or("");
+    try {
+      session->AddRun(
+          contestant, experiment_id, rows.Text(2),
+          Number({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
+          statuses.Of(version), properties);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("run {} of experiment {}: {}", rows.Int(8), experiment_id, error.what()));
+    }
     session->session().host = TextOf(rows.Value(4)).value_or("");
-    session->session().version = TextOf(rows.Value(5)).value_or("");
+    session->session().version = version;
     session->session().date = TextOf(rows.Value(6)).value_or("");
+  }
+  return repeated.size();
+}
+
+void AddWarnings(const std::filesystem::path& file, const OmplSession& session,
+                 std::vector<std::string>* warnings) {
+  for (const std::string& warning : session.Warnings()) {
+    warnings->push_back(file.string() + ": " + warning);
   }
 }
 
 }  // namespace
 
-StoredSession ReadOmplLog(const std::filesystem::path& file, const std::string& name) {
-  return LogReader(file).Read(name);
+StoredSession ReadOmplLog(const std::filesystem::path& file, const std::string& name,
+                          std::vector<std::string>* warnings) {
+  OmplSession session(name);
+  LogReader(file).Read(&session);
+  AddWarnings(file, session, warnings);
+  return session.Take();
 }
 
-StoredSession ReadOmplDatabase(const std::filesystem::path& file, const std::string& name) {
+StoredSession ReadOmplDatabase(const std::filesystem::path& file, const std::string& name,
+                               std::vector<std::string>* warnings) {
   OmplSession session(name);
   try {
     SqliteConnection connection(file, SqliteConnection::Mode::kReadOnly);
-    ReadRuns(&connection, &session);
+    if (const std::size_t num_repeated = ReadRuns(&connection, &session); num_repeated > 0) {
+      warnings->push_back(fmt::format(
+          "{}: {} of its experiments repeat another in everything, as when a log is added twice: "
+          "their runs count once",
+          file.string(), num_repeated));
+    }
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   } catch (const SqliteError& error) {
     throw InputError(file.string() + ": is no benchmark database of OMPL's: " + error.what());
   }
+  AddWarnings(file, session, warnings);
   return session.Take();
 }
 

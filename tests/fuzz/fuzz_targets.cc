@@ -318,7 +318,10 @@ FuzzTarget LineUpTarget() {
 FuzzTarget ImportTarget() {
   return {
       "import",
-      [](Input input) { ImportResults(Written("import", input), "paper", 10); },
+      [](Input input) {
+        std::vector<std::string> warnings;
+        ImportResults(Written("import", input), "paper", 10, &warnings);
+      },
       {BytesOf("problem_set,problem_index,solved,time_s,direction,trial,time_limit_s\n"
                "shelf,1,1,0.5,forward,1,10\nshelf,2,0,10,backward,2,10\n"),
        BytesOf("OMPL version 1.6.0\nExperiment lab/3\nRunning on host1\nStarting at 2024-05-01 "

@@ -16,6 +16,7 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// A session's folder holds its event log; the rest is made of it.
 class MergeSessionsTest : public testing::Test {
@@ -49,9 +50,11 @@ class MergeSessionsTest : public testing::Test {
     }
   }
 
-  int Merge(const std::vector<std::string>& folders) {
+  int Merge(const std::vector<std::string>& folders) { return MergeTo("whole", folders); }
+
+  int MergeTo(const std::string& whole, const std::vector<std::string>& folders) {
     std::vector<std::string> arguments = {std::string(PLANBENCH_BIN_DIR) + "/report", "--merge",
-                                          (folder_ / "whole").string(), "--out",
+                                          (folder_ / whole).string(), "--out",
                                           (folder_ / "page.html").string()};
     for (const std::string& folder : folders) arguments.push_back((folder_ / folder).string());
     ChildProcess process(arguments, folder_ / "report");
@@ -66,7 +69,9 @@ class MergeSessionsTest : public testing::Test {
     EXPECT_THAT(errors_, HasSubstr(reason));
     EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "whole"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "whole.merging"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      EXPECT_EQ(entry.path().string().find("merging"), std::string::npos) << entry.path();
+    }
   }
 
   TemporaryFolder folder_;
@@ -84,6 +89,92 @@ TEST_F(MergeSessionsTest, MissingShardsAreNamedAndTheSessionIsNotFinished) {
   const StoredSessions stored = ReadSessions(folder_ / "whole");
   ASSERT_EQ(stored.sessions.size(), 1u);
   EXPECT_FALSE(stored.sessions.front().finished);
+}
+
+TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
+  for (const int shard : {1, 2, 3}) {
+    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
+    part.host = fmt::format("host{}", shard);
+    part.settings["shard"] = fmt::format("{}/3", shard);
+    Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
+  }
+  ASSERT_EQ(MergeTo("of12", {"part1", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("shards missing: 3/3"));
+  ASSERT_EQ(MergeTo("of13", {"part3", "part1"}), kExitOk) << errors_;
+  int number = 0;
+  for (const std::vector<std::string>& folders : std::vector<std::vector<std::string>>{
+           {"of12", "part3"}, {"part3", "of12"}, {"of12", "of13"}, {"part1", "of12", "of13"}}) {
+    const std::string whole = fmt::format("whole{}", ++number);
+    SCOPED_TRACE(whole);
+    ASSERT_EQ(MergeTo(whole, folders), kExitOk) << errors_;
+    EXPECT_THAT(output_, Not(HasSubstr("missing")));
+    const StoredSession session = ReadSessions(folder_ / whole).sessions.front();
+    EXPECT_TRUE(session.finished);
+    EXPECT_EQ(session.runs.size(), 3u);
+    EXPECT_EQ(session.num_runs, 3);
+    EXPECT_EQ(session.flags.at("shard"), "1/3, 2/3, 3/3");
+    const std::string& commands = session.flags.at("merged");
+    for (const int shard : {1, 2, 3}) {
+      EXPECT_THAT(session.host, HasSubstr(fmt::format("host{}", shard)));
+      const std::string flag = fmt::format("--shard {}/3", shard);
+      EXPECT_THAT(commands, HasSubstr(flag));
+      EXPECT_EQ(commands.find(flag), commands.rfind(flag)) << commands;
+    }
+  }
+  // Complete, merged once more.
+  ASSERT_EQ(MergeTo("again", {"whole1", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, Not(HasSubstr("missing")));
+  EXPECT_TRUE(ReadSessions(folder_ / "again").sessions.front().finished);
+}
+
+TEST_F(MergeSessionsTest, AnUnfinishedPartIsNotFinishedByMergingAgain) {
+  SessionMessage part = Session("part1", 1000, 2);
+  part.settings["shard"] = "1/2";
+  part.finished = false;
+  Write("part1", part, {{.contestant = "A", .problem = 1}});
+  SessionMessage other = Session("part2", 2000, 1);
+  other.settings["shard"] = "2/2";
+  Write("part2", other, {{.contestant = "A", .problem = 2}});
+  ASSERT_EQ(MergeTo("of1", {"part1"}), kExitOk) << errors_;
+  ASSERT_EQ(Merge({"of1", "part2"}), kExitOk) << errors_;
+  const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_FALSE(whole.finished);
+  EXPECT_EQ(whole.num_runs, 3);
+}
+
+TEST_F(MergeSessionsTest, WhatWasLostOnTheBusIsAddedUp) {
+  Write("one", Session("early", 1000, 1), {{.contestant = "A", .problem = 1}});
+  Write("two", Session("later", 2000, 1), {{.contestant = "A", .problem = 2}});
+  Write("three", Session("last", 3000, 1), {{.contestant = "A", .problem = 3}});
+  folder_.Write("one/run.json",
+                R"({"bus": {"malformed_packets": 1, "lost_messages": 20, "dropped_messages": 3,
+                "contradictions": [{"sender": "a", "channel": "C", "count": 2, "first": "x"}]}})");
+  folder_.Write("two/run.json",
+                R"({"bus": {"malformed_packets": 0, "lost_messages": 5, "dropped_messages": 0,
+                "contradictions": [{"sender": "b", "channel": "C", "count": 1, "first": "y"}]}})");
+  ASSERT_EQ(MergeTo("of12", {"one", "two"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, Not(HasSubstr("not known")));
+  ASSERT_EQ(Merge({"of12", "three"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("lost on the bus is not known: " + (folder_ / "three").string()));
+  const std::optional<BusRecord> bus = ReadSessions(folder_ / "whole").sessions.front().bus;
+  ASSERT_TRUE(bus);
+  EXPECT_EQ(bus->malformed, 1);
+  EXPECT_EQ(bus->lost, 25);
+  EXPECT_EQ(bus->dropped, 3);
+  EXPECT_EQ(bus->contradictions, 3);
+  folder_.Write("two/run.json", R"({"bus": {"lost_messages": "many"}})");
+  EXPECT_EQ(MergeTo("none", {"one", "two"}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("two/run.json"));
+}
+
+TEST_F(MergeSessionsTest, OtherFilesBesideTheMergedSessionStay) {
+  Write("one", Session("early", 1000, 1), {{.contestant = "A"}});
+  folder_.Write("whole.merging", "somebody's");
+  ASSERT_EQ(Merge({"one"}), kExitOk) << errors_;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "whole.merging"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.path().string().find("merging-"), std::string::npos) << entry.path();
+  }
 }
 
 TEST_F(MergeSessionsTest, PartsMakeTheSessionThatTheyAreOf) {

@@ -12,16 +12,20 @@ class ImportedCsvTest : public testing::Test {
  protected:
   std::vector<StoredRun> Read(const std::string& text) {
     folder_.Write("r.csv", text);
-    const StoredSession session = ImportResults(folder_.path() / "r.csv", "published", 60);
-    EXPECT_EQ(session.contestants.at(0).name, "published");
+    return Import("r.csv", "published").runs;
+  }
+  StoredSession Import(const std::string& file, const std::string& name) {
+    StoredSession session = ImportResults(folder_ / file, name, 60, &warnings_);
+    EXPECT_EQ(session.contestants.at(0).name, name);
     EXPECT_TRUE(session.imported);
-    return session.runs;
+    return session;
   }
   void ExpectRefused(const std::string& text, const std::vector<std::string>& parts) {
     ExpectInputError([&] { Read(text); }, parts);
   }
 
   TemporaryFolder folder_;
+  std::vector<std::string> warnings_;
 };
 
 TEST_F(ImportedCsvTest, ReadsWhatIsThere) {
@@ -82,7 +86,61 @@ TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   ExpectRefused(header + "box,1,1,nan\n", {"r.csv:2", "time_s", "'nan'"});
   ExpectRefused(header + "box,1,2,1\n", {"r.csv:2", "solved", "'2'"});
   ExpectRefused(header + "box,1.5,1,1\n", {"r.csv:2", "problem_index", "whole"});
-  ExpectInputError([] { ImportResults("/none/r.csv", "x", 1); }, {"/none/r.csv"});
+  ExpectInputError([&] { ImportResults("/none/r.csv", "x", 1, &warnings_); }, {"/none/r.csv"});
+}
+
+TEST_F(ImportedCsvTest, APathAfterTheTimeLimitIsNone) {
+  const auto runs = Read(
+      "problem_set,problem_index,solved,time_s,time_limit_s\nbox,1,1,10,10\nbox,2,1,11,10\n"
+      "box,3,0,11,10\nbox,4,1,61,0\n");
+  EXPECT_EQ(runs[0].status, PlanStatus::kSolved);
+  EXPECT_EQ(runs[1].status, PlanStatus::kTimedOut);
+  EXPECT_TRUE(runs[1].claimed);
+  EXPECT_EQ(runs[1].message, "solved after 11 s, beyond the time limit of 10 s");
+  EXPECT_EQ(runs[2].message, "");
+  EXPECT_EQ(runs[3].status, PlanStatus::kTimedOut);  // the session's limit
+  EXPECT_EQ(runs[3].time_limit_s, 60);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("r.csv: 2 solved rows took longer"), std::string::npos);
+}
+
+TEST_F(ImportedCsvTest, EncodingsOfSpreadsheets) {
+  const std::string text = "problem_set,problem_index,solved,time_s\nbox,1,1,0.5\n";
+  EXPECT_EQ(Read("\xef\xbb\xbf" + text).size(), 1u);
+  std::string wide = "\xff\xfe";
+  for (const char c : text) wide += {c, '\0'};
+  ExpectRefused(wide, {"r.csv", "UTF-16"});
+}
+
+TEST_F(ImportedCsvTest, FilesOfOneNameAreOneSession) {
+  const std::string header = "problem_set,problem_index,solved,time_s\n";
+  folder_.Write("a.csv", header + "box,1,1,0.5\n");
+  folder_.Write("b.csv", header + "box,2,1,0.5\nbox,3,0,0.5\n");
+  const auto join = [&](const std::vector<std::string>& files,
+                        const std::vector<std::string>& names) {
+    std::vector<StoredSession> imported;
+    for (std::size_t i = 0; i < files.size(); ++i) imported.push_back(Import(files[i], names[i]));
+    return JoinImports(names, std::move(imported));
+  };
+  const std::vector<StoredSession> joined = join({"a.csv", "b.csv", "a.csv"}, {"Y", "Y", "Z"});
+  ASSERT_EQ(joined.size(), 2u);
+  EXPECT_EQ(joined[0].contestants.size(), 1u);
+  EXPECT_EQ(joined[0].runs.size(), 3u);
+  EXPECT_EQ(joined[0].num_runs, 3);
+  EXPECT_EQ(joined[0].run_id, "a.csv, b.csv");
+  EXPECT_NE(joined[0].contestants[0].settings.find("b.csv"), std::string::npos);
+  EXPECT_EQ(joined[1].contestants[0].name, "Z");
+  ExpectInputError(
+      [&] {
+        join({"b.csv", "b.csv"}, {"Y", "Y"});
+      },
+      {"b.csv: 'Y' has problem 2 of 'box', trial 1", "from another file"});
+  RequireOtherNames({"A", "B"}, joined);
+  ExpectInputError(
+      [&] {
+        RequireOtherNames({"A", "Z"}, joined);
+      },
+      {"a.csv", "a contestant is called 'Z'"});
 }
 
 }  // namespace

@@ -37,10 +37,24 @@ class OmplResultsTest : public testing::Test {
  protected:
   StoredSession Log(const std::string& text) {
     folder_.Write("own.log", text);
-    return ImportResults(folder_ / "own.log", "OMPL", 60);
+    return ImportResults(folder_ / "own.log", "OMPL", 60, &warnings_);
   }
 
+  /// Fills a database that OMPL's script would have made.
+  void Fill(const std::string& inserts) {
+    SqliteConnection database(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate);
+    database.Execute(
+        "CREATE TABLE experiments (id INTEGER PRIMARY KEY, name, timelimit, hostname, version, "
+        "date); CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name, settings);"
+        "CREATE TABLE enums (name, value, description);"
+        "CREATE TABLE runs (id INTEGER PRIMARY KEY, experimentid, plannerid, time REAL, solved, "
+        "status, solution_length REAL, trial);");
+    database.Execute(inserts);
+  }
+  StoredSession Database() { return ImportResults(folder_ / "own.db", "mine", 60, &warnings_); }
+
   TemporaryFolder folder_;
+  std::vector<std::string> warnings_;
 };
 
 TEST_F(OmplResultsTest, ALogsPlannersAreContestants) {
@@ -85,20 +99,12 @@ TEST_F(OmplResultsTest, ADamagedLogIsRefusedByLine) {
 }
 
 TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
-  {
-    SqliteConnection database(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate);
-    database.Execute(
-        "CREATE TABLE experiments (id INTEGER PRIMARY KEY, name, timelimit, hostname, version, "
-        "date); CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name, settings);"
-        "CREATE TABLE enums (name, value, description);"
-        "CREATE TABLE runs (id INTEGER PRIMARY KEY, experimentid, plannerid, time REAL, solved, "
-        "status, solution_length REAL);"
-        "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
-        "INSERT INTO plannerConfigs VALUES (4, 'PRM', 'k = 5');"
-        "INSERT INTO enums VALUES ('status', 0, 'Timeout'), ('status', 1, 'Exact solution');"
-        "INSERT INTO runs VALUES (1, 1, 4, 0.25, 1, 1, 3), (2, 1, 4, 5, 0, 0, NULL);");
-  }
-  const StoredSession session = ImportResults(folder_ / "own.db", "mine", 60);
+  Fill(
+      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
+      "INSERT INTO plannerConfigs VALUES (4, 'PRM', 'k = 5');"
+      "INSERT INTO enums VALUES ('status', 0, 'Timeout'), ('status', 1, 'Exact solution');"
+      "INSERT INTO runs VALUES (1, 1, 4, 0.25, 1, 1, 3, NULL), (2, 1, 4, 5, 0, 0, NULL, NULL);");
+  const StoredSession session = Database();
   ASSERT_EQ(session.contestants.size(), 1u);
   EXPECT_EQ(session.contestants[0].name, "mine");
   ASSERT_EQ(session.runs.size(), 2u);
@@ -110,7 +116,77 @@ TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
   EXPECT_EQ(session.runs[1].trial, 2);
   EXPECT_EQ(session.runs[1].time_limit_s, 5);
   folder_.Write("other.db", std::string("SQLite format 3\0", 16) + std::string(600, 'x'));
-  ExpectInputError([&] { ImportResults(folder_ / "other.db", "x", 1); }, {"other.db"});
+  ExpectInputError([&] { ImportResults(folder_ / "other.db", "x", 1, &warnings_); }, {"other.db"});
+}
+
+constexpr char kTwoPrograms[] =
+    "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today'), "
+    "(2, 'box', 5, 'host', 'planbench 0.2.0', 'today');"
+    "INSERT INTO plannerConfigs VALUES (1, 'PRM', ''), (2, 'ours', '');"
+    "INSERT INTO runs VALUES (1, 1, 1, 0.25, 1, 6, 3, NULL), (2, 1, 1, 5, 1, 5, NULL, NULL), "
+    "(3, 2, 2, 0.5, 1, 0, 3, 1), (4, 2, 2, 5, 0, 2, NULL, 2);";
+
+TEST_F(OmplResultsTest, AStatusIsOfTheListOfTheProgramThatWroteIt) {
+  for (const std::string list :
+       {"('status', 0, 'Unknown status'), ('status', 5, 'Approximate solution'), "
+        "('status', 6, 'Exact solution')",
+        "('status', 0, 'SOLVED'), ('status', 2, 'EXHAUSTED')"}) {
+    SCOPED_TRACE(list);
+    std::filesystem::remove(folder_ / "own.db");
+    Fill(std::string(kTwoPrograms) + "INSERT INTO enums VALUES " + list + ";");
+    const StoredSession session = Database();
+    ASSERT_EQ(session.runs.size(), 4u);
+    EXPECT_EQ(session.runs[0].status, PlanStatus::kSolved);
+    EXPECT_EQ(session.runs[1].message, "Approximate solution");
+    EXPECT_EQ(session.runs[2].status, PlanStatus::kSolved);
+    EXPECT_EQ(session.runs[3].status, PlanStatus::kExhausted);
+    EXPECT_TRUE(warnings_.empty());
+  }
+}
+
+TEST_F(OmplResultsTest, WhatSolvedSaysCountsWhereTheStatusContradictsIt) {
+  Fill(
+      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
+      "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
+      "INSERT INTO runs VALUES (1, 1, 1, 1, 1, 4, 3, NULL), (2, 1, 1, 1, 0, 6, 3, NULL), "
+      "(3, 1, 1, 1, 1, 77, 3, NULL), (4, 1, 1, 1, 0, 77, 3, NULL);");
+  const StoredSession session = Database();
+  ASSERT_EQ(session.runs.size(), 4u);
+  EXPECT_EQ(session.runs[0].status, PlanStatus::kSolved);
+  EXPECT_EQ(session.runs[1].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(session.runs[1].message, "not solved, though its status is 'Exact solution'");
+  EXPECT_EQ(session.runs[2].status, PlanStatus::kSolved);
+  EXPECT_EQ(session.runs[3].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(session.runs[3].message, "status 77, which no list names");
+  EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("contradict each other in 2 runs"),
+                                              testing::HasSubstr("2 runs have a status that no")));
+}
+
+TEST_F(OmplResultsTest, TrialsOfSeveralExperimentsAreAllKept) {
+  const std::string experiment =
+      "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
+      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today'), ";
+  const std::string runs =
+      "INSERT INTO runs VALUES (1, 1, 1, 1, 1, 6, 3, 1), (2, 1, 1, 2, 1, 6, 3, 2), ";
+  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'tomorrow');" + runs +
+       "(3, 2, 1, 3, 1, 6, 3, 1), (4, 2, 1, 4, 1, 6, 3, 2);");
+  const StoredSession session = Database();
+  ASSERT_EQ(session.runs.size(), 4u);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(session.runs[static_cast<std::size_t>(i)].trial, i + 1);
+  EXPECT_TRUE(warnings_.empty());
+  // A log that was added twice.
+  std::filesystem::remove(folder_ / "own.db");
+  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'today');" + runs +
+       "(3, 2, 1, 1, 1, 6, 3, 1), (4, 2, 1, 2, 1, 6, 3, 2);");
+  EXPECT_EQ(Database().runs.size(), 2u);
+  EXPECT_THAT(warnings_, testing::ElementsAre(testing::HasSubstr("1 of its experiments repeat")));
+  // What cannot be told apart.
+  std::filesystem::remove(folder_ / "own.db");
+  Fill(experiment + "(2, 'box', 5, 'host', 'OMPL 1.6', 'tomorrow');" + runs +
+       "(3, 1, 1, 3, 1, 6, 3, 2);");
+  ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: trial: 'PRM' has trial 2 "
+                                         "of problem 1 of 'box'",
+                                         "twice"});
 }
 
 /// Two contestants with a failure, a refused path and a second trial.
@@ -126,7 +202,7 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
   WriteSession(folder_ / "example", SomeRuns());
   std::vector<StoredSession> own = ReadSessions(folder_ / "example").sessions;
   folder_.Write("own.log", OmplLog(own.front(), "shelf"));
-  StoredSession imported = ImportResults(folder_ / "own.log", "again", 60);
+  StoredSession imported = ImportResults(folder_ / "own.log", "again", 60, &warnings_);
   ASSERT_EQ(imported.runs.size(), own.front().runs.size());
   // By contestant, as a log has them, which is the order of the example too.
   for (std::size_t i = 0; i < imported.runs.size(); ++i) {
@@ -174,7 +250,7 @@ TEST_F(OmplResultsTest, OmplsOwnReaderTakesALogOfOurs) {
     EXPECT_EQ(connection.QueryValue("SELECT sum(solved) FROM runs"),
               SqliteValue(std::int64_t{is_ours ? 6 : 3}));
     EXPECT_EQ(connection.QueryValue("SELECT max(solution_length) FROM runs"), SqliteValue(7.0));
-    EXPECT_EQ(ImportResults(path, "X", 1).runs.size(), 5u);
+    EXPECT_EQ(ImportResults(path, "X", 1, &warnings_).runs.size(), 5u);
   }
 }
 
