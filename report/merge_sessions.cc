@@ -166,7 +166,8 @@ class BusSum {
         }
       }
     } catch (const nlohmann::json::exception& error) {
-      throw InputError(fmt::format("--merge: {}: {}", file.string(), error.what()));
+      throw InputError(
+          fmt::format("--merge: {} is none that a logger wrote: {}", file.string(), error.what()));
     }
   }
 
@@ -184,7 +185,7 @@ class BusSum {
  private:
   using Json = nlohmann::ordered_json;
 
-  Json sum_;
+  Json sum_ = Json::object();
   std::vector<std::string> unknown_;
 };
 

@@ -87,6 +87,25 @@ TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
   EXPECT_THAT(errors_, HasSubstr("sets here: box; there: shelf"));
 }
 
+TEST_F(ReportProgramTest, FilesImportedUnderOneNameAreOneRow) {
+  WriteSession(folder_ / "example", {{.contestant = "A"}, {.contestant = "A", .problem = 2}});
+  const std::string header = "problem_set,problem_index,solved,time_s\n";
+  folder_.Write("one.csv", header + "shelf,1,1,4\n");
+  folder_.Write("two.csv", header + "shelf,2,1,40\n");
+  ASSERT_EQ(Run({Path("example"), "--import", Path("one.csv"), "--as", "Y", "--import",
+                 Path("two.csv"), "--as", "Y", "--out", Path("page.html"), "--csv", Path("csv")}),
+            kExitOk);
+  EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr("\nshelf,Y,2,2,2,1,"));
+  EXPECT_THAT(errors_, HasSubstr("two.csv: 1 solved rows took longer than their time limit"));
+  EXPECT_THAT(ReadText(folder_ / "page.html"), HasSubstr("one.csv, two.csv: 2 runs"));
+  EXPECT_EQ(Run({Path("example"), "--import", Path("one.csv"), "--as", "A"}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("one.csv: a contestant is called 'A', too"));
+  EXPECT_EQ(Run({Path("example"), "--import", Path("one.csv"), "--as", "Y", "--import",
+                 Path("one.csv"), "--as", "Y"}),
+            kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("from another file"));
+}
+
 TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
   if (std::system("command -v node >/dev/null") != 0) {
     GTEST_SKIP() << "no node here: apt-get install nodejs";
