@@ -6,8 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -17,21 +15,6 @@
 
 namespace planbench {
 namespace {
-
-constexpr double kUnlimited = std::numeric_limits<double>::max();
-
-/// Finite numbers greater than zero. (CLI::PositiveNumber lets NaN pass.)
-CLI::Validator Positive(double most = kUnlimited) {
-  return CLI::Validator(
-      [most](std::string& text) -> std::string {
-        const double value = std::strtod(text.c_str(), nullptr);  // 0 if it is none
-        if (value > 0 && value <= most) return "";
-        return most == kUnlimited
-                   ? fmt::format("{} is no finite number greater than zero", text)
-                   : fmt::format("{} is not greater than zero and at most {}", text, most);
-      },
-      "");
-}
 
 /// A flag that takes the names of an enum.
 template <typename Enum, typename Target>

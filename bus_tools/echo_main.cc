@@ -54,7 +54,7 @@ int Main(int argc, char** argv) {
       ->excludes("--full");
   program.app()
       .add_option("--count", count, "ends after so many messages, or tables of rates")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   return program.Run(argc, argv, [&] {
     const std::regex pattern = ChannelPattern(channels);
     format.fields = !brief;

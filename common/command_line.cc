@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <system_error>
@@ -27,6 +28,18 @@ CLI::Validator AnySeed() {
         if (error == std::errc() && end == text.data() + text.size()) return std::string();
         return fmt::format("'{}' is no whole number from 0 to {}", text,
                            std::numeric_limits<std::uint64_t>::max());
+      },
+      "");
+}
+
+CLI::Validator Positive(double most) {
+  return CLI::Validator(
+      [most](std::string& text) -> std::string {
+        const double value = std::strtod(text.c_str(), nullptr);  // 0 if it is none
+        if (value > 0 && value <= most) return "";
+        return most == std::numeric_limits<double>::max()
+                   ? fmt::format("{} is no finite number greater than zero", text)
+                   : fmt::format("{} is not greater than zero and at most {}", text, most);
       },
       "");
 }

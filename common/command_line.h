@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -23,6 +24,10 @@ CLI::CheckedTransformer OneOf() {
 /// For a flag that takes a whole number of 64 bits: CLI11 wraps those below 0, and takes the
 /// largest for what is larger.
 CLI::Validator AnySeed();
+
+/// For a flag that takes a finite number greater than zero, at most `most`. (CLI::PositiveNumber
+/// lets NaN pass, and tells its range to 309 digits.)
+CLI::Validator Positive(double most = std::numeric_limits<double>::max());
 
 /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
 /// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on

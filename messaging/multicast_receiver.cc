@@ -9,10 +9,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <regex>
+#include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,6 +31,25 @@ namespace {
 /// Packets taken from the kernel at once, and the most bytes that one can have.
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kMaxPacketBytes = 65536;
+
+/// What a socket's options take.
+constexpr int kMostBufferBytes = std::numeric_limits<int>::max();
+constexpr int kMostHops = 255;
+
+/// The value of `option` ("NAME=VALUE"); nothing if it is not called `name`.
+std::optional<int> OptionNumber(const std::string& url, const std::string& option,
+                                const std::string& name, int most) {
+  if (option != name && !option.starts_with(name + "=")) return std::nullopt;
+  const char* begin = option.data() + std::min(option.size(), name.size() + 1);
+  const char* end = option.data() + option.size();
+  int value = 0;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || rest != end || value < 0 || value > most) {
+    throw InputError(fmt::format(
+        "cannot connect to LCM at '{}': {} is to be a whole number from 0 to {}", url, name, most));
+  }
+  return value;
+}
 
 void Set(int socket_fd, int level, int option, const void* value, std::size_t size,
          const char* what) {
@@ -68,7 +93,6 @@ void Join(int socket_fd, const MulticastAddress& address) {
 
 MulticastAddress MulticastAddress::Parse(const std::string& url) {
   static const std::regex kUrl(R"(udpm://([0-9.]*)(?::([0-9]{1,5}))?(?:\?(.*))?)");
-  static const std::regex kBuffer(R"((?:^|[&?])recv_buf_size=([0-9]{1,9})(?:&|$))");
   const auto fail = [&] {
     throw InputError("cannot connect to LCM at '" + url +
                      "': the bus is udpm://GROUP:PORT, GROUP being a multicast address");
@@ -87,9 +111,12 @@ MulticastAddress MulticastAddress::Parse(const std::string& url) {
       !IN_MULTICAST(ntohl(group.s_addr))) {
     fail();
   }
-  const std::string options = match[3];
-  if (std::regex_search(options, match, kBuffer)) {
-    address.receive_buffer_bytes = std::stoi(match[1]);
+  std::istringstream options(match[3]);
+  for (std::string option; std::getline(options, option, '&');) {
+    if (const auto bytes = OptionNumber(url, option, "recv_buf_size", kMostBufferBytes)) {
+      address.receive_buffer_bytes = *bytes;
+    }
+    OptionNumber(url, option, "ttl", kMostHops);  // LCM's, which warns and goes on with its own
   }
   return address;
 }

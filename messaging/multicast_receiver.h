@@ -21,7 +21,8 @@ struct MulticastAddress {
   std::uint16_t port = 7667;
   int receive_buffer_bytes = kReceiveBufferBytes;  ///< Of the socket; 0: the system's default.
 
-  /// Throws InputError for anything but udpm://[GROUP[:PORT]][?OPTION=VALUE[&...]].
+  /// Throws InputError for anything but udpm://[GROUP[:PORT]][?OPTION=VALUE[&...]], and for values
+  /// of recv_buf_size and ttl that a socket cannot have.
   static MulticastAddress Parse(const std::string& url);
 };
 

@@ -38,7 +38,7 @@ void GeneratorFlags::AddTo(CLI::App* app) {
       "--certify", certify,
       "let the live planners try each problem, and replace those that none of them solves");
   app->add_option("--certify-time", certify_time_s, "time limit of each attempt, s")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->capture_default_str()
       ->needs(certify_flag);
   app->add_option("--certify-rounds", certify_rounds,

@@ -372,7 +372,7 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
   app->add_option(
          "--protrusion", protrusion_m,
          "how far spheres may reach beyond the meshes, boxes and cylinders they enclose, m")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->capture_default_str();
   app->add_flag("--without-spheres", without_spheres,
                 "for a robot that is checked with its meshes alone");

@@ -87,7 +87,7 @@ void MakeSpheresFlags::AddTo(CLI::App* app) {
   CLI::Option* protrusion =
       goal->add_option("--protrusion", protrusion_m,
                        "as many as it takes so that none reaches further beyond its link, m")
-          ->check(CLI::PositiveNumber);
+          ->check(Positive());
   goal->require_option(1);
   app->add_option("--link", links,
                   "NAME=M: with --protrusion: how far spheres of link NAME may reach; repeatable")

@@ -68,6 +68,12 @@ TEST_F(BusEchoTest, RefusesABadPattern) {
   EXPECT_THAT(echo.Errors(), HasSubstr("'[A' is no regular expression"));
 }
 
+TEST_F(BusEchoTest, RefusesACountThatIsNone) {
+  ChildProcess echo = Echo({"--count", "0"});
+  EXPECT_EQ(echo.Wait(), 2);
+  EXPECT_THAT(echo.Errors(), HasSubstr("--count: Value 0 not in range 1 to 2147483647 (see"));
+}
+
 TEST(BusDoctorTest, SaysWhatIsGoodAndEndsWithZero) {
   TemporaryFolder folder;
   ChildProcess doctor({PLANBENCH_BIN_DIR "/bus_doctor", "--lcm-url", PrivateUdpUrl()},

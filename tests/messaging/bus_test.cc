@@ -95,6 +95,14 @@ TEST(BusTest, BadUrlIsAnInputErrorOfOneLine) {
   ExpectInputError([] { Bus("tcpq://127.0.0.1:7700"); }, {"tcpq://127.0.0.1:7700", "udpm://"});
   ExpectInputError([] { Bus("nothing like a URL"); }, {"nothing like a URL"});
   ExpectInputError([] { Bus("udpm://not-an-address"); }, {"udpm://not-an-address"});
+  for (const char* option :
+       {"recv_buf_size=999999999999", "recv_buf_size=abc", "recv_buf_size=-1", "recv_buf_size=5x",
+        "recv_buf_size=", "recv_buf_size", "ttl=0x1", "ttl=256"}) {
+    const std::string url = std::string("udpm://239.255.76.67:7667?ttl=0&") + option;
+    ExpectInputError([&] { MulticastAddress::Parse(url); }, {url, "whole number from 0 to"});
+  }
+  EXPECT_EQ(MulticastAddress::Parse("udpm://?ttl=1&recv_buf_size=2147483647").receive_buffer_bytes,
+            2147483647);
 }
 
 /// What `Bus` throws in a network without routes; nothing if this process may not make one.
