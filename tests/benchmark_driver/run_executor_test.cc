@@ -312,7 +312,9 @@ class FirstPathTest : public RunExecutorTest {
 };
 
 TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) {
-  FirstAnswers(Found(2));
+  PlanResult found = Found(2);
+  found.planning_time_s = 1.5;  // it answers half a second later
+  FirstAnswers(found);
   PlanResult better = FakePlanner::SolvedResult();
   better.planning_time_s = 0.5;
   better.total_time_s = 1;
