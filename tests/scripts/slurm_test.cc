@@ -174,5 +174,30 @@ TEST(Slurm, MergedShardsAreTheSessionInOneButForTimes) {
   EXPECT_EQ(rows("study/merged"), rows("one"));
 }
 
+TEST(PlotSessionTest, ContestantsMayBeCalledAnything) {
+  if (std::system("command -v gnuplot sqlite3 >/dev/null") != 0) {
+    GTEST_SKIP() << "needs sqlite3 and gnuplot-nox";
+  }
+  TemporaryFolder folder;
+  const std::vector<std::string> names = {"RRT-Connect (w/o balance)", "Kuffner's", "A|B",
+                                          "x_1^{2} \\ \"q\" $HOME"};
+  {
+    SqliteConnection database(folder / "results.sqlite", SqliteConnection::Mode::kReadWriteCreate);
+    database.Execute(
+        "CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name TEXT);"
+        "CREATE TABLE runs (plannerid INTEGER, direction TEXT, time REAL, time_limit REAL, solved "
+        "BOOLEAN)");
+    SqliteStatement insert = database.Prepare("INSERT INTO plannerConfigs (name) VALUES (?)");
+    for (const std::string& name : names) insert.BindAll(name).Run();
+    database.Execute("INSERT INTO runs SELECT id, 'forward', 0.5, 10, 1 FROM plannerConfigs");
+  }
+  const std::string picture = folder / "its picture.svg";
+  ChildProcess plot({PLANBENCH_SOURCE_DIR "/scripts/plot_session", folder.path().string(), picture},
+                    folder / "plot");
+  EXPECT_EQ(plot.Wait(), 0);
+  EXPECT_EQ(plot.Errors(), "");
+  for (const std::string& name : names) EXPECT_THAT(Read(picture), HasSubstr(name + " forward"));
+}
+
 }  // namespace
 }  // namespace planbench
