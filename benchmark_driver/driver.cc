@@ -19,6 +19,7 @@
 #include "common/utime.h"
 #include "common/version.h"
 #include "messaging/node_announcer.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -290,6 +291,10 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
   record->algorithm = planner.algorithm;
   record->planner_class = planner.planner_class;
   record->settings = planner.settings;
+  if (requests.size() > 1) {
+    const std::string sets = LearnedFrom(planners_.at(requests.front().planner).settings);
+    if (!sets.empty()) record->settings[kFirstPathLearnedFrom] = sets;
+  }
   return record;
 }
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
 #include "planning/path_measures.h"
+#include "results/reason_count.h"
 #include "results/statistics.h"
 
 namespace planbench {
@@ -115,7 +115,7 @@ std::string EffortTable(const SessionResults& results) {
   TextTable table("Effort and quality over the confirmed runs, medians", std::move(header), 2);
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
-      std::vector<std::string> row = {set.name, one.contestant->name};
+      std::vector<std::string> row = {set.name, one.label()};
       for (std::size_t i = 0; i < columns.size(); ++i) {
         std::vector<double> values;
         for (const RunRow* run : one.runs) {
@@ -151,9 +151,8 @@ std::string MeshTable(const SessionResults& results) {
       }
       raw_of_all.Add(raw);
       simplified_of_all.Add(simplified);
-      table.Add({set.name, one.contestant->name, fmt::format("{}", raw.judged),
-                 fmt::format("{}", raw.valid), fmt::format("{}", simplified.judged),
-                 fmt::format("{}", simplified.valid)});
+      table.Add({set.name, one.label(), fmt::format("{}", raw.judged), fmt::format("{}", raw.valid),
+                 fmt::format("{}", simplified.judged), fmt::format("{}", simplified.valid)});
       if (raw.valid == raw.judged) continue;
       notes += fmt::format("{}, {}: {} not mesh-valid, {}\n", set.name, one.contestant->name,
                            raw.judged - raw.valid, raw.reasons.Summary());

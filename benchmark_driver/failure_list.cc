@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
+#include "results/reason_count.h"
 
 namespace planbench {
 namespace {

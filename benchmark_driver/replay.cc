@@ -15,6 +15,7 @@
 #include "common/random_id.h"
 #include "messaging/channels.h"
 #include "results/statistics.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -86,6 +87,23 @@ std::vector<std::string> PlannersAsked(const std::vector<RunRecordMessage>& runs
   return planners;
 }
 
+std::vector<std::string> MissingRuns(const std::string& log, const RecordedSession& recorded) {
+  std::map<std::string, int> planned;  // by session, as it told last
+  for (const SessionMessage& session : recorded.sessions) {
+    planned[session.run_id] = session.num_runs;
+  }
+  std::vector<std::string> lines;
+  for (const auto& [run_id, num_planned] : planned) {
+    const auto num_held = std::count_if(recorded.runs.begin(), recorded.runs.end(),
+                                        [&](const auto& run) { return run.run_id == run_id; });
+    if (num_held >= num_planned) continue;
+    lines.push_back(
+        fmt::format("{} holds {} of the {} runs of the session {}: the others were not compared.",
+                    log, num_held, num_planned, run_id));
+  }
+  return lines;
+}
+
 Replay::Replay(Bus* bus, NodeRegistry* registry, std::string run_id,
                std::vector<RunRecordMessage> runs, std::map<std::string, Scene> scenes,
                const std::vector<std::string>& planners)
@@ -132,6 +150,7 @@ void Replay::CompareSettings(const RunRecordMessage& run) const {
   std::set<std::string> keys;
   for (const auto& [key, value] : run.settings) keys.insert(key);
   for (const auto& [key, value] : planner->settings) keys.insert(key);
+  keys.erase(kFirstPathLearnedFrom);  // of another planner
   const auto value_of = [](const std::map<std::string, std::string>& settings,
                            const std::string& key) {
     const auto found = settings.find(key);

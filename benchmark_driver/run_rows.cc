@@ -1,7 +1,7 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
-#include "planning/path_library.h"
+#include "results/training.h"
 
 namespace planbench {
 
@@ -11,14 +11,13 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
     const auto found = result.counters.find(name);
     return found != result.counters.end() && found->second > 0;
   };
-  const auto learned_from = record.settings.find(kLearnedFrom);
   const auto& mesh_verdict = record.path_check.mesh_verdict;
   RunRow& row = rows_.emplace_back();
   row.problem_set = Shared(record.problem_set);
   row.planner = Shared(record.planner);
   row.contestant = Shared(record.contestant);
   row.planner_class = Shared(record.planner_class);
-  row.learned_from = Shared(learned_from == record.settings.end() ? "" : learned_from->second);
+  row.learned_from = Shared(LearnedFrom(record.settings));
   row.message = Shared(record.message);
   row.problem_index = record.problem_index;
   row.trial = record.trial;

@@ -17,7 +17,7 @@ struct RunRow {
   const std::string* planner = nullptr;
   const std::string* contestant = nullptr;
   const std::string* planner_class = nullptr;
-  const std::string* learned_from = nullptr;  ///< The sets; empty if it has not learned.
+  const std::string* learned_from = nullptr;  ///< As LearnedFrom (training.h).
   const std::string* message = nullptr;
   const std::string* mesh_reason = nullptr;  ///< Why the meshes do not allow the raw path.
   int problem_index = 0;

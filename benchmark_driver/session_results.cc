@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "results/training.h"
+
 namespace planbench {
 namespace {
 
@@ -24,6 +26,10 @@ Attempt AttemptOf(const RunRow& run) {
 }
 
 }  // namespace
+
+std::string ContestantResults::label() const {
+  return is_trained ? contestant->name + " " + kTrained : contestant->name;
+}
 
 SessionResults::SessionResults(const SessionConditions& conditions, const RunRows& runs,
                                const std::vector<Attempt>& references)
@@ -71,6 +77,7 @@ SessionResults::SessionResults(const SessionConditions& conditions, const RunRow
                    [&](const RunRow* run) {
                      return *run->problem_set == set && *run->contestant == contestant.name;
                    });
+      one.is_trained = !one.runs.empty() && IsTrainedOn(*one.runs.front()->learned_from, set);
     }
   }
 }

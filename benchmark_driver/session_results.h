@@ -14,8 +14,12 @@ namespace planbench {
 struct ContestantResults {
   const Contestant* contestant = nullptr;
   bool is_reference = false;  ///< Results from elsewhere, which no referee has seen.
+  bool is_trained = false;    ///< It has learned from the set (training.h).
   Outcomes outcomes;
   std::vector<const RunRow*> runs;  ///< By problem, trial and direction.
+
+  /// Its name in tables of the set.
+  std::string label() const;
 };
 
 /// One set: its contestants in the order of the line-up.

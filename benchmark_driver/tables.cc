@@ -12,6 +12,7 @@
 #include "benchmark_driver/session_results.h"
 #include "benchmark_driver/text_table.h"
 #include "results/comparison.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -29,13 +30,6 @@ const PublishedFigures* PublishedBeside(const SetResults& set, const ContestantR
 
 std::string PublishedName(const PublishedFigures& row) {
   return "published " + std::string(row.algorithm);
-}
-
-/// True if the contestant's experience is of the very set that it is tried on.
-bool IsTrainedOn(const SetResults& set, const ContestantResults& one) {
-  return !one.runs.empty() &&
-         (", " + *one.runs.front()->learned_from + ", ").find(", " + set.name + ", ") !=
-             std::string::npos;
 }
 
 std::string Count(int count) { return fmt::format("{}", count); }
@@ -75,12 +69,8 @@ std::string SuccessTable(const SessionResults& results) {
         using Kind = Outcome::Kind;
         SuccessSummary s = SummarizeSuccess(one.outcomes);
         if (!one.is_reference) (s.num_runs > s.num_problems ? more_trials : one_trial) = true;
-        std::string name = one.contestant->name;
-        if (IsTrainedOn(set, one)) {
-          trained = true;
-          name += " (trained)";
-        }
-        table.Add({name, Count(s.num_runs), Count(s.claimed),
+        trained = trained || one.is_trained;
+        table.Add({one.label(), Count(s.num_runs), Count(s.claimed),
                    one.is_reference ? "-" : Count(s.confirmed), Percent(s.share, s.interval),
                    Count(s.kinds[Kind::kForward]), Count(s.kinds[Kind::kBackward]),
                    Count(s.kinds[Kind::kFailure]), Count(s.kinds[Kind::kUnsolvable])});
@@ -104,7 +94,7 @@ std::string SuccessTable(const SessionResults& results) {
   if (one_trial && more_trials) {
     notes += "Contestants whose answer does not depend on the seed make one trial.\n";
   }
-  if (trained) notes += "(trained): has learned from this very set, which is therefore no test.\n";
+  if (trained) notes += std::string(kTrainedNote) + "\n";
   if (published) notes += kPublishedNote;
   return table.Format(notes) + "\n";
 }
@@ -117,7 +107,7 @@ std::string TimeTable(const SessionResults& results) {
       results, [&](const SetResults& set) { table.AddHeading(set.name); },
       [&](const SetResults& set, const ContestantResults& one) {
         const TimeSummary s = SummarizeTimes(one.outcomes);
-        table.Add({one.contestant->name, Count(s.solved_s.count),
+        table.Add({one.label(), Count(s.solved_s.count),
                    WithInterval(Milliseconds(s.solved_s.median), s.median_interval_s, Milliseconds),
                    Milliseconds(s.solved_s.mean), Milliseconds(s.solved_s.percentile_95),
                    Milliseconds(s.penalised_mean_s)});
@@ -165,7 +155,7 @@ std::string PairTable(const SessionResults& results, std::uint64_t seed, bool al
         const ContestantResults& one = contestants[b];
         const PairedComparison pair = Compare(one.outcomes, contestants[a].outcomes, seed);
         const auto format = [](double value) { return fmt::format("{:.3g}", value); };
-        table.Add({one.contestant->name, contestants[a].contestant->name, Count(pair.num_problems),
+        table.Add({one.label(), contestants[a].label(), Count(pair.num_problems),
                    Number(100 * pair.wins.Share(), 1),
                    pair.ratio ? WithInterval(format(pair.ratio->mean), pair.ratio->interval, format)
                               : "-",
@@ -201,8 +191,8 @@ std::string DirectionTable(const SessionResults& results) {
         }
         if (attempts == 0) continue;
         const Summary s = Summarize(std::move(times));
-        table.Add({set.name, one.contestant->name, std::string(EnumName(direction)),
-                   Count(attempts), Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
+        table.Add({set.name, one.label(), std::string(EnumName(direction)), Count(attempts),
+                   Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
                    Milliseconds(s.lower_quartile), Milliseconds(s.upper_quartile),
                    Milliseconds(s.percentile_95)});
       }

@@ -205,6 +205,18 @@ std::string LeftOut(const std::string& name, const std::map<std::string, std::st
                      problems.front(), left_out.begin()->second);
 }
 
+/// That some of what a contestant is tried on is what it has learned from; "" if none is.
+std::string Trained(const ComparedSessions& compared, const ComparedContestant& contestant) {
+  std::vector<std::string> sets;
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    if (by_contestant.contains(contestant.name) && contestant.IsTrainedOn(set)) sets.push_back(set);
+  }
+  if (sets.empty()) return "";
+  return fmt::format(
+      "{} has learned from {}, on which it is tried here: its figures there are no test.",
+      contestant.name, fmt::join(sets, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
@@ -212,6 +224,10 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
   if (compared.contestants().empty()) return {"No runs are recorded."};
   std::vector<std::string> sentences;
   sentences.push_back(WhoIsBest(compared));
+  if (const std::string trained = Trained(compared, compared.contestants().front());
+      !trained.empty()) {
+    sentences.push_back(trained);
+  }
   const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
   if (of_leader.empty()) {
     const char* nothing = compared.contestants().size() == 1
@@ -269,6 +285,11 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       cautions.push_back(fmt::format(
           "{}: the planners worked at once (--parallel): all times were measured under load.",
           name));
+    }
+  }
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    if (std::string trained = Trained(compared, contestant); !trained.empty()) {
+      cautions.push_back(std::move(trained));
     }
   }
   return cautions;

@@ -8,12 +8,13 @@
 namespace planbench {
 
 /// What the sessions say, in at most three sentences: who comes out best, by how much, and how sure
-/// that is. `pairs` as ComparePairs gives them.
+/// that is; in one more, what of it is no test because the best one has learned from the set.
+/// `pairs` as ComparePairs gives them.
 std::vector<std::string> Answer(const ComparedSessions& compared,
                                 const std::vector<ComparedPair>& pairs);
 
 /// What a reader has to know of how the sessions were measured: runs that are missing, planners
-/// that worked at once.
+/// that worked at once, contestants that have learned from what they are tried on.
 std::vector<std::string> Cautions(const ComparedSessions& compared);
 
 }  // namespace planbench

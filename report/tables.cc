@@ -15,6 +15,7 @@
 #include "planning/path_measures.h"
 #include "results/quality.h"
 #include "results/reproduce.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -41,6 +42,26 @@ void ForEach(const ComparedSessions& compared, Visit visit) {
       const auto found = by_contestant.find(contestant.name);
       if (found != by_contestant.end()) visit(set, contestant, found->second);
     }
+  }
+}
+
+/// A column after the contestant's that says which have learned from the set, if any have. Names
+/// stay as they are, for those who join tables by them.
+void MarkTrained(const ComparedSessions& compared, Table* table) {
+  std::vector<std::string> marks;  // of the rows, which are those of ForEach
+  ForEach(compared,
+          [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
+            marks.push_back(contestant.IsTrainedOn(set) ? kTrained : "");
+          });
+  if (std::all_of(marks.begin(), marks.end(), [](const auto& mark) { return mark.empty(); })) {
+    return;
+  }
+  constexpr int kAfterContestant = 2;
+  table->note += std::string(" ") + kTrainedNote;
+  table->columns.insert(table->columns.begin() + kAfterContestant, {"trained", "trained"});
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    std::vector<Cell>& row = table->rows[i];
+    row.insert(row.begin() + kAfterContestant, marks[i]);
   }
 }
 
@@ -136,6 +157,7 @@ Table SuccessTable(const ComparedSessions& compared) {
          s.kinds[Kind::kForward], s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
          s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected], s.kinds[Kind::kOther]});
   });
+  MarkTrained(compared, &table);
   return table;
 }
 
@@ -166,6 +188,7 @@ Table TimeTable(const ComparedSessions& compared) {
                           kMsPerS * s.solved_s.upper_quartile, kMsPerS * s.solved_s.percentile_95,
                           kMsPerS * s.penalised_mean_s});
   });
+  MarkTrained(compared, &table);
   return table;
 }
 
@@ -278,17 +301,19 @@ Table PhaseTable(const ComparedSessions& compared) {
 }
 
 Table FailureTable(const ComparedSessions& compared) {
-  Table table{"failures",
-              "Attempts without a confirmed path",
-              "Attempts, each direction and trial for itself, that ended alike; in parentheses how "
-              "many of a problem if several.",
-              {{"set", "set"},
-               {"contestant", "contestant"},
-               {"status", "status"},
-               {"reason", "reason"},
-               {"attempts", "attempts", Style::kCount},
-               {"problems", "problems"}},
-              {}};
+  Table table{
+      "failures",
+      "Attempts without a confirmed path",
+      "Attempts, each direction and trial for itself, that ended alike; reasons that differ "
+      "in their figures alone are one, worded as the first. In parentheses how many of a "
+      "problem if several.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"status", "status"},
+       {"reason", "reason"},
+       {"attempts", "attempts", Style::kCount},
+       {"problems", "problems"}},
+      {}};
   ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
                         const Outcomes&) {
     for (const FailureGroup& group : GroupFailures(contestant, set)) {

@@ -11,6 +11,8 @@
 
 #include "common/numbers.h"
 #include "results/comparison.h"
+#include "results/reason_count.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -92,6 +94,10 @@ std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_n
 
 }  // namespace
 
+bool ComparedContestant::IsTrainedOn(const std::string& problem_set) const {
+  return planbench::IsTrainedOn(LearnedFrom(settings), problem_set);
+}
+
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
   Attempt attempt;
   attempt.problem_set = run.problem_set;
@@ -149,10 +155,9 @@ std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,
   std::map<std::pair<PlanStatus, std::string>, FailureGroup> groups;
   for (const StoredRun* run : contestant.runs) {
     if (run->confirmed() || run->problem_set != problem_set) continue;
-    FailureGroup& group = groups[{run->status, run->message}];
+    FailureGroup& group = groups[{run->status, WithoutFigures(run->message)}];
     group.status = run->status;
-    group.reason = run->message;
-    ++group.num_runs;
+    if (group.num_runs++ == 0) group.reason = run->message;
     ++group.problems[run->problem_index];
   }
   std::vector<FailureGroup> sorted;

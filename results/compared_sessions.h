@@ -18,6 +18,9 @@ struct ComparedContestant {
   std::string settings;
   std::size_t session = 0;
   std::vector<const StoredRun*> runs;  ///< In the order of the database.
+
+  /// Whether it has learned from the very set (training.h).
+  bool IsTrainedOn(const std::string& problem_set) const;
 };
 
 /// A run as the comparison knows it.
@@ -53,10 +56,10 @@ class ComparedSessions {
   std::map<std::string, Outcomes> pooled_;
 };
 
-/// Runs without a confirmed path that ended alike.
+/// Runs without a confirmed path that ended alike: their reasons are equal WithoutFigures.
 struct FailureGroup {
   PlanStatus status = PlanStatus::kNoAnswer;
-  std::string reason;
+  std::string reason;  ///< Of the first.
   int num_runs = 0;
   std::map<int, int> problems;  ///< Number of runs by problem index.
 };

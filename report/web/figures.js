@@ -58,12 +58,17 @@ function improvement(names, places, values, title) {
   });
 }
 
+// What the contestants at these places are called in the figures of a set.
+function namesOf(data, set, places) {
+  return places.map(place => data.contestants[place].name + (set.trained.includes(place) ? " (trained)" : ""));
+}
+
 // The figure of a measure on a set, by the measure's place in data.measures.
 function qualityFigure(data, set, kind) {
   const {raw, simplified} = set.quality[kind];
   const places = data.contestants.map((contestant, place) => place).filter(place =>
     raw.concat(simplified).some(one => one.contestant === place));
   const {name, unit} = data.measures[kind];
-  return charts.quality(places.map(place => data.contestants[place].name), places, raw, simplified,
+  return charts.quality(namesOf(data, set, places), places, raw, simplified,
                         name.replace(/_/g, " ") + (unit ? ", " + unit : ""));
 }

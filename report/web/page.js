@@ -75,7 +75,7 @@ const report = (() => {
       const values = list(set);
       if (!values || values.length === 0) continue;
       const places = values.map(value => value.contestant);
-      grid.append(figure(set.name, `${title}, ${set.name}`, height(values), () => make(set, places.map(place => names[place]), places, values,
+      grid.append(figure(set.name, `${title}, ${set.name}`, height(values), () => make(set, namesOf(data, set, places), places, values,
                                               problem => showProblem(sets.indexOf(set), problem))));
     }
     return grid;

@@ -48,7 +48,7 @@ for (const set of data.sets) {
     const values = list(set);
     if (!values || values.length === 0) continue;
     const places = values.map(value => value.contestant);
-    const spec = make(set, places.map(place => names[place]), places, values, () => {});
+    const spec = make(set, namesOf(data, set, places), places, values, () => {});
     written.push(write(`${kind}-${own}`, withLegend(kind, spec)));
   }
   data.measures.forEach((measure, kind) => {

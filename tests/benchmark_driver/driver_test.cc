@@ -440,6 +440,24 @@ TEST_F(DriverTest, OneWhoIsGivenAPathMustImproveItAndNotAtTheSameTime) {
   expect_refused({"--parallel", "'first'", "arm"});
 }
 
+TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {
+  FakePlanner planner(&bus_);
+  planner.status.can_improve = true;
+  planner.Restart();
+  FakePlanner first(&bus_, "first");
+  first.status.settings["learned_from"] = "books, cans";
+  first.Restart();
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
+  line_up[0].contestant.first_path_of = "first";
+  Driver driver(&bus_, Options(), line_up, {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  ASSERT_FALSE(driver.runs().empty());
+  for (const RunRow& row : driver.runs().rows()) EXPECT_EQ(*row.learned_from, "books, cans");
+}
+
 TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);

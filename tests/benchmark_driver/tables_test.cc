@@ -8,9 +8,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "benchmark_driver/reason_count.h"
 #include "benchmark_driver/text_table.h"
 #include "common/numbers.h"
+#include "results/reason_count.h"
 
 namespace planbench {
 namespace {
@@ -227,6 +227,8 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
   EXPECT_THAT(Row(text, kSuccess, "ARA* (trained)"), StartsWith("4 2 2 50.0 ["));
   EXPECT_THAT(Row(text, kSuccess, "RRT-Connect"), StartsWith("2 2 1 50.0 ["));
   EXPECT_THAT(text, HasSubstr("no test"));
+  EXPECT_NE(Row(text, kTimes, "ARA* (trained)"), "");
+  EXPECT_THAT(text.substr(text.find("Problem by problem")), HasSubstr("ARA* (trained)"));
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {

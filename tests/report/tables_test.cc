@@ -254,6 +254,36 @@ TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
       << answer[2];
 }
 
+TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "example", ExampleRuns(), ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  for (StoredContestant& one : sessions[0].contestants) {
+    if (one.name == kTagName) one.settings += "learned_from = other, shelf\n";
+  }
+  const ComparedSessions compared(std::move(sessions));
+  for (const Table& table : {SuccessTable(compared), TimeTable(compared)}) {
+    ASSERT_EQ(table.columns[2].name, "trained");
+    const auto mark = [&](std::size_t row) { return Texts(table, row)[2]; };
+    EXPECT_EQ((Row{mark(0), mark(1), mark(2), mark(3)}), (Row{"", "", "(trained)", ""}));
+    EXPECT_EQ(Texts(table, 2)[1], kTagName) << "names stay";
+    EXPECT_NE(table.note.find("(trained): has learned"), std::string::npos);
+  }
+  for (const Table& table : {SuccessTable(compared_), TimeTable(compared_)}) {
+    EXPECT_NE(table.columns[2].name, "trained") << "nobody is";
+  }
+
+  const std::string caution =
+      fmt::format("{} has learned from shelf, on which it is tried here", kTagName);
+  EXPECT_TRUE(Cautions(compared).back().starts_with(caution)) << Cautions(compared).back();
+  const auto pairs = ComparePairs(compared, 1);
+  EXPECT_TRUE(Answer(compared, pairs).at(1).starts_with(caution)) << "it ranks first";
+  const Json sets = FigureData(compared, pairs, {})["sets"];
+  EXPECT_EQ(sets[0]["trained"], Json::array());
+  EXPECT_EQ(sets[1]["trained"], Json::array({0}));
+  EXPECT_EQ(sets[2]["trained"], Json::array({0})) << "all sets";
+}
+
 TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
   EXPECT_EQ(Answer(ComparedSessions({}), {}), std::vector<std::string>{"No runs are recorded."});
   const ComparedSessions alone = Read({{.contestant = "A"}});

@@ -4,6 +4,7 @@
 
 #include "results/comparison.h"
 #include "results/quality.h"
+#include "results/training.h"
 
 namespace planbench {
 namespace {
@@ -136,6 +137,33 @@ TEST(GroupFailuresTest, RunsThatEndedAlikeStandTogetherTheMostFirst) {
   EXPECT_EQ(groups[0].problems, (std::map<int, int>{{1, 1}, {4, 2}}));
   EXPECT_EQ(groups[1].reason, "hits board");
   EXPECT_TRUE(GroupFailures(compared.contestants()[0], "other").empty());
+}
+
+TEST(GroupFailuresTest, ReasonsThatDifferInFiguresAloneAreOneAsFirstWorded) {
+  std::vector<StoredRun> runs;
+  for (const char* message : {"CHOMP optimised from 57 guesses, none (0 of 57) free of 'box_1'",
+                              "CHOMP optimised from 59 guesses, none (1 of 59) free of 'box_1'",
+                              "CHOMP optimised from 59 guesses, none (1 of 59) free of 'box_2'"}) {
+    runs.push_back(MakeRun(0, 1, 10, PlanStatus::kTimedOut));
+    runs.back().message = message;
+  }
+  const ComparedSessions compared({Session("one", {{"A", ""}}, runs)});
+  const std::vector<FailureGroup> groups = GroupFailures(compared.contestants()[0], "shelf");
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].num_runs, 2);
+  EXPECT_EQ(groups[0].reason, runs[0].message);
+  EXPECT_EQ(groups[1].reason, runs[2].message);
+}
+
+TEST(TrainingTest, SettingsTellTheSetsLearnedFrom) {
+  EXPECT_EQ(LearnedFrom("algorithm = RRT\nlearned_from = a set, b\nrange = 1\n"), "a set, b");
+  EXPECT_EQ(LearnedFrom("first_path_learned_from = c\n"), "c");
+  EXPECT_EQ(LearnedFrom("learned_from = b\nfirst_path_learned_from = c\n"), "b, c");
+  EXPECT_EQ(LearnedFrom("imported from learned_from.csv\n"), "");
+  EXPECT_TRUE(IsTrainedOn("a set, b", "a set"));
+  EXPECT_TRUE(IsTrainedOn("a set, b", "b"));
+  EXPECT_FALSE(IsTrainedOn("a set, b", "set"));
+  EXPECT_FALSE(IsTrainedOn("", "b"));
 }
 
 TEST(PoolSetsTest, ProblemsOfEverySetStayApartAndPaired) {

@@ -1,4 +1,4 @@
-#include "benchmark_driver/reason_count.h"
+#include "results/reason_count.h"
 
 #include <algorithm>
 #include <sstream>
@@ -6,20 +6,25 @@
 namespace planbench {
 namespace {
 
-/// A number, or an id of a request.
+/// A number, in parentheses or not, or an id of a request.
 bool IsFigure(const std::string& word) {
   if (word.find('@') != std::string::npos) return true;
-  return word.find_first_of("0123456789") == 0 &&
-         word.find_first_not_of("0123456789.e+-,:;") == std::string::npos;
+  const std::size_t digits = word.find_first_not_of("([-+");
+  return digits != std::string::npos && word[digits] >= '0' && word[digits] <= '9' &&
+         word.find_first_not_of("0123456789.e+-,:;/%)]", digits) == std::string::npos;
 }
 
 }  // namespace
 
-void ReasonCount::Add(const std::string& reason) {
+std::string WithoutFigures(const std::string& reason) {
   std::string words;
   std::istringstream text(reason);
   for (std::string word; text >> word;) words += IsFigure(word) ? "# " : word + " ";
-  Reason& known = reasons_[words];
+  return words;
+}
+
+void ReasonCount::Add(const std::string& reason) {
+  Reason& known = reasons_[WithoutFigures(reason)];
   if (known.count++ == 0) known.example = reason;
 }
 

@@ -5,8 +5,11 @@
 
 namespace planbench {
 
-/// Counts why runs failed. Reasons that differ in their figures alone ("0.012 m deep", "segment 3
-/// at 0.25:") are one.
+/// A reason without what differs between runs that ended alike: figures ("0.012 m deep", "segment 3
+/// at 0.25:", "(57 of 60)") and ids of requests. Names with digits in them stay.
+std::string WithoutFigures(const std::string& reason);
+
+/// Counts why runs failed. Reasons that are equal without their figures are one.
 class ReasonCount {
  public:
   void Add(const std::string& reason);
@@ -19,7 +22,7 @@ class ReasonCount {
     std::string example;
     int count = 0;
   };
-  std::map<std::string, Reason> reasons_;  // By their words.
+  std::map<std::string, Reason> reasons_;  // WithoutFigures
 };
 
 }  // namespace planbench
