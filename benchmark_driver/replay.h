@@ -9,6 +9,7 @@
 #include "messaging/bus.h"
 #include "messaging/messages.h"
 #include "messaging/node_registry.h"
+#include "messaging/record_log.h"
 
 namespace planbench {
 
@@ -19,6 +20,9 @@ std::string Difference(const RunRecordMessage& recorded, const PlannerClient::An
 
 /// The planners that were asked something, in the order of their first requests.
 std::vector<std::string> PlannersAsked(const std::vector<RunRecordMessage>& runs);
+
+/// A line for each session of which the log holds fewer runs than it has, `log` being its name.
+std::vector<std::string> MissingRuns(const std::string& log, const RecordedSession& recorded);
 
 /// Asks live planners again what they were asked in recorded sessions, with the scenes of then, one
 /// request after the other, and compares their answers.

@@ -56,6 +56,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   if (PlannersAsked(recorded.runs).empty()) {
     throw InputError(log.string() + ": holds no run that could be made again");
   }
+  const std::vector<std::string> missing_runs = MissingRuns(log.string(), recorded);
   Complete(recorded, &options.line_up);
   const std::vector<LineUpEntry> line_up = MakeLineUp(
       options.line_up,
@@ -113,6 +114,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   if (supervisor) supervisor->StopAll(planners);
   if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
   fmt::print("\n{}", replay.Table());
+  for (const std::string& line : missing_runs) fmt::print("{}\n", line);
   std::fflush(stdout);
   return agree ? kExitOk : kExitFailed;
 }

@@ -141,6 +141,21 @@ TEST_F(ReplayTest, NeedsRequestsAndTheirScenes) {
   ExpectInputError([&] { Make({elsewhere}); }, {"scene other", "then/a"});
 }
 
+TEST(MissingRunsTest, AreThoseThatTheSessionHasAndTheLogLacks) {
+  RecordedSession recorded;
+  recorded.runs = {Recorded("then/a"), Recorded("then/b")};
+  SessionMessage session;
+  session.run_id = "then";
+  session.num_runs = 5;
+  recorded.sessions = {session};
+  EXPECT_THAT(MissingRuns("half.lcmlog", recorded),
+              ElementsAre(AllOf(HasSubstr("half.lcmlog holds 2 of the 5 runs"),
+                                HasSubstr("session then"))));
+  session.num_runs = 2;  // two were needless, one was never made: the last word counts
+  recorded.sessions.push_back(session);
+  EXPECT_THAT(MissingRuns("whole.lcmlog", recorded), testing::IsEmpty());
+}
+
 TEST(PlannersAskedTest, InOrder) {
   RunRecordMessage without_problem = Recorded("c", "c");
   without_problem.request.scene_id = "";
