@@ -115,8 +115,7 @@ std::vector<StoredSession> JoinImports(const std::vector<std::string>& names,
       }
       throw InputError(
           fmt::format("{}: '{}' has problem {} of '{}', trial {}, {}, from another file, too: "
-                      "number the trials "
-                      "or give it another name",
+                      "number the trials or give it another name",
                       session.file.string(), name, run.problem_index, run.problem_set, run.trial,
                       EnumName(run.direction)));
     }

@@ -149,9 +149,13 @@ class OmplSession {
 
   StoredSession Take() {
     const bool several = session_.contestants.size() > 1;
+    std::map<std::string, int> num_named, numbers;
+    for (const StoredContestant& one : session_.contestants) ++num_named[one.name];
     for (StoredContestant& one : session_.contestants) {
-      one.settings = "planner = " + one.name + "\n" + one.settings;
-      one.name = several ? name_ + ": " + one.name : name_;
+      const std::string planner = one.name;
+      one.settings = "planner = " + planner + "\n" + one.settings;
+      one.name = several ? name_ + ": " + planner : name_;
+      if (num_named[planner] > 1) one.name += fmt::format(" #{}", ++numbers[planner]);
     }
     return std::move(session_);
   }

@@ -9,7 +9,8 @@
 namespace planbench {
 
 /// Results of OMPL's benchmarks (ompl::tools::Benchmark, MoveIt's too). A planner becomes a
-/// contestant, `name` if there is one, else "NAME: PLANNER". Only an exact solution is a path; one
+/// contestant, `name` if there is one, else "NAME: PLANNER"; with several settings it is several,
+/// "NAME: PLANNER #2". Only an exact solution is a path; one
 /// that OMPL calls incorrect counts as INVALID_PATH. "solved" counts where it contradicts "status",
 /// which a warning tells. The problem of a run is that of its properties
 /// "problem set", "problem index" and "trial", if there are such; else an experiment is a problem:

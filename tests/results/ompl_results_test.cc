@@ -162,6 +162,17 @@ TEST_F(OmplResultsTest, WhatSolvedSaysCountsWhereTheStatusContradictsIt) {
                                               testing::HasSubstr("2 runs have a status that no")));
 }
 
+TEST_F(OmplResultsTest, APlannerWithTwoSettingsIsTwoContestants) {
+  std::string text = kLog;
+  text.replace(text.find("geometric_PRM"), 13, "geometric_RRTstar");
+  StoredSession session = Log(text);
+  ASSERT_EQ(session.contestants.size(), 2u);
+  EXPECT_EQ(session.contestants[0].name, "OMPL: geometric_RRTstar #1");
+  EXPECT_EQ(session.contestants[1].name, "OMPL: geometric_RRTstar #2");
+  // Their trials are not each other's.
+  EXPECT_EQ(JoinImports({"OMPL"}, {session}).front().runs.size(), 5u);
+}
+
 TEST_F(OmplResultsTest, TrialsOfSeveralExperimentsAreAllKept) {
   const std::string experiment =
       "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
