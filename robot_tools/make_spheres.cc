@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/name_value.h"
 #include "common/progress_line.h"
