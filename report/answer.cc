@@ -181,15 +181,19 @@ std::string OnTheBus(const BusRecord& bus) {
       fmt::join(odd, ", "));
 }
 
-/// "" if all contestants of a set had the same time.
-std::string DifferentLimits(const std::string& set,
-                            const std::map<std::string, Outcomes>& by_contestant) {
+/// What the time limits of a set make of its figures; "" if they are known and the same for all.
+std::string OnTheLimits(const std::string& set,
+                        const std::map<std::string, Outcomes>& by_contestant) {
   std::set<double> limits_s;
-  for (const auto& [name, outcomes] : by_contestant) limits_s.insert(outcomes.time_limit_s);
-  if (limits_s.size() == 1) return "";
-  if (*limits_s.begin() == 0) {
-    return set + ": the time limits of some runs are not known, and so are penalised means.";
+  bool unknown = false;
+  for (const auto& [name, outcomes] : by_contestant) {
+    limits_s.insert(outcomes.time_limit_s);
+    unknown = unknown || std::isnan(SummarizeTimes(outcomes).penalised_mean_s);
   }
+  if (unknown) {
+    return set + ": time limits are not known, and so are the penalised means of those who failed.";
+  }
+  if (limits_s.size() < 2) return "";
   return fmt::format(
       "{}: time limits differ ({} to {} s): who had longer could solve more. Penalised means count "
       "every failure as ten times the longest.",
@@ -250,7 +254,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
                     set));
   }
   for (const auto& [set, by_contestant] : compared.outcomes()) {
-    if (const std::string limits = DifferentLimits(set, by_contestant); !limits.empty()) {
+    if (const std::string limits = OnTheLimits(set, by_contestant); !limits.empty()) {
       cautions.push_back(limits);
     }
   }

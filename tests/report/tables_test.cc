@@ -195,6 +195,12 @@ TEST_F(ReportTest, WhatCannotBeComparedIsTold) {
   sessions[1].runs[0].time_limit_s = 2;
   EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
               testing::HasSubstr("shelf: time limits differ (2.00 to 10.0 s)"));
+  for (StoredSession& session : sessions) {
+    session.runs[0].time_limit_s = 0;
+    session.runs[0].status = PlanStatus::kTimedOut;
+  }
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
+              testing::HasSubstr("shelf: time limits are not known"));
 }
 
 TEST_F(ReportTest, PathsThatCameTooLateAreNoConfirmedOnes) {
