@@ -48,18 +48,15 @@ std::vector<const ComparedPair*> LeadersPairs(const ComparedSessions& compared,
   return of_leader;
 }
 
+bool NobodySolvedAny(const ComparedSessions& compared) {
+  return std::all_of(compared.pooled().begin(), compared.pooled().end(),
+                     [](const auto& one) { return SummarizeSuccess(one.second).confirmed == 0; });
+}
+
 std::string WhoIsBest(const ComparedSessions& compared) {
   const std::string& leader = compared.contestants().front().name;
   const Outcomes& outcomes = compared.pooled().at(leader);
   const auto num_contestants = compared.contestants().size();
-  const auto solved_any = [](const auto& one) {
-    return SummarizeSuccess(one.second).confirmed > 0;
-  };
-  if (std::none_of(compared.pooled().begin(), compared.pooled().end(), solved_any)) {
-    return num_contestants == 1
-               ? fmt::format("{} solved no problem.", leader)
-               : fmt::format("None of {} contestants solved a problem.", num_contestants);
-  }
   const auto num_sets = std::count_if(compared.outcomes().begin(), compared.outcomes().end(),
                                       [&](const auto& set) { return set.second.contains(leader); });
   const char* rule = std::isnan(SummarizeTimes(outcomes).penalised_mean_s)
@@ -226,6 +223,13 @@ std::string Trained(const ComparedSessions& compared, const ComparedContestant& 
 std::vector<std::string> Answer(const ComparedSessions& compared,
                                 const std::vector<ComparedPair>& pairs) {
   if (compared.contestants().empty()) return {"No runs are recorded."};
+  if (NobodySolvedAny(compared)) {
+    const std::size_t num = compared.contestants().size();
+    const std::string nobody = num == 1
+                                   ? compared.contestants().front().name + " solved no problem"
+                                   : fmt::format("None of {} contestants solved a problem", num);
+    return {nobody + "; " + Rejections(compared) + "."};
+  }
   std::vector<std::string> sentences;
   sentences.push_back(WhoIsBest(compared));
   if (const std::string trained = Trained(compared, compared.contestants().front());

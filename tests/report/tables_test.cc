@@ -303,7 +303,8 @@ TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
   EXPECT_THAT(Answer(apart, {}).at(0), testing::HasSubstr("over 1 problem of 1 set."));
   const ComparedSessions failed = Read({{.contestant = "A", .status = PlanStatus::kTimedOut},
                                         {.contestant = "B", .status = PlanStatus::kTimedOut}});
-  EXPECT_EQ(Answer(failed, {}).at(0), "None of 2 contestants solved a problem.");
+  EXPECT_EQ(Answer(failed, {}).at(0),
+            "None of 2 contestants solved a problem; no path was claimed to the referee.");
   // One problem tells nothing.
   const ComparedSessions both = Read({{.contestant = "A"}, {.contestant = "B", .time_s = 1.1}});
   EXPECT_NE(Answer(both, ComparePairs(both, 1)).at(2).find("A is not shown to be faster than B"),
