@@ -9,6 +9,7 @@
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log_reader.h"
+#include "results/bus_json.h"
 
 namespace planbench {
 
@@ -23,8 +24,10 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resum
       event_log_(folder_.event_log(), resume ? EventLog::Mode::kAppend : EventLog::Mode::kNew,
                  split_bytes),
       database_(folder_.results()) {
+  if (!resume) return;
+  if (IsFile(folder_.run_json())) bus_ = ReadBusJson(folder_.run_json());
   // Not of a device or a pipe, which might never end.
-  if (resume && IsFile(folder_.event_log())) Restore();
+  if (IsFile(folder_.event_log())) Restore();
 }
 
 void SessionRecorder::Restore() {
@@ -80,7 +83,8 @@ void SessionRecorder::Recover() {
 }
 
 bool SessionRecorder::Report(const std::string& bus) {
-  if (!bus.empty() || event_log_.num_files() > 1) DescribeSessions(bus);
+  bus_ = AddBusJson(bus_, bus);
+  if (!bus.empty() || event_log_.num_files() > 1) DescribeSessions();
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
@@ -93,8 +97,8 @@ bool SessionRecorder::Report(const std::string& bus) {
   return tally_.failures == 0;
 }
 
-void SessionRecorder::DescribeSessions(const std::string& bus) {
-  WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(), bus);
+void SessionRecorder::DescribeSessions() {
+  WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(), bus_);
 }
 
 std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* id) {

@@ -61,7 +61,7 @@ class SessionRecorder {
   /// acknowledgement, as far as it could be read. Returns why it can never be stored, "" if it is.
   /// Throws SqliteError if the database fails.
   std::string Store(const ReceivedMessage& message, std::string* id);
-  void DescribeSessions(const std::string& bus = "");
+  void DescribeSessions();
 
   SessionFolder folder_;
   std::string sender_;
@@ -70,6 +70,7 @@ class SessionRecorder {
   EventLog event_log_;
   ResultsDatabase database_;
   RecorderTally tally_;
+  std::string bus_;  ///< BusJson's of the parts of the session before, and of this one at its end.
 };
 
 }  // namespace planbench

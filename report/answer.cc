@@ -269,7 +269,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     if (session.imported) {
       cautions.push_back(fmt::format(
           "{}: {} runs from elsewhere, on another machine or under other conditions; no referee "
-          "judged their paths: confirmed are those that the file calls solved.",
+          "judged their paths: confirmed are those that the file calls solved, in time.",
           name, num_runs));
     } else if (!session.described) {
       cautions.push_back(fmt::format(

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -17,15 +16,14 @@
 
 #include "common/error.h"
 #include "common/file_kind.h"
-#include "common/read_text.h"
 #include "common/sibling_program.h"
-#include "common/write_file.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
 #include "messaging/event_log_reader.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
+#include "results/bus_json.h"
 #include "results/reproduce.h"
 #include "results/shell_quoted.h"
 
@@ -144,51 +142,6 @@ RunRecordMessage Renamed(RunRecordMessage record, const std::string& run_id) {
   return record;
 }
 
-/// Sums of what run.json files say of their buses, contradictions one after the other.
-class BusSum {
- public:
-  /// Throws InputError if the folder's file is none of a logger's.
-  void Add(const fs::path& folder) {
-    const fs::path file = folder / "run.json";
-    if (!IsFile(file)) {
-      unknown_.push_back(folder.string());
-      return;
-    }
-    try {
-      const Json run = Json::parse(ReadText(file));
-      const auto bus = run.find("bus");
-      if (bus == run.end()) return;
-      for (const auto& [name, value] : bus->items()) {
-        if (value.is_array()) {
-          for (const Json& one : value) sum_[name].push_back(one);
-        } else {
-          sum_[name] = sum_.value(name, std::int64_t{0}) + value.get<std::int64_t>();
-        }
-      }
-    } catch (const nlohmann::json::exception& error) {
-      throw InputError(
-          fmt::format("--merge: {} is none that a logger wrote: {}", file.string(), error.what()));
-    }
-  }
-
-  /// Into the run.json of the folder, which its logger wrote without a bus.
-  void Write(const fs::path& folder) const {
-    if (sum_.empty()) return;
-    Json run = Json::parse(ReadText(folder / "run.json"));
-    run["bus"] = sum_;
-    WriteFile(folder / "run.json", run.dump(2) + "\n");
-  }
-
-  /// Folders that do not tell.
-  const std::vector<std::string>& unknown() const { return unknown_; }
-
- private:
-  using Json = nlohmann::ordered_json;
-
-  Json sum_ = Json::object();
-  std::vector<std::string> unknown_;
-};
-
 /// A folder beside another, removed with all it holds at the end.
 class FolderBeside {
  public:
@@ -235,7 +188,11 @@ class Merge {
       if (place == part.told.end()) part.folder = folder;
       part.told.insert(place, std::move(session));
     }
-    bus_.Add(folder);
+    if (const fs::path run_json = fs::path(folder) / "run.json"; IsFile(run_json)) {
+      bus_ = AddBusJson(bus_, ReadBusJson(run_json));
+    } else {
+      without_bus_.push_back(folder);
+    }
     for (RunRecordMessage& record : recorded.runs) {
       const auto part = parts_.find(record.run_id);
       if (part == parts_.end()) {
@@ -302,7 +259,8 @@ class Merge {
     log.Flush();
   }
 
-  const BusSum& bus() const { return bus_; }
+  /// What was odd on the buses of all (results/bus_json.h).
+  const std::string& bus() const { return bus_; }
 
   std::string Summary(const fs::path& out) const {
     return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}",
@@ -311,11 +269,11 @@ class Merge {
                        missing_shards_.empty()
                            ? ""
                            : fmt::format("; shards missing: {}", fmt::join(missing_shards_, ", ")),
-                       bus_.unknown().empty()
+                       without_bus_.empty()
                            ? ""
                            : fmt::format("; without run.json, so that what was lost on the bus is "
                                          "not known: {}",
-                                         fmt::join(bus_.unknown(), ", ")));
+                                         fmt::join(without_bus_, ", ")));
   }
 
  private:
@@ -397,7 +355,8 @@ class Merge {
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
   std::set<std::string> missing_shards_;
-  BusSum bus_;
+  std::string bus_;
+  std::vector<std::string> without_bus_;  ///< Folders that do not tell.
   SessionMessage session_;
 };
 
@@ -420,7 +379,7 @@ std::string MergeSessions(const std::vector<std::string>& session_folders, const
                               ShellQuoted(messages.string()), ShellQuoted(out.string()))
                       .c_str());
   if (code != 0) throw InputError("--merge: " + out.string() + " could not be written");
-  merge.bus().Write(out);
+  WriteBusJson(out / "run.json", merge.bus());
   return merge.Summary(out);
 }
 

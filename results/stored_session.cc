@@ -11,8 +11,8 @@
 
 #include "common/error.h"
 #include "common/file_kind.h"
-#include "common/read_text.h"
 #include "common/sqlite.h"
+#include "results/bus_json.h"
 #include "results/database_version.h"
 
 namespace planbench {
@@ -131,15 +131,14 @@ std::vector<Field> Fields() {
 /// "bus" of the folder's run.json, which the logger writes there where anything was odd.
 std::optional<BusRecord> ReadBusRecord(const std::filesystem::path& run_json) {
   if (!IsFile(run_json)) return std::nullopt;
-  const auto json = nlohmann::json::parse(ReadText(run_json), nullptr, false);
-  if (!json.is_object()) throw InputError(run_json.filename().string() + ": is no JSON object");
   BusRecord record;
-  const auto bus = json.find("bus");
-  if (bus == json.end()) return record;
-  record.malformed = bus->value("malformed_packets", std::int64_t{0});
-  record.lost = bus->value("lost_messages", std::int64_t{0});
-  record.dropped = bus->value("dropped_messages", std::int64_t{0});
-  for (const auto& one : bus->value("contradictions", nlohmann::json::array())) {
+  const std::string text = ReadBusJson(run_json);
+  if (text.empty()) return record;
+  const auto bus = nlohmann::json::parse(text);
+  record.malformed = bus.value("malformed_packets", std::int64_t{0});
+  record.lost = bus.value("lost_messages", std::int64_t{0});
+  record.dropped = bus.value("dropped_messages", std::int64_t{0});
+  for (const auto& one : bus.value("contradictions", nlohmann::json::array())) {
     record.contradictions += one.value("count", std::int64_t{0});
   }
   return record;

@@ -202,6 +202,18 @@ TEST_F(SessionRecorderTest, AResumedDatabaseIsBroughtUpToDateWithTheLog) {
   EXPECT_EQ(Events().size(), 4);
 }
 
+TEST_F(SessionRecorderTest, WhatWasLostOnTheBusIsThatOfAllParts) {
+  const auto lost = [&] {
+    return nlohmann::json::parse(TextOf(Folder() / "run.json")).at("bus").at("lost_messages");
+  };
+  Open()->Report(R"({"lost_messages": 3})");
+  EXPECT_EQ(lost(), 3);
+  Open(true)->Record(Received(channel::kSession, SampleSession()));
+  EXPECT_EQ(lost(), 3);
+  Open(true)->Report(R"({"lost_messages": 4})");
+  EXPECT_EQ(lost(), 7);
+}
+
 TEST_F(SessionRecorderTest, AReplayBuildsAnEqualDatabase) {
   {
     const auto recorder = Open();

@@ -1,0 +1,59 @@
+#include "results/bus_json.h"
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "common/error.h"
+#include "common/read_text.h"
+#include "common/write_file.h"
+
+namespace planbench {
+namespace {
+
+// Keeps the order in which keys are written, for the reader's sake.
+using Json = nlohmann::ordered_json;
+
+constexpr char kBus[] = "bus";
+
+}  // namespace
+
+std::string ReadBusJson(const std::filesystem::path& run_json) {
+  try {
+    const Json run = Json::parse(ReadText(run_json));
+    if (!run.is_object()) throw InputError("is no JSON object");
+    if (!run.contains(kBus)) return "";
+    return AddBusJson(run.at(kBus).dump(), "");
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(run_json.string() + ": is none that a logger wrote: " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(run_json.string() + ": " + error.what());
+  }
+}
+
+std::string AddBusJson(const std::string& first, const std::string& second) {
+  Json sum = Json::object();
+  try {
+    for (const std::string& bus : {first, second}) {
+      if (bus.empty()) continue;
+      for (const auto& [name, value] : Json::parse(bus).items()) {
+        if (value.is_array()) {
+          for (const Json& one : value) sum[name].push_back(one);
+        } else {
+          sum[name] = sum.value(name, std::int64_t{0}) + value.get<std::int64_t>();
+        }
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(std::string("what is told of the bus is none of a logger's: ") + error.what());
+  }
+  return sum.empty() ? "" : sum.dump();
+}
+
+void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus) {
+  if (bus.empty()) return;
+  Json run = Json::parse(ReadText(run_json));
+  run[kBus] = Json::parse(bus);
+  WriteFile(run_json, run.dump(2) + "\n");
+}
+
+}  // namespace planbench

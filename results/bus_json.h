@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace planbench {
+
+// What was odd on the bus while a session folder was written: "bus" of its run.json, a JSON object
+// of counts and of a list of contradictions; "" if nothing was.
+
+/// Throws InputError naming the file if it is none that a logger wrote.
+std::string ReadBusJson(const std::filesystem::path& run_json);
+
+/// Both together: counts added up, contradictions one after the other. Throws InputError if one is
+/// none of ReadBusJson's.
+std::string AddBusJson(const std::string& first, const std::string& second);
+
+/// Has the run.json of a folder tell that, if it is not "". Throws InputError if it cannot be
+/// written.
+void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus);
+
+}  // namespace planbench
