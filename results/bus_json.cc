@@ -35,7 +35,8 @@ std::string AddBusJson(const std::string& first, const std::string& second) {
   try {
     for (const std::string& bus : {first, second}) {
       if (bus.empty()) continue;
-      for (const auto& [name, value] : Json::parse(bus).items()) {
+      const Json told = Json::parse(bus);  // must outlive what goes over it
+      for (const auto& [name, value] : told.items()) {
         if (value.is_array()) {
           for (const Json& one : value) sum[name].push_back(one);
         } else {
