@@ -70,7 +70,10 @@ class ObjReader {
     for (std::string_view word = TakeWord(&words); !word.empty(); word = TakeWord(&words)) {
       corners.push_back(ReadIndex(word));
     }
-    if (corners.size() < 3) return;  // Points and lines have no surface.
+    // Lines and points have elements of their own: this one lost its corners.
+    if (corners.size() < 3) {
+      Fail(lines_.number(), "f: a face has three corners at least; is the file cut off?");
+    }
     faces_ += 'f';
     for (const int corner : corners) fmt::format_to(std::back_inserter(faces_), " {}", corner);
     faces_ += '\n';

@@ -52,6 +52,8 @@ class AsciiReader {
   AsciiReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {
     while (const auto line = lines_.Next()) ReadLine(*line);
     if (within_facet_) Fail("the file ends within a facet; it is cut off");
+    // Where facets are lost a planner would go through what they were of.
+    if (!ended_) Fail("the file ends without endsolid; it may be cut off (add it if it is whole)");
   }
 
   Triangles Take() { return std::move(triangles_); }
@@ -64,7 +66,9 @@ class AsciiReader {
   void ReadLine(std::string_view line) {
     while (true) {
       const std::string word = LowerCase(TakeWord(&line));
-      if (word.empty() || word == "solid" || word == "endsolid") return;  // A name follows.
+      if (word.empty()) return;
+      ended_ = word == "endsolid";
+      if (ended_ || word == "solid") return;  // A name follows.
       if (word == "facet") {
         if (within_facet_) Fail("facet: the one before has no endfacet");
         within_facet_ = true;
@@ -104,6 +108,7 @@ class AsciiReader {
   std::array<Vector3d, 3> corners_;
   std::size_t num_corners_ = 0;  // Of the facet so far.
   bool within_facet_ = false;
+  bool ended_ = false;  // By endsolid, which nothing has followed.
 };
 
 [[noreturn]] void RefuseSize(std::string_view data, const std::string& file) {

@@ -248,12 +248,13 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
     name.Fail(fmt::format("made for the robot '{}', given is '{}'", name.String(), robot.name));
   }
   const YamlNode group_node = node.At("group");
-  spec->group = group_node.String();
   const PlanningGroup* group = nullptr;
-  for (const PlanningGroup& candidate : robot.groups) {
-    if (candidate.name == spec->group) group = &candidate;
+  try {
+    group = &robot.Group(group_node.String());
+  } catch (const InputError& error) {
+    group_node.Fail(error.what());
   }
-  if (group == nullptr) group_node.Fail("the robot has no such group");
+  spec->group = group->name;
 
   std::vector<double> rest = model.DefaultPositions();
   if (const auto joints = node.Find("rest")) ReadJoints(*joints, model, nullptr, &rest);

@@ -207,14 +207,15 @@ TEST_F(LoadMeshTest, ReadsObjFacesOfEveryForm) {
        {"f 1 2 3 4", "f 1/1 2/1 3/1 4/1", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/1/1 3/1/1 4/1/1",
         "f -4 -3 -2 -1", "f -4//-1 -3//-1 -2//-1 4"}) {
     SCOPED_TRACE(face);
-    const TriangleMesh mesh = LoadMesh(folder_.Write("square.obj", square + face + "\nf 1 2\n"));
+    const TriangleMesh mesh = LoadMesh(folder_.Write("square.obj", square + face + "\nl 1 2\n"));
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.vertices.size(), 4u);
   }
   EXPECT_EQ(LoadMesh(folder_.Write("early.obj", "f 1 2 3\n" + square)).triangles.size(), 1u);
   const std::vector<std::pair<std::string, std::string>> bad = {
-      {"f 1 2 5", "no vertex 5"}, {"f 0 1 2", "'0'"},   {"f -5 1 2", "'-5'"},   {"f 1 2 c", "'c'"},
-      {"v 1 2", "three"},         {"v 1 x 2", "three"}, {"v 1 nan 2", "finite"}};
+      {"f 1 2 5", "no vertex 5"}, {"f 0 1 2", "'0'"},         {"f -5 1 2", "'-5'"},
+      {"f 1 2 c", "'c'"},         {"f 1 2", "three corners"}, {"v 1 2", "three"},
+      {"v 1 x 2", "three"},       {"v 1 nan 2", "finite"}};
   for (const auto& [line, what] : bad) {
     const auto file = folder_.Write("bad.obj", square + line + "\nf 1 2 3\n");
     ExpectInputError([&file] { LoadMesh(file); }, {file.string() + ":7:", what});
@@ -228,7 +229,6 @@ TEST_F(LoadMeshTest, TakesStlFilesForWhatTheyAreAndNotForWhatTheyCallThemselves)
   const std::vector<std::pair<std::string, std::string>> forms = {
       {"binary that begins with solid", std::string(binary).replace(0, 5, "solid")},
       {"binary, filled up", std::string(binary).replace(0, 5, "solid") + std::string(7, '\0')},
-      {"no endsolid", ascii.substr(0, ascii.find("endsolid"))},
       {"upper case", Replaced(Replaced(ascii, "vertex", "VERTEX"), "solid", "SOLID")},
       {"spaces before", "\n  " + ascii},
       {"CRLF", Replaced(ascii, "\n", "\r\n")},
@@ -251,6 +251,8 @@ TEST_F(LoadMeshTest, SaysWhereStlFilesAreCutOff) {
       {binary.substr(0, 60), {"is no STL", "60 bytes"}},
       {ascii.substr(0, ascii.find("endloop")), {":7:", "within a facet"}},
       {ascii.substr(0, ascii.find("vertex") + 9), {":4:", "three numbers"}},
+      {ascii.substr(0, ascii.find("endsolid")), {"without endsolid"}},
+      {ascii.substr(0, ascii.find("endfacet") + 12), {"without endsolid"}},
       {Replaced(ascii, "endloop", "vertex 0 0 0 endloop"), {":8:", "4 corners"}}};
   for (const auto& [content, message] : files) {
     const auto file = folder_.Write("cut.stl", content);
