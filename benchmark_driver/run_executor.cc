@@ -10,6 +10,7 @@
 #include "common/random_id.h"
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 namespace {
@@ -20,8 +21,6 @@ constexpr std::chrono::milliseconds kServerRetry{250};
 constexpr std::chrono::seconds kServerPatience{10};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
-/// Of times that are added up.
-constexpr double kRounding = 1e-9;
 
 std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
                                                      const std::string& channel) {
@@ -279,7 +278,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
     return record;
   }
   if (const double time_s = record.result.result.planning_time_s;
-      time_s > (1 + kRounding) * record.request.time_limit_s) {
+      IsLate(time_s, record.request.time_limit_s)) {
     record.status = PlanStatus::kTimedOut;
     record.message =
         fmt::format("the planner says that its path took {:.6g} s, the limit being {} s", time_s,

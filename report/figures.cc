@@ -11,6 +11,7 @@
 #include "common/version.h"
 #include "planning/path_measures.h"
 #include "report/answer.h"
+#include "report/session_tables.h"
 #include "results/curves.h"
 #include "results/quality.h"
 

@@ -8,13 +8,12 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "common/numbers.h"
 #include "planning/path_measures.h"
+#include "report/session_tables.h"
 #include "results/quality.h"
-#include "results/reproduce.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -27,11 +26,6 @@ Estimate Milliseconds(double value_s, const std::optional<Interval>& interval_s)
     estimate.interval->upper *= kMsPerS;
   }
   return estimate;
-}
-
-/// NaN, which is shown as nothing, for none.
-double OrNothing(const std::optional<double>& value) {
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Calls `visit` with each set, contestant and its outcomes, in the contestants' order.
@@ -384,228 +378,6 @@ Table MeshTable(const ComparedSessions& compared) {
              depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
              kMsPerS * Summarize(times_s).median, Commonest(contacts)});
       });
-  return table;
-}
-
-namespace {
-
-/// Settings by name, of the contestant of that name; none without one.
-std::map<std::string, std::string> SettingsOf(const StoredSession& session,
-                                              const std::string& contestant) {
-  std::map<std::string, std::string> settings;
-  for (const StoredContestant& one : session.contestants) {
-    if (one.name != contestant) continue;
-    std::istringstream lines(one.settings);
-    for (std::string line; std::getline(lines, line);) {
-      const std::size_t at = line.find(" = ");
-      if (at != std::string::npos) settings[line.substr(0, at)] = line.substr(at + 3);
-    }
-  }
-  return settings;
-}
-
-/// Names of settings, of the contestants that several sessions have.
-std::map<std::string, std::set<std::string>> SettingsByContestant(
-    const ComparedSessions& compared) {
-  std::map<std::string, std::set<std::size_t>> sessions;
-  for (const ComparedContestant& one : compared.contestants()) {
-    sessions[one.own_name].insert(one.session);
-  }
-  std::map<std::string, std::set<std::string>> names;
-  for (const auto& [contestant, in] : sessions) {
-    if (in.size() < 2) continue;
-    for (const std::size_t session : in) {
-      for (const auto& [name, value] : SettingsOf(compared.sessions()[session], contestant)) {
-        names[contestant].insert(name);
-      }
-    }
-  }
-  return names;
-}
-
-}  // namespace
-
-Table SessionTable(const ComparedSessions& compared, bool only_different) {
-  Table table{"sessions", only_different ? "Where the sessions differ" : "Sessions", "", {}, {}};
-  table.columns.push_back({"field", ""});
-  // By field, in the order of the table; a session without it has "".
-  std::vector<std::pair<std::string, std::vector<std::string>>> fields;
-  const auto field = [&](const std::string& name, const auto& value_of) {
-    std::vector<std::string> values;
-    for (const StoredSession& session : compared.sessions()) values.push_back(value_of(session));
-    const bool different = std::any_of(values.begin(), values.end(),
-                                       [&](const auto& value) { return value != values.front(); });
-    if (different || !only_different) fields.emplace_back(name, std::move(values));
-  };
-  const auto member = [](std::string StoredSession::*text) {
-    return [text](const StoredSession& session) { return session.*text; };
-  };
-  field("session", member(&StoredSession::run_id));
-  field("begun", member(&StoredSession::date));
-  field("version", member(&StoredSession::version));
-  field("commit", member(&StoredSession::commit));
-  field("host", member(&StoredSession::host));
-  field("processor", member(&StoredSession::cpu));
-  std::set<std::string> told;
-  for (const StoredSession& session : compared.sessions()) {
-    for (const auto& [name, value] : session.machine) told.insert(name);
-  }
-  told.erase("cpu");  // that of the session
-  for (const std::string& name : told) {
-    field(name, [&](const StoredSession& session) {
-      const auto found = session.machine.find(name);
-      return found == session.machine.end() ? std::string() : found->second;
-    });
-  }
-  field("robot", member(&StoredSession::robot));
-  field("seed", member(&StoredSession::seed));
-  std::set<std::string> flags;
-  for (const StoredSession& session : compared.sessions()) {
-    for (const auto& [flag, value] : session.flags) flags.insert(flag);
-  }
-  for (const std::string& flag : flags) {
-    if (flag == kMergedCommands) continue;
-    if (!only_different && flag != "time" && flag != "trials") continue;
-    field("--" + flag, [&](const StoredSession& session) {
-      const auto found = session.flags.find(flag);
-      return found == session.flags.end() ? std::string() : found->second;
-    });
-  }
-  if (only_different) {
-    for (const auto& [name, keys] : SettingsByContestant(compared)) {
-      for (const std::string& key : keys) {
-        field(fmt::format("{}: {}", name, key), [&](const StoredSession& session) {
-          const auto settings = SettingsOf(session, name);
-          const auto found = settings.find(key);
-          return found == settings.end() ? std::string() : found->second;
-        });
-      }
-    }
-  }
-  if (!only_different) {
-    field("command",
-          [](const StoredSession& session) { return ReproducingCommand(session.flags); });
-  }
-  for (std::size_t i = 0; i < compared.sessions().size(); ++i) {
-    table.columns.push_back({fmt::format("session_{}", i + 1), compared.session_names()[i]});
-  }
-  for (auto& [name, values] : fields) {
-    std::vector<Cell> row = {name};
-    row.insert(row.end(), values.begin(), values.end());
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
-  Table table{
-      "changes",
-      "What changed from session to session",
-      "Contestants of one name, on the problems that both sessions have, against the session that "
-      "was "
-      "begun first. Time ratio: geometric mean of after / before over the problems solved in both, "
-      "with a bootstrap 95 % interval. p: signed-rank test of problem by problem, adjusted for all "
-      "rows (Holm). Faster or slower: beyond chance at the 5 % level.",
-      {{"set", "set"},
-       {"contestant", "contestant"},
-       {"before", "before"},
-       {"after", "after"},
-       {"problems", "problems", Style::kCount},
-       {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
-       {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
-       {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
-       {"p_holm", "p (Holm)", Style::kPValue},
-       {"change", "change"}},
-      {}};
-  const auto begun = [&](const ComparedContestant& one) -> const std::string& {
-    return compared.sessions()[one.session].date;
-  };
-  std::vector<PairedComparison> results;
-  const auto confirmed = [](const Outcomes& outcomes) {
-    const SuccessSummary s = SummarizeSuccess(outcomes);
-    return Estimate{100 * s.share, Interval{100 * s.interval.lower, 100 * s.interval.upper}};
-  };
-  for (const auto& [set, by_contestant] : compared.outcomes()) {
-    for (const ComparedContestant& after : compared.contestants()) {
-      const ComparedContestant* before = nullptr;
-      for (const ComparedContestant& one : compared.contestants()) {
-        const bool is_other = one.own_name == after.own_name && one.session != after.session;
-        if (!is_other || !by_contestant.contains(one.name)) continue;
-        if (begun(one) < begun(after) && (before == nullptr || begun(one) < begun(*before))) {
-          before = &one;
-        }
-      }
-      if (before == nullptr || !by_contestant.contains(after.name)) continue;
-      const Outcomes& old_outcomes = by_contestant.at(before->name);
-      const Outcomes& new_outcomes = by_contestant.at(after.name);
-      const PairedComparison result = Compare(new_outcomes, old_outcomes, seed);
-      if (result.num_problems == 0) continue;
-      table.rows.push_back(
-          {set, after.own_name, compared.session_names()[before->session],
-           compared.session_names()[after.session], result.num_problems, confirmed(old_outcomes),
-           confirmed(new_outcomes),
-           result.ratio ? Cell(Estimate{result.ratio->mean, result.ratio->interval}) : Cell()});
-      results.push_back(result);
-    }
-  }
-  std::vector<double> p_values;
-  for (const PairedComparison& result : results) p_values.push_back(result.test.p_value);
-  const std::vector<double> adjusted = AdjustPValues(p_values);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const double effect = results[i].test.RankBiserial();
-    const bool sure = adjusted[i] <= 0.05;
-    table.rows[i].emplace_back(adjusted[i]);
-    table.rows[i].emplace_back(std::string(!sure ? "not shown" : effect < 0 ? "faster" : "slower"));
-  }
-  return table;
-}
-
-Table ConditionTable(const ComparedSessions& compared) {
-  Table table{"conditions",
-              "Conditions of the measurement",
-              "Spread: longest over shortest time among the trials of a problem, its median over "
-              "the problems whose trials were all confirmed: the luck of the draw and the noise of "
-              "the machine. Noise: the same of what a checked configuration cost on average, in "
-              "which luck counts little. Both need several trials of a problem, which a "
-              "contestant whose path does not depend on the seed has none of. Load before: of the "
-              "machine over the minute before a run, the session's own included; median. Waited: "
-              "for a processor, or while a hypervisor had it, of all the time from request to "
-              "answer. Disturbed: runs that lost more than --max-disturbance so; repeated: had "
-              "been, and were made again.",
-              {{"session", "session"},
-               {"contestant", "contestant"},
-               {"attempts", "attempts", Style::kCount},
-               {"no_answer", "no answer", Style::kCount},
-               {"spread", "spread of trials", Style::kNumber},
-               {"noise", "noise of the machine", Style::kNumber},
-               {"load_before", "load before", Style::kNumber},
-               {"waiting_percent", "waited, %", Style::kNumber},
-               {"disturbed", "disturbed", Style::kCount},
-               {"repeated", "repeated", Style::kCount}},
-              {}};
-  for (const ComparedContestant& contestant : compared.contestants()) {
-    const auto silent =
-        std::count_if(contestant.runs.begin(), contestant.runs.end(),
-                      [](auto* run) { return run->status == PlanStatus::kNoAnswer; });
-    std::vector<double> loads;
-    double waiting_s = 0, measured_s = 0;
-    for (const StoredRun* run : contestant.runs) {
-      if (run->load_before) loads.push_back(*run->load_before);
-      if (!run->waiting_s) continue;
-      waiting_s += *run->waiting_s + run->steal_s.value_or(0);
-      measured_s += run->roundtrip_time_s;
-    }
-    const auto disturbed = std::count_if(contestant.runs.begin(), contestant.runs.end(),
-                                         [](auto* run) { return run->disturbed; });
-    const auto repeated = std::count_if(contestant.runs.begin(), contestant.runs.end(),
-                                        [](auto* run) { return run->repeats > 0; });
-    table.rows.push_back({compared.session_names()[contestant.session], contestant.name,
-                          static_cast<int>(contestant.runs.size()), static_cast<int>(silent),
-                          OrNothing(TrialSpread(compared.pooled().at(contestant.name))),
-                          OrNothing(CheckingSpread(contestant)), Summarize(std::move(loads)).median,
-                          100 * waiting_s / measured_s, static_cast<int>(disturbed),
-                          static_cast<int>(repeated)});
-  }
   return table;
 }
 

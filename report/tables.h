@@ -38,14 +38,8 @@ Table PhaseTable(const ComparedSessions& compared);
 Table FailureTable(const ComparedSessions& compared);
 /// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
 Table MeshTable(const ComparedSessions& compared);
-/// What the sessions were, side by side; `only_different`: where they differ.
-Table SessionTable(const ComparedSessions& compared, bool only_different);
-/// Contestants of one name in several sessions, each against that of the session begun first.
-Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed);
-/// What the conditions of the measurement leave uncertain.
-Table ConditionTable(const ComparedSessions& compared);
 
-/// All of them that have rows.
+/// All of them and those of the sessions (session_tables.h) that have rows.
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed);
 

@@ -95,7 +95,7 @@ std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_n
 }  // namespace
 
 bool ComparedContestant::IsTrainedOn(const std::string& problem_set) const {
-  return planbench::IsTrainedOn(LearnedFrom(settings), problem_set);
+  return planbench::IsTrainedOn(LearnedFrom(ParseSettings(settings)), problem_set);
 }
 
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {

@@ -15,6 +15,7 @@
 #include "common/error.h"
 #include "common/read_text.h"
 #include "common/text.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 namespace {
@@ -92,12 +93,6 @@ class Row {
 constexpr int kMostProblems = 1'000'000;
 constexpr double kLongest = 1e9;  // s
 
-/// Whether the path that was found came after the limit, which makes it none.
-bool IsLate(const StoredRun& run) {
-  constexpr double kRounding = 1e-9;  // relative, of times as text
-  return run.claimed && run.time_limit_s > 0 && *run.time_s > (1 + kRounding) * run.time_limit_s;
-}
-
 StoredRun ReadRun(const Row& row, double time_limit_s) {
   StoredRun run;
   run.problem_set = row.Text("problem_set");
@@ -115,7 +110,7 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
     run.direction = *direction;
   }
   if (row.Has("reason")) run.message = row.Text("reason");
-  if (IsLate(run)) {
+  if (run.claimed && run.time_limit_s > 0 && IsLate(*run.time_s, run.time_limit_s)) {
     run.status = PlanStatus::kTimedOut;
     run.message = fmt::format("solved after {} s, beyond the time limit of {} s", *run.time_s,
                               run.time_limit_s);
@@ -165,7 +160,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
       row.Fail("trial", fmt::format("a trial of its own of problem {} of '{}'", run.problem_index,
                                     run.problem_set));
     }
-    if (IsLate(run)) ++num_late;
+    if (run.claimed && !run.confirmed()) ++num_late;
     session.runs.push_back(std::move(run));
   }
   if (num_late > 0) {

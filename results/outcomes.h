@@ -21,6 +21,12 @@ struct Attempt {
   double time_limit_s = 0;
 };
 
+/// Whether a path that took so long came too late, but for what rounding makes of times that were
+/// added up or written as text.
+inline bool IsLate(double time_s, double time_limit_s) {
+  return time_s > (1 + 1e-9) * time_limit_s;
+}
+
 /// How the attempts of one contestant and trial at one problem ended.
 struct Outcome {
   enum class Kind {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -288,6 +289,17 @@ class Reader {
 };
 
 }  // namespace
+
+std::map<std::string, std::string> ParseSettings(const std::string& settings) {
+  const std::string between = " = ";
+  std::map<std::string, std::string> by_name;
+  std::istringstream lines(settings);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find(between);
+    if (end != std::string::npos) by_name[line.substr(0, end)] = line.substr(end + between.size());
+  }
+  return by_name;
+}
 
 StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
   std::filesystem::path file = folder_or_file;

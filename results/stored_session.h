@@ -55,6 +55,9 @@ struct StoredContestant {
   std::string settings;  ///< "key = value", one a line.
 };
 
+/// Such settings, by key; lines of other forms are left out.
+std::map<std::string, std::string> ParseSettings(const std::string& settings);
+
 /// What was odd on the bus while a session folder was written, as its logger tells.
 struct BusRecord {
   std::int64_t malformed = 0;       ///< Packets that are none of LCM's.

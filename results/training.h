@@ -17,8 +17,6 @@ inline constexpr char kTrainedNote[] =
 /// The problem sets from which a contestant of such settings, or the one whose path it is given,
 /// has learned, ", " between; empty if there are none.
 std::string LearnedFrom(const std::map<std::string, std::string>& settings);
-/// The same of settings as a results database holds them: "key = value", one a line.
-std::string LearnedFrom(const std::string& settings);
 
 /// Whether what was learned from these sets (LearnedFrom) was learned from `problem_set`.
 bool IsTrainedOn(const std::string& learned_from, const std::string& problem_set);

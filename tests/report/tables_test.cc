@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "report/answer.h"
 #include "report/figures.h"
+#include "report/session_tables.h"
 #include "tests/report/example_session.h"
 #include "tests/support/temporary_folder.h"
 

@@ -156,10 +156,11 @@ TEST(GroupFailuresTest, ReasonsThatDifferInFiguresAloneAreOneAsFirstWorded) {
 }
 
 TEST(TrainingTest, SettingsTellTheSetsLearnedFrom) {
-  EXPECT_EQ(LearnedFrom("algorithm = RRT\nlearned_from = a set, b\nrange = 1\n"), "a set, b");
-  EXPECT_EQ(LearnedFrom("first_path_learned_from = c\n"), "c");
-  EXPECT_EQ(LearnedFrom("learned_from = b\nfirst_path_learned_from = c\n"), "b, c");
-  EXPECT_EQ(LearnedFrom("imported from learned_from.csv\n"), "");
+  EXPECT_EQ(LearnedFrom(ParseSettings("algorithm = RRT\nlearned_from = a set, b\nrange = 1\n")),
+            "a set, b");
+  EXPECT_EQ(LearnedFrom(ParseSettings("first_path_learned_from = c\n")), "c");
+  EXPECT_EQ(LearnedFrom(ParseSettings("learned_from = b\nfirst_path_learned_from = c\n")), "b, c");
+  EXPECT_EQ(LearnedFrom(ParseSettings("imported from learned_from.csv\n")), "");
   EXPECT_TRUE(IsTrainedOn("a set, b", "a set"));
   EXPECT_TRUE(IsTrainedOn("a set, b", "b"));
   EXPECT_FALSE(IsTrainedOn("a set, b", "set"));
