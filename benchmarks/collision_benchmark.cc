@@ -2,7 +2,7 @@
 // (edges) per second of CPU time on one core.
 //
 //   collision_benchmark --problems DIR [--index N] [--robot DIR] [--model spheres|voxels|meshes]
-//   [--engine fast|exact] [--spheres N] [--edge-check fixed|certified] [--benchmark_... flags]
+//   [--engine fast|exact] [--num-spheres N] [--edge-check fixed|certified] [--benchmark_... flags]
 //
 // Names: check: one configuration a call; block: 16 a call; edge: of at most that length (L2, rad
 // and m), as planners check them; unit_edge: free edges of 1 rad at 32 samples; boxes: random
@@ -29,6 +29,7 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "messaging/robot_flags.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
@@ -49,9 +50,9 @@ struct Workload {
   std::vector<Configuration> free;    ///< Those of `random` that are free.
 };
 
-Workload Prepare(const std::string& robot_folder, const std::string& problems, int index) {
+Workload Prepare(const RobotFlags& robot, const std::string& problems, int index) {
   Workload work;
-  work.robot = LoadRobot(robot_folder);
+  work.robot = robot.Load();
   const ProblemSet set = ListProblemSet(problems);
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));
@@ -335,13 +336,13 @@ void Register(Workload* work) {
 int Main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::string problems;
-  std::string robot = PLANBENCH_SOURCE_DIR "/robots/fetch";
+  RobotFlags robot{.folder = "fetch"};
   CollisionModel model = CollisionModel::kSpheres;
   int index = 1;
   CLI::App app("Throughput of collision checking on one problem", "collision_benchmark");
   app.add_option("--problems", problems, "Folder of a problem set")->required();
   app.add_option("--index", index, "Number of the problem")->capture_default_str();
-  app.add_option("--robot", robot, "Robot folder")->capture_default_str();
+  robot.AddTo(&app).front()->capture_default_str();
   app.add_option("--model", model, "Collision model; default: spheres")
       ->transform(OneOf<CollisionModel>());
   std::string engine = "fast";
@@ -352,7 +353,7 @@ int Main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--edge-check", edge_check, "Method; default: fixed")
       ->transform(OneOf<EdgeCheck>());
-  app.add_option("--spheres", num_spheres, "Reduce the robot's spheres to this many");
+  app.add_option("--num-spheres", num_spheres, "Reduce the robot's spheres to this many");
   return RunCommand(&app, argc, argv, [&] {
     Workload work = Prepare(robot, problems, index);
     if (num_spheres > 0) ReduceSpheres(&work.robot, num_spheres);

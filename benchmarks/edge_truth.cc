@@ -2,7 +2,7 @@
 // that the exact engine judges otherwise. Edges accepted by the certified and by the fixed method:
 // checked again at 64 times the resolution; what then collides is judged by the exact engine.
 //
-//   edge_truth --problems DIR [--index N] [--robot DIR]
+//   edge_truth --problems DIR [--index N] [--robot DIR] [--package-path NAME=DIR]
 //   [--model spheres|meshes|enclosing] [--configurations 1000000] [--edges 1000000] [--length 0.5]
 
 #include <fmt/format.h>
@@ -21,6 +21,7 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "messaging/robot_flags.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 
@@ -82,7 +83,7 @@ void CompareConfigurations(CollisionChecker* fast, CollisionChecker* exact, long
 
 int Main(int argc, char** argv) {
   std::string problems;
-  std::string robot_folder = PLANBENCH_SOURCE_DIR "/robots/fetch";
+  RobotFlags robot_flags{.folder = "fetch"};
   int index = 1;
   CollisionModel model = CollisionModel::kSpheres;
   long long num_configurations = 1'000'000;
@@ -93,7 +94,7 @@ int Main(int argc, char** argv) {
       "edge_truth");
   app.add_option("--problems", problems, "Folder of a problem set")->required();
   app.add_option("--index", index, "Number of the problem")->capture_default_str();
-  app.add_option("--robot", robot_folder, "Robot folder")->capture_default_str();
+  robot_flags.AddTo(&app).front()->capture_default_str();
   app.add_option("--model", model, "Collision model; default: spheres")
       ->transform(OneOf<CollisionModel>());
   app.add_option("--configurations", num_configurations, "Random configurations to compare")
@@ -101,7 +102,7 @@ int Main(int argc, char** argv) {
   app.add_option("--edges", num_edges, "Certified edges to accept")->capture_default_str();
   app.add_option("--length", length, "Longest edge, rad and m")->capture_default_str();
   return RunCommand(&app, argc, argv, [&] {
-    const Robot robot = LoadRobot(robot_folder);
+    const Robot robot = robot_flags.Load();
     const ProblemSet set = ListProblemSet(problems);
     const ProblemFiles* files = set.Find(index);
     if (files == nullptr) throw InputError(fmt::format("{} has no problem {}", problems, index));

@@ -28,6 +28,7 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "messaging/robot_flags.h"
 #include "planner_ara/ara_planner.h"
 #include "planner_rrtc/rrtc_planner.h"
 #include "planner_trajopt/trajopt_planner.h"
@@ -41,7 +42,7 @@ namespace planbench {
 namespace {
 
 struct Flags {
-  std::string robot = PLANBENCH_SOURCE_DIR "/robots/fetch";
+  RobotFlags robot{.folder = "fetch"};
   std::vector<std::string> problems;
   std::string planner = "ara";
   std::string config;
@@ -252,7 +253,7 @@ int Main(int argc, char** argv) {
   Flags flags;
   CLI::App app("One planner over problem sets, without the bus", "planner_benchmark");
   app.add_option("--problems", flags.problems, "Folders of problem sets")->required();
-  app.add_option("--robot", flags.robot, "Robot folder")->capture_default_str();
+  flags.robot.AddTo(&app).front()->capture_default_str();
   app.add_option("--planner", flags.planner, "Which to run")
       ->check(CLI::IsMember({"ara", "rrtc", "trajopt"}))
       ->capture_default_str();
@@ -285,7 +286,7 @@ int Main(int argc, char** argv) {
   app.add_flag("--counters", flags.counters, "Also print the planner's own counts");
   app.add_option("--csv", flags.csv, "File for a line a run");
   return RunCommand(&app, argc, argv, [&] {
-    const Robot robot = LoadRobot(flags.robot);
+    const Robot robot = flags.robot.Load();
     const std::unique_ptr<Planner> planner = MakePlanner(flags, robot);
     Referee referee(robot);
     std::ofstream csv;
