@@ -89,13 +89,16 @@ class AraPlanner : public Planner {
 
     // Proven before the limit came within an edge, if it did: without that edge nothing is.
     double bound = std::numeric_limits<double>::infinity();
+    // 0 where nothing is proven: without wrapping, and before both directions have begun.
+    const auto epsilon_proven = [&] {
+      return settings.wrap_heuristic && std::isfinite(bound) ? bound : 0;
+    };
     bool reported = false;
     const auto report = [&](double proven) {
       if (query.edges().Stopped()) return;
       bound = proven;
       reported = true;
-      query.ReportSolution(settings.wrap_heuristic ? bound : 0, search.cost(),
-                           search.counts().expansions);
+      query.ReportSolution(epsilon_proven(), search.cost(), search.counts().expansions);
     };
     const auto hold = [&](double proven) {
       query.HoldPath();
@@ -130,7 +133,7 @@ class AraPlanner : public Planner {
     if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
-      result.epsilon = settings.wrap_heuristic && std::isfinite(bound) ? bound : 0;
+      result.epsilon = epsilon_proven();
       result.cost = search.cost();
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;

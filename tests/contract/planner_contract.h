@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -334,8 +335,25 @@ TEST_P(PlannerContract, AnAnytimePlannerReportsItsSolutions) {
   EXPECT_LE(result.planning_time_s, result.total_time_s);
   for (std::size_t i = 1; i < result.progress.size(); ++i) {
     EXPECT_LE(result.progress[i].cost, result.progress[i - 1].cost);
-    EXPECT_LE(result.progress[i].epsilon, result.progress[i - 1].epsilon);
+    if (result.progress[i - 1].epsilon > 0) {  // else nothing was proven yet
+      EXPECT_LE(result.progress[i].epsilon, result.progress[i - 1].epsilon);
+    }
     EXPECT_GE(result.progress[i].elapsed_s, result.progress[i - 1].elapsed_s);
+  }
+}
+
+TEST_P(PlannerContract, WhatIsFoundBeforeAnythingIsProvenHasNoBound) {
+  const std::unique_ptr<Planner> planner = Make(planar_);
+  if (!planner->Describe().anytime) GTEST_SKIP() << "is no anytime planner";
+  PlanRequest request = MakeRequest(planar_, left_, right_);
+  request.anytime = true;
+  request.time_limit_s = 0.2;
+  const PlanResult result = planner->Plan(request, Scene(), nullptr);
+  ExpectSolved(planar_, request, Scene(), result);
+  ASSERT_FALSE(result.progress.empty());
+  for (const PlanProgress& progress : result.progress) {
+    EXPECT_TRUE(std::isfinite(progress.epsilon));
+    EXPECT_TRUE(progress.epsilon == 0 || progress.epsilon >= 1) << progress.epsilon;
   }
 }
 
