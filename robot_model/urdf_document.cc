@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -44,8 +45,9 @@ class ReportCapture : private console_bridge::OutputHandler {
   std::string errors_;
 };
 
-// Notes where links and joints are defined, and refuses what urdfdom passes over in silence: a
-// second element where it takes the first.
+// Notes where links and joints are defined, and refuses what urdfdom passes over in silence, a
+// second element where it takes the first, and what it reports without a place, links of which
+// each is a child.
 class ElementFinder {
  public:
   ElementFinder(std::string_view text, const std::string& origin, UrdfDocument* document)
@@ -60,6 +62,7 @@ class ElementFinder {
       CheckOnlyOne(*tag);
       if (!tag->empty) open_.push_back({*tag, {}});
     }
+    CheckRoot();
   }
 
  private:
@@ -67,9 +70,19 @@ class ElementFinder {
     XmlTag tag;
     std::vector<std::string_view> only_ones;  // Those that it holds already.
   };
+  struct JointEnds {
+    std::string name;
+    int line;
+    std::string parent;
+    std::string child;
+  };
 
   // Elsewhere (transmissions, gazebo) the same tags mention them.
   void Note(const XmlTag& tag) {
+    if (Within({"joint"}) && !joints_.empty()) {
+      if (tag.element == "parent") joints_.back().parent = tag.Attribute("link").value_or("");
+      if (tag.element == "child") joints_.back().child = tag.Attribute("link").value_or("");
+    }
     const std::optional<std::string> name = tag.Attribute("name");
     if (!name || open_.size() != 1) return;
     if (tag.element == "link") {
@@ -77,6 +90,7 @@ class ElementFinder {
     } else if (tag.element == "joint") {
       document_.joint_lines.try_emplace(*name, tag.line);
       document_.joint_order.try_emplace(*name, static_cast<int>(document_.joint_order.size()));
+      joints_.push_back({*name, tag.line, "", ""});
     }
   }
 
@@ -112,9 +126,39 @@ class ElementFinder {
     before.push_back(tag.element);
   }
 
+  void CheckRoot() const {
+    const auto& links = document_.link_lines;
+    std::map<std::string, const JointEnds*> joint_to;
+    for (const JointEnds& joint : joints_) joint_to.try_emplace(joint.child, &joint);
+    const auto is_child = [&](const auto& link) { return joint_to.contains(link.first); };
+    if (links.empty() || !std::ranges::all_of(links, is_child)) return;
+    // From any link towards the root, until a joint comes again.
+    std::vector<const JointEnds*> way;
+    std::string link = links.begin()->first;
+    while (joint_to.contains(link)) {  // urdfdom names parents that are no links.
+      const JointEnds* const joint = joint_to.at(link);
+      const auto again = std::ranges::find(way, joint);
+      if (again != way.end()) FailLoop({again, way.end()});
+      way.push_back(joint);
+      link = joint->parent;
+    }
+  }
+
+  [[noreturn]] void FailLoop(const std::vector<const JointEnds*>& loop) const {
+    const JointEnds& last =
+        **std::ranges::max_element(loop, {}, [](const JointEnds* joint) { return joint->line; });
+    std::string links;
+    for (const JointEnds* joint : loop) links += joint->child + ", ";
+    throw InputError(fmt::format(
+        "{}:{}: joint '{}': the links are children of each other in a loop ({}{}), and none is the "
+        "root; a robot must be a tree",
+        origin_, last.line, last.name, links, loop.front()->child));
+  }
+
   const std::string& origin_;
   UrdfDocument& document_;
   std::vector<Open> open_;
+  std::vector<JointEnds> joints_;
 };
 
 // ":LINE" of the first link or joint that urdfdom's report names, in brackets or quotes; "" if it

@@ -78,10 +78,15 @@ const MalformedUrdf kMalformed[] = {
      "<robot name='r'><link name='a'/><link name='b'/></robot>",
      {"[a]", "[b]", "root"}},
     {"Loop",
-     "<robot name='r'><link name='a'/><link name='b'/>"
-     "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+     "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+     "<joint name='i' type='fixed'><parent link='b'/><child link='c'/></joint>\n"
+     "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\n"
      "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
-     {"root"}},
+     {":3:", "joint 'k'", "loop (a, b, a)", "root"}},
+    {"LoopOfALink",
+     "<robot name='r'><link name='a'/>\n"
+     "<joint name='j' type='fixed'><parent link='a'/><child link='a'/></joint></robot>",
+     {":2:", "joint 'j'", "loop (a, a)", "root"}},
     {"LoopBesideTheTree",
      "<robot name='r'><link name='a'/>\n<link name='b'/><link name='c'/>"
      "<joint name='j' type='fixed'><parent link='b'/><child link='c'/></joint>"
