@@ -7,6 +7,7 @@
 
 #include <assimp/Importer.hpp>
 #include <charconv>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -154,17 +155,35 @@ bool IsFile(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-// The file that the rest of a URL names below a folder: as it is written, else decoded. Nothing if
-// there is none.
-std::optional<fs::path> FindFile(const fs::path& folder, const std::string& rest) {
-  for (const std::string& name : {rest, DecodePercent(rest)}) {
+std::optional<fs::path> FirstFile(const fs::path& folder,
+                                  std::initializer_list<std::string> names) {
+  for (const std::string& name : names) {
     if (IsFile(folder / name)) return folder / name;
   }
   return std::nullopt;
 }
 
+// The file that the path of a URI names below a folder; nothing if there is none. Not all who write
+// URIs encode what they should.
+std::optional<fs::path> FindFile(const fs::path& folder, const std::string& rest) {
+  return FirstFile(folder, {DecodePercent(rest), rest});
+}
+
 [[noreturn]] void FailNoFile(const std::string& uri, const fs::path& path) {
   throw InputError(fmt::format("resource '{}': no file {}", uri, path.string()));
+}
+
+// `rest`: "HOST/path", where the host is none or this machine.
+fs::path ResolveFile(const std::string& uri, const std::string& rest) {
+  const std::string host = rest.substr(0, rest.find('/'));
+  if (!host.empty() && LowerCase(host) != "localhost") {
+    throw InputError(fmt::format(
+        "resource '{}': names the machine '{}'; a file of this one is file:///FOLDER/FILE", uri,
+        host));
+  }
+  const std::string path = rest.substr(host.size());
+  if (const auto file = FindFile("", path)) return *file;
+  FailNoFile(uri, path);
 }
 
 // `rest`: "NAME/path".
@@ -205,17 +224,13 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
   if (uri.starts_with(kPackageScheme)) {
     return ResolvePackage(*this, uri, uri.substr(kPackageScheme.size()));
   }
-  if (uri.starts_with(kFileScheme)) {
-    const std::string path = uri.substr(kFileScheme.size());
-    if (const auto file = FindFile("", path)) return *file;
-    FailNoFile(uri, path);
-  }
+  if (uri.starts_with(kFileScheme)) return ResolveFile(uri, uri.substr(kFileScheme.size()));
   if (uri.find("://") != std::string::npos) {
     throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
   }
-  const fs::path path = base_folder / uri;  // An absolute path replaces the base.
-  if (!IsFile(path)) FailNoFile(uri, path);
-  return path;
+  // No URI, but written by tools that encode all names alike. An absolute path replaces the base.
+  if (const auto file = FirstFile(base_folder, {uri, DecodePercent(uri)})) return *file;
+  FailNoFile(uri, base_folder / uri);
 }
 
 std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {

@@ -31,23 +31,39 @@ class ObjReader {
     throw InputError(fmt::format("{}:{}: {}", file_, line, what));
   }
 
-  // A line without its comment, and those that a backslash at its end continues it by.
+  static bool IsVertex(std::string_view keyword) { return keyword == "v"; }
+  // The second is what it was called once.
+  static bool IsFace(std::string_view keyword) { return keyword == "f" || keyword == "fo"; }
+
+  // The next line without its comment.
+  std::optional<std::string> NextLine() {
+    const auto line = lines_.Next();
+    if (!line) return std::nullopt;
+    return std::string(line->substr(0, line->find('#')));
+  }
+
+  // A line, and, of a vertex or a face, those that a backslash at its end continues it by. What
+  // continues other statements is none that is read, but a backslash may also end the name of a
+  // folder there, and what follows is a statement of its own.
   std::optional<std::string> NextStatement() {
-    std::string statement;
-    while (const auto line = lines_.Next()) {
-      statement += line->substr(0, line->find('#'));
-      if (!statement.ends_with('\\')) return statement;
-      statement.back() = ' ';
+    std::optional<std::string> statement = NextLine();
+    if (!statement) return std::nullopt;
+    std::string_view words = *statement;
+    std::string_view keyword = TakeWord(&words);
+    if (keyword.ends_with('\\')) keyword.remove_suffix(1);
+    if (!IsVertex(keyword) && !IsFace(keyword)) return statement;
+    while (statement->ends_with('\\')) {
+      statement->back() = ' ';
+      *statement += NextLine().value_or("");
     }
-    if (statement.empty()) return std::nullopt;
     return statement;
   }
 
   void Read(std::string_view statement) {
     const std::string_view keyword = TakeWord(&statement);
-    if (keyword == "v") {
+    if (IsVertex(keyword)) {
       ReadVertex(statement);
-    } else if (keyword == "f" || keyword == "fo") {  // The second is what it was called once.
+    } else if (IsFace(keyword)) {
       ReadFace(statement);
     }
   }

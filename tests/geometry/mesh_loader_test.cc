@@ -192,6 +192,8 @@ TEST_F(LoadMeshTest, ReadsObjFilesAsTheyAreWrittenInTheField) {
       {"indented", Replaced(Replaced(plain, "v ", "  v "), "f ", "\tf ")},
       {"comments", Replaced(plain, "\n", " # 1 2 3 C:\\\n")},
       {"continued", Replaced(plain, " ", " \\\n ")},
+      {"continued at once", Replaced(plain, " ", "\\\n ")},
+      {"folders", "mtllib C:\\a\\\n" + Replaced(plain, "f ", "usemtl C:\\a\\\nf ")},
       {"colours", Replaced(plain, "\nv", " 0.1 0.2 0.3\nv")},
       {"weights of curves", Replaced(plain, "\nv", " 2\nv")},
       {"groups", "mtllib none.mtl\no box\n" + Replaced(plain, "f ", "g a b\nusemtl x\ns off\nf ")}};

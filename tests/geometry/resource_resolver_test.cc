@@ -69,8 +69,15 @@ TEST_F(ResourceResolverTest, UrisMayWriteCharactersInPercent) {
   EXPECT_EQ(resolver_.Resolve("package://robot/meshes/sp%c3%A4t%20er.stl"), spaced);
   EXPECT_EQ(resolver_.Resolve("package://robot/meshes/100%25.stl"), literal);
   EXPECT_EQ(resolver_.Resolve("meshes/100%25.stl"), literal);
-  // What is no URI, and no code, stays what it is.
-  for (const char* uri : {"meshes/sp%C3%A4t%20er.stl", "package://robot/meshes/a%2.stl",
+  EXPECT_EQ(resolver_.Resolve("file://LocalHost" + folder + "/meshes/sp%C3%a4t%20er.stl"), spaced);
+  EXPECT_EQ(resolver_.Resolve("meshes/sp%C3%A4t%20er.stl"), spaced);
+  EXPECT_EQ(resolver_.Resolve(folder + "/meshes/sp%C3%A4t%20er.stl"), spaced);
+  // Of two that a name may stand for, a URI names the decoded, a path the one that is so called.
+  const fs::path decoded = folder_.Write("robot/meshes/100%.stl", "own");
+  EXPECT_EQ(resolver_.Resolve("package://robot/meshes/100%25.stl"), decoded);
+  EXPECT_EQ(resolver_.Resolve("meshes/100%25.stl"), literal);
+  // What is no code stays what it is.
+  for (const char* uri : {"meshes/sp%C3%A4t%20.stl", "package://robot/meshes/a%2.stl",
                           "package://robot/meshes/a%xy.stl", "package://robot/meshes/a%"}) {
     ExpectInputError([&] { resolver_.Resolve(uri); }, {uri, "no file"});
   }
@@ -83,6 +90,8 @@ TEST_F(ResourceResolverTest, SaysWhatItTriedAndHowToMendIt) {
   ExpectInputError([&] { resolver_.Resolve("meshes/a.stl"); }, {"meshes/a.stl", "no file"});
   ExpectInputError([&] { resolver_.Resolve("meshes"); }, {"meshes", "no file"});  // A folder.
   ExpectInputError([&] { resolver_.Resolve("http://host/a.stl"); }, {"http://host/a.stl"});
+  ExpectInputError([&] { resolver_.Resolve("file://meshes/own.stl"); },
+                   {"file://meshes/own.stl", "machine 'meshes'", "file:///"});
   ExpectInputError([&] { resolver_.Resolve("package://lost"); }, {"package://NAME/path"});
   ExpectInputError([&] { resolver_.Resolve("package:///a.stl"); }, {"package://NAME/path"});
   ExpectInputError([&] { resolver_.Resolve(""); }, {"empty"});
