@@ -179,10 +179,25 @@ std::string LineOfReport(const std::string& report, const UrdfDocument& document
   return first == std::string::npos ? "" : fmt::format(":{}", line);
 }
 
+// urdfdom reports other descriptions (SDF, MuJoCo's) and other files as empty.
+void CheckOutermost(std::string_view text, const std::string& origin) {
+  const std::optional<XmlTag> outermost = XmlTagReader(text).Next();
+  if (!outermost) {
+    throw InputError(
+        fmt::format("{}:1: not a valid URDF: it has no XML element; expected <robot>", origin));
+  }
+  if (outermost->element == "robot") return;
+  throw InputError(
+      fmt::format("{}:{}: not a valid URDF: its outermost element is <{}>; expected "
+                  "<robot>",
+                  origin, outermost->line, outermost->element));
+}
+
 }  // namespace
 
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin) {
   CheckXmlText(urdf_text, origin);
+  CheckOutermost(urdf_text, origin);
   UrdfDocument document;
   const ElementFinder found(urdf_text, origin, &document);
   std::string errors;

@@ -61,10 +61,12 @@ TEST_P(MalformedUrdfTest, IsRefusedByName) {
 }
 
 const MalformedUrdf kMalformed[] = {
-    {"Empty", "", {"not a valid URDF"}},
-    {"NoXml", "robot: r", {"not a valid URDF"}},
+    {"Empty", "", {"not a valid URDF", "no XML element"}},
+    {"NoXml", "robot: r", {"not a valid URDF", "no XML element"}},
     {"CutOff", "<robot name='r'><link name='a'>", {":1:", "<link> is not closed"}},
-    {"NoRobot", "<model name='r'/>", {"not a valid URDF"}},
+    {"NoRobot",
+     "<!-- A model. -->\n<model name='r'/>",
+     {":2:", "not a valid URDF", "<model>", "<robot>"}},
     {"NoName", "<robot><link name='a'/></robot>", {"name"}},
     {"BadVersion", "<robot name='r' version='one'><link name='a'/></robot>", {"version"}},
     {"NoLinks", "<robot name='r'/>", {"No link elements"}},
