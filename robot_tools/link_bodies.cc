@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -17,18 +18,37 @@ using Eigen::Vector3d;
 constexpr double kLeastExtent = 1e-3;
 constexpr double kGreatestExtent = 20;
 
+// Greatest extent along an axis, m.
+double ExtentOf(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh == nullptr) return 2 * ComputeBoundingSphere(shape).radius;
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : mesh->triangles->vertices) box.extend(vertex);
+  return box.sizes().maxCoeff();
+}
+
+void RemarkSize(const std::string& link, const Shape& shape, const SayLine& say) {
+  const double extent = ExtentOf(shape);
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh != nullptr && (extent < kLeastExtent || extent > kGreatestExtent)) {
+    say(fmt::format("link '{}', {}: is {:.3g} m large: check its unit, and scale= in the URDF",
+                    link, mesh->resource, extent));
+  } else if (extent > kGreatestExtent) {
+    say(fmt::format("link '{}': a shape is {:.3g} m large: URDFs are in metres", link, extent));
+  }
+}
+
 // `filled`: holes; `solid`: what the mesh is without them.
-void Remark(const std::string& link, const Mesh& mesh, int filled, const SolidMesh& solid,
-            std::vector<std::string>* remarks) {
+void RemarkSurface(const std::string& link, const Mesh& mesh, int filled, const SolidMesh& solid,
+                   const SayLine& say_line) {
   const auto say = [&](const std::string& what) {
-    remarks->push_back(fmt::format("link '{}', {}: {}", link, mesh.resource, what));
+    say_line(fmt::format("link '{}', {}: {}", link, mesh.resource, what));
   };
   const SolidMesh::Survey& survey = solid.survey();
   if (filled > 0) {
-    say(
-        fmt::format("{} small holes are filled, but for spheres inside: the parts that have them "
-                    "hold none",
-                    filled));
+    say(fmt::format(
+        "small holes are filled ({}), but for spheres inside: the parts that have them hold none",
+        filled));
   }
   if (survey.components == survey.open) {
     say("is not closed: its surface is enclosed, and it has no inside");
@@ -39,62 +59,63 @@ void Remark(const std::string& link, const Mesh& mesh, int filled, const SolidMe
                     survey.open, survey.components));
   }
   if (survey.not_oriented > 0) {
-    say(fmt::format(
-        "the triangles of {} of {} parts disagree about where the outside is: inside is "
-        "where a ray out crosses them an odd number of times",
-        survey.not_oriented, survey.components));
+    say(
+        fmt::format("the triangles of {} of {} parts disagree about where the outside is: inside "
+                    "is where a ray out crosses them an odd number of times",
+                    survey.not_oriented, survey.components));
   }
   if (survey.volume < 0) say("is turned inside out: what it encloses counts as its inside");
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = -low;
-  std::size_t flat = 0;
-  const TriangleMesh& triangles = mesh.triangles;
-  for (const auto& [a, b, c] : triangles.triangles) {
-    const Vector3d& corner = triangles.vertices[a];
-    for (const std::uint32_t v : {a, b, c}) {
-      low = low.cwiseMin(triangles.vertices[v]);
-      high = high.cwiseMax(triangles.vertices[v]);
+  const TriangleMesh& surface = mesh.triangles;
+  const auto& [vertices, triangles] = surface;
+  const auto flat = std::ranges::count_if(triangles, [&](const auto& triangle) {
+    const auto corner = [&](std::size_t i) -> const Vector3d& { return vertices[triangle[i]]; };
+    return (corner(1) - corner(0)).cross(corner(2) - corner(0)).isZero(0);
+  });
+  if (flat > 0) say(fmt::format("{} of {} triangles have no area", flat, triangles.size()));
+}
+
+void Load(const Link& link, const ResourceResolver& resources, Mesh* mesh) {
+  try {
+    mesh->triangles = LoadMesh(resources.Resolve(mesh->resource), mesh->scale);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", link.where, error.what()));
+  }
+}
+
+LinkBody MakeBody(const Link& link, const std::vector<PlacedShape>& shapes, const SayLine& say) {
+  LinkBody body;
+  for (const PlacedShape& placed : shapes) {
+    const int filled = body.Add(placed);
+    if (const auto* mesh = std::get_if<Mesh>(&placed.shape)) {
+      RemarkSurface(link.name, *mesh, filled, body.hulls().back()->inside(), say);
     }
-    const Vector3d normal = (triangles.vertices[b] - corner).cross(triangles.vertices[c] - corner);
-    if (normal.isZero(0)) ++flat;
   }
-  if (flat > 0) {
-    say(fmt::format("{} of {} triangles have no area", flat, triangles.triangles.size()));
-  }
-  const double extent = (high - low).maxCoeff();
-  if (extent < kLeastExtent || extent > kGreatestExtent) {
-    say(fmt::format("is {:.3g} m large: check its unit, and scale= in the URDF", extent));
-  }
+  return body;
 }
 
 }  // namespace
 
-LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources) {
-  LinkBodies read;
-  for (int index = 0; index < model.num_links(); ++index) {
-    const Link& link = model.links()[static_cast<std::size_t>(index)];
-    LinkBody body;
-    for (PlacedShape placed : link.collision) {
-      auto* mesh = std::get_if<Mesh>(&placed.shape);
-      int filled = 0;
-      try {
-        if (mesh != nullptr) {
-          mesh->triangles = LoadMesh(resources.Resolve(mesh->resource), mesh->scale);
-        }
-        filled = body.Add(placed);
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", link.where, error.what()));
-      }
-      if (mesh != nullptr) {
-        Remark(link.name, *mesh, filled, body.hulls().back()->inside(), &read.remarks);
-      } else if (const double extent = 2 * ComputeBoundingSphere(placed.shape).radius;
-                 extent > kGreatestExtent) {
-        read.remarks.push_back(fmt::format(
-            "link '{}': a shape is {:.3g} m large: URDFs are in metres", link.name, extent));
-      }
+std::vector<std::vector<PlacedShape>> LoadLinkShapes(const RobotModel& model,
+                                                     const ResourceResolver& resources,
+                                                     const SayLine& say) {
+  std::vector<std::vector<PlacedShape>> shapes;
+  for (const Link& link : model.links()) {
+    for (PlacedShape& placed : shapes.emplace_back(link.collision)) {
+      if (auto* mesh = std::get_if<Mesh>(&placed.shape)) Load(link, resources, mesh);
+      RemarkSize(link.name, placed.shape, say);
     }
+  }
+  return shapes;
+}
+
+LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources,
+                          const SayLine& say) {
+  const std::vector<std::vector<PlacedShape>> shapes = LoadLinkShapes(model, resources, say);
+  LinkBodies read;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    LinkBody body = MakeBody(model.links()[i], shapes[i], say);
     if (body.empty()) continue;
-    read.links.push_back(index);
+    read.links.push_back(static_cast<int>(i));
     read.bodies.push_back(std::move(body));
   }
   return read;

@@ -5,6 +5,7 @@
 
 #include "geometry/mesh_loader.h"
 #include "robot_model/robot_model.h"
+#include "robot_tools/say_line.h"
 #include "sphere_fitting/link_body.h"
 
 namespace planbench {
@@ -13,15 +14,19 @@ namespace planbench {
 struct LinkBodies {
   std::vector<int> links;  ///< Link indices, ascending.
   std::vector<LinkBody> bodies;
-  /// What is odd about their meshes, one line each: not closed, turned inside out, parts that
-  /// disagree about where their outside is, triangles without area, sizes that no link has. Of
-  /// other shapes such sizes.
-  std::vector<std::string> remarks;
 };
 
-/// Reads all collision geometry of a robot, meshes included. Throws InputError for files that
-/// cannot be found or read.
-LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources);
+/// The collision geometry of each link of a robot, meshes loaded. Sizes that no link has are told.
+/// Throws InputError for files that cannot be found or read.
+std::vector<std::vector<PlacedShape>> LoadLinkShapes(const RobotModel& model,
+                                                     const ResourceResolver& resources,
+                                                     const SayLine& say);
+
+/// Bodies of that geometry. After its sizes also the rest that is odd about meshes is told: those
+/// that are not closed or turned inside out, parts that disagree about where their outside is,
+/// triangles without area. Throws InputError as LoadLinkShapes does.
+LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources,
+                          const SayLine& say);
 
 /// The sets, one for each of the links, as one sphere model.
 std::vector<LinkSphere> ToLinkSpheres(const LinkBodies& links,

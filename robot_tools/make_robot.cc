@@ -12,8 +12,8 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/progress_line.h"
 #include "common/read_text.h"
-#include "robot_model/group_kinematics.h"
 #include "robot_model/link_spheres.h"
 #include "robot_model/motion_bound.h"
 #include "robot_model/robot_folder.h"
@@ -32,7 +32,8 @@ namespace fs = std::filesystem;
 using LinkPairs = std::vector<std::pair<int, int>>;
 
 constexpr int kMostSpheresOfALink = 100;
-constexpr int kFreeSamples = 1000;
+constexpr int kGroupSamples = 1000;
+constexpr std::size_t kWorstPairs = 5;
 
 // A fiftieth of how far the robot reaches, in mm, and no more than arms of a metre need.
 double SuggestEdgeResolution(const Robot& robot) {
@@ -48,17 +49,19 @@ double SuggestEdgeResolution(const Robot& robot) {
   return std::clamp(std::floor(reach / 50 * 1000) / 1000, 0.001, 0.02);
 }
 
+// "1 joint", "2 joints"
+std::string Count(std::size_t number, const std::string& noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
 class RobotMaker {
  public:
-  explicit RobotMaker(const MakeRobotFlags& flags) : flags_(flags) {}
+  RobotMaker(const MakeRobotFlags& flags, const SayLine& say) : flags_(flags), say_(say) {}
 
-  std::vector<std::string> Make() {
+  void Make() {
     RequireFolder();
     ReadUrdf();
-    if (!flags_.srdf.empty()) {
-      srdf_ = ParseSrdf(ReadText(flags_.srdf), flags_.srdf.string(), robot().model);
-      for (const std::string& warning : srdf_->warnings) Say(warning);
-    }
+    ReadSrdf();
     MakeGroups();
     MakeSpheres();
     MakePairs();
@@ -74,7 +77,6 @@ class RobotMaker {
     CopyMeshes(meshes, flags_.out);
     LoadRobot(flags_.out);  // What was written must be what it is meant to be.
     Say("written: {}", (flags_.out / "robot.yaml").string());
-    return std::move(report_);
   }
 
  private:
@@ -87,12 +89,15 @@ class RobotMaker {
   }
   template <typename... Values>
   void Say(fmt::format_string<Values...> format, Values&&... values) {
-    report_.push_back(fmt::format(format, std::forward<Values>(values)...));
+    say_(fmt::format(format, std::forward<Values>(values)...));
   }
-  void Say(const std::string& line) { report_.push_back(line); }
+  void Say(const std::string& line) { say_(line); }
 
   void RequireFolder() const {
     std::error_code error;
+    if (fs::exists(flags_.out, error) && !fs::is_directory(flags_.out, error)) {
+      throw InputError(fmt::format("--out {}: is a file; name a folder", flags_.out.string()));
+    }
     if (fs::exists(flags_.out / "robot.yaml", error) && !flags_.replace) {
       throw InputError(fmt::format("{} holds a robot already; name another folder, or --replace",
                                    flags_.out.string()));
@@ -103,34 +108,40 @@ class RobotMaker {
     draft_.urdf_text = ReadText(flags_.urdf);
     draft_.origin = flags_.urdf.filename().string();
     if (!flags_.srdf.empty()) draft_.origin += " and " + flags_.srdf.filename().string();
-    robot().model = RobotModel::FromUrdf(draft_.urdf_text, flags_.urdf.string(), &report_);
+    std::vector<std::string> warnings;
+    robot().model = RobotModel::FromUrdf(draft_.urdf_text, flags_.urdf.string(), &warnings);
     robot().name = flags_.name.empty() ? robot().model.name() : flags_.name;
     static const std::regex kName("[A-Za-z0-9_][A-Za-z0-9_.-]*");
     if (!std::regex_match(robot().name, kName)) {
       throw InputError(fmt::format(
           "the robot's name '{}' cannot name a file; give another with --name", robot().name));
     }
+    for (const std::string& warning : warnings) Say(warning);
     robot().resources = {fs::absolute(flags_.urdf).parent_path(), {}};
     for (const std::string& argument : flags_.package_paths) {
       robot().resources.packages.insert(ParsePackagePath(argument));
     }
-    int moving = 0;
+    std::size_t moving = 0;
     std::vector<std::string> followers;
     for (const Joint& joint : robot().model.joints()) {
       if (joint.type == JointType::kFixed) continue;
       ++moving;
       if (joint.leader >= 0) followers.push_back(joint.name);
     }
-    Say("robot '{}': {} links, {} joints that are not fixed", robot().name,
-        robot().model.num_links(), moving);
+    Say("robot '{}': {}, {} not fixed", robot().name, Count(robot().model.links().size(), "link"),
+        Count(moving, "joint"));
     if (!followers.empty()) Say("  they follow another: {}", fmt::join(followers, ", "));
+  }
+
+  void ReadSrdf() {
+    if (flags_.srdf.empty()) return;
+    srdf_ = ParseSrdf(ReadText(flags_.srdf), flags_.srdf.string(), robot().model);
+    if (srdf_->groups.empty()) throw InputError(NoGroupFault(*srdf_, flags_.srdf.string()));
+    for (const std::string& warning : srdf_->warnings) Say(warning);
   }
 
   void MakeGroups() {
     if (srdf_) {
-      if (srdf_->groups.empty()) {
-        throw InputError(NoGroupFault(*srdf_, flags_.srdf.string()));
-      }
       robot().groups = srdf_->groups;
       robot().virtual_joints = srdf_->virtual_joints;
     } else {
@@ -144,7 +155,8 @@ class RobotMaker {
       std::vector<std::string> states;
       for (const auto& [name, q] : group.states) states.push_back(name);
       planned.insert(group.joints.begin(), group.joints.end());
-      Say("  {}: {} joints, tip {}{}{}", group.name, group.space.size(), fmt::join(tips, ", "),
+      Say("  {}: {}, {} {}{}{}", group.name, Count(group.joints.size(), "joint"),
+          tips.size() == 1 ? "tip" : "tips", fmt::join(tips, ", "),
           states.empty() ? "" : "; states ", fmt::join(states, ", "));
     }
     if (srdf_) {
@@ -173,6 +185,7 @@ class RobotMaker {
 
   void MakeSpheres() {
     if (flags_.without_spheres) {
+      LoadLinkShapes(robot().model, robot().resources, say_);
       Say("spheres: none, as asked; the robot can be used with --collision-model meshes only");
       return;
     }
@@ -195,7 +208,7 @@ class RobotMaker {
   void SayWhatSpheresLeave(const std::string& origin) {
     std::set<int> links;
     for (const LinkSphere& sphere : robot().spheres) links.insert(sphere.link);
-    Say("spheres: {} on {} links, {}", robot().spheres.size(), links.size(), origin);
+    Say("spheres: {} on {}, {}", robot().spheres.size(), Count(links.size(), "link"), origin);
     for (int link = 0; link < robot().model.num_links(); ++link) {
       const Link& description = robot().model.links()[static_cast<std::size_t>(link)];
       if (!description.collision.empty() && !links.contains(link)) {
@@ -207,17 +220,22 @@ class RobotMaker {
         fmt::join(draft_.links_without_spheres, ", "));
   }
 
+  static std::vector<OuterSet> Fit(const std::vector<LinkBody>& bodies, const FitGoal& goal) {
+    ProgressLine progress(static_cast<int>(bodies.size()));
+    return FitOuterSpheres(bodies, goal,
+                           [&](int done, const std::string& text) { progress.Show(done, text); });
+  }
+
   void EncloseUrdf() {
-    const LinkBodies links = ReadLinkBodies(robot().model, robot().resources);
-    for (const std::string& remark : links.remarks) Say(remark);
+    const LinkBodies links = ReadLinkBodies(robot().model, robot().resources, say_);
     FitGoal goal;
     goal.protrusion_m = flags_.protrusion_m;
     goal.most_a_link = kMostSpheresOfALink;
     std::vector<std::vector<Ball>> sets;
     double protrusion_m = 0;
     std::string worst;
-    int enclosed = 0;
-    const std::vector<OuterSet> fitted = FitOuterSpheres(links.bodies, goal);
+    std::size_t enclosed = 0;
+    const std::vector<OuterSet> fitted = Fit(links.bodies, goal);
     for (std::size_t i = 0; i < fitted.size(); ++i) {
       sets.push_back(fitted[i].balls);
       if (links.bodies[i].has_solids()) ++enclosed;
@@ -229,73 +247,87 @@ class RobotMaker {
     robot().spheres = ToLinkSpheres(links, sets);
     SayWhatSpheresLeave("the URDF's collision geometry");
     if (enclosed == 0) return;
-    Say("  they enclose the meshes, boxes and cylinders of {} links, and reach up to {:.3f} m "
-        "beyond "
-        "them (at {})",
-        enclosed, protrusion_m, worst);
+    Say("  they enclose the meshes, boxes and cylinders of {}, and reach up to {:.3f} m beyond "
+        "them "
+        "(at {})",
+        Count(enclosed, "link"), protrusion_m, worst);
+    if (protrusion_m > flags_.protrusion_m) {
+      Say("  that is further than --protrusion {}: no link gets more than {} spheres",
+          flags_.protrusion_m, kMostSpheresOfALink);
+    }
   }
 
   void MakePairs() {
-    if (srdf_ && !srdf_->disabled_pairs.empty()) {
-      draft_.exempt.push_back({"disabled by the SRDF", srdf_->disabled_pairs});
+    const bool are_known = srdf_ && !srdf_->disabled_pairs.empty();
+    if (are_known) {
       Say("pairs: {} are not checked, as the SRDF says", srdf_->disabled_pairs.size());
+      Exempt("disabled by the SRDF", srdf_->disabled_pairs);
     }
     if (robot().spheres.empty()) return;
-    const PairSamples samples =
-        SamplePairs(robot().model, robot().spheres, flags_.samples, flags_.seed);
-    if (draft_.exempt.empty()) {
-      draft_.exempt.push_back(
-          {fmt::format("met in none of {} random configurations", samples.samples),
-           samples.Never()});
+    const PairSamples samples = Sample(JointsToDraw(robot().model), flags_.samples);
+    if (!are_known) {
       Say("pairs: {} of {} met in none of {} random configurations of all joints (with 95 % "
           "confidence they meet in fewer than one of {}), and are not checked",
           samples.Never().size(), samples.pairs.size(), samples.samples,
           std::max(1, samples.samples / 3));
+      Exempt(fmt::format("met in none of {} random configurations", samples.samples),
+             samples.Never());
     }
-    LinkPairs always = samples.Always();
-    const LinkPairs& known = draft_.exempt.front().pairs;
-    std::erase_if(always, [&](const std::pair<int, int>& pair) {
-      return std::find(known.begin(), known.end(), pair) != known.end();
-    });
-    if (!always.empty()) {
-      std::vector<std::string> names;
-      for (const auto& pair : always) names.push_back(PairName(pair));
-      Say("  in contact in nearly all of {} random configurations, so that they are not checked "
-          "either: {}",
-          samples.samples, fmt::join(names, "; "));
-    }
-    draft_.exempt.push_back({"overlap by construction", std::move(always)});
-    for (const RobotDraft::ExemptPairs& exempt : draft_.exempt) {
-      robot().allowed_pairs.insert(robot().allowed_pairs.end(), exempt.pairs.begin(),
-                                   exempt.pairs.end());
-    }
-    ExemptHeldContacts();
-    const double share =
-        FreeShare(robot().model, robot().spheres, robot().allowed_pairs, kFreeSamples, flags_.seed);
-    Say("  {:.0f} % of {} random configurations are free of self-collision", 100 * share,
-        kFreeSamples);
+    ExemptOverlaps(samples.Always(),
+                   fmt::format("in contact in nearly all of {} random configurations of all joints",
+                               samples.samples));
+    ExemptOverlaps(AlwaysForEveryGroup(),
+                   "in contact in nearly all random configurations of every group, with other "
+                   "joints at their defaults");
+    for (const PlanningGroup& group : robot().groups) SayHowFree(group);
   }
 
-  // Fingers that are closed by default: no group could ever plan.
-  void ExemptHeldContacts() {
-    const std::vector<double> positions = robot().model.DefaultPositions();
-    LinkPairs held =
-        PairsInContact(robot().model, robot().spheres, robot().allowed_pairs, positions);
-    for (const PlanningGroup& group : robot().groups) {
-      const GroupKinematics kinematics(robot().model, group, positions);
-      std::erase_if(held, [&](const std::pair<int, int>& pair) {
-        return kinematics.MoveRelatively(pair.first, pair.second);
-      });
-    }
-    if (held.empty()) return;
+  PairSamples Sample(const std::vector<int>& joints, int samples) {
+    return SamplePairs(robot().model, robot().spheres,
+                       {joints, robot().allowed_pairs, samples, flags_.seed});
+  }
+
+  void Exempt(const std::string& reason, const LinkPairs& pairs) {
+    robot().allowed_pairs.insert(robot().allowed_pairs.end(), pairs.begin(), pairs.end());
+    draft_.exempt.push_back({reason, pairs});
+  }
+
+  void ExemptOverlaps(const LinkPairs& pairs, const std::string& reason) {
+    if (pairs.empty()) return;
     std::vector<std::string> names;
-    for (const auto& pair : held) names.push_back(PairName(pair));
-    Say("  in contact by default, and moved apart by no group, so that they are not checked "
-        "either: "
-        "{}",
-        fmt::join(names, "; "));
-    robot().allowed_pairs.insert(robot().allowed_pairs.end(), held.begin(), held.end());
-    draft_.exempt.push_back({"touch by default, moved apart by no group", std::move(held)});
+    for (const auto& pair : pairs) names.push_back(PairName(pair));
+    Say("  {}, so that they are not checked either: {}", reason, fmt::join(names, "; "));
+    Exempt(reason, pairs);
+  }
+
+  // Closed fingers, bellows that a lift would draw out: whatever is planned, they touch where a
+  // planner holds the joints that could take them apart.
+  LinkPairs AlwaysForEveryGroup() {
+    std::map<std::pair<int, int>, std::size_t> groups_of;
+    for (const PlanningGroup& group : robot().groups) {
+      for (const auto& pair : Sample(group.joints, kGroupSamples).Always()) ++groups_of[pair];
+    }
+    LinkPairs always;
+    for (const auto& [pair, groups] : groups_of) {
+      if (groups == robot().groups.size()) always.push_back(pair);
+    }
+    return always;
+  }
+
+  // As a planner meets them: other joints are held.
+  void SayHowFree(const PlanningGroup& group) {
+    const PairSamples samples = Sample(group.joints, kGroupSamples);
+    Say("  {}: {} of {} random configurations are free of self-collision", group.name, samples.free,
+        samples.samples);
+    if (2 * samples.free > samples.samples) return;
+    std::vector<std::string> worst;
+    for (const PairSamples::Pair& pair : samples.MostOften(kWorstPairs)) {
+      worst.push_back(fmt::format("{} ({:.0f} %)", PairName({pair.link_a, pair.link_b}),
+                                  100.0 * pair.contacts / samples.samples));
+    }
+    Say("    most often in contact: {}; what overlaps by construction belongs in allowed_pairs of "
+        "robot.yaml, and a smaller --protrusion makes closer spheres",
+        fmt::join(worst, "; "));
   }
 
   void CheckStates() {
@@ -323,12 +355,12 @@ class RobotMaker {
 
   MeshFiles FindRobotMeshes() {
     MeshFiles meshes = FindMeshes(robot().model, robot().resources, flags_.out);
-    if (!meshes.files.empty()) Say("{} mesh files copied", meshes.files.size());
+    if (!meshes.files.empty()) Say("{} copied", Count(meshes.files.size(), "mesh file"));
     for (const auto& [uri, name] : meshes.renamed) Say("  {} is {} in the URDF here", uri, name);
     if (meshes.missing.empty()) return meshes;
     if (robot().spheres.empty()) throw InputError(meshes.missing.front());
-    Say("{} meshes are missing, so that --collision-model meshes cannot be used: {}",
-        meshes.missing.size(), meshes.missing.front());
+    Say("{} missing, so that --collision-model meshes cannot be used: {}",
+        Count(meshes.missing.size(), "mesh file"), meshes.missing.front());
     return meshes;
   }
 
@@ -344,9 +376,9 @@ class RobotMaker {
   }
 
   const MakeRobotFlags& flags_;
+  const SayLine& say_;
   RobotDraft draft_;
   std::optional<Srdf> srdf_;
-  std::vector<std::string> report_;
 };
 
 }  // namespace
@@ -379,6 +411,6 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
   app->add_flag("--replace", replace, "write over a robot that the folder holds");
 }
 
-std::vector<std::string> MakeRobot(const MakeRobotFlags& flags) { return RobotMaker(flags).Make(); }
+void MakeRobot(const MakeRobotFlags& flags, const SayLine& say) { RobotMaker(flags, say).Make(); }
 
 }  // namespace planbench

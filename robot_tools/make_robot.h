@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "robot_tools/say_line.h"
+
 namespace planbench {
 
 /// The flags of make_robot.
@@ -25,8 +27,8 @@ struct MakeRobotFlags {
   void AddTo(CLI::App* app);
 };
 
-/// Writes a robot folder, complete and loadable, from a robot's own files. Returns what was decided
+/// Writes a robot folder, complete and loadable, from a robot's own files. Tells what was decided
 /// and why, a line each. Throws InputError, and writes nothing, for what it cannot do.
-std::vector<std::string> MakeRobot(const MakeRobotFlags& flags);
+void MakeRobot(const MakeRobotFlags& flags, const SayLine& say);
 
 }  // namespace planbench

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "common/command_line.h"
 #include "common/exit_codes.h"
 #include "robot_tools/make_robot.h"
@@ -10,7 +8,7 @@ int main(int argc, char** argv) {
   planbench::MakeRobotFlags flags;
   flags.AddTo(&app);
   return planbench::RunCommand(&app, argc, argv, [&] {
-    for (const std::string& line : planbench::MakeRobot(flags)) fmt::print("{}\n", line);
+    planbench::MakeRobot(flags, planbench::PrintLine);
     return planbench::kExitOk;
   });
 }

@@ -106,19 +106,19 @@ void MakeSpheresFlags::AddTo(CLI::App* app) {
                   "write the URDF with the enclosing spheres as its collision geometry");
 }
 
-std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
+void MakeSpheres(const MakeSpheresFlags& flags, const SayLine& say) {
   const std::string urdf_text = ReadText(flags.urdf);
-  std::vector<std::string> report;
-  const RobotModel model = RobotModel::FromUrdf(urdf_text, flags.urdf.string(), &report);
+  std::vector<std::string> warnings;
+  const RobotModel model = RobotModel::FromUrdf(urdf_text, flags.urdf.string(), &warnings);
+  for (const std::string& warning : warnings) say(warning);
   ResourceResolver resources{fs::absolute(flags.urdf).parent_path(), {}};
   for (const std::string& argument : flags.package_paths) {
     resources.packages.insert(ParsePackagePath(argument));
   }
-  const LinkBodies links = ReadLinkBodies(model, resources);
+  const LinkBodies links = ReadLinkBodies(model, resources, say);
   if (links.links.empty()) {
     throw InputError(flags.urdf.string() + ": no link has collision geometry");
   }
-  report.insert(report.end(), links.remarks.begin(), links.remarks.end());
 
   FitGoal goal;
   if (flags.spheres > 0) goal.spheres = flags.spheres;
@@ -154,8 +154,7 @@ std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
     rows.push_back(std::move(row));
   }
   rows.push_back(all);
-  const std::vector<std::string> table = Table(rows, with_inner);
-  report.insert(report.end(), table.begin(), table.end());
+  for (const std::string& line : Table(rows, with_inner)) say(line);
 
   const std::vector<LinkSphere> spheres = ToLinkSpheres(links, outer);
   const std::string origin = flags.urdf.filename().string();
@@ -179,7 +178,6 @@ std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags) {
   }
   if (!flags.srdf.empty()) WriteFile(flags.srdf, SpheresSrdf(model, spheres));
   if (!flags.urdf_out.empty()) WriteFile(flags.urdf_out, SpheresUrdf(urdf_text, model, spheres));
-  return report;
 }
 
 }  // namespace planbench

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "robot_tools/say_line.h"
+
 namespace planbench {
 
 /// The flags of make_spheres.
@@ -23,9 +25,9 @@ struct MakeSpheresFlags {
   void AddTo(CLI::App* app);
 };
 
-/// Fits spheres to a robot's collision geometry and writes them. Returns what to tell the user, a
-/// line each: what is odd about meshes, and a table of how close the spheres are, link by link.
-/// Throws InputError, and writes nothing, for what it cannot do.
-std::vector<std::string> MakeSpheres(const MakeSpheresFlags& flags);
+/// Fits spheres to a robot's collision geometry and writes them. Tells the user, a line each: what
+/// is odd about meshes, and a table of how close the spheres are, link by link. Throws InputError,
+/// and writes nothing, for what it cannot do.
+void MakeSpheres(const MakeSpheresFlags& flags, const SayLine& say);
 
 }  // namespace planbench

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "common/command_line.h"
 #include "common/exit_codes.h"
 #include "robot_tools/make_spheres.h"
@@ -11,7 +9,7 @@ int main(int argc, char** argv) {
   planbench::MakeSpheresFlags flags;
   flags.AddTo(&app);
   return planbench::RunCommand(&app, argc, argv, [&] {
-    for (const std::string& line : planbench::MakeSpheres(flags)) fmt::print("{}\n", line);
+    planbench::MakeSpheres(flags, planbench::PrintLine);
     return planbench::kExitOk;
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <set>
@@ -34,11 +35,14 @@ class PlacedSpheres {
     }
   }
 
-  std::vector<PairSamples::Pair> CheckablePairs() const {
+  std::vector<PairSamples::Pair> PairsBut(const std::vector<std::pair<int, int>>& allowed) const {
+    std::set<std::pair<int, int>> skipped;
+    for (const auto& [a, b] : allowed) skipped.insert(std::minmax(a, b));
     std::vector<PairSamples::Pair> pairs;
     for (int b = 0; b < model_.num_links(); ++b) {
       for (int a = 0; a < b; ++a) {
         if (Of(a).empty() || Of(b).empty() || model_.Adjacent(a, b)) continue;
+        if (skipped.contains({a, b})) continue;
         pairs.push_back({a, b, 0});
       }
     }
@@ -85,17 +89,16 @@ class PlacedSpheres {
   std::vector<Eigen::Isometry3d> X_BL_;
 };
 
-std::vector<double> RandomPositions(const RobotModel& model, std::mt19937_64* random) {
-  std::vector<double> positions = model.DefaultPositions();
-  for (const Joint& joint : model.joints()) {
-    if (NumPositions(joint.type) != 1 || joint.leader >= 0) continue;
+void DrawPositions(const RobotModel& model, const std::vector<int>& joints, std::mt19937_64* random,
+                   std::vector<double>* positions) {
+  for (const int index : joints) {
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
     const bool bounded = std::isfinite(joint.lower);
     const double lower = bounded ? joint.lower : -std::numbers::pi;
     const double upper = bounded ? joint.upper : std::numbers::pi;
-    positions[static_cast<std::size_t>(joint.position_index)] =
+    (*positions)[static_cast<std::size_t>(joint.position_index)] =
         lower + UniformFraction(random) * (upper - lower);
   }
-  return positions;
 }
 
 }  // namespace
@@ -116,16 +119,39 @@ std::vector<std::pair<int, int>> PairSamples::Always() const {
   return always;
 }
 
+std::vector<PairSamples::Pair> PairSamples::MostOften(std::size_t at_most) const {
+  std::vector<Pair> met = pairs;
+  std::erase_if(met, [](const Pair& pair) { return pair.contacts == 0; });
+  std::ranges::stable_sort(met, std::ranges::greater(), &Pair::contacts);
+  if (met.size() > at_most) met.resize(at_most);
+  return met;
+}
+
+std::vector<int> JointsToDraw(const RobotModel& model) {
+  std::vector<int> joints;
+  for (std::size_t j = 0; j < model.joints().size(); ++j) {
+    const Joint& joint = model.joints()[j];
+    if (NumPositions(joint.type) == 1 && joint.leader < 0) joints.push_back(static_cast<int>(j));
+  }
+  return joints;
+}
+
 PairSamples SamplePairs(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                        int samples, std::uint64_t seed) {
+                        const PairSampling& sampling) {
   PlacedSpheres placed(model, spheres);
-  PairSamples result{samples, placed.CheckablePairs()};
-  std::mt19937_64 random(seed);
-  for (int i = 0; i < samples; ++i) {
-    placed.MoveTo(RandomPositions(model, &random));
+  PairSamples result{sampling.samples, 0, placed.PairsBut(sampling.allowed)};
+  std::mt19937_64 random(sampling.seed);
+  std::vector<double> positions = model.DefaultPositions();
+  for (int i = 0; i < sampling.samples; ++i) {
+    DrawPositions(model, sampling.joints, &random, &positions);
+    placed.MoveTo(positions);
+    bool is_free = true;
     for (PairSamples::Pair& pair : result.pairs) {
-      if (placed.Touch(pair.link_a, pair.link_b)) ++pair.contacts;
+      if (!placed.Touch(pair.link_a, pair.link_b)) continue;
+      ++pair.contacts;
+      is_free = false;
     }
+    if (is_free) ++result.free;
   }
   return result;
 }
@@ -134,29 +160,13 @@ std::vector<std::pair<int, int>> PairsInContact(const RobotModel& model,
                                                 const std::vector<LinkSphere>& spheres,
                                                 const std::vector<std::pair<int, int>>& allowed,
                                                 const std::vector<double>& full_positions) {
-  std::set<std::pair<int, int>> skipped;
-  for (const auto& [a, b] : allowed) skipped.insert(std::minmax(a, b));
   PlacedSpheres placed(model, spheres);
   placed.MoveTo(full_positions);
   std::vector<std::pair<int, int>> touching;
-  for (const PairSamples::Pair& pair : placed.CheckablePairs()) {
-    const std::pair<int, int> links(pair.link_a, pair.link_b);
-    if (!skipped.contains(links) && placed.Touch(pair.link_a, pair.link_b)) {
-      touching.push_back(links);
-    }
+  for (const PairSamples::Pair& pair : placed.PairsBut(allowed)) {
+    if (placed.Touch(pair.link_a, pair.link_b)) touching.emplace_back(pair.link_a, pair.link_b);
   }
   return touching;
-}
-
-double FreeShare(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                 const std::vector<std::pair<int, int>>& allowed, int samples, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  int num_free = 0;
-  for (int i = 0; i < samples; ++i) {
-    const std::vector<double> positions = RandomPositions(model, &random);
-    if (PairsInContact(model, spheres, allowed, positions).empty()) ++num_free;
-  }
-  return static_cast<double>(num_free) / samples;
 }
 
 }  // namespace planbench

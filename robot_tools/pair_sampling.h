@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -7,6 +8,16 @@
 #include "robot_model/robot_folder.h"
 
 namespace planbench {
+
+/// Which configurations SamplePairs draws, and which pairs it looks at.
+struct PairSampling {
+  /// Joint indices: these are drawn uniformly within their limits (continuous ones within
+  /// [-pi, pi]). All others are at their defaults, or follow these.
+  std::vector<int> joints;
+  std::vector<std::pair<int, int>> allowed;  ///< Not looked at.
+  int samples = 0;
+  std::uint64_t seed = 0;
+};
 
 /// How often pairs of links met in random configurations.
 struct PairSamples {
@@ -16,20 +27,26 @@ struct PairSamples {
     int contacts = 0;  ///< Configurations in which spheres of the two touch.
   };
   int samples = 0;
-  std::vector<Pair> pairs;  ///< All that could be checked: links with spheres, not adjacent.
+  int free = 0;  ///< Configurations in which no pair touches.
+  std::vector<Pair>
+      pairs;  ///< All that are checked: links with spheres, not adjacent, not allowed.
 
   /// Pairs that met in none.
   std::vector<std::pair<int, int>> Never() const;
   /// Pairs that met in nearly all (95 %, as MoveIt's Setup Assistant has it): their spheres overlap
   /// by construction.
   std::vector<std::pair<int, int>> Always() const;
+  /// Pairs that met, those that met most often first; `at_most` of them.
+  std::vector<Pair> MostOften(std::size_t at_most) const;
 };
 
-/// Draws configurations of all joints of a robot, uniformly within their limits (continuous ones
-/// within [-pi, pi]; planar and floating ones stay at the identity), and looks which of its spheres
-/// touch. The same seed gives the same samples.
+/// The joints that can be drawn: neither fixed, planar nor floating, and following none.
+std::vector<int> JointsToDraw(const RobotModel& model);
+
+/// Draws configurations and looks which spheres of the robot touch. The same seed gives the same
+/// samples.
 PairSamples SamplePairs(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                        int samples, std::uint64_t seed);
+                        const PairSampling& sampling);
 
 /// Pairs of links that touch in one configuration (full positions), of those that could be checked
 /// and are not in `allowed`.
@@ -37,9 +54,5 @@ std::vector<std::pair<int, int>> PairsInContact(const RobotModel& model,
                                                 const std::vector<LinkSphere>& spheres,
                                                 const std::vector<std::pair<int, int>>& allowed,
                                                 const std::vector<double>& full_positions);
-
-/// Share of random configurations, drawn as SamplePairs does, in which none of those pairs touch.
-double FreeShare(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                 const std::vector<std::pair<int, int>>& allowed, int samples, std::uint64_t seed);
 
 }  // namespace planbench

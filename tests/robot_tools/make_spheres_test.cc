@@ -44,7 +44,11 @@ class MakeSpheresTest : public testing::Test {
     flags_.spheres = 12;
   }
   void Ring(const TriangleMesh& mesh) { folder_.Write("parts/ring.obj", MeshAsObj(mesh)); }
-  std::string Make() { return fmt::format("{}", fmt::join(MakeSpheres(flags_), "\n")); }
+  std::string Make() {
+    std::string report;
+    MakeSpheres(flags_, [&](const std::string& line) { report += line + "\n"; });
+    return report;
+  }
   std::vector<LinkSphere> Read(const std::filesystem::path& file) {
     return ReadLinkSpheres(file, ReadText(file), RobotModel::FromUrdf(kRingerUrdf, "ringer.urdf"));
   }
@@ -99,7 +103,8 @@ TEST_F(MakeSpheresTest, NamesWhatIsOddAboutMeshes) {
   TriangleMesh odd = ring;
   odd.triangles.pop_back();
   Ring(odd);
-  EXPECT_THAT(Make(), HasSubstr("link 'base', package://parts/ring.obj: 1 small holes are filled"));
+  EXPECT_THAT(Make(),
+              HasSubstr("link 'base', package://parts/ring.obj: small holes are filled (1)"));
   Ring(TurnedInsideOut(ring));
   EXPECT_THAT(Make(), HasSubstr("inside out"));
   std::swap(ring.triangles[0][0], ring.triangles[0][1]);

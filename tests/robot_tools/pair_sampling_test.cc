@@ -33,6 +33,12 @@ class PairSamplingTest : public testing::Test {
     return {Link(link), {x, 0, 0}, radius};
   }
 
+  // Of all joints.
+  PairSamples Sample(const std::vector<LinkSphere>& spheres, int samples, std::uint64_t seed = 1,
+                     const std::vector<std::pair<int, int>>& allowed = {}) const {
+    return SamplePairs(model_, spheres, {JointsToDraw(model_), allowed, samples, seed});
+  }
+
   const RobotModel model_ = RobotModel::FromUrdf(kChainUrdf, "chain.urdf");
   // c reaches a's sphere when it folds back; b's never meets the base; c's inner sphere is always
   // in a's far one.
@@ -42,7 +48,7 @@ class PairSamplingTest : public testing::Test {
 };
 
 TEST_F(PairSamplingTest, TellsPairsThatMeetFromThoseThatNeverDo) {
-  const PairSamples samples = SamplePairs(model_, spheres_, 2000, 1);
+  const PairSamples samples = Sample(spheres_, 2000);
   EXPECT_EQ(samples.samples, 2000);
   int a_and_c = 0;
   for (const auto& pair : samples.pairs) {
@@ -62,13 +68,13 @@ TEST_F(PairSamplingTest, OverlapByConstructionIsAlways) {
   std::vector<LinkSphere> spheres = spheres_;
   spheres.push_back(Ball("c", 0, 0.9));
   spheres.push_back(Ball("a", 1.2, 0.3));
-  EXPECT_THAT(SamplePairs(model_, spheres, 500, 1).Always(), ElementsAre(Links("a", "c")));
+  EXPECT_THAT(Sample(spheres, 500).Always(), ElementsAre(Links("a", "c")));
 }
 
 TEST_F(PairSamplingTest, TheSameSeedDrawsTheSame) {
   const auto counts = [&](std::uint64_t seed) {
     std::vector<int> contacts;
-    for (const auto& pair : SamplePairs(model_, spheres_, 500, seed).pairs) {
+    for (const auto& pair : Sample(spheres_, 500, seed).pairs) {
       contacts.push_back(pair.contacts);
     }
     return contacts;
@@ -86,15 +92,33 @@ TEST_F(PairSamplingTest, NamesWhatTouchesInAConfiguration) {
               testing::IsEmpty());
 }
 
-TEST_F(PairSamplingTest, SharesAddUp) {
-  const double all = FreeShare(model_, spheres_, {}, 1000, 1);
-  EXPECT_GT(all, 0.8);
-  EXPECT_LT(all, 1);
+TEST_F(PairSamplingTest, FreeIsWhereNoPairThatCountsTouches) {
+  const PairSamples all = Sample(spheres_, 1000);
+  EXPECT_GT(all.free, 800);
+  EXPECT_LT(all.free, 1000);
   std::vector<std::pair<int, int>> pairs;
-  for (const auto& pair : SamplePairs(model_, spheres_, 100, 1).pairs) {
-    pairs.emplace_back(pair.link_a, pair.link_b);
-  }
-  EXPECT_EQ(FreeShare(model_, spheres_, pairs, 1000, 1), 1);
+  for (const auto& pair : all.pairs) pairs.emplace_back(pair.link_b, pair.link_a);
+  const PairSamples none = Sample(spheres_, 1000, 1, pairs);
+  EXPECT_EQ(none.free, 1000);
+  EXPECT_THAT(none.pairs, testing::IsEmpty());
+}
+
+TEST_F(PairSamplingTest, MostOftenComesFirst) {
+  PairSamples samples{10, 0, {{0, 1, 3}, {0, 2, 0}, {1, 2, 9}, {0, 3, 4}}};
+  const std::vector<PairSamples::Pair> worst = samples.MostOften(2);
+  ASSERT_EQ(worst.size(), 2u);
+  EXPECT_EQ(worst[0].contacts, 9);
+  EXPECT_EQ(worst[1].contacts, 4);
+  EXPECT_EQ(samples.MostOften(9).size(), 3u);
+}
+
+TEST_F(PairSamplingTest, JointsThatAreNotDrawnAreHeld) {
+  // c folds back by j3 alone.
+  const auto draw = [&](const char* joint) {
+    return SamplePairs(model_, spheres_, {{model_.FindJoint(joint)}, {}, 300, 1});
+  };
+  EXPECT_EQ(draw("j1").free, 300);
+  EXPECT_LT(draw("j3").free, 300);
 }
 
 }  // namespace
