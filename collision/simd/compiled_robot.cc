@@ -133,15 +133,27 @@ void CompiledRobot::ShareArrays() {
   kernel.points = points_.data();
 }
 
+double CompiledRobot::PaddingOf(const Ball& ball_G, int link) const {
+  double reach = ball_G.center.norm() + ball_G.radius;
+  for (int body = rigid_bodies_.BodyOf(link); body > 0; body = At(kernel.bodies, body).parent) {
+    reach += Eigen::Map<const Eigen::Vector3f>(At(kernel.bodies, body).position).norm();
+  }
+  return kRadiusPadding * std::max(1.0, reach / kPaddedReach);
+}
+
 void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_patch) {
+  Emit(tree, link, index, first_patch, PaddingOf(tree.ball(), link));
+}
+
+void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_patch,
+                         double padding) {
   const int first = static_cast<int>(kernel.nodes.size());
   const int num = static_cast<int>(tree.children().size());
   // Balls of balls enclose the enlarged ones, and what rounding does to both.
-  SetBall(tree.ball(), num == 0 ? kRadiusPadding : 2 * kRadiusPadding, link, index);
+  SetBall(tree.ball(), num == 0 ? padding : 2 * padding, link, index);
   At(kernel.nodes, index).first_child = first;
   At(kernel.nodes, index).num_children = num;
-  At(kernel.nodes, index).inner =
-      static_cast<float>(std::max(0.0, tree.inner() - 2 * kRadiusPadding));
+  At(kernel.nodes, index).inner = static_cast<float>(std::max(0.0, tree.inner() - 2 * padding));
   At(kernel.nodes, index).reach = num == 0 ? AddReach(tree.ball(), link) : kNoReach;
   if (tree.patch() >= 0) {
     At(kernel.nodes, index).patch = first_patch + tree.patch();
@@ -149,9 +161,9 @@ void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_pa
   }
   kernel.hulls.resize(kernel.nodes.size());
   const Pose turn{At(R_CG_, rigid_bodies_.BodyOf(link)), Eigen::Vector3d::Zero()};
-  At(kernel.hulls, index) = AddHull(tree.hull(), turn);
+  At(kernel.hulls, index) = AddHull(tree.hull(), turn, padding);
   kernel.nodes.resize(kernel.nodes.size() + static_cast<std::size_t>(num));
-  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i, first_patch);
+  for (int i = 0; i < num; ++i) Emit(At(tree.children(), i), link, first + i, first_patch, padding);
 }
 
 void CompiledRobot::SetBall(const Ball& ball_G, double padding, int link, int index) {
@@ -180,7 +192,7 @@ void CompiledRobot::AddPatches(const std::vector<RobotMeshes::Patch>& patches) {
     Eigen::AlignedBox3d all;
     for (std::size_t g = 0; g < patch.groups.size(); ++g) {
       const auto& [triangles, corners_L, hull] = patch.groups[g];
-      placed.hulls[g] = AddHull(hull, X_CL);
+      placed.hulls[g] = AddHull(hull, X_CL, kRadiusPadding);
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector3d& corner : corners_L) box.extend(X_CL * corner);
       SetBox(box, 2 * kRadiusPadding, static_cast<int>(triangles_.size()), g, &placed.boxes);
@@ -204,12 +216,12 @@ void CompiledRobot::AddPatches(const std::vector<RobotMeshes::Patch>& patches) {
   }
 }
 
-kernels::NodeHull CompiledRobot::AddHull(const Hull& hull, const Pose& X_C) {
+kernels::NodeHull CompiledRobot::AddHull(const Hull& hull, const Pose& X_C, double padding) {
   const auto num = static_cast<std::int32_t>(hull.points.size());
   kernels::NodeHull placed;
   placed.first = static_cast<std::int32_t>(points_.size());
   placed.num = (num + kernels::kWide - 1) / kernels::kWide;
-  placed.slack = static_cast<float>(hull.slack + kRadiusPadding);
+  placed.slack = static_cast<float>(hull.slack + padding);
   for (std::int32_t i = 0; i < placed.num * kernels::kWide; ++i) {
     if (i % kernels::kWide == 0) points_.emplace_back();
     const Eigen::Vector3d p_C = X_C * At(hull.points, std::min(i, num - 1));

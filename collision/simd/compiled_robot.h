@@ -16,8 +16,10 @@
 namespace planbench {
 
 /// Radii are enlarged by this much, m, which covers the rounding of positions that single precision
-/// gives a robot of some metres: verdicts err towards collision.
+/// gives within kPaddedReach, m, and in proportion by more further out: verdicts err towards
+/// collision.
 inline constexpr double kRadiusPadding = 2e-5;
+inline constexpr double kPaddedReach = 5;
 
 /// A tree of balls in the kernel's robot.
 struct CompiledTree {
@@ -94,6 +96,10 @@ struct CompiledRobot {
   /// Writes a tree whose root has its place already; `link`: one of the body's. `first_patch`: the
   /// kernel's number of the first of its patches.
   void Emit(const BallTree& tree, int link, int index, int first_patch);
+  /// `padding`: of its balls.
+  void Emit(const BallTree& tree, int link, int index, int first_patch, double padding);
+  /// What covers the rounding of all in a ball of a link's body.
+  double PaddingOf(const Ball& ball_G, int link) const;
   void SetBall(const Ball& ball_G, double padding, int link, int index);
   /// Of the link's, if it has any.
   const LinkMeshes* MeshesOf(int link) const;
@@ -110,7 +116,7 @@ struct CompiledRobot {
   /// Values of a tree's or a pair's bound: see TreePair.
   std::size_t ReachSize() const { return 2 * static_cast<std::size_t>(kernel.num_joints); }
   /// Of points in a frame whose pose in C is given.
-  kernels::NodeHull AddHull(const Hull& hull, const Pose& X_C);
+  kernels::NodeHull AddHull(const Hull& hull, const Pose& X_C, double padding);
   /// In the body's frame G, enlarged.
   Ball BallOf(const kernels::Node& node, int body) const;
   Ball RootBall(const CompiledTree& tree) const;

@@ -13,6 +13,7 @@
 #include "collision/edge_checker.h"
 #include "collision/fcl/fcl_checker.h"
 #include "collision/simd/simd_checker.h"
+#include "common/random.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"
@@ -239,6 +240,44 @@ TEST(SimdTruthTest, AnObjectThatTurnsAboutItsMiddleHitsWithItsEdges) {
     EXPECT_FALSE(certified.IsValidEdge(from, to)) << i;
   }
   EXPECT_TRUE(certified.IsValidEdge(std::vector<double>{0.0}, std::vector<double>{0.6}));
+}
+
+/// Positions far out are rounded: the engine errs towards collision there too.
+TEST(SimdTruthTest, ContactsFarFromTheLinkAreNotMissed) {
+  Robot robot;
+  robot.name = "beacon";
+  robot.model = RobotModel::FromUrdf(R"(<robot name="beacon">
+    <link name="base"/><link name="tool"/>
+    <joint name="yaw" type="continuous"><parent link="base"/><child link="tool"/>
+      <origin xyz="0.1 0.2 1"/><axis xyz="0.1 0.2 1"/></joint></robot>)",
+                                     "beacon.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"yaw"}, "tool")};
+  const int tool = robot.model.FindLink("tool");
+  const Box box{{0.1, 0.1, 0.1}};
+  std::mt19937_64 generator(8);
+  for (const double far_m : {30.0, 900.0, 1e4, 1e6, 9e8}) {
+    for (int i = 0; i < Trials(50); ++i) {
+      const std::vector<double> q = {6 * UniformFraction(&generator) - 3};
+      const Eigen::Vector3d p_T(far_m, far_m * UniformFraction(&generator), 0.3);
+      const Eigen::Vector3d p_W = ComputeLinkPoses(robot.model, q)[tool] * p_T;
+      Scene scene;
+      scene.objects = {{"wall", Eigen::Isometry3d(Eigen::Translation3d(p_W)), {}}};
+      scene.objects[0].shapes = {{box, Eigen::Isometry3d(Eigen::Translation3d(0.03, -0.02, 0.04))}};
+      robot.spheres = {{tool, Eigen::Vector3d::Zero(), 0.05}};
+      scene.attached = {{"tool", {"cube", Eigen::Isometry3d::Identity(), {}}, {}}};
+      scene.attached[0].object.shapes = {{box, Eigen::Isometry3d(Eigen::Translation3d(p_T))}};
+      Comparison held(robot, scene, std::vector<double>{0.0});
+      EXPECT_FALSE(held.exact().IsFree(q));
+      EXPECT_FALSE(held.fast().IsFree(q)) << far_m;
+      // A sphere of the robot itself that is 1 um in a ball.
+      scene.attached.clear();
+      robot.spheres = {{tool, p_T, 0.05}};
+      scene.objects[0].shapes = {
+          {Sphere{0.05}, Eigen::Isometry3d(Eigen::Translation3d(0.1 - 1e-6, 0, 0))}};
+      Comparison own(robot, scene, std::vector<double>{0.0});
+      EXPECT_TRUE(own.exact().IsFree(q) || !own.fast().IsFree(q)) << far_m;
+    }
+  }
 }
 
 TEST(SimdTruthTest, EdgesAtFixedSamples) {
