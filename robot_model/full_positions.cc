@@ -89,10 +89,8 @@ std::optional<std::string> FindPositionFault(const RobotModel& model, const std:
   return std::nullopt;
 }
 
-std::vector<double> FullPositionsWherePossible(const RobotModel& model,
-                                               const std::vector<std::string>& names,
-                                               const std::vector<double>& positions) {
-  std::vector<double> full = model.DefaultPositions();
+void PutPositions(const RobotModel& model, const std::vector<std::string>& names,
+                  const std::vector<double>& positions, std::vector<double>* full) {
   // Followers first: where the leader is named too, it has the last word.
   for (const bool followers : {true, false}) {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -104,9 +102,16 @@ std::vector<double> FullPositionsWherePossible(const RobotModel& model,
       double position = positions[i];
       if (follows && joint->multiplier == 0) continue;
       if (follows) position = (position - joint->offset) / joint->multiplier;
-      full[static_cast<std::size_t>(index)] = position;
+      (*full)[static_cast<std::size_t>(index)] = position;
     }
   }
+}
+
+std::vector<double> FullPositionsWherePossible(const RobotModel& model,
+                                               const std::vector<std::string>& names,
+                                               const std::vector<double>& positions) {
+  std::vector<double> full = model.DefaultPositions();
+  PutPositions(model, names, positions, &full);
   return full;
 }
 

@@ -35,4 +35,9 @@ std::vector<double> FullPositionsWherePossible(const RobotModel& model,
                                                const std::vector<std::string>& names,
                                                const std::vector<double>& positions);
 
+/// Puts the named joints of full positions where `positions` have them, in the same way; others
+/// stay where they are.
+void PutPositions(const RobotModel& model, const std::vector<std::string>& names,
+                  const std::vector<double>& positions, std::vector<double>* full);
+
 }  // namespace planbench

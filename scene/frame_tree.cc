@@ -1,6 +1,5 @@
 #include "scene/frame_tree.h"
 
-#include <array>
 #include <string_view>
 
 #include "common/text.h"
@@ -24,11 +23,10 @@ std::string WithoutSlash(const std::string& frame) {
   return frame.starts_with('/') ? frame.substr(1) : frame;
 }
 
-FrameTree::FrameTree(const Robot& robot, std::span<const double> start_positions,
-                     const PlanningFrame& planning_frame,
+FrameTree::FrameTree(const Robot& robot, const Stance& stance, const std::string& planning_frame,
                      const std::vector<FixedTransform>& transforms)
-    : not_of_objects_{planning_frame.name} {
-  const std::vector<Isometry3d> X_BL = ComputeLinkPoses(robot.model, start_positions);
+    : not_of_objects_{planning_frame} {
+  const std::vector<Isometry3d> X_BL = ComputeLinkPoses(robot.model, stance.positions);
   for (int link = 0; link < robot.model.num_links(); ++link) {
     const auto l = static_cast<std::size_t>(link);
     X_BF_[robot.model.links()[l].name] = X_BL[l];
@@ -36,38 +34,50 @@ FrameTree::FrameTree(const Robot& robot, std::span<const double> start_positions
   }
   std::vector<FixedTransform> named = transforms;  // With the planning frame by its name.
   for (FixedTransform& transform : named) {
-    if (transform.header.empty()) transform.header = planning_frame.name;
+    if (transform.header.empty()) transform.header = planning_frame;
   }
   // What the file says comes before what the robot's description says, and that before what is
   // taken where neither says anything.
   Follow(named);
-  if (planning_frame.X_WR) Place(planning_frame);
+  for (const PlacedLink& placed : stance.placed_links) {
+    Place(placed, placed.frame.empty() ? planning_frame : placed.frame, robot.model);
+  }
   Follow(named);
   PlaceSurroundings(robot);
   Follow(named);
-  X_BF_.try_emplace(planning_frame.name, Isometry3d::Identity());
-  X_BF_[""] = X_BF_.at(planning_frame.name);
+  X_BF_.try_emplace(planning_frame, Isometry3d::Identity());
+  X_BF_[""] = X_BF_.at(planning_frame);
   Follow(named);
   CheckAgreement(named);
 }
 
-void FrameTree::Place(const PlanningFrame& planning_frame) {
-  const Isometry3d X_BW = planning_frame.X_WR->inverse(Eigen::Isometry);
-  const auto [frame, is_new] = X_BF_.try_emplace(planning_frame.name, X_BW);
-  if (is_new || Agree(frame->second, X_BW)) return;
-  planning_frame.node->Fail("places the robot in the frame '" + planning_frame.name +
-                            "', which has another pose already: it is the robot's own, or a fixed "
-                            "transform joins it to the robot");
+void FrameTree::Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model) {
+  const std::string& link = model.links()[static_cast<std::size_t>(placed.link)].name;
+  const Isometry3d X_BF = X_BF_.at(link) * placed.X_FL.inverse(Eigen::Isometry);
+  const auto [known, is_new] = X_BF_.try_emplace(frame, X_BF);
+  not_of_objects_.insert(frame);
+  if (is_new || Agree(known->second, X_BF)) return;
+  placed.node.Fail("places the robot's link '" + link + "' in the frame '" + frame +
+                   "', which has another pose already: it is the robot's own, or another virtual "
+                   "joint or a fixed transform joins it to the robot");
 }
 
 void FrameTree::PlaceSurroundings(const Robot& robot) {
   for (const VirtualJoint& joint : robot.virtual_joints) {
-    if (joint.type != JointType::kFixed) continue;
     const std::string frame = WithoutSlash(joint.parent_frame);
     const std::string& link = robot.model.links()[static_cast<std::size_t>(joint.child_link)].name;
     X_BF_.try_emplace(frame, X_BF_.at(link));
     not_of_objects_.insert(frame);
   }
+}
+
+void FrameTree::MoveToBaseOf(const FrameTree& other, const std::string& still) {
+  const Isometry3d& X_OF = *other.Find(still);
+  const Isometry3d& X_BF = *Find(still);
+  // Not to round what has not moved.
+  if (X_OF.matrix() == X_BF.matrix()) return;
+  const Isometry3d X_OB = X_OF * X_BF.inverse(Eigen::Isometry);
+  for (auto& [name, X] : X_BF_) X = X_OB * X;
 }
 
 void FrameTree::Follow(const std::vector<FixedTransform>& transforms) {
@@ -102,8 +112,38 @@ void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) co
   }
 }
 
-void FrameTree::AddObjectFrame(const std::string& name, const Isometry3d& X_BF) {
-  if (!not_of_objects_.contains(name)) X_BF_[name] = X_BF;
+void FrameTree::SetObject(const std::string& id, const std::string& link,
+                          const std::map<std::string, Isometry3d>& X_LF) {
+  RemoveObject(id);
+  ObjectFrames& object = objects_[id];
+  object.link = link;
+  for (const auto& [name, X] : X_LF) {
+    if (not_of_objects_.contains(name)) continue;
+    object.X_LF[name] = X;
+    X_BF_[name] = PoseOf(link) * X;
+  }
+}
+
+void FrameTree::AttachObject(const std::string& id, const std::string& link) {
+  ObjectFrames& object = objects_[id];
+  const Isometry3d X_NO = PoseOf(link).inverse(Eigen::Isometry) * PoseOf(object.link);
+  for (auto& [name, X] : object.X_LF) X = X_NO * X;
+  object.link = link;
+}
+
+void FrameTree::RemoveObject(const std::string& id) {
+  const auto object = objects_.find(id);
+  if (object == objects_.end()) return;
+  for (const auto& [name, X] : object->second.X_LF) X_BF_.erase(name);
+  objects_.erase(object);
+}
+
+void FrameTree::SetObjectsOf(const FrameTree& other) {
+  for (const auto& [id, object] : other.objects_) SetObject(id, object.link, object.X_LF);
+}
+
+Isometry3d FrameTree::PoseOf(const std::string& link) const {
+  return link.empty() ? Isometry3d::Identity() : X_BF_.at(link);
 }
 
 const Isometry3d* FrameTree::Find(const std::string& name) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -189,12 +190,12 @@ bool HasBody(const Robot& robot, int link) {
          has_one(robot.spheres) || has_one(robot.enclosing_spheres);
 }
 
-// Makes the frames of an object known. `X_BO`: its pose.
-void AddFrames(const YamlNode& node, const SceneObject& object, bool has_pose,
-               const Eigen::Isometry3d& X_BO, FrameTree* frames) {
-  const bool of_shape = !has_pose && object.shapes.size() == 1;
-  const Eigen::Isometry3d X_BF = of_shape ? X_BO * object.shapes.front().X_FS : X_BO;
-  frames->AddObjectFrame(object.id, X_BF);
+// The frames of an object by their names, in the frame that its pose is in.
+std::map<std::string, Eigen::Isometry3d> ReadFrames(const YamlNode& node,
+                                                    const SceneObject& object) {
+  const bool of_shape = !HasPose(node) && object.shapes.size() == 1;
+  const Eigen::Isometry3d X_WF = of_shape ? object.X_WO * object.shapes.front().X_FS : object.X_WO;
+  std::map<std::string, Eigen::Isometry3d> frames = {{object.id, X_WF}};
   const std::vector<YamlNode> names = OptionalElements(node, "subframe_names");
   const std::vector<YamlNode> poses = OptionalElements(node, "subframe_poses");
   if (names.size() != poses.size()) {
@@ -202,8 +203,9 @@ void AddFrames(const YamlNode& node, const SceneObject& object, bool has_pose,
               std::to_string(poses.size()) + " subframe_poses");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    frames->AddObjectFrame(object.id + "/" + names[i].String(), X_BF * ReadPose(poses[i]));
+    frames[object.id + "/" + names[i].String()] = X_WF * ReadPose(poses[i]);
   }
+  return frames;
 }
 
 AttachedObject* FindAttached(const std::string& id, Scene* scene) {
@@ -230,7 +232,7 @@ SceneObject ReadAttachedShapes(const YamlNode& node, const std::string& link,
     const Eigen::Isometry3d X_LB = X_BL.inverse(Eigen::Isometry);
     object.X_WO = CanonicalPose(X_LB * frames->At(frame, FrameNode(node)) * object.X_WO);
   }
-  AddFrames(node, object, HasPose(node), X_BL * object.X_WO, frames);
+  frames->SetObject(object.id, link, ReadFrames(node, object));
   return object;
 }
 
@@ -271,6 +273,7 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
     const std::string id = object.At("id").String();
     attached.object = FindNamed(object, id, known, *frames, scene);
     attached.object.X_WO = CanonicalPose(X_BL.inverse(Eigen::Isometry) * attached.object.X_WO);
+    frames->AttachObject(id, attached.link);
     if (known != nullptr && attached.touch_links.empty()) attached.touch_links = known->touch_links;
   }
   for (const PlacedShape& placed : attached.object.shapes) {
@@ -352,7 +355,7 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
     if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
     SceneObject object = ReadCollisionObject(node, resources);
     object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
-    AddFrames(node, object, HasPose(node), object.X_WO, frames);
+    frames->SetObject(id, "", ReadFrames(node, object));
     scene->objects.push_back(std::move(object));
   }
 }
@@ -375,7 +378,8 @@ void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& res
   }
 }
 
-void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, Scene* scene) {
+void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTree* frames,
+                   Scene* scene) {
   std::set<std::string> named;
   for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
     named.insert(node.At("object").At("id").String());
@@ -383,6 +387,7 @@ void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, Scene* 
   std::erase_if(scene->attached, [&](const AttachedObject& attached) {
     const std::string& id = attached.object.id;
     if (named.contains(id)) return false;
+    frames->RemoveObject(id);
     is_diff.Warn("is false, so that '" + id +
                  "', which the scene attaches and this state does not, is left out; true keeps it");
     return true;

@@ -47,13 +47,15 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
 /// id already, and one without is the world's of that id, where it is; in either case that leaves
 /// the world. Beyond MoveIt, one without shapes may also name an attached object, which is then
 /// attached anew where it is: to another link, with other touch links. Without a frame objects are
-/// in that of their link. Throws InputError, also for links that the robot does not have.
+/// in that of their link. `frames` have the robot in that state, which is what tells where the link
+/// is. Throws InputError, also for links that the robot does not have.
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene);
 
 /// Removes the attached objects that `robot_state` does not name, with a warning each, at
-/// `is_diff`.
-void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, Scene* scene);
+/// `is_diff`, and their frames.
+void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTree* frames,
+                   Scene* scene);
 
 /// Adds world.octomap, if it has data, as an object "<octomap>" of boxes.
 void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene);

@@ -37,20 +37,6 @@ void RequireRobot(const YamlNode& scene, const Robot& robot) {
   node->Fail("the scene is for robot '" + name + "', not for '" + robot.name + "'");
 }
 
-// `below` overlaid by `above`.
-JointState Overlaid(JointState below, const JointState& above) {
-  for (std::size_t i = 0; i < above.names.size(); ++i) {
-    const auto found = std::find(below.names.begin(), below.names.end(), above.names[i]);
-    if (found == below.names.end()) {
-      below.names.push_back(above.names[i]);
-      below.positions.push_back(above.positions[i]);
-    } else {
-      below.positions[static_cast<std::size_t>(found - below.names.begin())] = above.positions[i];
-    }
-  }
-  return below;
-}
-
 // Puts the followers in `start` where they are at those full positions.
 void PlaceFollowers(const RobotModel& model, const std::vector<double>& full, JointState* start) {
   for (std::size_t i = 0; i < start->names.size(); ++i) {
@@ -97,21 +83,37 @@ void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
   }
 }
 
+// The start: its joints, with followers where they are, go to `joints`.
+Stance ReadStart(const YamlNode& request, const RobotModel& model, const PlanningGroup& group,
+                 const RobotStateFields& start, JointState* joints) {
+  RequireStartOfGroup(request, group, start.joints);
+  const YamlNode node = request.Find("start_state").value_or(request);
+  std::vector<std::string> warnings;
+  const std::vector<double> full =
+      FullPositions(model, start.joints.names, start.joints.positions, "start", &warnings);
+  for (const std::string& warning : warnings) node.Warn(warning);
+  *joints = start.joints;
+  PlaceFollowers(model, full, joints);
+  WarnOfHeldJoints(node, model, group, full);
+  return {.positions = full, .placed_links = start.placed_links};
+}
+
 // The frame that the file is in: that which fixed_frame_transforms relate to themselves, else what
 // the robot's state is in, else, of a transform between frames that the robot does not have, the
-// child, which is where MoveIt writes it, else what the robot's virtual joint joins it to.
-PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& scene_state,
-                                const RobotStateFields& start_state,
-                                const std::vector<FixedTransform>& transforms) {
-  const RobotStateFields& with_root = start_state.X_WR ? start_state : scene_state;
-  PlanningFrame frame{.name = "", .X_WR = with_root.X_WR, .node = with_root.root_node};
+// child, which is where MoveIt writes it, else what the robot's virtual joint joins it to. "" if
+// nothing names it.
+std::string FindPlanningFrame(const Robot& robot, const RobotStateFields& start,
+                              const RobotStateFields& scene_state,
+                              const std::vector<FixedTransform>& transforms) {
   for (const FixedTransform& transform : transforms) {
-    if (transform.header == transform.child) frame.name = transform.child;
-    if (!frame.name.empty()) return frame;
+    if (transform.header == transform.child) return transform.child;
   }
-  for (const std::string& name : {with_root.root_frame, scene_state.frame, start_state.frame}) {
-    frame.name = name;
-    if (!frame.name.empty()) return frame;
+  if (!start.placed_frame.empty()) return start.placed_frame;
+  for (const PlacedLink& placed : start.placed_links) {
+    if (!placed.frame.empty()) return placed.frame;
+  }
+  for (const std::string& name : {scene_state.frame, start.frame}) {
+    if (!name.empty()) return name;
   }
   const auto is_of_robot = [&](const std::string& name) {
     return robot.model.FindLink(name) >= 0 ||
@@ -123,13 +125,23 @@ PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& scen
     if (transform.header.empty() || is_of_robot(transform.header) || is_of_robot(transform.child)) {
       continue;
     }
-    frame.name = transform.child;
-    return frame;
+    return transform.child;
   }
-  if (!robot.virtual_joints.empty()) {
-    frame.name = WithoutSlash(robot.virtual_joints.front().parent_frame);
-  }
-  return frame;
+  return robot.virtual_joints.empty() ? ""
+                                      : WithoutSlash(robot.virtual_joints.front().parent_frame);
+}
+
+// The frame that stands still while the robot goes from the scene's state to the start: the
+// planning frame, or another that the robot is placed in; the root link where that is a link.
+std::string StillFrame(const RobotModel& model, const std::vector<PlacedLink>& placed_links,
+                       const std::string& planning_frame) {
+  const bool is_placed_in =
+      placed_links.empty() ||
+      std::any_of(placed_links.begin(), placed_links.end(), [&](const PlacedLink& placed) {
+        return placed.frame.empty() || placed.frame == planning_frame;
+      });
+  const std::string& frame = is_placed_in ? planning_frame : placed_links.front().frame;
+  return model.FindLink(frame) >= 0 ? model.links().front().name : frame;
 }
 
 // Links without a body may share their name with an object, but not what the matrix allows them.
@@ -179,45 +191,49 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   problem.group = group.name;
   const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot);
   const RobotStateFields start_state = OptionalState(request, "start_state", robot);
-  problem.start = Overlaid(scene_state.joints, start_state.joints);
-  RequireStartOfGroup(request, group, problem.start);
-  std::vector<std::string> start_warnings;
-  const YamlNode start_node = request.Find("start_state").value_or(request);
-  const std::vector<double> start = FullPositions(
-      robot.model, problem.start.names, problem.start.positions, "start", &start_warnings);
-  for (const std::string& warning : start_warnings) start_node.Warn(warning);
-  PlaceFollowers(robot.model, start, &problem.start);
-  WarnOfHeldJoints(start_node, robot.model, group, start);
+  const RobotStateFields start = Overlaid(scene_state, start_state);
+  const Stance at_start = ReadStart(request, robot.model, group, start, &problem.start);
+  // Where a scene's things are is said with the robot in the scene's own state. What that leaves
+  // open is as at the start.
+  Stance in_scene = at_start;
+  PutPositions(robot.model, scene_state.joints.names, scene_state.joints.positions,
+               &in_scene.positions);
+  in_scene.placed_links = Overlaid(start, scene_state).placed_links;
 
   const std::vector<FixedTransform> transforms = ReadFixedTransforms(planning_scene);
-  FrameTree frames(robot, start, FindPlanningFrame(robot, scene_state, start_state, transforms),
-                   transforms);
+  const std::string planning_frame = FindPlanningFrame(robot, start, scene_state, transforms);
+  FrameTree frames(robot, at_start, planning_frame, transforms);
+  FrameTree scene_frames(robot, in_scene, planning_frame, transforms);
+  scene_frames.MoveToBaseOf(frames, StillFrame(robot.model, start.placed_links, planning_frame));
   Scene& scene = problem.scene;
   scene.name = planning_scene.StringOr("name", "");
   scene.robot_name = planning_scene.StringOr("robot_model_name", "");
   scene.world_frame = robot.model.links().front().name;
   scene.fixed_frames = PlacedFrames(transforms, frames, robot.model);
   if (const auto world = planning_scene.Find("world")) {
-    AddWorldObjects(*world, resources, robot, &frames, &scene);
-    AddOctomap(*world, frames, &scene);
+    AddWorldObjects(*world, resources, robot, &scene_frames, &scene);
+    AddOctomap(*world, scene_frames, &scene);
   }
   if (const auto state = planning_scene.Find("robot_state")) {
-    AddAttachedObjects(*state, resources, robot, &frames, &scene);
+    AddAttachedObjects(*state, resources, robot, &scene_frames, &scene);
   }
+  frames.SetObjectsOf(scene_frames);
   if (const auto state = request.Find("start_state")) {
     AddAttachedObjects(*state, resources, robot, &frames, &scene);
     // A whole state says all that is attached, as in MoveIt, for which one without joints is no
     // state. Who leaves is_diff out means what the scene attaches to stay.
     const auto is_diff = state->Find("is_diff");
-    const bool has_joints = !start_state.joints.names.empty() || start_state.X_WR;
-    if (is_diff && !ReadFlag(*is_diff) && has_joints) DetachUnnamed(*state, *is_diff, &scene);
+    const bool has_joints = !start_state.joints.names.empty() || !start_state.placed_links.empty();
+    if (is_diff && !ReadFlag(*is_diff) && has_joints) {
+      DetachUnnamed(*state, *is_diff, &frames, &scene);
+    }
   }
   if (const auto matrix = planning_scene.Find("allowed_collision_matrix")) {
     scene.allowed_collisions = ReadAllowedCollisions(*matrix);
     RequireNamesOfOne(*matrix, robot, scene);
   }
 
-  problem.goal = ReadGoal(request, robot.model, group, start, frames);
+  problem.goal = ReadGoal(request, robot.model, group, at_start.positions, frames);
   problem.workspace = ReadWorkspace(request);
   problem.time_limit_s = ReadTimeLimit(request);
   problem.warnings = scene_file.warnings();

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/yaml.h"
 #include "robot_model/robot_folder.h"
+#include "scene/frame_tree.h"
 #include "scene/problem.h"
 
 namespace planbench {
@@ -16,17 +16,21 @@ struct RobotStateFields {
   /// the robot, as positions (RobotModel::position_names).
   JointState joints;
   std::string frame;  ///< Of joint_state, "" if it names none.
-  /// Pose of the robot's root link in the frame multi_dof_joint_state is in: that of a joint which
-  /// the robot's description does not have, which joins the robot to its surroundings.
-  std::optional<Eigen::Isometry3d> X_WR;
-  std::string root_frame;             ///< The frame W of that.
-  std::optional<YamlNode> root_node;  ///< Where it stands.
+  /// The poses that multi_dof_joint_state gives to virtual joints: those of their child links in
+  /// their parent frames. Where the robot has no virtual joint, one of a joint that it does not
+  /// have is such a pose, of the root link in the header's frame.
+  std::vector<PlacedLink> placed_links;
+  std::string placed_frame;  ///< Of multi_dof_joint_state, if links are placed.
 };
 
 /// Throws InputError naming the line: names with another number of positions or transforms, joints
 /// that occur twice or that the robot does not have, positions and poses that a joint's type rules
-/// out (FindPositionFault, FindPoseFault), those of virtual joints too, more than one joint that
-/// could join the robot to its surroundings.
+/// out (FindPositionFault, FindPoseFault), those of virtual joints too, and poses of these in a
+/// frame that is not theirs.
 RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot);
+
+/// `below` overlaid by `above`, which has the last word on the joints that it names. Throws
+/// InputError if both place the root link, but in different frames.
+RobotStateFields Overlaid(RobotStateFields below, const RobotStateFields& above);
 
 }  // namespace planbench

@@ -17,13 +17,14 @@ namespace planbench {
 /// Meshes named by resource are loaded, their scale applied; relative paths are from the scene's
 /// folder, packages the robot's.
 ///
-/// Every frame that a header names is resolved (see FrameTree) into W, the robot's base frame, with
-/// the robot at the start of the problem; an empty one is the planning frame of the file. All poses
-/// come out canonical (scene/pose.h). Objects attached in the start state of the request join those
-/// of the scene, or take their place; if it says `is_diff: false`, it says all of them. Joints that
-/// follow others are where those put them. `set` and `index` come from the file names (see
-/// ListProblemSet), "" and 0 for other names. What was read otherwise than written is in
-/// Problem::warnings.
+/// Every frame that a header names is resolved (see FrameTree) into W, the robot's base frame at
+/// the start of the problem: what the scene says with the robot in the scene's own robot_state,
+/// which is as the start in all that it leaves open, what the request says with the robot at the
+/// start. An empty one is the planning frame of the file. All poses come out canonical
+/// (scene/pose.h). Objects attached in the start state of the request join those of the scene, or
+/// take their place; if it says `is_diff: false`, it says all of them. Joints that follow others
+/// are where those put them. `set` and `index` come from the file names (see ListProblemSet), ""
+/// and 0 for other names. What was read otherwise than written is in Problem::warnings.
 ///
 /// Throws InputError naming file, line and field, for malformed input, fields that the messages do
 /// not have, what does not fit the robot (its name, joints, links, group, a start and, in every

@@ -171,6 +171,67 @@ TEST(AttachedObjects, MayBeGivenInAnyFrame) {
   EXPECT_TRUE(place("wall").isApprox(Vector3d(-0.75, 5, -1.5), 1e-12));
 }
 
+// The gripper is at (1, 0, 2) at the start, at (1, 0, 0) in the scene.
+std::string Lowered(const std::string& scene) {
+  return Replaced(scene, "robot_state:\n",
+                  "robot_state:\n  joint_state: {name: [b_joint], position: [0]}\n");
+}
+
+TEST(AttachedObjects, OfTheSceneHangWhereItsOwnStateHasThem) {
+  const auto place = [](const std::string& scene, const std::string& request) {
+    return PlaceInLink(ParseProblem(scene, request).scene.attached.at(0));
+  };
+  const std::string scene = Lowered(kWorld);
+  EXPECT_EQ(place(Attaching(scene, "id: tool"), kToolRequest), Vector3d(0.25, 0, 2.5));
+  EXPECT_EQ(place(scene, Attaching(kToolRequest, "id: tool")), Vector3d(0.25, 0, 0.5));
+  const std::string of_base = Replaced(kTool, "frame_id: gripper_link", "frame_id: base_link");
+  EXPECT_EQ(place(Attaching(scene, of_base), kToolRequest), Vector3d(-0.75, 0, 0.5));
+  EXPECT_EQ(place(scene, Attaching(kToolRequest, of_base)), Vector3d(-0.75, 0, -1.5));
+  // It has moved with the gripper when the request attaches it to the base.
+  EXPECT_EQ(place(Attaching(scene, "id: tool"), Attaching(kToolRequest, "id: tool", "base_link")),
+            Vector3d(1.25, 0, 4.5));
+}
+
+// Frames of the request are those at the start: what is attached has moved there with its link.
+TEST(AttachedObjects, CarryTheirFramesToTheStart) {
+  const auto height = [](const std::string& scene, const std::string& request,
+                         const std::string& frame) {
+    const std::string goal =
+        "goal_constraints:\n  - position_constraints:\n      - {link_name: gripper_link, header: "
+        "{frame_id: " +
+        frame +
+        "}, constraint_region: {primitives: [{type: sphere, dimensions: "
+        "[1e-6]}], primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}}\n";
+    const Problem problem =
+        ParseProblem(scene, request.substr(0, request.find("goal_constraints")) + goal);
+    return problem.goal.at(1).position;
+  };
+  const std::string tool =
+      "id: tool, header: {frame_id: gripper_link}, pose: {position: [0, 0, 1], orientation: "
+      "[0, 0, 0, 1]}, primitives: [{type: sphere, dimensions: [0.2]}], subframe_names: [end], "
+      "subframe_poses: [{position: [0, 0, 2], orientation: [0, 0, 0, 1]}]";
+  const std::string scene = Lowered(kWorld);
+  EXPECT_NEAR(height(Attaching(scene, tool), kToolRequest, "tool"), 3, 1e-4);
+  EXPECT_NEAR(height(Attaching(scene, tool), kToolRequest, "tool/end"), 5, 1e-4);
+  // By its id, from where the world has it.
+  const std::string near = Replaced(scene, "[1.25, 0, 2]", "[1, 0, 0.5]");
+  EXPECT_NEAR(height(Attaching(near, "id: tool"), kToolRequest, "tool"), 2.5, 1e-4);
+  EXPECT_NEAR(height(near, Attaching(kToolRequest, "id: tool"), "tool"), 0.5, 1e-4);
+  // What replaces it has its own frames alone, and what is left out none.
+  ExpectInputError(
+      [&] {
+        height(Attaching(scene, tool), Attaching(kToolRequest, Replaced(tool, "[end]", "[tip]")),
+               "tool/end");
+      },
+      {"unknown frame 'tool/end'"});
+  ExpectInputError(
+      [&] {
+        height(Attaching(scene, tool),
+               Replaced(kToolRequest, "start_state:", "start_state:\n  is_diff: false"), "tool");
+      },
+      {"unknown frame 'tool'"});
+}
+
 TEST(AttachedObjects, WithoutAFrameAreInTheirLinksWithAWarning) {
   const Problem problem = ParseProblem(
       Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kToolRequest);

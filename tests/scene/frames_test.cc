@@ -60,17 +60,22 @@ TEST(Frames, OfTheRobotsLinks) {
   EXPECT_EQ(ParseProblem(BallIn("gripper_link"), kBallRequest).scene.world_frame, "base_link");
 }
 
-TEST(Frames, WhereTheStartHasTheLinksNotTheScene) {
-  ExpectAt(Ball(BallIn("gripper_link",
-                       "robot_state: {joint_state: {name: [a_joint, b_joint], "
-                       "position: [0, 3]}}\n")),
-           0, 2, 0);
-  ExpectAt(Ball(BallIn("gripper_link",
-                       "robot_state: {joint_state: {name: [a_joint, b_joint], "
-                       "position: [0, 3]}}\n"),
-                "start_state: {joint_state: {name: [a_joint], position: [1.5707963267948966]}}\n" +
-                    std::string(kBallRequest).substr(std::string(kBallRequest).find("goal"))),
-           0, 2, 3);
+std::string SceneState(const std::string& names, const std::string& positions) {
+  return "robot_state: {joint_state: {name: [" + names + "], position: [" + positions + "]}}\n";
+}
+
+TEST(Frames, OfLinksAreWhereTheScenesOwnStateHasThem) {
+  const auto ball = [](const std::string& names, const std::string& positions) {
+    return Ball(BallIn("gripper_link", SceneState(names, positions)));
+  };
+  ExpectAt(ball("a_joint, b_joint", "0, 3"), 2, 0, 3);
+  // What it leaves open is as at the start.
+  ExpectAt(ball("b_joint", "3"), 0, 2, 3);
+  ExpectAt(ball("", ""), 0, 2, 0);
+  ExpectAt(Ball(BallIn("lens", SceneState("a_joint, b_joint", "0, 3") + kTransforms +
+                                   Transform("gripper_link", "lens", "0, 0, 2"))),
+           2, 0, 5);
+  ExpectAt(Ball(BallIn("base_link", SceneState("a_joint, b_joint", "0, 3"))), 1, 0, 0);
 }
 
 TEST(Frames, FixedTransformsInEitherDirection) {
@@ -179,6 +184,24 @@ TEST(Frames, TheRequestsVirtualJointComesFirst) {
            1, 0, 2);
 }
 
+// Robot and world objects are where the scene has them in its planning frame; then the robot goes
+// to the start.
+TEST(Frames, TheWorldStandsStillWhereTheRequestPlacesTheRobotElsewhere) {
+  const std::string request =
+      Replaced(Replaced(kBallRequest, "start_state: {joint_state: {name",
+                        "start_state:\n" + RootAt("odom", "0, 0, -2") + "  joint_state: {name"),
+               "0]}}", "0]}");
+  const std::string state = "robot_state:\n" + RootAt("odom", "0, 0, 9") +
+                            "  joint_state: {name: [a_joint], position: [0]}\n";
+  ExpectAt(Ball(BallIn("gripper_link", state), request), 2, 0, 11);
+  ExpectAt(Ball(BallIn("base_link", state), request), 1, 0, 11);
+  ExpectAt(Ball(BallIn("odom", state), request), 1, 0, 2);
+  ExpectInputError(
+      [&] { Ball(BallIn("odom", Replaced(state, "'odom'", "'map'")), request); },
+      {"request.yaml:6: start_state.multi_dof_joint_state.transforms[0]: places the robot in the "
+       "frame 'odom', but the other file in 'map'"});
+}
+
 TEST(Frames, AVirtualJointAndATransformMustAgree) {
   const std::string joint = "robot_state:\n" + RootAt("odom", "0, 0, -2");
   ExpectAt(Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, 2"))), 1,
@@ -190,7 +213,7 @@ TEST(Frames, AVirtualJointAndATransformMustAgree) {
       {"scene.yaml:6: robot_state.multi_dof_joint_state.transforms[0]", "'odom'"});
   for (const char* link : {"base_link", "gripper_link"}) {
     ExpectInputError([&] { Ball(BallIn("", "robot_state:\n" + RootAt(link, "0, 0, 1"))); },
-                     {"transforms[0]: places the robot in the frame", link});
+                     {"transforms[0]: places the robot's link 'base_link' in the frame", link});
   }
 }
 
@@ -295,20 +318,84 @@ TEST(Frames, OfAFixedVirtualJoint) {
   // The file may say otherwise.
   ExpectAt(ball(BallIn("world", kTransforms + Transform("base_link", "world", "0, 5, 0"))), 1, 5,
            0);
-  ExpectAt(ball(BallIn("world", "robot_state:\n" + RootAt("world", "0, 0, 2"))), 1, 0, -2);
   // An object of that name does not.
   ExpectAt(ball(Replaced(BallIn("world"), "world:\n  collision_objects:\n",
                          "world:\n  collision_objects:\n    - {id: world, header: {frame_id: "
                          "gripper_link}, primitives: [{type: sphere, dimensions: [1]}], "
                          "primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}\n")),
            0, 1, 0);
-  // Another joint's surroundings are not known where no file places the robot in them.
-  robot.virtual_joints[0].type = JointType::kPlanar;
-  ExpectInputError(
-      [&] {
-        ball(BallIn("world", "robot_state: {joint_state: {header: {frame_id: base_link}}}\n"));
-      },
-      {"unknown frame 'world'"});
+}
+
+// A floating joint has the gripper in `odom`, a planar one the base in `map`.
+Vector3d BallOfFloatingGripper(const std::string& scene,
+                               const std::string& request = kBallRequest) {
+  Robot robot = TextRobot();
+  robot.virtual_joints = {
+      {"fly", JointType::kFloating, "/odom", robot.model.FindLink("gripper_link")},
+      {"drive", JointType::kPlanar, "map", robot.model.FindLink("base_link")}};
+  return PlaceOf(ParseProblem(YamlNode::Parse(scene, "scene.yaml"),
+                              YamlNode::Parse(request, "request.yaml"), robot, {})
+                     .scene.objects.at(0));
+}
+
+std::string PosesOf(const std::string& header, const std::string& joints,
+                    const std::string& transforms) {
+  return "  multi_dof_joint_state: {header: {frame_id: '" + header + "'}, joint_names: [" + joints +
+         "], transforms: [" + transforms + "]}\n";
+}
+
+constexpr const char* kAtFive = "{translation: [5, 0, 0], rotation: [0, 0, 0, 1]}";
+constexpr const char* kAtSeven = "{translation: [0, 7, 0], rotation: [0, 0, 0, 1]}";
+
+TEST(Frames, AVirtualJointPlacesItsOwnChildLink) {
+  const std::string fly = "robot_state:\n" + PosesOf("odom", "fly", kAtFive);
+  // The gripper, at (0, 1, 0) and turned by a quarter, is at (5, 0, 0) of odom.
+  ExpectAt(BallOfFloatingGripper(BallIn("odom", fly)), 0, -3, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("", fly)), 0, -3, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("gripper_link", fly)), 0, 2, 0);
+  // The other stands at its child link, which nothing says otherwise of.
+  ExpectAt(BallOfFloatingGripper(BallIn("map", fly)), 1, 0, 0);
+  // Of each its own.
+  const std::string both =
+      "robot_state:\n" + PosesOf("map", "fly, drive", std::string(kAtFive) + ", " + kAtSeven);
+  ExpectAt(BallOfFloatingGripper(BallIn("odom", both)), 0, -3, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("map", both)), 1, -7, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("", both)), 1, -7, 0);
+}
+
+TEST(Frames, WhatAVirtualJointHoldsStandsStillWhileTheRootMoves) {
+  // With the mast at 0 in the scene the gripper has the axes of odom, and the ball is at (-4, 0, 0)
+  // of it; at the start it is there too, but along y.
+  const std::string fly = "robot_state:\n" + PosesOf("odom", "fly", kAtFive) +
+                          "  joint_state: {name: [a_joint, b_joint], position: [0, 0]}\n";
+  ExpectAt(BallOfFloatingGripper(BallIn("odom", fly)), 0, -3, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("gripper_link", fly)), 0, 2, 0);
+  // The base is at (4, 0, 0) of odom in the scene, so that the ball is at the gripper.
+  ExpectAt(BallOfFloatingGripper(BallIn("base_link", fly)), 0, 1, 0);
+}
+
+TEST(Frames, OfVirtualJointsWithoutAPoseAreAtTheirChildLinks) {
+  ExpectAt(BallOfFloatingGripper(BallIn("odom")), 0, 2, 0);
+  ExpectAt(BallOfFloatingGripper(BallIn("map")), 1, 0, 0);
+}
+
+TEST(Frames, VirtualJointsThatContradictAreNamed) {
+  const auto refuse = [](const std::string& state, const std::vector<std::string>& says) {
+    ExpectInputError([&] { BallOfFloatingGripper(BallIn("odom", "robot_state:\n" + state)); },
+                     says);
+  };
+  refuse(PosesOf("odom", "fly", kAtFive) + kTransforms + Transform("odom", "base_link", "0, 0, 0"),
+         {"scene.yaml:3: robot_state.multi_dof_joint_state.transforms[0]",
+          "'gripper_link' in the frame 'odom', which has another pose already"});
+  refuse(PosesOf("odom", "fly, fly", std::string(kAtFive) + ", " + kAtFive),
+         {"joint_names[1]: the joint 'fly' is named twice"});
+  refuse(PosesOf("hall", "fly", kAtFive),
+         {"multi_dof_joint_state.header.frame_id: the pose of the joint 'fly' is one in '/odom', "
+          "not in 'hall'"});
+  refuse(PosesOf("odom", "flyy", kAtFive),
+         {"joint_names[0]: the robot has no joint 'flyy'; did you mean 'fly'?"});
+  refuse(PosesOf("odom", "world_joint", kAtFive),
+         {"no joint 'world_joint'; its virtual joints are 'fly', 'drive'"});
 }
 
 TEST(Frames, FixedOnesComeOutInTheBaseFrame) {

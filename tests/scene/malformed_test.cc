@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "joint_names: [root], transforms: "
                 "[{translation: [1.5, 0, 0], rotation: [0, 0, 0, 1]}]}\n",
                 "1.5", "robot_state.multi_dof_joint_state.transforms[0]",
-                "places the robot in the frame 'base_link'"},
+                "places the robot's link 'base_link' in the frame 'base_link'"},
         Mistake{"OctomapOfNoResolution", kScene, "world:\n",
                 "world:\n  octomap: {octomap: {id: OcTree, binary: true, data: [1, 2]}}\n",
                 "octomap", "world.octomap.octomap", "'resolution' is missing"},

@@ -107,6 +107,24 @@ TEST(StartState, RefusesWhatTheRobotCannotDo) {
       "'drive' is named twice");
 }
 
+TEST(StartState, OneJointThatNothingDescribesMayJoinTheRobotToItsSurroundings) {
+  const auto poses = [](const std::string& names, const std::string& transforms) {
+    return Parse("",
+                 "joint_state: {name: [wrist], position: [0]}, multi_dof_joint_state: "
+                 "{joint_names: [" +
+                     names + "], transforms: [" + transforms + "]}");
+  };
+  const std::string pose = "{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}";
+  for (const char* name : {"virtual_joint", "world_joint", "odom"}) {
+    EXPECT_THAT(poses(name, pose).warnings, IsEmpty());
+  }
+  ExpectInputError([&] { poses("odom, virtual_joint", pose + ", " + pose); },
+                   {"joint_names[1]: the robot has no joint 'virtual_joint', and another"});
+  ExpectInputError(
+      [&] { poses("dirve", pose); },
+      {"joint_names[0]: the robot has no joint 'dirve'; did you mean 'drive'?", "virtual_joints"});
+}
+
 TEST(StartState, PlanarAndFixedJointsTakeNoPoseThatTheyCannotHave) {
   Robot robot = CartRobot();
   robot.virtual_joints = {{"wheels", JointType::kPlanar, "odom", 0},
