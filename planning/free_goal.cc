@@ -94,8 +94,8 @@ std::string FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
     *goal = std::move(part);
     return "";
   }
-  return fmt::format("no valid point among {} tried of the goal's region; its nominal point: {}",
-                     num_tried, fault);
+  // The cause first: tables have room for the beginning.
+  return fmt::format("{}; no valid point among {} tried of its region", fault, num_tried);
 }
 
 }  // namespace planbench

@@ -21,8 +21,8 @@ inline constexpr int kGoalTries = 1000;
 /// request gives the same point.
 ///
 /// Returns why there is none, in one line; empty if there is. Nothing is proven about a box that
-/// has points within the limits other than the nominal one: then the line says how many were tried,
-/// kGoalTries at most, fewer if `should_stop` said so.
+/// has points within the limits other than the nominal one: then the line says, behind what is
+/// wrong with that, how many were tried, kGoalTries at most, fewer if `should_stop` said so.
 std::string FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
                          const std::function<bool()>& should_stop);
 

@@ -106,7 +106,7 @@ std::string KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
     }
   }
   if (free.empty() && goals->size() > 1) {
-    return fmt::format("none of {} goals is valid; the first: {}", goals->size(), first_fault);
+    return fmt::format("{}; none of the {} goals is valid", first_fault, goals->size());
   }
   if (free.empty()) return first_fault;
   const JointSpace& space = edges->space();

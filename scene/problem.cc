@@ -21,6 +21,13 @@ fs::path PartnerOf(const fs::path& file, const std::string& kind) {
   return file.parent_path() / (kind + name.substr(name.find_first_of("0123456789")));
 }
 
+void RefuseDanglingLink(const fs::path& path) {
+  if (!IsDanglingLink(path)) return;
+  std::error_code ignored;
+  throw InputError(path.string() + ": is a link to '" + fs::read_symlink(path, ignored).string() +
+                   "', which does not exist");
+}
+
 }  // namespace
 
 const ProblemFiles* ProblemSet::Find(int index) const {
@@ -49,9 +56,16 @@ std::string ProblemSetNameOf(const fs::path& folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
+void RequireProblemFolder(const fs::path& folder) {
+  if (IsFolder(folder)) return;
+  RefuseDanglingLink(folder);
+  throw InputError(folder.string() + ": there is no such folder of problems");
+}
+
 void RequireProblemFiles(const fs::path& scene, const fs::path& request) {
   for (const fs::path& file : {scene, request}) {
     if (IsFile(file)) continue;
+    RefuseDanglingLink(file);
     std::error_code ignored;
     throw InputError(file.string() + (fs::exists(file, ignored)
                                           ? ": is no file"
@@ -61,9 +75,7 @@ void RequireProblemFiles(const fs::path& scene, const fs::path& request) {
 }
 
 ProblemSet ListProblemSet(const fs::path& folder) {
-  if (!IsFolder(folder)) {
-    throw InputError(folder.string() + ": there is no such folder of problems");
-  }
+  RequireProblemFolder(folder);
   std::map<int, ProblemFiles> by_index;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();

@@ -65,6 +65,9 @@ struct ProblemSet {
   const ProblemFiles* Find(int index) const;
 };
 
+/// Throws InputError if there is no such folder.
+void RequireProblemFolder(const std::filesystem::path& folder);
+
 /// Throws InputError if one of a problem's files is missing, or is a folder, a pipe or the like.
 void RequireProblemFiles(const std::filesystem::path& scene, const std::filesystem::path& request);
 

@@ -16,9 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Folders that are named like a problem's files are not what makes a folder a set.
 bool HoldsProblems(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (ProblemIndexOf(entry.path())) return true;
+    if (!IsFolder(entry.path()) && ProblemIndexOf(entry.path())) return true;
   }
   return false;
 }
@@ -42,9 +43,7 @@ void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
 
 /// The folder itself if it holds problems, else the folders below it that do, by path.
 std::vector<fs::path> SetFolders(const fs::path& folder) {
-  if (!IsFolder(folder)) {
-    throw InputError(folder.string() + ": there is no such folder of problems");
-  }
+  RequireProblemFolder(folder);
   std::vector<fs::path> above;
   std::vector<fs::path> found;
   FindSetFolders(folder, &above, &found);

@@ -11,6 +11,7 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
+using testing::MatchesRegex;
 
 class SeveralGoals : public testing::Test {
  protected:
@@ -62,7 +63,7 @@ TEST_F(SeveralGoals, TheNearestIsTriedFirst) {
 TEST_F(SeveralGoals, AreInvalidTogether) {
   const PlanResult result = Plan(StraightLine, RequestFor({{0, 0, 0}, {0, 0, -3}}), PostsScene());
   EXPECT_EQ(result.status, PlanStatus::kGoalInvalid);
-  EXPECT_THAT(result.message, HasSubstr("none of 2 goals is valid; the first: goal"));
+  EXPECT_THAT(result.message, MatchesRegex("goal .*; none of the 2 goals is valid"));
   EXPECT_THAT(result.message, HasSubstr("post"));
   EXPECT_EQ(num_searches_, 0);
   EXPECT_EQ(Plan(StraightLine, RequestFor({{-0.6, 0, 0}, start_})).path, Path{start_})

@@ -62,6 +62,12 @@ TEST_F(ProblemSetFolder, MissingFolder) {
   EXPECT_THAT(Error(), testing::HasSubstr(folder_.string()));
 }
 
+TEST_F(ProblemSetFolder, LinkToNowhere) {
+  fs::create_directory_symlink(parent_ / "gone", parent_ / "link");
+  ExpectInputError([&] { ListProblemSet(parent_ / "link"); },
+                   {"link: is a link to '", "gone', which does not exist"});
+}
+
 TEST_F(ProblemSetFolder, EmptyFolder) {
   EXPECT_THAT(Error(), testing::HasSubstr("holds no problems"));
 }
@@ -81,7 +87,8 @@ TEST_F(ProblemSetFolder, OnlyFilesAreProblemFiles) {
   const fs::path request = folder_ / "request1.yaml";
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
   fs::create_symlink(folder_ / "nowhere", request);
-  ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
+  ExpectInputError([&] { RequireProblemFiles(scene, request); },
+                   {"request1.yaml: is a link to '", "nowhere', which does not exist"});
   fs::remove(request);
   ASSERT_EQ(mkfifo(request.c_str(), 0600), 0);
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is no file"});

@@ -238,6 +238,17 @@ TEST(ProblemSets, AreFoundAtAnyDepth) {
   EXPECT_THAT(names, ElementsAre("boxes", "cans", "cups"));
 }
 
+TEST(ProblemSets, AreNotHiddenByFoldersNamedLikeAProblem) {
+  const TemporaryFolder folder;
+  WriteTinyProblem(TinyProblem(), folder.path() / "problems" / "cans", 1);
+  fs::create_directories(folder.path() / "problems" / "scene0001.yaml");
+  SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt,
+                       {folder.path() / "problems"});
+  const ProblemSetsMessage message = service.ProblemSets("server");
+  ASSERT_EQ(message.sets.size(), 1u);
+  EXPECT_EQ(message.sets[0].name, "cans");
+}
+
 TEST(ProblemSets, TwoOfOneNameAreRefusedWithBothFolders) {
   const TemporaryFolder folder;
   const fs::path one = folder.path() / "one" / "cans";
