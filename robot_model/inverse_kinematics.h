@@ -53,6 +53,9 @@ class InverseKinematics {
   IkResult Solve(const Eigen::Isometry3d& X_BT, std::mt19937_64* random,
                  const IkOptions& options = {});
 
+  /// Group indices of the joints that move the tip.
+  const std::vector<int>& moving_joints() const { return columns_; }
+
   /// Pose X_BT of the tip at q.
   Eigen::Isometry3d TipPose(std::span<const double> q);
 
@@ -82,7 +85,7 @@ class InverseKinematics {
 
   JointSpace space_;
   std::vector<ChainJoint> chain_;  // From the base outwards.
-  std::vector<int> columns_;       // Group indices that move the tip.
+  std::vector<int> columns_;       // Group indices of the joints that move the tip.
   Eigen::Isometry3d X_LT_;         // The tip in the child frame of the last chain joint.
 };
 

@@ -140,18 +140,10 @@ struct PoseSet {
   }
 };
 
-// The only constraint of that kind, if there is one.
-std::optional<YamlNode> OneOf(const YamlNode& constraints, const std::string& kind) {
-  const std::vector<YamlNode> elements = OptionalElements(constraints, kind);
-  if (elements.size() > 1) elements[1].Fail("one constraint of this kind is supported in a goal");
-  return elements.empty() ? std::nullopt : std::optional(elements.front());
-}
-
 // The link that a constraint is of, and the tip that it moves as one with.
 struct ConstrainedLink {
   int tip_link;
   Eigen::Isometry3d X_TL;
-  YamlNode node;  // That names it.
 };
 
 ConstrainedLink ReadLink(const YamlNode& constraint, const RobotModel& model,
@@ -164,7 +156,7 @@ ConstrainedLink ReadLink(const YamlNode& constraint, const RobotModel& model,
   std::vector<std::string> tips;
   for (const int tip : group.tips()) {
     if (!kinematics.MoveRelatively(link, tip)) {
-      return {tip, kinematics.X_BL(tip).inverse(Eigen::Isometry) * kinematics.X_BL(link), node};
+      return {tip, kinematics.X_BL(tip).inverse(Eigen::Isometry) * kinematics.X_BL(link)};
     }
     tips.push_back("'" + model.links()[static_cast<std::size_t>(tip)].name + "'");
   }
@@ -221,31 +213,39 @@ Orientation ReadOrientation(const YamlNode& constraint, const FrameTree& frames)
   return orientation;
 }
 
-PoseSet ReadPoseSet(const std::optional<YamlNode>& position,
-                    const std::optional<YamlNode>& orientation, const RobotModel& model,
-                    const PlanningGroup& group, const std::vector<double>& start,
-                    const FrameTree& frames) {
-  PoseSet poses;
-  if (position) {
-    const ConstrainedLink link = ReadLink(*position, model, group, start);
-    const auto offset = position->Find("target_point_offset");
-    poses.tip_link = link.tip_link;
-    poses.X_TP.translation() =
+// The poses that are wanted of the tip that `link` moves as one with; new ones if nothing is yet.
+PoseSet* PosesOfTip(const ConstrainedLink& link, std::vector<PoseSet>* all) {
+  const auto found = std::find_if(all->begin(), all->end(), [&](const PoseSet& poses) {
+    return poses.tip_link == link.tip_link;
+  });
+  if (found != all->end()) return &*found;
+  all->emplace_back().tip_link = link.tip_link;
+  return &all->back();
+}
+
+// What is wanted of the tips, in the order that they are named in.
+std::vector<PoseSet> ReadPoseSets(const YamlNode& constraints, const RobotModel& model,
+                                  const PlanningGroup& group, const std::vector<double>& start,
+                                  const FrameTree& frames) {
+  constexpr const char* kTwice = "is the second of this kind for the same tip; one is supported";
+  std::vector<PoseSet> all;
+  for (const YamlNode& position : OptionalElements(constraints, "position_constraints")) {
+    const ConstrainedLink link = ReadLink(position, model, group, start);
+    PoseSet* poses = PosesOfTip(link, &all);
+    if (!poses->regions.empty()) position.Fail(kTwice);
+    const auto offset = position.Find("target_point_offset");
+    poses->X_TP.translation() =
         link.X_TL * (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-    poses.regions = ReadRegions(*position, frames);
+    poses->regions = ReadRegions(position, frames);
   }
-  if (orientation) {
-    const ConstrainedLink link = ReadLink(*orientation, model, group, start);
-    if (position && link.tip_link != poses.tip_link) {
-      link.node.Fail("moves with another tip of group '" + group.name +
-                     "' than the link whose position is constrained; one pose is supported in a "
-                     "goal");
-    }
-    poses.tip_link = link.tip_link;
-    poses.X_TP.linear() = link.X_TL.linear();
-    poses.orientation = ReadOrientation(*orientation, frames);
+  for (const YamlNode& orientation : OptionalElements(constraints, "orientation_constraints")) {
+    const ConstrainedLink link = ReadLink(orientation, model, group, start);
+    PoseSet* poses = PosesOfTip(link, &all);
+    if (poses->orientation) orientation.Fail(kTwice);
+    poses->X_TP.linear() = link.X_TL.linear();
+    poses->orientation = ReadOrientation(orientation, frames);
   }
-  return poses;
+  return all;
 }
 
 // The same configuration, but for whole turns: as near to `from` as it can be had. Joints that
@@ -261,6 +261,49 @@ void TurnTowards(std::span<const double> from, const RobotModel& model, const Pl
   }
 }
 
+// Leaves of `limits` the positions in `q` for those joints.
+JointSpace Held(const JointSpace& limits, const std::vector<int>& joints,
+                const std::vector<double>& q) {
+  std::vector<JointSpace::Joint> held = limits.joints();
+  for (const int index : joints) {
+    JointSpace::Joint& joint = held[static_cast<std::size_t>(index)];
+    joint.continuous = false;
+    joint.lower = joint.upper = q[static_cast<std::size_t>(index)];
+  }
+  return JointSpace(std::move(held));
+}
+
+struct Attempt {
+  std::vector<double> q;
+  double off_m = 0;  // Sums over the tips.
+  double off_rad = 0;
+};
+
+// Looks for a configuration with every tip at its try of that number: one after the other, with the
+// joints held that move those before.
+Attempt TryToReach(const std::vector<PoseSet>& poses, int number, const RobotModel& model,
+                   const PlanningGroup& group, const JointSpace& limits,
+                   const std::vector<double>& start, std::span<const double> from,
+                   std::mt19937_64* random) {
+  Attempt attempt;
+  PlanningGroup limited = group;
+  limited.space = limits;
+  std::vector<InverseKinematics> tips;
+  for (const PoseSet& of_tip : poses) {
+    limited.tip_link = of_tip.tip_link;
+    InverseKinematics& tip = tips.emplace_back(model, limited, start, of_tip.X_TP);
+    attempt.q = tip.Solve(of_tip.Try(number, random), random, of_tip.Options()).q;
+    limited.space = Held(limited.space, tip.moving_joints(), attempt.q);
+  }
+  TurnTowards(from, model, group, limits, &attempt.q);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Isometry3d X_BP = tips[i].TipPose(attempt.q);
+    attempt.off_m += poses[i].PositionExcess(X_BP);
+    attempt.off_rad += poses[i].OrientationExcess(X_BP);
+  }
+  return attempt;
+}
+
 }  // namespace
 
 bool HasPoseConstraints(const YamlNode& constraints) {
@@ -272,13 +315,7 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
                                                const PlanningGroup& group, const JointSpace& limits,
                                                const std::vector<double>& start,
                                                const FrameTree& frames) {
-  const std::optional<YamlNode> position = OneOf(constraints, "position_constraints");
-  const std::optional<YamlNode> orientation = OneOf(constraints, "orientation_constraints");
-  const PoseSet poses = ReadPoseSet(position, orientation, model, group, start, frames);
-  PlanningGroup limited = group;
-  limited.space = limits;
-  limited.tip_link = poses.tip_link;
-  InverseKinematics kinematics(model, limited, start, poses.X_TP);
+  const std::vector<PoseSet> poses = ReadPoseSets(constraints, model, group, start, frames);
   std::vector<double> from;
   for (const int joint : group.joints) {
     const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
@@ -289,25 +326,25 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
   double best_m = kInfinity;
   double best_rad = kInfinity;
   for (int number = 0; number < kPoses && found.size() < kMostConfigurations; ++number) {
-    IkResult result = kinematics.Solve(poses.Try(number, &random), &random, poses.Options());
-    TurnTowards(from, model, group, limits, &result.q);
-    const Eigen::Isometry3d X_BP = kinematics.TipPose(result.q);
-    const double off_m = poses.PositionExcess(X_BP);
-    const double off_rad = poses.OrientationExcess(X_BP);
-    if (off_m + off_rad < best_m + best_rad) {
-      best_m = off_m;
-      best_rad = off_rad;
+    const Attempt attempt = TryToReach(poses, number, model, group, limits, start, from, &random);
+    if (attempt.off_m + attempt.off_rad < best_m + best_rad) {
+      best_m = attempt.off_m;
+      best_rad = attempt.off_rad;
     }
-    if (off_m > kMet || off_rad > kMet) continue;
+    if (attempt.off_m > kMet || attempt.off_rad > kMet) continue;
     const bool is_new = std::all_of(found.begin(), found.end(), [&](const auto& other) {
-      return group.space.Distance(result.q, other) >= kLeastDistance;
+      return group.space.Distance(attempt.q, other) >= kLeastDistance;
     });
-    if (is_new) found.push_back(result.q);
+    if (is_new) found.push_back(attempt.q);
   }
   if (found.empty()) {
+    const auto positions = OptionalElements(constraints, "position_constraints");
+    const YamlNode first =
+        positions.empty() ? constraints.At("orientation_constraints").At(0) : positions.front();
     throw OutOfReach(fmt::format(
-        "{}: no configuration of group '{}' reaches the pose (best: {:.1f} mm, {:.3f} rad)",
-        (position ? *position : *orientation).Where(), group.name, best_m * 1e3, best_rad));
+        "{}: no configuration of group '{}' reaches the pose{} (best: {:.1f} mm, {:.3f} rad)",
+        first.Where(), group.name, poses.size() > 1 ? "s of its tips" : "", best_m * 1e3,
+        best_rad));
   }
   return found;
 }

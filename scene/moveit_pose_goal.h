@@ -19,11 +19,12 @@ class OutOfReach : public InputError {
 bool HasPoseConstraints(const YamlNode& constraints);
 
 /// Configurations of the group, group order, that meet the position constraint, the orientation
-/// constraint, or both, of a moveit_msgs/Constraints. They are found by inverse kinematics, within
-/// `limits` (group order): for the middle of the constraint and for poses drawn from all that it
-/// allows, from random configurations. One to 16, which differ by 0.1 (rad, m; L2) or more. They
-/// depend on the constraint, the robot and the full positions `start` alone, at which other joints
-/// are held: the same for every planner and in every run.
+/// constraint, or both, that a moveit_msgs/Constraints has of one or several of the group's tips.
+/// They are found by inverse kinematics, within `limits` (group order): for the middle of the
+/// constraint and for poses drawn from all that it allows, from random configurations; of several
+/// tips one after the other, with the joints held that move those before. One to 16, which differ
+/// by 0.1 (rad, m; L2) or more. They depend on the constraint, the robot and the full positions
+/// `start` alone, at which other joints are held: the same for every planner and in every run.
 ///
 /// Position: the point `target_point_offset` of the link is in one of the constraint_region's
 /// primitives, boxes and spheres. Orientation: that of the link, R_L = R_D * d for the wanted R_D,
@@ -33,8 +34,8 @@ bool HasPoseConstraints(const YamlNode& constraints);
 /// not constrained is free.
 ///
 /// Throws InputError naming file, line and field for what cannot be read, more than one constraint
-/// of a kind, links that do not move as one with a tip of the group, the same for both; OutOfReach
-/// for constraints that no configuration was found for.
+/// of a kind for a tip, links that do not move as one with a tip of the group; OutOfReach for
+/// constraints that no configuration was found for.
 std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, const RobotModel& model,
                                                const PlanningGroup& group, const JointSpace& limits,
                                                const std::vector<double>& start,

@@ -156,12 +156,70 @@ TEST(PoseGoals, OfAnyTipOfTheGroup) {
       [&] { goals(position_of("left_upper")); },
       {"request.yaml:4: goal_constraints[0].position_constraints[0].link_name",
        "'left_upper' does not move as one with 'left_hand' or 'right_hand', the tips"});
+}
+
+// The torso moves both: of the poses of two tips either depends on the other.
+TEST(PoseGoals, OfSeveralTipsAtOnce) {
+  const Robot robot = MakeTwoArmRobot(true);
+  const PlanningGroup& group = robot.Group("both");
+  const std::size_t n = group.joints.size();
+  const std::vector<double> start = robot.model.DefaultPositions();
+  std::vector<double> reached = start;
+  for (double& position : reached) position += 0.4;
+  const auto link_at = [&](const std::vector<double>& full, const std::string& link) {
+    return ComputeLinkPoses(robot.model,
+                            full)[static_cast<std::size_t>(robot.model.FindLink(link))];
+  };
+  const auto position_of = [&](const std::string& link, double beside = 0) {
+    const Eigen::Vector3d p = link_at(reached, link).translation();
+    return fmt::format(
+        "{{link_name: {}, constraint_region: {{primitives: [{{type: 2, dimensions: [0.001]}}], "
+        "primitive_poses: [{{position: [{}, {}, {}], orientation: [0, 0, 0, 1]}}]}}}}",
+        link, p.x(), p.y() + beside, p.z());
+  };
+  const auto orientation_of = [&](const std::string& link) {
+    const Eigen::Quaterniond q(link_at(reached, link).linear());
+    return fmt::format("{{link_name: {}, orientation: [{}, {}, {}, {}]}}", link, q.x(), q.y(),
+                       q.z(), q.w());
+  };
+  const auto goals = [&](const std::string& positions, const std::string& orientations) {
+    const std::string request = fmt::format(
+        "group_name: both\nstart_state: {{joint_state: {{name: [{}], position: [{}]}}}}\n"
+        "goal_constraints:\n  - {{position_constraints: [{}], orientation_constraints: [{}]}}\n",
+        fmt::join(robot.model.position_names(), ", "), fmt::join(start, ", "), positions,
+        orientations);
+    return ParseProblem(YamlNode::Parse("robot_model_name: two_arms\n", "scene.yaml"),
+                        YamlNode::Parse(request, "request.yaml"), robot, {})
+        .goal;
+  };
+  const std::string both = position_of("left_hand") + ", " + position_of("right_hand");
+  for (const bool left_turned : {false, true}) {
+    const std::vector<JointGoal> found =
+        goals(both, left_turned ? orientation_of("left_hand") : "");
+    ASSERT_GE(found.size(), n);
+    for (std::size_t first = 0; first < found.size(); first += n) {
+      std::vector<double> q;
+      for (std::size_t k = 0; k < n; ++k) q.push_back(found[first + k].position);
+      const std::vector<double> full = WithGroupAt(robot.model, group, start, q);
+      for (const char* link : {"left_hand", "right_hand"}) {
+        const auto at = link_at(full, link);
+        const auto wanted = link_at(reached, link);
+        EXPECT_LT((at.translation() - wanted.translation()).norm(), 0.001 + 2e-6) << link;
+        if (!left_turned || link != std::string("left_hand")) continue;
+        EXPECT_TRUE(at.linear().isApprox(wanted.linear(), 1e-5));
+      }
+    }
+    EXPECT_EQ(goals(both, left_turned ? orientation_of("left_hand") : ""), found);
+  }
+  // The position of one, the orientation of the other.
+  EXPECT_GE(goals(position_of("right_hand"), orientation_of("left_hand")).size(), n);
+  ExpectInputError([&] { goals(both + ", " + position_of("left_hand"), ""); },
+                   {"request.yaml:4: goal_constraints[0].position_constraints[2]",
+                    "the second of this kind for the same tip"});
   ExpectInputError(
-      [&] {
-        goals(position_of("left_hand") +
-              ", orientation_constraints: [{link_name: right_hand, orientation: [0, 0, 0, 1]}]");
-      },
-      {"goal_constraints[0].orientation_constraints[0].link_name", "another tip"});
+      [&] { goals(position_of("left_hand") + ", " + position_of("right_hand", 3), ""); },
+      {"goal_constraints[0].position_constraints[0]",
+       "no configuration of group 'both' reaches the poses of its tips"});
 }
 
 TEST(PoseGoals, StandBesideOtherAlternatives) {
@@ -222,8 +280,9 @@ TEST(PoseGoals, RefusesWhatItCannotMean) {
          "no primitives");
   refuse(kPosition, "{type: 2,", "{type: 2, dimensions: [1]}, {type: 2,",
          position + ".constraint_region", "2 primitives but 1 primitive_poses");
-  refuse(kPosition, "constraints: [{", "constraints: [{link_name: mast}, {",
-         "position_constraints[1]", "one constraint of this kind");
+  refuse(kOrientation, "constraints: [{",
+         "constraints: [{link_name: l_finger, orientation: [0, 0, 0, 1]}, {",
+         "orientation_constraints[1]", "the second of this kind for the same tip");
   refuse(kOrientation, "tolerance: 0.1", "tolerance: -0.1",
          orientation + ".absolute_z_axis_tolerance", "negative");
   refuse(kOrientation, "tolerance: 0.1", "tolerance: 0.1, parameterization: 2",
