@@ -25,7 +25,7 @@ void RefuseDanglingLink(const fs::path& path) {
   if (!IsDanglingLink(path)) return;
   std::error_code ignored;
   throw InputError(path.string() + ": is a link to '" + fs::read_symlink(path, ignored).string() +
-                   "', which does not exist");
+                   "', which leads nowhere");
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST_F(ProblemSetFolder, MissingFolder) {
 TEST_F(ProblemSetFolder, LinkToNowhere) {
   fs::create_directory_symlink(parent_ / "gone", parent_ / "link");
   ExpectInputError([&] { ListProblemSet(parent_ / "link"); },
-                   {"link: is a link to '", "gone', which does not exist"});
+                   {"link: is a link to '", "gone', which leads nowhere"});
 }
 
 TEST_F(ProblemSetFolder, EmptyFolder) {
@@ -88,7 +88,7 @@ TEST_F(ProblemSetFolder, OnlyFilesAreProblemFiles) {
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
   fs::create_symlink(folder_ / "nowhere", request);
   ExpectInputError([&] { RequireProblemFiles(scene, request); },
-                   {"request1.yaml: is a link to '", "nowhere', which does not exist"});
+                   {"request1.yaml: is a link to '", "nowhere', which leads nowhere"});
   fs::remove(request);
   ASSERT_EQ(mkfifo(request.c_str(), 0600), 0);
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is no file"});
