@@ -144,13 +144,16 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
     }
     return alternatives;
   }
+  std::vector<JointGoal> in_group_order;
   for (const JointSpace::Joint& joint : group.space.joints()) {
-    if (FindGoal(goals, joint.name) == nullptr) {
+    const JointGoal* goal = FindGoal(goals, joint.name);
+    if (goal == nullptr) {
       constraints.At("joint_constraints")
           .Fail("there is no goal for joint '" + joint.name + "' of group '" + group.name + "'");
     }
+    in_group_order.push_back(*goal);
   }
-  return goals;
+  return in_group_order;
 }
 
 }  // namespace

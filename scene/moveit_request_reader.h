@@ -20,7 +20,8 @@ void RequireRequest(const YamlNode& motion_plan_request);
 const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
 
 /// goal_constraints, as Problem::goal: each set is an alternative, of joint constraints with one
-/// for each joint of the group; or of constraints on the poses of tips (see FindPoseGoals), which
+/// for each joint of the group, in any order; or of constraints on the poses of tips (see
+/// FindPoseGoals), which
 /// are as many alternatives as configurations are found, without tolerance, within what joint
 /// constraints beside them allow. Constraints of other joints are taken if they say nothing: of
 /// fixed joints at 0, of joints outside the group where they are at `start` (full positions), of

@@ -42,7 +42,8 @@ struct Problem {
   /// Every joint that the scene's robot_state or the request's start_state names, the latter's
   /// positions before the former's; planar and floating joints by RobotModel::position_names.
   JointState start;
-  std::vector<JointGoal> goal;  ///< Alternatives in turn, each of every joint of the group once.
+  /// Alternatives in turn, each of every joint of the group once, in the group's order.
+  std::vector<JointGoal> goal;
   std::optional<Workspace> workspace;
   double time_limit_s = 0;            ///< allowed_planning_time; 0 if absent.
   std::vector<std::string> warnings;  ///< What was read otherwise than written, a line each.

@@ -62,13 +62,13 @@ TEST(GoalSets, OneThatIsOutOfReachIsLeftOutAndSaidSo) {
   ExpectInputError([&] { MastGoals(far); }, {"goal_constraints[0]", "no configuration"});
 }
 
-TEST(GoalSets, AreAlternatives) {
+TEST(GoalSets, AreAlternativesInTheGroupsOrderWhateverTheFiles) {
   const auto goals = MastGoals(
       "joint_constraints: [{joint_name: b_joint, position: 1}, {joint_name: a_joint, position: "
       "2}]}\n  - {joint_constraints: [{joint_name: a_joint, position: 3, tolerance_above: 0.5}, "
       "{joint_name: b_joint, position: 4}]");
   const std::vector<JointGoal> expected = {
-      {"b_joint", 1, 0, 0}, {"a_joint", 2, 0, 0}, {"a_joint", 3, 0.5, 0}, {"b_joint", 4, 0, 0}};
+      {"a_joint", 2, 0, 0}, {"b_joint", 1, 0, 0}, {"a_joint", 3, 0.5, 0}, {"b_joint", 4, 0, 0}};
   EXPECT_EQ(goals, expected);
 }
 

@@ -71,8 +71,8 @@ TEST_F(RoundTrip, EveryField) { Check(ParseProblem(kFullScene)); }
 
 TEST_F(RoundTrip, AlternativesOfTheGoal) {
   Problem problem = ParseProblem(kFullScene);
-  problem.goal.insert(problem.goal.end(), {{"b_joint", 1, 0.5, 0},
-                                           {"a_joint", 1.0 / 3, 0, 0},
+  problem.goal.insert(problem.goal.end(), {{"a_joint", 1.0 / 3, 0, 0},
+                                           {"b_joint", 1, 0.5, 0},
                                            {"a_joint", -2, 0, 0},
                                            {"b_joint", 0, 0, 0}});
   Check(problem);
@@ -83,7 +83,7 @@ TEST_F(RoundTrip, NearlyNothing) {
   problem.scene.world_frame = "base_link";
   problem.group = "arm";
   problem.start = {.names = {"a_joint", "b_joint"}, .positions = {0, 0}};
-  problem.goal = {{.joint = "b_joint", .position = 1}, {.joint = "a_joint", .position = 1}};
+  problem.goal = {{.joint = "a_joint", .position = 1}, {.joint = "b_joint", .position = 1}};
   Check(problem);
 }
 
