@@ -123,6 +123,10 @@ struct Bus::Impl {
       spdlog::warn("{} packets on the bus were none of LCM's and were left out",
                    packets.counters().malformed);
     }
+    if (inbox.num_failed() > 1) {
+      spdlog::warn("{} messages on the bus were dropped by those who were to handle them",
+                   inbox.num_failed());
+    }
   }
 
   void Connect(const std::string& url) {

@@ -60,9 +60,7 @@ std::vector<std::uint8_t> Codec<Message>::Encode(const Message& message) {
 template <typename Message>
 Message Codec<Message>::Decode(std::span<const std::uint8_t> bytes, const std::string& channel) {
   auto wire = wire::Unpack<typename Fields<Message>::Wire>(bytes, channel);
-  std::string request_id;
-  if constexpr (requires { wire.request_id; }) request_id = wire.request_id;
-  Decoder::Escape(&request_id);
+  const std::string request_id = wire::RequestIdOf(wire);
   Decoder decoder(channel, request_id);
   Message message;
   Fields<Message>::List(decoder, message, wire);

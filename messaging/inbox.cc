@@ -9,22 +9,6 @@
 #include "common/text.h"
 
 namespace planbench {
-namespace {
-
-void Call(Subscriber* subscriber, const ReceivedMessage& message) {
-  const std::scoped_lock lock(subscriber->running);
-  if (!subscriber->handler) return;
-  try {
-    subscriber->handler(message);
-  } catch (const std::exception& error) {
-    spdlog::error("message on {} dropped: {}", Printable(message.channel), error.what());
-  } catch (...) {
-    spdlog::error("message on {} dropped: its handler threw something", Printable(message.channel));
-  }
-}
-
-}  // namespace
-
 void Inbox::Add(std::shared_ptr<Subscriber> subscriber) {
   const std::scoped_lock lock(mutex_);
   subscribers_.push_back(std::move(subscriber));
@@ -101,6 +85,29 @@ void Inbox::HandleOne(std::chrono::milliseconds timeout) {
   Handle(entry.subscribers, entry.message);
 }
 
+void Inbox::Call(Subscriber* subscriber, const ReceivedMessage& message) {
+  const std::scoped_lock lock(subscriber->running);
+  if (!subscriber->handler) return;
+  try {
+    subscriber->handler(message);
+  } catch (const std::exception& error) {
+    NoteFailure(message.channel, error.what());
+  } catch (...) {
+    NoteFailure(message.channel, "its handler threw something");
+  }
+}
+
+// What cannot be read is mostly repeated: a planner that sends bad results is asked four times a
+// second.
+void Inbox::NoteFailure(const std::string& channel, const std::string& what) {
+  const std::string text = Printable(channel) + " dropped: " + what;
+  const std::scoped_lock lock(mutex_);
+  ++num_failed_;
+  if (told_.size() == kMaxTold || !told_.insert(text).second) return;
+  spdlog::error("message on {} (told once)", text);
+  if (told_.size() == kMaxTold) spdlog::warn("further messages that are dropped are only counted");
+}
+
 void Inbox::Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
                    const ReceivedMessage& message) {
   for (const std::shared_ptr<Subscriber>& subscriber : subscribers) {
@@ -109,6 +116,11 @@ void Inbox::Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
   const std::scoped_lock lock(mutex_);
   handling_ = false;
   if (!entries_.empty()) changed_.notify_one();
+}
+
+std::int64_t Inbox::num_failed() const {
+  const std::scoped_lock lock(mutex_);
+  return num_failed_;
 }
 
 std::int64_t Inbox::num_dropped() const {

@@ -33,6 +33,8 @@ class Inbox {
  public:
   /// Bytes of messages that may wait in all.
   static constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+  /// Failures of handlers that are told one by one; further ones are counted only.
+  static constexpr std::size_t kMaxTold = 256;
 
   void Add(std::shared_ptr<Subscriber> subscriber);
   /// Waits for a running call of its handler; there is none afterwards.
@@ -49,8 +51,11 @@ class Inbox {
   /// channels, who has more to do than its sender can wait for, is among them.
   bool HandleNow(const ReceivedMessage& message);
   /// Hands the oldest message to its handlers, waiting for one up to `timeout`. What a handler
-  /// throws is logged.
+  /// throws is logged, once for each channel and text, as long as those are not too many.
   void HandleOne(std::chrono::milliseconds timeout);
+
+  /// Calls of handlers that threw.
+  std::int64_t num_failed() const;
 
   /// Messages that a subscriber did not get, times subscribers.
   std::int64_t num_dropped() const;
@@ -65,6 +70,10 @@ class Inbox {
   void Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
               const ReceivedMessage& message);
 
+  /// Runs a handler, and notes what it throws.
+  void Call(Subscriber* subscriber, const ReceivedMessage& message);
+  void NoteFailure(const std::string& channel, const std::string& what);
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::shared_ptr<Subscriber>> subscribers_;
@@ -72,6 +81,8 @@ class Inbox {
   std::size_t bytes_ = 0;
   bool handling_ = false;  ///< Handlers run, on whichever thread: those of one message at a time.
   std::int64_t num_dropped_ = 0;
+  std::int64_t num_failed_ = 0;
+  std::set<std::string> told_;  ///< Channels and what was wrong, as logged.
 };
 
 }  // namespace planbench

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "messaging/codec.h"
+#include "messaging/decoder.h"
 
 /// Between lcmt_ structs and bytes.
 namespace planbench::wire {
@@ -25,11 +26,24 @@ std::vector<std::uint8_t> Pack(const Wire& message) {
   return bytes;
 }
 
-/// The lcmt_ struct in `bytes`; throws MessageError for another type, truncation, excess.
+/// The request_id of an lcmt_ struct, printable; "" if it has none.
+template <typename Wire>
+std::string RequestIdOf(const Wire& message) {
+  std::string request_id;
+  if constexpr (requires { message.request_id; }) request_id = message.request_id;
+  Decoder::Escape(&request_id);
+  return request_id;
+}
+
+/// The lcmt_ struct in `bytes`; throws MessageError for another type, truncation, excess. The
+/// error has the request_id if that could still be read.
 template <typename Wire>
 Wire Unpack(std::span<const std::uint8_t> bytes, const std::string& channel) {
   const std::string type = Wire::getTypeName();
-  const auto fail = [&](const std::string& what) { throw MessageError(channel + ": " + what, ""); };
+  Wire message{};
+  const auto fail = [&](const std::string& what) {
+    throw MessageError(channel + ": " + what, RequestIdOf(message));
+  };
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     fail("too large for a " + type);
   }
@@ -39,14 +53,17 @@ Wire Unpack(std::span<const std::uint8_t> bytes, const std::string& channel) {
     fail("too short for a " + type);
   }
   if (fingerprint != Wire::getHash()) fail("not a " + type + " of this version");
-  Wire message{};
   int used = -1;
   try {
     used = message.decode(bytes.data(), 0, size);
   } catch (const std::length_error&) {  // A count that no memory could hold.
   } catch (const std::bad_alloc&) {
   }
-  if (used < 0) fail("truncated or damaged " + type);
+  if (used < 0) {
+    fail("truncated or damaged " + type +
+         ": a count (num_...) or the length of a text does not match what follows, or rows hold 0 "
+         "numbers");
+  }
   if (used != size) fail(std::to_string(size - used) + " bytes after the end of the " + type);
   return message;
 }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <signal.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -20,6 +22,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -51,6 +54,39 @@ TEST(BusTest, HandlersMayThrow) {
   const auto received = collector.WaitFor(3);
   ASSERT_EQ(received.size(), 3u);
   EXPECT_EQ(received[2].sender, "2");
+}
+
+TEST(BusTest, WhatHandlersThrowIsToldOncePerChannelAndText) {
+  auto written = std::make_shared<std::ostringstream>();
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(*written)));
+  {
+    Bus bus("memq://");
+    const auto fail = [](const DiscoverMessage& message) {
+      throw std::runtime_error(message.sender);
+    };
+    const Subscription one = bus.Subscribe<DiscoverMessage>("ONE", fail);
+    const Subscription two = bus.Subscribe<DiscoverMessage>("TWO", fail);
+    MessageCollector<DiscoverMessage> collector(&bus, "LAST");
+    for (int i = 0; i < 8; ++i) PublishNumber(&bus, i % 2 == 0 ? "ONE" : "TWO", i / 4);
+    for (int i = 0; i < 400; ++i) PublishNumber(&bus, "ONE", i);
+    PublishNumber(&bus, "LAST", 0);
+    bus.Start();
+    EXPECT_EQ(collector.WaitFor(1).size(), 1u);
+  }
+  spdlog::set_default_logger(before);
+  const std::string text = written->str();
+  const auto times = [&](const std::string& part) {
+    int count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(times("ONE dropped: 0 (told once)"), 1) << text;
+  EXPECT_EQ(times("TWO dropped: 1 (told once)"), 1) << text;
+  EXPECT_EQ(times("(told once)"), 256);
+  EXPECT_EQ(times("only counted"), 1);
+  EXPECT_EQ(times("408 messages on the bus were dropped"), 1) << text;
 }
 
 TEST(BusTest, ArrivalIsToldOnTheSteadyClock) {

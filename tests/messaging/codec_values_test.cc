@@ -103,7 +103,9 @@ TEST_F(CodecValues, Paths) {
 
 TEST_F(CodecValues, CollisionRequests) {
   ExpectAllRefused<CollisionRequestMessage, lcmt_collision_request>({
-      {"truncated or damaged lcmt_collision_request",
+      {"truncated or damaged lcmt_collision_request: a count (num_...) or the length of a text "
+       "does "
+       "not match what follows, or rows hold 0 numbers",
        [](auto& m) {
          m.num_joints = 0;
          m.num_edges = 0;
@@ -114,6 +116,19 @@ TEST_F(CodecValues, CollisionRequests) {
          m.num_states = m.num_edges = 0;
        }},
   });
+}
+
+TEST_F(CodecValues, WhatIsCutBehindItsIdIsRefusedByIt) {
+  PlanResultMessage result = Example<PlanResultMessage>();
+  result.request_id = "an id\n";
+  std::vector<std::uint8_t> bytes = Encode(result);
+  bytes.pop_back();
+  EXPECT_EQ(DecodeError<PlanResultMessage>(bytes).request_id(), "an id\\n");
+  bytes.insert(bytes.end(), 2, 0);
+  EXPECT_EQ(DecodeError<PlanResultMessage>(bytes).request_id(), "an id\\n");
+  EXPECT_EQ(DecodeError<PlanResultMessage>(std::span(bytes).first(20)).request_id(), "");
+  bytes[0] ^= 1;
+  EXPECT_EQ(DecodeError<PlanResultMessage>(bytes).request_id(), "");
 }
 
 TEST_F(CodecValues, RefusalsOfProblemsNeedNoProblem) {

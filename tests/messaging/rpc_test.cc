@@ -122,6 +122,17 @@ TEST_F(RpcServerTest, RefusesAMalformedRequestByItsId) {
   EXPECT_EQ(num_answers_, 0);
 }
 
+TEST_F(RpcServerTest, RefusesARequestThatIsCutBehindItsId) {
+  std::vector<std::uint8_t> bytes = Encode(ProblemRequestMessage{"id", "set", 1});
+  bytes.pop_back();
+  bus_.PublishBytes(channel::kProblemRequest, bytes);
+  const std::vector<ProblemMessage> replies = replies_.WaitFor(1);
+  ASSERT_EQ(replies.size(), 1u);
+  EXPECT_EQ(replies[0].request_id, "id");
+  EXPECT_FALSE(replies[0].ok);
+  EXPECT_THAT(replies[0].message, HasSubstr("truncated or damaged lcmt_problem_request"));
+}
+
 TEST_F(RpcServerTest, MalformedRequestWithoutIdIsDropped) {
   Send({"", "set", 1});
   bus_.PublishBytes(channel::kProblemRequest, std::vector<std::uint8_t>{1, 2, 3});
