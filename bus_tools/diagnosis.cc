@@ -138,25 +138,53 @@ void MeasureLoss(Bus* bus, const Listener& listener, const std::string& channel,
   findings->push_back(LossFinding(*bus, what, num, listener.num_own() - before));
 }
 
+/// Planners tell a version of their own, unless they are planbench's.
+std::vector<Finding> VersionFindings(const std::map<std::string, NodeStatusMessage>& nodes) {
+  std::set<std::string> programs;
+  std::set<std::string> planners;
+  for (const auto& [who, status] : nodes) {
+    if (status.version == Version()) continue;
+    const std::string version = Printable(status.version);
+    if (status.kind == NodeKind::kPlanner) {
+      planners.insert(fmt::format("{} ({})", Printable(status.name), version));
+    } else {
+      programs.insert(version);
+    }
+  }
+  std::vector<Finding> findings;
+  if (!programs.empty()) {
+    findings.push_back({Kind::kFault,
+                        fmt::format("versions: this is planbench {}, on the bus are also {}",
+                                    Version(), fmt::join(programs, ", ")),
+                        "run one version; messages of another are refused"});
+  }
+  if (!planners.empty()) {
+    findings.push_back(
+        {Kind::kNote,
+         fmt::format("versions: planners not of planbench {}: {}", Version(),
+                     fmt::join(planners, ", ")),
+         "nothing, if they are planners of your own; those of planbench must be of one version"});
+  }
+  return findings;
+}
+
 std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
   std::vector<Finding> findings;
   std::vector<std::string> lines;
   std::map<std::string, int> names;
-  std::set<std::string> others;
   int num_servers = 0;
   for (const auto& [who, status] : heard.nodes) {
-    lines.push_back(fmt::format("  {} ({}), planbench {}", Printable(who), EnumName(status.kind),
+    lines.push_back(fmt::format("  {} ({}), version {}", Printable(who), EnumName(status.kind),
                                 Printable(status.version)));
-    ++names[status.name];
+    if (status.kind != NodeKind::kLogger) ++names[status.name];  // Those may be several.
     num_servers += status.kind == NodeKind::kSceneServer ? 1 : 0;
-    if (status.version != Version()) others.insert(Printable(status.version));
   }
   if (lines.empty()) {
     findings.push_back({Kind::kGood, "port: nobody of planbench is on it", ""});
   } else {
     findings.push_back(
         {Kind::kNote,
-         fmt::format("port: {} of planbench on it:\n{}", lines.size(), fmt::join(lines, "\n")),
+         fmt::format("port: {} processes on it:\n{}", lines.size(), fmt::join(lines, "\n")),
          "a session of your own wants another port (--lcm-url, or the driver's "
          "--launch, which takes a free one)"});
   }
@@ -170,12 +198,7 @@ std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
     findings.push_back({Kind::kFault, fmt::format("scene servers: {} on one bus", num_servers),
                         "stop all but one: every session needs a port of its own"});
   }
-  if (!others.empty()) {
-    findings.push_back({Kind::kFault,
-                        fmt::format("versions: this is planbench {}, on the bus are also {}",
-                                    Version(), fmt::join(others, ", ")),
-                        "run one version; messages of another are refused"});
-  }
+  for (Finding& finding : VersionFindings(heard.nodes)) findings.push_back(std::move(finding));
   for (const auto& [channel, count] : heard.foreign) {
     findings.push_back({Kind::kFault,
                         fmt::format("types: {} messages on {} are of no type of this version, or "

@@ -13,6 +13,7 @@ namespace planbench {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Kind = Finding::Kind;
 
 std::vector<Finding> Look(const std::string& url, int listen_ms = 50) {
@@ -67,22 +68,43 @@ TEST(Diagnosis, NamesWhoElseIsOnThePort) {
   twin.pid = 12;
   twin.instance = std::string(16, 'b');
   twin.version = "0.0.1";
+  NodeStatusMessage planner = one;
+  planner.name = "straight";
+  planner.kind = NodeKind::kPlanner;
+  planner.pid = 13;
+  planner.instance = std::string(16, 'c');
+  planner.version = "example";
+  std::vector<NodeStatusMessage> loggers(2, one);
+  for (NodeStatusMessage& logger : loggers) {
+    logger.name = "logger";
+    logger.kind = NodeKind::kLogger;
+    logger.instance = std::string(16, 'd');
+  }
+  loggers[1].pid = 14;
   const Subscription asked =
       bus.Subscribe<DiscoverMessage>(channel::kDiscover, [&](const DiscoverMessage&) {
         bus.Publish(channel::kNodeStatus, one);
         bus.Publish(channel::kNodeStatus, twin);
+        bus.Publish(channel::kNodeStatus, planner);
+        for (const NodeStatusMessage& logger : loggers) bus.Publish(channel::kNodeStatus, logger);
         bus.PublishBytes("STRANGE", std::vector<std::uint8_t>(30, 9));
       });
   const std::vector<Finding> findings = Look(url, 1500);
-  EXPECT_THAT(Of(findings, "port").text,
-              testing::AllOf(HasSubstr("2 of planbench"), HasSubstr("scene_server, pid 11 on here"),
-                             HasSubstr("pid 12"), HasSubstr("planbench 0.0.1")));
+  EXPECT_THAT(
+      Of(findings, "port").text,
+      testing::AllOf(HasSubstr("5 processes on it"), HasSubstr("scene_server, pid 11 on here"),
+                     HasSubstr("pid 12"), HasSubstr("version 0.0.1")));
   for (const std::string subject : {"names: 2", "scene servers: 2", "versions", "types: 1"}) {
     const Finding finding = Of(findings, subject);
     EXPECT_EQ(finding.kind, Kind::kFault) << finding.text;
     EXPECT_FALSE(finding.mend.empty());
   }
-  EXPECT_THAT(Of(findings, "versions").text, HasSubstr("0.0.1"));
+  EXPECT_THAT(Of(findings, "names").text, HasSubstr("'scene_server'"));
+  for (const Finding& finding : findings) EXPECT_THAT(finding.text, Not(HasSubstr("'logger'")));
+  EXPECT_THAT(Of(findings, "versions: this").text,
+              testing::AllOf(HasSubstr("0.0.1"), Not(HasSubstr("example"))));
+  EXPECT_EQ(Of(findings, "versions: planners").kind, Kind::kNote);
+  EXPECT_THAT(Of(findings, "versions: planners").text, HasSubstr("straight (example)"));
   EXPECT_THAT(Of(findings, "types").text, HasSubstr("STRANGE"));
 }
 
