@@ -15,13 +15,14 @@ public class StraightLine implements LCMSubscriber {
   };
   final BlockingQueue<lcmt_plan_request> work = new LinkedBlockingQueue<>();
   final BlockingQueue<lcmt_collision_reply> replies = new LinkedBlockingQueue<>();
+  volatile String cancelled = "";  // request_id
   lcmt_plan_request current;  // null: idle
   lcmt_problem_sets sets;     // of the scene server; null: not heard yet
 
   StraightLine(String name) throws Exception {
     this.name = name;
     channel = name.toUpperCase().replace('-', '_');
-    lcm.subscribe("PROBLEM_SETS|DISCOVER|COLLISION_REPLY|PLAN_(REQUEST|CANCEL)_" + channel, this);
+    lcm.subscribe("NODE_STATUS|PROBLEM_SETS|DISCOVER|COLLISION_REPLY|PLAN_(REQUEST|CANCEL)_" + channel, this);
   }
 
   static long utime() { return System.currentTimeMillis() * 1000; }
@@ -31,10 +32,20 @@ public class StraightLine implements LCMSubscriber {
       else if (from.equals("DISCOVER")) announce();
       else if (from.equals("COLLISION_REPLY")) replies.add(new lcmt_collision_reply(in));
       else if (from.startsWith("PLAN_REQUEST_")) answer(new lcmt_plan_request(in));
-      else send(results.get(new lcmt_plan_cancel(in).request_id));
+      else if (from.equals("NODE_STATUS")) leaveToAnOlder(new lcmt_node_status(in));
+      else send(results.get(cancelled = new lcmt_plan_cancel(in).request_id));
     } catch (java.io.IOException error) {
       System.err.println(from + ": " + error.getMessage());
     }
+  }
+
+  // A newcomer leaves to an older process of its name; what is 10 s old is a recording that is played.
+  void leaveToAnOlder(lcmt_node_status other) {
+    if (!other.name.equals(name) || utime() - start > 3000000 || utime() - other.utime > 10000000) return;
+    boolean older = other.start_utime < start || other.start_utime == start && other.instance.compareTo(instance) < 0;
+    if (!older) return;
+    System.err.printf("'%s' is live already (host %s, pid %d): choose another%n", name, other.host, other.pid);
+    Runtime.getRuntime().halt(2);
   }
 
   void send(lcmt_plan_result result) { if (result != null) lcm.publish("PLAN_RESULT_" + channel, result); }
@@ -42,11 +53,22 @@ public class StraightLine implements LCMSubscriber {
   // Every copy of a request is answered at once: with its result, or with what becomes of it.
   void answer(lcmt_plan_request request) {
     if (results.containsKey(request.request_id)) { send(results.get(request.request_id)); return; }
-    if (current == null) work.add(current = request);
     lcmt_plan_ack ack = new lcmt_plan_ack();
-    ack.utime = utime(); ack.planner = name; ack.request_id = request.request_id; ack.message = "";
-    ack.verdict = current.request_id.equals(request.request_id) ? lcmt_plan_ack.WORKING : lcmt_plan_ack.BUSY;
+    ack.utime = utime(); ack.planner = name; ack.request_id = request.request_id; ack.message = refusal(request);
+    if (ack.message.isEmpty() && current == null) work.add(current = request);
+    ack.verdict = !ack.message.isEmpty() ? lcmt_plan_ack.REFUSED
+        : current.request_id.equals(request.request_id) ? lcmt_plan_ack.WORKING : lcmt_plan_ack.BUSY;
     lcm.publish("PLAN_ACK_" + channel, ack);
+  }
+
+  // Why a request cannot be worked on, "" if it can.
+  String refusal(lcmt_plan_request request) {
+    boolean mine = sets == null || request.robot_id.isEmpty() || request.robot_id.equals(sets.robot_id);
+    if (!mine) return "it is for another robot";
+    if (!request.collision_model.equals("spheres")) return "the collision model is not spheres";
+    boolean special = request.anytime || request.direction == lcmt_plan_request.BACKWARD ||
+        request.initial_path.num_waypoints > 0;
+    return special ? "anytime, backward and initial_path are not supported" : "";
   }
 
   synchronized void announce() throws java.io.IOException {
@@ -64,7 +86,8 @@ public class StraightLine implements LCMSubscriber {
 
   lcmt_plan_result plan(lcmt_plan_request request) throws InterruptedException {
     long begin = System.nanoTime();
-    int n = request.num_goals;  // one goal for each joint of the group
+    // A goal for each joint of the group, in its order; of alternatives, which follow one another, the first is taken.
+    int n = (int) Arrays.stream(request.goal).map(goal -> goal.joint_name).distinct().count();
     String[] joints = new String[n];
     double[][] line = new double[2][n];
     for (int i = 0; i < n; ++i) {
@@ -79,16 +102,18 @@ public class StraightLine implements LCMSubscriber {
     q.edge_resolution_m = request.edge_resolution_m; q.num_joints = n; q.num_edges = 1;
     q.position = new double[0][]; q.edge_from = new double[][] {line[0]}; q.edge_to = new double[][] {line[1]};
     lcmt_collision_reply reply = null;
-    while (reply == null && System.nanoTime() - begin < request.time_limit_s * 1e9) {
+    boolean cancel = false;
+    while (reply == null && !cancel && System.nanoTime() - begin < request.time_limit_s * 1e9) {
       lcm.publish("COLLISION_REQUEST", q);  // again until it is answered
       reply = replies.poll(250, TimeUnit.MILLISECONDS);
       while (reply != null && !reply.request_id.equals(q.request_id)) reply = replies.poll();
+      cancel = cancelled.equals(request.request_id);
     }
-    boolean free = reply != null && reply.ok && reply.edge[0].free;
+    boolean free = reply != null && reply.ok && reply.edge[0].free && reply.edge[0].within_limits;
     lcmt_plan_result r = new lcmt_plan_result();
     r.planner = name; r.run_id = request.run_id; r.request_id = request.request_id;
-    r.status = free ? r.SOLVED : reply == null ? r.TIMED_OUT : reply.ok ? r.EXHAUSTED : r.INVALID_REQUEST;
-    r.message = free ? "" : reply == null ? "no answer" : reply.ok ? "the straight line is not free" : reply.message;
+    r.status = free ? r.SOLVED : reply == null ? (cancel ? r.CANCELLED : r.TIMED_OUT) : reply.ok ? r.EXHAUSTED : r.INVALID_REQUEST;
+    r.message = free ? "" : reply == null ? (cancel ? "cancelled" : "no answer") : reply.ok ? "the straight line is not free" : reply.message;
     r.path = free ? pathOf(joints, line) : pathOf(new String[0], new double[0][]);
     r.simplified_path = request.simplify ? r.path : pathOf(new String[0], new double[0][]);
     r.progress = new lcmt_plan_progress[0]; r.counter = new lcmt_named_value[0];
