@@ -44,8 +44,10 @@ TEST(ProblemAnswer, GivesTheProblemAndItsScene) {
   EXPECT_EQ(problem.group, "arm");
   EXPECT_EQ(problem.time_limit_s, 7);
   ASSERT_EQ(problem.goal.size(), 2u);
-  EXPECT_EQ(problem.goal[1].joint, "swing");
-  EXPECT_EQ(problem.goal[1].position, kGoalSwing);
+  // In the group's order, which is not the file's.
+  EXPECT_EQ(problem.goal[0].joint, "swing");
+  EXPECT_EQ(problem.goal[0].position, kGoalSwing);
+  EXPECT_EQ(problem.goal[1].joint, "lift");
 
   ASSERT_TRUE(answer.scene);
   EXPECT_TRUE(answer.scene->ok);
