@@ -21,11 +21,11 @@ const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot&
 
 /// goal_constraints, as Problem::goal: each set is an alternative, of joint constraints with one
 /// for each joint of the group, in any order; or of constraints on the poses of tips (see
-/// FindPoseGoals), which
-/// are as many alternatives as configurations are found, without tolerance, within what joint
-/// constraints beside them allow. Constraints of other joints are taken if they say nothing: of
-/// fixed joints at 0, of joints outside the group where they are at `start` (full positions), of
-/// joints that follow one of the group where that puts them.
+/// FindPoseGoals), which are as many alternatives as configurations are found, without tolerance,
+/// within what joint constraints beside them allow. Constraints of other joints are taken if they
+/// say nothing: of fixed joints at 0, of joints outside the group where they are at `start` (full
+/// positions), of joints that follow one of the group where that puts them. Goals name the joints
+/// in the group's order.
 std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,
                                 const PlanningGroup& group, const std::vector<double>& start,
                                 const FrameTree& frames);
