@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -69,8 +70,10 @@ class AraPlanner : public Planner {
     if (!query.parameters().empty()) {
       own_options = ResolveOptions(settings, robot(), group, "request parameters");
     }
-    TwoWaySearch search(&query.edges(), query.start(), query.goal(),
-                        own_options ? *own_options : OptionsFor(group), settings.two_way);
+    const auto owner = std::make_shared<TwoWaySearch>(
+        &query.edges(), query.start(), query.goal(), own_options ? *own_options : OptionsFor(group),
+        settings.two_way);
+    TwoWaySearch& search = *owner;
 
     if (settings.tip_guide > 0) {
       search.GuideByTip(query.scene(), query.base_positions(), settings.tip_guide);
@@ -95,21 +98,16 @@ class AraPlanner : public Planner {
     };
     bool reported = false;
     const auto report = [&](double proven) {
+      query.HoldPath();
       if (query.edges().Stopped()) return;
       bound = proven;
       reported = true;
       query.ReportSolution(epsilon_proven(), search.cost(), search.counts().expansions);
     };
-    const auto hold = [&](double proven) {
-      query.HoldPath();
-      if (!query.edges().Stopped()) bound = proven;
-    };
     ImproveOutcome outcome = ImproveOutcome::kStopped;
     std::optional<double> epsilon = settings.epsilon.initial;
     while (epsilon) {
-      outcome = search.Improve(*epsilon, should_stop, [&](double proven) {
-        query.anytime() ? report(proven) : hold(proven);
-      });
+      outcome = search.Improve(*epsilon, should_stop, report);
       if (search.path().empty()) break;
       if (const double proven = search.ProveBound(); !reported || proven < bound) report(proven);
       if (outcome != ImproveOutcome::kConverged || !query.anytime()) break;
@@ -117,6 +115,7 @@ class AraPlanner : public Planner {
     }
 
     SearchResult result;
+    result.remains = owner;
     const TwoWaySearch::Counts counts = search.counts();
     result.counters = {
         {"expansions", static_cast<double>(counts.expansions)},

@@ -198,7 +198,7 @@ class OmplPlanner::Workspace {
     double best = std::numeric_limits<double>::infinity();
     problem->setIntermediateSolutionCallback(
         [&](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
-          if (!query.anytime() || !(cost.value() < best)) return;
+          if (!(cost.value() < best)) return;
           best = cost.value();
           query.ReportSolution(/*epsilon=*/0, best, space_->num_samples());
         });
@@ -214,7 +214,7 @@ class OmplPlanner::Workspace {
       result.path = PathOf(*problem);
       if (settings.ompl_algorithm->anytime) {
         result.cost = problem->getSolutionPath()->length();
-        if (query.anytime() && result.cost < best) {
+        if (result.cost < best) {
           query.ReportSolution(/*epsilon=*/0, result.cost, space_->num_samples());
         }
       }
@@ -225,6 +225,7 @@ class OmplPlanner::Workspace {
         result.message = fmt::format("{} gave up: {}", settings.AlgorithmName(), status.asString());
       }
     }
+    result.remains = planner;
     result.guidance_ticks = *space_->neighbor_ticks();
     result.counters = {{"iterations", static_cast<double>(space_->num_samples())}};
     return result;

@@ -24,8 +24,8 @@ struct PlanProgress {
 };
 
 /// Where the time up to the end of the search (PlanResult::total_time_s) went, s. That is the
-/// planning time, unless an anytime search went on after its first solution. Phases that a planner
-/// does not have are 0.
+/// planning time, unless the search went on with a path in hand: an anytime search after its first
+/// solution, any other until the time limit. Phases that a planner does not have are 0.
 struct PhaseTimes {
   double setup_s = 0;           ///< Scene, robot state, planner structures for this request.
   double collision_s = 0;       ///< Collision checking of states and edges.
@@ -39,7 +39,8 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kInvalidRequest;
   std::string message;         ///< Why, in one line, when not solved.
   double planning_time_s = 0;  ///< Request and scene at hand -> first solution or verdict ready.
-  double total_time_s = 0;     ///< The same up to the end of the search (longer only for anytime).
+  double total_time_s = 0;     ///< The same up to the end of the search: longer only for anytime,
+                               ///< and beyond a time limit that came with a path in hand.
   PhaseTimes phases;
   Path path;             ///< Raw; empty unless solved.
   Path simplified_path;  ///< After the shared pass; empty if not asked for.

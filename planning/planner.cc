@@ -259,6 +259,7 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
     const bool may_go_on =
         found.status == PlanStatus::kExhausted || found.status == PlanStatus::kTimedOut;
     if (!may_go_on || query->ShouldStop()) break;
+    found.remains.reset();  // makes room for the next goal's search
   }
   return found;
 }
@@ -317,6 +318,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   const EdgeChecker::Counters counters = edges->counters();
   SetPhases(clock.ticks(), setup_ticks, counters.ticks, found.guidance_ticks, result);
   result->status = found.status;
+  found.remains.reset();
   result->message = std::move(found.message);
   result->progress = std::move(query.progress_);
   result->counters = std::move(found.counters);

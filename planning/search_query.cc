@@ -15,6 +15,7 @@ bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() 
 
 void SearchQuery::ReportSolution(double epsilon, double cost, std::int64_t expansions) {
   HoldPath();
+  if (!anytime_) return;
   progress_.push_back({clock_.seconds(), epsilon, cost, expansions});
   if (control_->on_progress) control_->on_progress(progress_.back());
 }

@@ -40,7 +40,7 @@ class SearchQuery {
   bool Cancelled() const;
   double RemainingSeconds() const;
   /// Reports a solution of an anytime search the moment it is ready: the first stops the planning
-  /// clock.
+  /// clock, if the request is anytime. If it is not, this is HoldPath.
   void ReportSolution(double epsilon, double cost, std::int64_t expansions);
   /// Says that there is a path to return, should the limit come before the search has reached the
   /// bound it wants.

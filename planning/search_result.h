@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "planning/plan_result.h"
@@ -21,6 +22,9 @@ struct SearchResult {
   std::uint64_t guidance_ticks = 0;  ///< Time spent on heuristic or nearest neighbours (Ticks), if
                                      ///< measured; without collision checking.
   std::map<std::string, double> counters;
+  /// What the search was made of, where freeing it takes time. Planner frees it once the clock has
+  /// stopped, so that it counts for no planner.
+  std::shared_ptr<void> remains;
 };
 
 }  // namespace planbench

@@ -73,6 +73,9 @@ class PlannerContract : public testing::TestWithParam<PlannerFactory> {
                 result.total_time_s, 1e-9 * result.total_time_s);
     EXPECT_GT(result.planning_time_s, 0);
     EXPECT_LE(result.planning_time_s, request.time_limit_s);
+    if (request.anytime) return;
+    EXPECT_EQ(result.planning_time_s, std::min(result.total_time_s, request.time_limit_s));
+    EXPECT_TRUE(result.progress.empty());
   }
 
   static void ExpectValid(const Robot& robot, const PlanRequest& request, const Scene& scene,

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <thread>
 
 #include "common/error.h"
+#include "common/stopwatch.h"
 #include "planning/path_measures.h"
 #include "support/planning_problems.h"
 #include "support/scripted_planner.h"
@@ -205,6 +208,41 @@ TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
   EXPECT_EQ(result.progress[1].epsilon, 1);
   EXPECT_EQ(result.progress[1].cost, 400);
   EXPECT_EQ(result.progress[1].expansions, 70);
+}
+
+TEST_F(PlannerTest, WithoutAnytimeTheEndOfTheSearchStopsThePlanningClock) {
+  PlanControl control;
+  bool told = false;
+  control.on_progress = [&told](const PlanProgress&) { told = true; };
+  const PlanResult result = Plan(
+      [](SearchQuery& query) {
+        query.ReportSolution(10, 500, 7);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return StraightLine(query);
+      },
+      Request(), EmptyPlanarScene(), &control);
+  EXPECT_GE(result.planning_time_s, 0.02);
+  EXPECT_EQ(result.planning_time_s, result.total_time_s);
+  EXPECT_TRUE(result.progress.empty());
+  EXPECT_FALSE(told);
+}
+
+TEST_F(PlannerTest, FreeingWhatTheSearchWasMadeOfCountsForNobody) {
+  static constexpr double kFreeingS = 0.3;
+  const Stopwatch clock;
+  const PlanResult result = Plan(
+      [](SearchQuery& query) {
+        SearchResult found = StraightLine(query);
+        const auto free = [](void*) {
+          std::this_thread::sleep_for(std::chrono::duration<double>(kFreeingS));
+        };
+        found.remains = std::shared_ptr<void>(nullptr, free);
+        return found;
+      },
+      Request());
+  EXPECT_GE(clock.seconds(), kFreeingS);
+  EXPECT_LT(result.total_time_s, kFreeingS);
+  EXPECT_LT(result.phases.simplification_s, kFreeingS);
 }
 
 TEST_F(PlannerTest, AnytimeIsForPlannersThatAre) {
