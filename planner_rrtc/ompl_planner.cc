@@ -286,7 +286,7 @@ class OmplPlanner::Workspace {
 };
 
 OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::string& origin)
-    : Planner(robot), settings_(std::move(settings)) {
+    : Planner(robot), settings_(std::move(settings)), origin_(origin) {
   RedirectOmplMessages();
   for (const PlanningGroup& group : robot.groups) {
     workspaces_[&group.space] = std::make_unique<Workspace>(group.space, settings_.metric);
@@ -309,10 +309,16 @@ PlannerDescription OmplPlanner::Describe() const {
 }
 
 std::optional<EdgeSampling> OmplPlanner::OwnEdgeSampling(const PlanningGroup& group,
-                                                         EdgeCheck /*method*/,
+                                                         EdgeCheck method,
                                                          double /*resolution_m*/) const {
   const std::optional<double> fraction = settings_.longest_valid_segment_fraction;
   if (!fraction) return std::nullopt;
+  if (method != EdgeCheck::kFixed) {
+    throw InputError(fmt::format(
+        "{}: longest_valid_segment_fraction: samples edges, which are to be certified here: ask "
+        "for edge_check fixed, or leave the setting out",
+        origin_));
+  }
   EdgeSampling sampling;
   sampling.weights.assign(static_cast<std::size_t>(group.space.size()), 1.0);
   sampling.step = *fraction * workspaces_.at(&group.space)->Extent();

@@ -22,6 +22,8 @@ class OmplPlanner final : public Planner {
 
  protected:
   SearchResult Search(SearchQuery& query) override;
+  /// By the settings' longest_valid_segment_fraction, if there is one. Throws InputError for edges
+  /// that are to be certified then: they would not be.
   std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& group, EdgeCheck method,
                                               double resolution_m) const override;
 
@@ -29,6 +31,7 @@ class OmplPlanner final : public Planner {
   class Workspace;
 
   RrtcSettings settings_;
+  std::string origin_;  ///< Of the settings.
   /// What is kept from one request to the next, for each joint space.
   std::map<const JointSpace*, std::unique_ptr<Workspace>> workspaces_;
 };

@@ -194,8 +194,14 @@ TEST_F(RrtcPlannerTest, EverySettingTakesEffect) {
 }
 
 TEST_F(RrtcPlannerTest, TheLongestValidSegmentDecidesHowEdgesAreSampled) {
+  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  const auto solve = [&](const std::string& settings, EdgeCheck edge_check) {
+    request.edge_check = edge_check;
+    return MakeRrtcPlanner(robot_, Settings("{algorithm: RRTConnect, range: 1, " + settings + "}"))
+        ->Plan(request, PostsScene(), nullptr);
+  };
   const auto samples_an_edge = [&](const std::string& settings) {
-    const PlanResult result = Solve("{algorithm: RRTConnect, range: 1, " + settings + "}");
+    const PlanResult result = solve(settings, EdgeCheck::kFixed);
     EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
     return result.counters.at("configurations_checked") / result.counters.at("edges_checked");
   };
@@ -204,6 +210,12 @@ TEST_F(RrtcPlannerTest, TheLongestValidSegmentDecidesHowEdgesAreSampled) {
   EXPECT_LE(few, 4) << "the end of each, and start and goal by themselves";
   EXPECT_GT(samples_an_edge("longest_valid_segment_fraction: 0.01"), 2 * few);
   EXPECT_GT(samples_an_edge("metric: sum, longest_valid_segment_fraction: 0.005"), 2 * few);
+
+  const PlanResult certified = solve("longest_valid_segment_fraction: 0.01", EdgeCheck::kCertified);
+  EXPECT_EQ(certified.status, PlanStatus::kInvalidRequest) << "its edges would not be";
+  EXPECT_TRUE(certified.message.starts_with("rrtc.yaml:1: longest_valid_segment_fraction: "))
+      << certified.message;
+  EXPECT_NE(certified.message.find("edge_check fixed"), std::string::npos) << certified.message;
 }
 
 TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {
