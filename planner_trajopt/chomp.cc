@@ -46,9 +46,9 @@ Trajectory Chomp::FunctionalGradient(const std::vector<double>& distances,
       }
     }
   }
-  cost_->FindDistances(probes_, &probe_distances_);
-
   Trajectory gradient = Trajectory::Zero(trajectory.rows() - 2, n);
+  if (!cost_->FindDistances(probes_, &probe_distances_)) return gradient;
+
   std::size_t probe = 0;
   Eigen::RowVectorXd slope(n);
   for (const Eigen::Index i : near) {

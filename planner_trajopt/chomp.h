@@ -21,7 +21,7 @@ class Chomp final : public Optimiser {
   void Iterate(const std::vector<double>& distances, Trajectory* trajectory) override;
 
  private:
-  /// Of the obstacles' cost, N x n.
+  /// Of the obstacles' cost, N x n; zero if that was stopped.
   Trajectory FunctionalGradient(const std::vector<double>& distances, const Trajectory& trajectory);
   void KeepWithinLimits(Trajectory* trajectory) const;
 

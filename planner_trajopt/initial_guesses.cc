@@ -34,9 +34,7 @@ Trajectory InitialGuesses::DrawByWayOf(int num_points) {
 }
 
 Trajectory InitialGuesses::Next() {
-  const int num_given = given_.empty() ? 0 : 1;
-  const int num_before = count_++ - num_given;
-  if (num_before < 0) return Through(space_, given_, num_inner_);
+  const int num_before = count_++;
   if (num_before == 0) return Through(space_, {start_, goal_}, num_inner_);
   const int num_points = 1 + (num_before + 1) % kMostPoints;
   const Eigen::Index num_rows = num_inner_ + 2;
@@ -45,7 +43,7 @@ Trajectory InitialGuesses::Next() {
     candidates.middleRows(k * num_rows, num_rows) = DrawByWayOf(num_points);
   }
   std::vector<double> distances;
-  cost_->FindDistances(candidates, &distances);
+  if (!cost_->FindDistances(candidates, &distances)) return candidates.topRows(num_rows);
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kCandidates; ++k) {

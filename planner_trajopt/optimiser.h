@@ -15,8 +15,8 @@ class Optimiser {
 
   /// The next trajectory is another one.
   virtual void Restart() = 0;
-  /// One iteration; rows stay within the joint limits. `distances`: of the trajectory's rows, see
-  /// TrajectoryCost.
+  /// One iteration, left undone if it is stopped (TrajectoryCost::StopWhen); rows stay within the
+  /// joint limits. `distances`: of the trajectory's rows, see TrajectoryCost.
   virtual void Iterate(const std::vector<double>& distances, Trajectory* trajectory) = 0;
 
  protected:

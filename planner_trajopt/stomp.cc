@@ -1,6 +1,5 @@
 #include "planner_trajopt/stomp.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
 
@@ -37,29 +36,38 @@ Stomp::Stomp(const JointSpace& space, const TrajoptSettings& settings, const Tra
       deviations_(space.size()),
       random_(seed),
       rollouts_(num_rows_ * num_rollouts_, space.size()) {
-  const Eigen::MatrixXd covariance = smoothing_ / smoothing_.diagonal().maxCoeff();
-  noise_factor_ = covariance.llt().matrixL();
+  const double largest_deviation = std::sqrt(smoothing_.diagonal().maxCoeff());
   for (Eigen::Index i = 0; i < smoothing_.cols(); ++i) {
     smoothing_.col(i) *= settings.gain / (smoothing_.col(i).maxCoeff() * settings.waypoints);
   }
   for (int j = 0; j < space.size(); ++j) {
-    deviations_[j] = settings.noise * (space.joint(j).upper - space.joint(j).lower);
+    deviations_[j] =
+        settings.noise * (space.joint(j).upper - space.joint(j).lower) / largest_deviation;
   }
 }
 
 void Stomp::DrawRollouts(const Trajectory& trajectory) {
-  Eigen::MatrixXd noise(noise_factor_.rows(), trajectory.cols());
+  Eigen::MatrixXd steps(num_rows_ - 2, trajectory.cols());
+  Eigen::RowVectorXd noise(trajectory.cols());
   for (int k = 0; k < num_rollouts_; ++k) {
-    DrawNormal(&random_, &noise);
+    DrawNormal(&random_, &steps);
     auto rollout = Rollout(k);
     rollout = trajectory;
-    rollout.middleRows(1, noise.rows()) += noise_factor_ * noise * deviations_.asDiagonal();
-    bounds_.Clamp(rollout.middleRows(1, noise.rows()));
+    // A random walk that is back at zero at the goal: the Brownian bridge, whose covariance is the
+    // inverse metric.
+    noise.setZero();
+    for (Eigen::Index i = 1; i + 1 < num_rows_; ++i) {
+      const auto num_left = static_cast<double>(num_rows_ - 1 - i);
+      const double share = num_left / (num_left + 1);
+      noise = share * noise + std::sqrt(share) * steps.row(i - 1);
+      rollout.row(i) += noise.cwiseProduct(deviations_);
+    }
+    bounds_.Clamp(rollout.middleRows(1, steps.rows()));
   }
 }
 
-void Stomp::FindCosts() {
-  cost_->FindDistances(rollouts_, &distances_);
+bool Stomp::FindCosts() {
+  if (!cost_->FindDistances(rollouts_, &distances_)) return false;
   costs_.resize(num_rows_ - 2, num_rollouts_);
   for (int k = 0; k < num_rollouts_; ++k) {
     const auto rollout = Rollout(k);
@@ -71,11 +79,12 @@ void Stomp::FindCosts() {
       costs_(i - 1, k) = cost_->OfDistance(distance) * speed + cost_->smoothness() / 4 * squares;
     }
   }
+  return true;
 }
 
 void Stomp::Iterate(const std::vector<double>& /*distances*/, Trajectory* trajectory) {
   DrawRollouts(*trajectory);
-  FindCosts();
+  if (!FindCosts()) return;
   const Eigen::Index num_inner = num_rows_ - 2;
   Trajectory update = Trajectory::Zero(num_inner, trajectory->cols());
   for (Eigen::Index i = 0; i < num_inner; ++i) {

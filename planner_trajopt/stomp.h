@@ -25,17 +25,18 @@ class Stomp final : public Optimiser {
  private:
   /// Noisy trajectory k, with the ends.
   auto Rollout(int k) { return rollouts_.middleRows(k * num_rows_, num_rows_); }
+  /// Adds noise to the trajectory: of the inner waypoints of a joint it has the inverse of the
+  /// metric of smoothness for its covariance, scaled.
   void DrawRollouts(const Trajectory& trajectory);
-  /// Of each noisy trajectory (column) at each inner waypoint (row).
-  void FindCosts();
+  /// Of each noisy trajectory (column) at each inner waypoint (row). False if it was stopped.
+  bool FindCosts();
 
   const TrajectoryCost* cost_;
   JointBounds bounds_;
   Eigen::Index num_rows_;
   int num_rollouts_;
-  Eigen::MatrixXd noise_factor_;  ///< N x N, times its transpose the covariance of a joint's noise.
-  Eigen::MatrixXd smoothing_;     ///< N x N, the paper's M, times the gain.
-  Eigen::RowVectorXd deviations_;  ///< Largest standard deviation of each joint's noise, rad or m.
+  Eigen::MatrixXd smoothing_;      ///< N x N, the paper's M, times the gain.
+  Eigen::RowVectorXd deviations_;  ///< Of each joint's noise from one row to the next, rad or m.
   std::mt19937_64 random_;
   // Scratch:
   Trajectory rollouts_;  ///< One below the other.

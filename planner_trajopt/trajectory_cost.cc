@@ -1,13 +1,29 @@
 #include "planner_trajopt/trajectory_cost.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 
 namespace planbench {
+namespace {
 
-void TrajectoryCost::FindDistances(const Trajectory& rows, std::vector<double>* distances) const {
-  distances->resize(static_cast<std::size_t>(rows.rows()));
-  edges_->FindClearances({rows.data(), static_cast<std::size_t>(rows.size())},
-                         static_cast<int>(rows.rows()), clearance_, *distances);
+/// Whole batches of the engine, and more than an iteration of the default settings has.
+constexpr std::size_t kMostAtOnce = 4096;
+
+}  // namespace
+
+bool TrajectoryCost::FindDistances(const Trajectory& rows, std::vector<double>* distances) const {
+  const auto num_rows = static_cast<std::size_t>(rows.rows());
+  const auto n = static_cast<std::size_t>(rows.cols());
+  distances->resize(num_rows);
+  const std::span<const double> qs(rows.data(), num_rows * n);
+  for (std::size_t first = 0; first < num_rows; first += kMostAtOnce) {
+    if (first > 0 && should_stop_ && should_stop_()) return false;
+    const std::size_t num = std::min(kMostAtOnce, num_rows - first);
+    edges_->FindClearances(qs.subspan(first * n, num * n), static_cast<int>(num), clearance_,
+                           std::span(*distances).subspan(first, num));
+  }
+  return true;
 }
 
 double TrajectoryCost::OfDistance(double distance) const {

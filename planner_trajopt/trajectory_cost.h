@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "collision/edge_checker.h"
@@ -19,9 +21,13 @@ class TrajectoryCost {
   double clearance() const { return clearance_; }
   double smoothness() const { return smoothness_; }
 
-  /// m, of every row, handed to the collision engine at once; the clearance where they are larger.
-  /// Of meshes lower bounds, which take a thirtieth of the time.
-  void FindDistances(const Trajectory& rows, std::vector<double>* distances) const;
+  /// Distances of many rows can take long. `should_stop` is asked between some thousands of them.
+  void StopWhen(std::function<bool()> should_stop) { should_stop_ = std::move(should_stop); }
+
+  /// m, of every row, some thousands handed to the collision engine at once; the clearance where
+  /// they are larger. Of meshes lower bounds, which take a thirtieth of the time. False, and the
+  /// distances of no use, if it was stopped.
+  bool FindDistances(const Trajectory& rows, std::vector<double>* distances) const;
   /// CHOMP's (Ratliff et al. 2009) of a distance: 0 from the clearance on, a parabola down to
   /// contact, linear within obstacles. m
   double OfDistance(double distance) const;
@@ -31,6 +37,7 @@ class TrajectoryCost {
   EdgeChecker* edges_;
   double clearance_;
   double smoothness_;
+  std::function<bool()> should_stop_;
 };
 
 }  // namespace planbench

@@ -1,10 +1,12 @@
 #include "planner_trajopt/trajopt_planner.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -28,8 +30,8 @@ double Length(const Trajectory& trajectory) {
   return (trajectory.bottomRows(moves) - trajectory.topRows(moves)).rowwise().norm().sum();
 }
 
-/// One search: guess after guess is optimised until one is free, or, anytime, until the end. A path
-/// that is given is optimised as long as that helps, free or not.
+/// One search: guess after guess is optimised until one is free, or, anytime, until the end. Before
+/// them, a path that is given is optimised as long as that helps, free or not.
 class TrajectorySearch {
  public:
   TrajectorySearch(const TrajoptSettings& settings, SearchQuery* query)
@@ -37,8 +39,9 @@ class TrajectorySearch {
         query_(query),
         cost_(&query->edges(), settings.clearance, settings.smoothness),
         // Another seed than the optimiser's, lest guesses and noise be the same numbers.
-        guesses_(query->space(), query->start(), query->goal().nominal, query->initial_path(),
-                 settings, &cost_, ~query->seed()) {
+        guesses_(query->space(), query->start(), query->goal().nominal, settings, &cost_,
+                 ~query->seed()) {
+    cost_.StopWhen([query] { return query->ShouldStop(); });
     if (settings.algorithm == TrajoptAlgorithm::kStomp) {
       optimiser_ = std::make_unique<Stomp>(query->space(), settings, &cost_, query->seed());
     } else {
@@ -50,7 +53,7 @@ class TrajectorySearch {
     if (!query_->initial_path().empty()) {
       KeepInitialPath();
       is_given_ = true;
-      Trajectory trajectory = guesses_.Next();
+      Trajectory trajectory = Through(query_->space(), query_->initial_path(), settings_.waypoints);
       Optimise(&trajectory);
       is_given_ = false;
     }
@@ -70,16 +73,23 @@ class TrajectorySearch {
       result.message = "cancelled";
     } else {
       result.status = query_->ShouldStop() ? PlanStatus::kTimedOut : PlanStatus::kExhausted;
-      result.message = fmt::format(
-          "in collision all the same: {} optimised from {}", EnumName(settings_.algorithm),
-          guesses_.count() > 1             ? fmt::format("{} guesses", guesses_.count())
-          : query_->initial_path().empty() ? "the straight motion"
-                                           : "the path given");
+      result.message = fmt::format("in collision all the same: {} optimised from {}",
+                                   EnumName(settings_.algorithm), Beginnings());
     }
     return result;
   }
 
  private:
+  /// What was optimised, in words.
+  std::string Beginnings() const {
+    std::vector<std::string> beginnings;
+    if (!query_->initial_path().empty()) beginnings.emplace_back("the path given");
+    if (guesses_.count() == 1) beginnings.emplace_back("the straight motion");
+    if (guesses_.count() > 1) beginnings.push_back(fmt::format("{} guesses", guesses_.count()));
+    return beginnings.empty() ? "nothing, for want of time"
+                              : fmt::format("{}", fmt::join(beginnings, " and "));
+  }
+
   bool MayGoOn() const {
     return !query_->ShouldStop() && (path_.empty() || is_given_ || query_->anytime());
   }
@@ -91,8 +101,7 @@ class TrajectorySearch {
     }
     path_ = path;
     length_ = Length(Corners(query_->space(), path));
-    query_->HoldPath();
-    if (query_->anytime()) query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+    query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
   }
 
   void Optimise(Trajectory* trajectory) {
@@ -119,7 +128,7 @@ class TrajectorySearch {
     if (!IsFree(trajectory)) return;
     path_ = PathOf(query_->space(), trajectory);
     length_ = length;
-    if (query_->anytime()) query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+    query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
   }
 
   /// The edges that are likeliest blocked are checked first.
@@ -142,7 +151,7 @@ class TrajectorySearch {
     });
   }
 
-  const TrajoptSettings& settings_;
+  TrajoptSettings settings_;
   SearchQuery* query_;
   TrajectoryCost cost_;
   InitialGuesses guesses_;
@@ -175,7 +184,10 @@ class TrajoptPlanner final : public Planner {
  protected:
   SearchResult Search(SearchQuery& query) override {
     const TrajoptSettings settings = SettingsOfRequest(settings_, query.parameters());
-    return TrajectorySearch(settings, &query).Run();
+    const auto search = std::make_shared<TrajectorySearch>(settings, &query);
+    SearchResult result = search->Run();
+    result.remains = search;
+    return result;
   }
 
  private:

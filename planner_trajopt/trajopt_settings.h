@@ -29,7 +29,8 @@ struct TrajoptSettings {
   int iterations = 200;
   /// A guess is given up after this many iterations without a lower cost.
   int patience = 10;
-  /// Initial guesses at most. None (`unlimited`): until the time limit.
+  /// Initial guesses at most, beside a path that is given. None (`unlimited`): until the time
+  /// limit.
   std::optional<int> guesses;
 
   // Of STOMP:

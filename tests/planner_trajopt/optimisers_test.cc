@@ -112,7 +112,7 @@ TEST_F(TrajectoryTest, ACostIsThatOfItsDistancesAndItsLength) {
 TEST_F(TrajectoryTest, GuessesBeginStraightAndKeepTheEnds) {
   const TrajoptSettings settings;
   const TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
-  InitialGuesses guesses(space_, left_, right_, {}, settings, &cost, 1);
+  InitialGuesses guesses(space_, left_, right_, settings, &cost, 1);
   const Trajectory straight = guesses.Next();
   EXPECT_EQ(straight, Through(space_, {left_, right_}, settings.waypoints));
   const JointBounds bounds(space_);
