@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <vector>
 
 #include "collision/edge_checker.h"
+#include "common/numbers.h"
+#include "common/stopwatch.h"
 #include "planner_trajopt/chomp.h"
 #include "planner_trajopt/initial_guesses.h"
 #include "planner_trajopt/smoothness.h"
@@ -177,6 +180,47 @@ TEST_F(TrajectoryTest, WithoutObstaclesBothComeBackTowardsTheStraightLine) {
     }
     EXPECT_LT(trajectory.col(1).maxCoeff(), 0.5);
   }
+}
+
+TEST_F(TrajectoryTest, SettingUpStompForManyWaypointsTakesNoFactorisation) {
+  TrajoptSettings settings;
+  settings.waypoints = 1000;
+  const TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
+  const auto shortest_s = [](const auto& run) {
+    double least = kInfinity;
+    for (int i = 0; i < 5; ++i) {
+      const Stopwatch clock;
+      run();
+      least = std::min(least, clock.seconds());
+    }
+    return least;
+  };
+  const double metric_s = shortest_s([] { EXPECT_GT(InverseSmoothness(1000)(0, 0), 0); });
+  const double set_up_s = shortest_s([&] { const Stomp stomp(space_, settings, &cost, 1); });
+  EXPECT_LT(set_up_s, 15 * metric_s) << "of the third power it would take a hundred times as long";
+}
+
+TEST_F(TrajectoryTest, DistancesOfManyConfigurationsCanBeStopped) {
+  TrajoptSettings settings;
+  settings.waypoints = 1000;
+  settings.rollouts = 20;
+  TrajectoryCost cost(edges_.get(), settings.clearance, settings.smoothness);
+  const Trajectory guess = Through(space_, {left_, {0, 1, 0}, right_}, settings.waypoints);
+  std::vector<double> distances;
+  EXPECT_TRUE(cost.FindDistances(guess, &distances));
+  bool stop = false;
+  cost.StopWhen([&stop] { return stop; });
+  Stomp stomp(space_, settings, &cost, 1);
+  Trajectory trajectory = guess;
+  stomp.Iterate(distances, &trajectory);
+  EXPECT_NE(trajectory, guess);
+
+  stop = true;
+  const Trajectory before = trajectory;
+  const std::int64_t num_checked = edges_->counters().configurations;
+  stomp.Iterate(distances, &trajectory);
+  EXPECT_EQ(trajectory, before);
+  EXPECT_LT(edges_->counters().configurations - num_checked, 20 * 1002 / 2);
 }
 
 }  // namespace

@@ -186,18 +186,6 @@ TEST_F(TrajoptPlannerTest, APathInHandWhenTheLimitComesCounts) {
   EXPECT_GE(result.total_time_s, request.time_limit_s);
 }
 
-TEST_F(TrajoptPlannerTest, TheTimeLimitHoldsForManyWaypointsAndRollouts) {
-  PlanRequest request = MakeRequest(robot_, {1.57, 0, 0}, {-1.57, 0, 0});
-  request.time_limit_s = 0.05;
-  for (const std::string settings :
-       {"{waypoints: 1000, rollouts: 1000}", "{waypoints: 1000, algorithm: CHOMP}"}) {
-    const PlanResult result =
-        MakeTrajoptPlanner(robot_, Settings(settings))->Plan(request, WallsScene(), nullptr);
-    EXPECT_EQ(result.status, PlanStatus::kTimedOut) << result.message;
-    EXPECT_LT(result.total_time_s, 0.4) << settings;
-  }
-}
-
 TEST_F(TrajoptPlannerTest, APathThatIsGivenIsImproved) {
   const Path detour = {{0.6, 0, 0},    {1.2, 1, 1},  {1.2, 2.2, 1},
                        {-1.2, 2.2, 1}, {-1.2, 1, 1}, {-0.6, 0, 0}};
