@@ -292,8 +292,7 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
   record->planner_class = planner.planner_class;
   record->settings = planner.settings;
   if (requests.size() > 1) {
-    const std::string sets = LearnedFrom(planners_.at(requests.front().planner).settings);
-    if (!sets.empty()) record->settings[kFirstPathLearnedFrom] = sets;
+    record->settings.merge(FirstPathTraining(planners_.at(requests.front().planner).settings));
   }
   return record;
 }

@@ -147,17 +147,18 @@ void Replay::CompareSettings(const RunRecordMessage& run) const {
     if (then != now) spdlog::warn("{}: {} was '{}', is '{}'", run.planner, what, then, now);
   };
   compare("algorithm", run.algorithm, planner->algorithm);
+  std::map<std::string, std::string> own_settings = run.settings;
+  EraseFirstPathTraining(&own_settings);
   std::set<std::string> keys;
-  for (const auto& [key, value] : run.settings) keys.insert(key);
+  for (const auto& [key, value] : own_settings) keys.insert(key);
   for (const auto& [key, value] : planner->settings) keys.insert(key);
-  keys.erase(kFirstPathLearnedFrom);  // of another planner
   const auto value_of = [](const std::map<std::string, std::string>& settings,
                            const std::string& key) {
     const auto found = settings.find(key);
     return found == settings.end() ? std::string() : found->second;
   };
   for (const std::string& key : keys) {
-    compare("setting " + key, value_of(run.settings, key), value_of(planner->settings, key));
+    compare("setting " + key, value_of(own_settings, key), value_of(planner->settings, key));
   }
 }
 

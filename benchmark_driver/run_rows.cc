@@ -17,7 +17,7 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
   row.planner = Shared(record.planner);
   row.contestant = Shared(record.contestant);
   row.planner_class = Shared(record.planner_class);
-  row.learned_from = Shared(LearnedFrom(record.settings));
+  row.trained = Training(record.settings).Includes(record.problem_set, record.request.scene_id);
   row.message = Shared(record.message);
   row.problem_index = record.problem_index;
   row.trial = record.trial;

@@ -17,7 +17,6 @@ struct RunRow {
   const std::string* planner = nullptr;
   const std::string* contestant = nullptr;
   const std::string* planner_class = nullptr;
-  const std::string* learned_from = nullptr;  ///< As LearnedFrom (training.h).
   const std::string* message = nullptr;
   const std::string* mesh_reason = nullptr;  ///< Why the meshes do not allow the raw path.
   int problem_index = 0;
@@ -25,6 +24,7 @@ struct RunRow {
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;                       ///< The planner says that it found a path.
+  bool trained = false;                       ///< On this very problem (training.h).
   bool disturbed = false;
   bool repeated = false;
   std::optional<bool> mesh_valid;         ///< The raw path, if meshes judged it.

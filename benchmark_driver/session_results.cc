@@ -77,7 +77,8 @@ SessionResults::SessionResults(const SessionConditions& conditions, const RunRow
                    [&](const RunRow* run) {
                      return *run->problem_set == set && *run->contestant == contestant.name;
                    });
-      one.is_trained = !one.runs.empty() && IsTrainedOn(*one.runs.front()->learned_from, set);
+      one.is_trained = std::any_of(one.runs.begin(), one.runs.end(),
+                                   [](const RunRow* run) { return run->trained; });
     }
   }
 }

@@ -14,7 +14,7 @@ namespace planbench {
 struct ContestantResults {
   const Contestant* contestant = nullptr;
   bool is_reference = false;  ///< Results from elsewhere, which no referee has seen.
-  bool is_trained = false;    ///< It has learned from the set (training.h).
+  bool is_trained = false;    ///< It has learned from problems of the set (training.h).
   Outcomes outcomes;
   std::vector<const RunRow*> runs;  ///< By problem, trial and direction.
 

@@ -1,6 +1,7 @@
 #include "experience/learn_paths.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -17,17 +18,23 @@ namespace {
 
 constexpr char kLength[] = "path_length";
 
-bool Confirmed(const PathCheckReplyMessage& check) {
-  return check.verdict && check.verdict->valid &&
-         (!check.mesh_verdict || check.mesh_verdict->valid);
+bool Confirmed(const RunRecordMessage& run) {
+  const auto& verdict = run.simplified_check.verdict;
+  return run.status == PlanStatus::kSolved && verdict && verdict->valid;
 }
 
-/// Throws InputError naming the first of `wanted` that was not seen.
+bool FreeByMeshes(const RunRecordMessage& run) {
+  const auto& verdict = run.simplified_check.mesh_verdict;
+  return !verdict || verdict->valid;
+}
+
+/// Throws InputError naming the first of `wanted` that was not seen, and those that were.
 void RequireSeen(const std::vector<std::string>& wanted, const std::set<std::string>& seen,
                  const char* flag) {
   for (const std::string& name : wanted) {
     if (!seen.contains(name)) {
-      throw InputError(fmt::format("{} '{}': no run of that name is recorded", flag, name));
+      throw InputError(fmt::format("{} '{}': no run of that name is recorded; there are: {}", flag,
+                                   name, fmt::join(seen, "; ")));
     }
   }
 }
@@ -38,21 +45,26 @@ bool Wanted(const std::vector<std::string>& wanted, const std::string& name) {
 
 }  // namespace
 
-PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons) {
-  PathLibrary library;
+Learned LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons) {
+  Learned learned;
+  PathLibrary& library = learned.library;
   // By set, number and scene: sets of one name need not hold the same problems.
   std::map<std::tuple<std::string, int, std::string>, std::pair<double, Path>> shortest;
   std::set<std::string> sets;
   std::set<std::string> contestants;
   for (const RunRecordMessage& run : runs) {
     sets.insert(run.problem_set);
-    contestants.insert(run.contestant);
-    if (!Wanted(lessons.sets, run.problem_set) || !Wanted(lessons.contestants, run.contestant)) {
-      continue;
-    }
-    if (run.status != PlanStatus::kSolved || !Confirmed(run.simplified_check)) continue;
+    contestants.insert({run.contestant, run.planner});
+    const bool is_wanted =
+        Wanted(lessons.sets, run.problem_set) &&
+        (Wanted(lessons.contestants, run.contestant) || Wanted(lessons.contestants, run.planner));
+    if (!is_wanted || !Confirmed(run)) continue;
     const Path& path = run.result.result.simplified_path;
     if (path.size() < 2) continue;  // It started at its goal.
+    if (!FreeByMeshes(run)) {
+      ++learned.num_against_meshes;
+      continue;
+    }
     const std::optional<double> length =
         FindMeasure(run.simplified_check.verdict->measures, kLength);
     if (!length) continue;
@@ -69,16 +81,23 @@ PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons&
   RequireSeen(lessons.contestants, contestants, "--contestants");
   if (shortest.empty()) {
     throw InputError(
-        "nothing to learn: no simplified path was recorded that the referee confirmed");
+        learned.num_against_meshes == 0
+            ? "nothing to learn: no simplified path was recorded that the referee confirmed"
+            : fmt::format("nothing to learn: the robot's meshes refuse every simplified path that "
+                          "the referee confirmed ({})",
+                          learned.num_against_meshes));
   }
+  std::set<std::string> scenes;
   for (auto& [problem, path] : shortest) {
-    const std::string& set = std::get<0>(problem);
+    const auto& [set, index, scene] = problem;
+    if (!scene.empty()) scenes.insert(scene);
     if (library.learned_from.empty() || library.learned_from.back() != set) {
       library.learned_from.push_back(set);
     }
     library.paths.push_back(std::move(path.second));
   }
-  return library;
+  library.scenes.assign(scenes.begin(), scenes.end());
+  return learned;
 }
 
 }  // namespace planbench

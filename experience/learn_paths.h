@@ -10,13 +10,19 @@ namespace planbench {
 
 /// Which runs to learn from.
 struct Lessons {
-  std::vector<std::string> sets;         ///< Of these problem sets; empty: all.
-  std::vector<std::string> contestants;  ///< Of these; empty: anybody's.
+  std::vector<std::string> sets;  ///< Of these problem sets; empty: all.
+  /// Of these, by their names in tables or on the bus; empty: anybody's.
+  std::vector<std::string> contestants;
 };
 
-/// Of each problem the shortest simplified path that the referee confirmed (and, where it judged
-/// with meshes, found free by them too). Throws InputError if there is none, a set or contestant is
+struct Learned {
+  PathLibrary library;
+  int num_against_meshes = 0;  ///< Paths that the referee confirmed and the meshes refused.
+};
+
+/// Of each problem the shortest simplified path that the referee confirmed and, where it judged
+/// with meshes too, found free by them. Throws InputError if there is none, a set or contestant is
 /// not among the runs, or paths are of different joints.
-PathLibrary LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons);
+Learned LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons);
 
 }  // namespace planbench

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   std::string out;
   CLI::App app(
       "Collects the paths of recorded sessions for planners that learn from experience: of each "
-      "problem the shortest simplified one that the referee confirmed.",
+      "problem the shortest simplified one that the referee confirmed and, where it judged with "
+      "the robot's meshes too, found free by them.",
       "learn_paths");
   AddVersionFlag(&app);
   app.add_option("sessions", sessions, "session folders, with their event logs")->required();
@@ -25,8 +26,9 @@ int main(int argc, char** argv) {
   app.add_option("--sets", lessons.sets, "problem sets to learn from; default: all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option("--contestants", lessons.contestants, "whose paths; default: everybody's")
-      ->delimiter(',')
+  app.add_option("--contestants", lessons.contestants,
+                 "whose paths, by the name in tables or on the bus; again for each further one; "
+                 "default: everybody's")
       ->allow_extra_args(false);
   return RunCommand(&app, argc, argv, [&] {
     std::vector<RunRecordMessage> runs;
@@ -34,10 +36,16 @@ int main(int argc, char** argv) {
       RecordedSession recorded = ReadRecords(FindEventLog(session));
       std::move(recorded.runs.begin(), recorded.runs.end(), std::back_inserter(runs));
     }
-    const PathLibrary library = LearnPaths(runs, lessons);
+    const auto [library, num_against_meshes] = LearnPaths(runs, lessons);
     WriteFile(out, ToYaml(library));
-    std::cout << fmt::format("{}: {} paths of {}\n", out, library.paths.size(),
+    std::cout << fmt::format("{}: {} paths of {}", out, library.paths.size(),
                              fmt::join(library.learned_from, ", "));
+    if (num_against_meshes > 0) {
+      std::cout << fmt::format(
+          "; left out: {} that the referee confirmed and the robot's meshes refuse",
+          num_against_meshes);
+    }
+    std::cout << "\n";
     return kExitOk;
   });
 }

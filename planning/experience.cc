@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "common/content_hash.h"
 #include "common/error.h"
@@ -25,11 +27,20 @@ Experience::Experience(const Robot& robot, const std::string& file) {
     throw InputError(fmt::format("{}: its joints are not those of a group of robot '{}'",
                                  path.string(), robot.model.name()));
   }
+  if (library_.scenes.empty()) {
+    spdlog::warn(
+        "{}: scenes: is missing, so that tables know by the names of problem sets alone what it "
+        "has learned from; make the file anew with learn_paths",
+        path.string());
+  }
 }
 
 void Experience::Describe(std::map<std::string, std::string>* settings) const {
   (*settings)["experience_id"] = id_;
   (*settings)[kLearnedFrom] = fmt::format("{}", fmt::join(library_.learned_from, ", "));
+  std::set<std::string> scenes;
+  for (const std::string& scene : library_.scenes) scenes.insert(ShortSceneId(scene));
+  if (!scenes.empty()) (*settings)[kLearnedScenes] = fmt::format("{}", fmt::join(scenes, " "));
 }
 
 int ReadRecall(const YamlNode& node) {

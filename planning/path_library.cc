@@ -41,6 +41,8 @@ std::string Names(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::string ShortSceneId(const std::string& scene_id) { return scene_id.substr(0, 8); }
+
 bool PathLibrary::Fits(const JointSpace& space) const {
   return std::equal(
       joints.begin(), joints.end(), space.joints().begin(), space.joints().end(),
@@ -79,11 +81,12 @@ std::vector<Path> PathLibrary::Recall(const JointSpace& space, std::span<const d
 
 PathLibrary ReadPathLibrary(const std::filesystem::path& file) {
   const YamlNode node = YamlNode::LoadFile(file.string());
-  node.AllowOnly({"joints", "learned_from", "paths"});
+  node.AllowOnly({"joints", "learned_from", "scenes", "paths"});
   PathLibrary library;
   library.joints = node.At("joints").Strings();
   if (library.joints.empty()) node.At("joints").Fail("is empty");
   library.learned_from = node.At("learned_from").Strings();
+  if (const auto scenes = node.Find("scenes")) library.scenes = scenes->Strings();
   for (const YamlNode& waypoints : node.At("paths").Elements()) {
     Path path;
     for (const YamlNode& q : waypoints.Elements()) {
@@ -96,8 +99,10 @@ PathLibrary ReadPathLibrary(const std::filesystem::path& file) {
 }
 
 std::string ToYaml(const PathLibrary& library) {
-  std::string yaml = fmt::format("joints: {}\nlearned_from: {}\npaths:{}\n", Names(library.joints),
-                                 Names(library.learned_from), library.paths.empty() ? " []" : "");
+  std::string yaml = fmt::format("joints: {}\nlearned_from: {}\n", Names(library.joints),
+                                 Names(library.learned_from));
+  if (!library.scenes.empty()) yaml += fmt::format("scenes: {}\n", Names(library.scenes));
+  yaml += library.paths.empty() ? "paths: []\n" : "paths:\n";
   for (const Path& path : library.paths) {
     std::vector<std::string> rows;
     for (const Configuration& q : path) rows.push_back(Row(q));

@@ -12,12 +12,20 @@ namespace planbench {
 
 /// Setting by which a planner tells the problem sets that it has learned from, ", " between.
 inline constexpr char kLearnedFrom[] = "learned_from";
+/// Setting by which it tells their scenes (ShortSceneId), a blank between.
+inline constexpr char kLearnedScenes[] = "learned_scenes";
+
+/// Enough of a scene's content id to know it again.
+std::string ShortSceneId(const std::string& scene_id);
 
 /// Paths that were found before, for a planner to follow as far as they are still free.
 struct PathLibrary {
   std::vector<std::string> joints;        ///< n, in the order of positions.
   std::vector<std::string> learned_from;  ///< Problem sets, sorted.
   std::vector<Path> paths;                ///< Each of two waypoints at least, n positions each.
+  /// Content ids of the scenes that the paths were found in, sorted; empty in libraries that were
+  /// made before scenes were told.
+  std::vector<std::string> scenes = {};
 
   /// True if its joints are those of the group, in its order.
   bool Fits(const JointSpace& space) const;

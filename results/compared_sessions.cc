@@ -95,7 +95,10 @@ std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_n
 }  // namespace
 
 bool ComparedContestant::IsTrainedOn(const std::string& problem_set) const {
-  return planbench::IsTrainedOn(LearnedFrom(ParseSettings(settings)), problem_set);
+  const Training training(ParseSettings(settings));
+  return std::any_of(runs.begin(), runs.end(), [&](const StoredRun* run) {
+    return run->problem_set == problem_set && training.Includes(problem_set, run->scene_id);
+  });
 }
 
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {

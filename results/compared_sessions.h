@@ -19,7 +19,7 @@ struct ComparedContestant {
   std::size_t session = 0;
   std::vector<const StoredRun*> runs;  ///< In the order of the database.
 
-  /// Whether it has learned from the very set (training.h).
+  /// Whether it has learned from problems of the set (training.h).
   bool IsTrainedOn(const std::string& problem_set) const;
 };
 

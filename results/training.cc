@@ -1,21 +1,55 @@
 #include "results/training.h"
 
+#include <algorithm>
+
 #include "planning/path_library.h"
 
 namespace planbench {
+namespace {
 
-std::string LearnedFrom(const std::map<std::string, std::string>& settings) {
-  std::string sets;
-  for (const char* key : {kLearnedFrom, kFirstPathLearnedFrom}) {
-    const auto found = settings.find(key);
-    if (found == settings.end() || found->second.empty()) continue;
-    sets += (sets.empty() ? "" : ", ") + found->second;
-  }
-  return sets;
+constexpr char kFirstPath[] = "first_path_";
+
+std::string ValueOf(const std::map<std::string, std::string>& settings, const std::string& key) {
+  const auto found = settings.find(key);
+  return found == settings.end() ? "" : found->second;
 }
 
-bool IsTrainedOn(const std::string& learned_from, const std::string& problem_set) {
-  return (", " + learned_from + ", ").find(", " + problem_set + ", ") != std::string::npos;
+bool Lists(const std::string& list, const std::string& separator, const std::string& item) {
+  return !list.empty() &&
+         (separator + list + separator).find(separator + item + separator) != std::string::npos;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> FirstPathTraining(
+    const std::map<std::string, std::string>& first_planner) {
+  std::map<std::string, std::string> told;
+  for (const char* key : {kLearnedFrom, kLearnedScenes}) {
+    const std::string value = ValueOf(first_planner, key);
+    if (!value.empty()) told[kFirstPath + std::string(key)] = value;
+  }
+  return told;
+}
+
+void EraseFirstPathTraining(std::map<std::string, std::string>* settings) {
+  for (const char* key : {kLearnedFrom, kLearnedScenes}) {
+    settings->erase(kFirstPath + std::string(key));
+  }
+}
+
+Training::Training(const std::map<std::string, std::string>& settings) {
+  for (const std::string whose : {"", kFirstPath}) {
+    lessons_.push_back(
+        {ValueOf(settings, whose + kLearnedFrom), ValueOf(settings, whose + kLearnedScenes)});
+  }
+}
+
+bool Training::Includes(const std::string& problem_set, const std::string& scene_id) const {
+  return std::any_of(lessons_.begin(), lessons_.end(), [&](const Lessons& lessons) {
+    return lessons.scenes.empty() || scene_id.empty()
+               ? Lists(lessons.sets, ", ", problem_set)
+               : Lists(lessons.scenes, " ", ShortSceneId(scene_id));
+  });
 }
 
 }  // namespace planbench

@@ -2,23 +2,38 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace planbench {
-
-/// Setting of a contestant that is given the path of another (`first_path_of`): kLearnedFrom of
-/// that one.
-inline constexpr char kFirstPathLearnedFrom[] = "first_path_learned_from";
 
 /// Beside the name of a contestant in tables of a set that it has learned from, and what that says.
 inline constexpr char kTrained[] = "(trained)";
 inline constexpr char kTrainedNote[] =
-    "(trained): has learned from this very set, which is therefore no test.";
+    "(trained): has learned from problems of this set, which is therefore no test.";
 
-/// The problem sets from which a contestant of such settings, or the one whose path it is given,
-/// has learned, ", " between; empty if there are none.
-std::string LearnedFrom(const std::map<std::string, std::string>& settings);
+/// Settings of a contestant that is given the path of another (`first_path_of`), by which it tells
+/// what that one, of such settings, has learned from; none if that is nothing.
+std::map<std::string, std::string> FirstPathTraining(
+    const std::map<std::string, std::string>& first_planner);
 
-/// Whether what was learned from these sets (LearnedFrom) was learned from `problem_set`.
-bool IsTrainedOn(const std::string& learned_from, const std::string& problem_set);
+/// Takes them away.
+void EraseFirstPathTraining(std::map<std::string, std::string>* settings);
+
+/// What a contestant of such settings, or the one whose path it is given, has learned from.
+class Training {
+ public:
+  explicit Training(const std::map<std::string, std::string>& settings);
+
+  /// Whether a problem is among that: by its scene, or by the name of its set if either side does
+  /// not tell scenes (`scene_id` may be empty).
+  bool Includes(const std::string& problem_set, const std::string& scene_id) const;
+
+ private:
+  struct Lessons {
+    std::string sets;    ///< ", " between.
+    std::string scenes;  ///< As kLearnedScenes; empty: not told.
+  };
+  std::vector<Lessons> lessons_;
+};
 
 }  // namespace planbench

@@ -67,7 +67,7 @@ class DriverTest : public testing::Test {
 
 TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   FakePlanner planner(&bus_);
-  planner.status.settings["learned_from"] = "books";
+  planner.status.settings["learned_from"] = "cans";
   planner.Restart();
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
@@ -84,7 +84,7 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   ASSERT_EQ(driver.runs().size(), 4u);
   const RunRow& row = driver.runs().rows().front();
   EXPECT_EQ(*row.contestant, "Fake*");
-  EXPECT_EQ(*row.learned_from, "books");
+  EXPECT_TRUE(row.trained);
   EXPECT_TRUE(row.claimed);
   EXPECT_TRUE(row.confirmed());
 
@@ -446,6 +446,7 @@ TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {
   planner.Restart();
   FakePlanner first(&bus_, "first");
   first.status.settings["learned_from"] = "books, cans";
+  first.status.settings["learned_scenes"] = "01234567";
   first.Restart();
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
@@ -455,7 +456,11 @@ TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, Idle));
   ASSERT_FALSE(driver.runs().empty());
-  for (const RunRow& row : driver.runs().rows()) EXPECT_EQ(*row.learned_from, "books, cans");
+  for (const RunRecordMessage& record : logger.records().messages()) {
+    if (record.planner != "arm") continue;
+    EXPECT_EQ(record.settings.at("first_path_learned_from"), "books, cans");
+    EXPECT_EQ(record.settings.at("first_path_learned_scenes"), "01234567");
+  }
 }
 
 TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {

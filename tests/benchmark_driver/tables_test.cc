@@ -229,6 +229,16 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
   EXPECT_THAT(text, HasSubstr("no test"));
   EXPECT_NE(Row(text, kTimes, "ARA* (trained)"), "");
   EXPECT_THAT(text.substr(text.find("Problem by problem")), HasSubstr("ARA* (trained)"));
+
+  // Where scenes are told they decide, whatever sets are called.
+  for (RunRecordMessage& record : session) {
+    record.request.scene_id = "0123456789abcdef";
+    record.settings["learned_from"] = record.contestant == "ARA*" ? set : "a copy";
+    record.settings["learned_scenes"] =
+        record.contestant == "ARA*" ? "76543210" : "76543210 01234567";
+  }
+  EXPECT_EQ(Row(Brief(session), kSuccess, "ARA* (trained)"), "");
+  EXPECT_NE(Row(Brief(session), kSuccess, "RRT-Connect (trained)"), "");
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {

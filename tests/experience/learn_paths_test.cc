@@ -11,6 +11,7 @@ namespace {
 RunRecordMessage SolvedRun(const std::string& set, int problem, double length) {
   RunRecordMessage run;
   run.contestant = "ARA*";
+  run.planner = "ara";
   run.problem_set = set;
   run.problem_index = problem;
   run.status = PlanStatus::kSolved;
@@ -23,20 +24,33 @@ RunRecordMessage SolvedRun(const std::string& set, int problem, double length) {
 }
 
 TEST(LearnPaths, TakesTheShortestOfEachProblem) {
-  const PathLibrary library =
+  const auto [library, num_against_meshes] =
       LearnPaths({SolvedRun("b", 1, 3), SolvedRun("a", 2, 2), SolvedRun("b", 1, 1),
                   SolvedRun("a", 1, 4), SolvedRun("b", 1, 2)},
                  {});
   EXPECT_EQ(library.joints, (std::vector<std::string>{"turn"}));
   EXPECT_EQ(library.learned_from, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(library.paths, (std::vector<Path>{{{0}, {4}}, {{0}, {2}}, {{0}, {1}}}));
+  EXPECT_EQ(num_against_meshes, 0);
 }
 
 TEST(LearnPaths, ProblemsOfOneNumberInOtherScenesAreTwo) {
   RunRecordMessage other = SolvedRun("a", 1, 5);
   other.request.scene_id = "other";
-  EXPECT_EQ(LearnPaths({SolvedRun("a", 1, 2), other}, {}).paths,
+  EXPECT_EQ(LearnPaths({SolvedRun("a", 1, 2), other}, {}).library.paths,
             (std::vector<Path>{{{0}, {2}}, {{0}, {5}}}));
+}
+
+TEST(LearnPaths, TellsTheScenesOfItsPaths) {
+  RunRecordMessage one = SolvedRun("b", 1, 2);
+  one.request.scene_id = "one";
+  RunRecordMessage two = SolvedRun("a", 1, 2);
+  two.request.scene_id = "two";
+  RunRecordMessage unsolved = SolvedRun("a", 2, 2);
+  unsolved.request.scene_id = "unsolved";
+  unsolved.status = PlanStatus::kTimedOut;
+  EXPECT_EQ(LearnPaths({two, one, one, unsolved}, {}).library.scenes,
+            (std::vector<std::string>{"one", "two"}));
 }
 
 TEST(LearnPaths, TakesOnlyWhatTheRefereeConfirmed) {
@@ -52,20 +66,30 @@ TEST(LearnPaths, TakesOnlyWhatTheRefereeConfirmed) {
   at_its_goal.result.result.simplified_path = {{0}};
   const std::vector<RunRecordMessage> none = {timed_out, rejected, unjudged, through_meshes,
                                               at_its_goal};
-  ExpectInputError([&] { LearnPaths(none, {}); }, {"nothing to learn"});
+  ExpectInputError([&] { LearnPaths({rejected}, {}); }, {"nothing to learn", "was recorded"});
+  ExpectInputError([&] { LearnPaths(none, {}); },
+                   {"nothing to learn", "meshes refuse every", "(1)"});
   std::vector<RunRecordMessage> one = none;
   one.push_back(SolvedRun("a", 6, 7));
-  EXPECT_EQ(LearnPaths(one, {}).paths, (std::vector<Path>{{{0}, {7}}}));
+  EXPECT_EQ(LearnPaths(one, {}).library.paths, (std::vector<Path>{{{0}, {7}}}));
+  EXPECT_EQ(LearnPaths(one, {}).num_against_meshes, 1);
 }
 
 TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
   RunRecordMessage other = SolvedRun("a", 1, 1);
-  other.contestant = "other";
+  other.contestant = "other, guided";
+  other.planner = "prm";
   const std::vector<RunRecordMessage> runs = {other, SolvedRun("a", 1, 2), SolvedRun("b", 1, 3)};
-  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"ARA*"}}).paths, (std::vector<Path>{{{0}, {2}}}));
-  EXPECT_EQ(LearnPaths(runs, {{"b"}, {}}).learned_from, (std::vector<std::string>{"b"}));
+  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"ARA*"}}).library.paths, (std::vector<Path>{{{0}, {2}}}));
+  EXPECT_EQ(LearnPaths(runs, {{"b"}, {}}).library.learned_from, (std::vector<std::string>{"b"}));
   ExpectInputError([&] { LearnPaths(runs, {{"c"}, {}}); }, {"--sets", "'c'"});
-  ExpectInputError([&] { LearnPaths(runs, {{}, {"PRM"}}); }, {"--contestants", "'PRM'"});
+  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"prm"}}).library.paths, (std::vector<Path>{{{0}, {1}}}))
+      << "its name on the bus";
+  ExpectInputError(
+      [&] {
+        LearnPaths(runs, {{}, {"PRM"}});
+      },
+      {"--contestants", "'PRM'", "ARA*; ara; other, guided; prm"});
 }
 
 TEST(LearnPaths, PathsOfOtherJointsAreNotMixed) {

@@ -85,6 +85,12 @@ TEST_F(RrtcPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
       MakeRrtcPlanner(robot_, Settings(with("same.yaml")))->Describe();
   EXPECT_EQ(description.algorithm, "RRT-Connect (balanced, experience)");
   EXPECT_EQ(description.settings.at("learned_from"), "posts, walls");
+  EXPECT_FALSE(description.settings.contains("learned_scenes"));
+  library.scenes = {"0123456789abcdef", "fedcba9876543210"};
+  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings(with("scenes.yaml")))
+                ->Describe()
+                .settings.at("learned_scenes"),
+            "01234567 fedcba98");
   EXPECT_FALSE(description.settings.at("experience_id").empty());
 
   library.joints.front() = "other";

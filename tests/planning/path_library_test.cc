@@ -31,9 +31,11 @@ TEST(PathLibrary, IsReadAsItWasWritten) {
   const TemporaryFolder folder;
   PathLibrary library = Library({{{0.1, -1.0 / 3}, {3, 2}, {-3, 0}}, {{0, 0}, {1, 1}}});
   library.learned_from = {"a: set", "b"};
+  library.scenes = {"01234567", "1e5"};
   const PathLibrary read = ReadPathLibrary(folder.Write("paths.yaml", ToYaml(library)));
   EXPECT_EQ(read.joints, library.joints);
   EXPECT_EQ(read.learned_from, library.learned_from);
+  EXPECT_EQ(read.scenes, library.scenes);
   EXPECT_EQ(read.paths, library.paths);
   EXPECT_TRUE(ReadPathLibrary(folder.Write("none.yaml", ToYaml(Library({})))).paths.empty());
 }

@@ -155,16 +155,37 @@ TEST(GroupFailuresTest, ReasonsThatDifferInFiguresAloneAreOneAsFirstWorded) {
   EXPECT_EQ(groups[1].reason, runs[2].message);
 }
 
-TEST(TrainingTest, SettingsTellTheSetsLearnedFrom) {
-  EXPECT_EQ(LearnedFrom(ParseSettings("algorithm = RRT\nlearned_from = a set, b\nrange = 1\n")),
-            "a set, b");
-  EXPECT_EQ(LearnedFrom(ParseSettings("first_path_learned_from = c\n")), "c");
-  EXPECT_EQ(LearnedFrom(ParseSettings("learned_from = b\nfirst_path_learned_from = c\n")), "b, c");
-  EXPECT_EQ(LearnedFrom(ParseSettings("imported from learned_from.csv\n")), "");
-  EXPECT_TRUE(IsTrainedOn("a set, b", "a set"));
-  EXPECT_TRUE(IsTrainedOn("a set, b", "b"));
-  EXPECT_FALSE(IsTrainedOn("a set, b", "set"));
-  EXPECT_FALSE(IsTrainedOn("", "b"));
+TEST(TrainingTest, IsKnownBySetsWhereScenesAreNotTold) {
+  const auto includes = [](const std::string& settings, const std::string& set,
+                           const std::string& scene_id = "0123456789abcdef") {
+    return Training(ParseSettings(settings)).Includes(set, scene_id);
+  };
+  const std::string sets = "algorithm = RRT\nlearned_from = a set, b\nrange = 1\n";
+  EXPECT_TRUE(includes(sets, "a set"));
+  EXPECT_TRUE(includes(sets, "b"));
+  EXPECT_FALSE(includes(sets, "set"));
+  EXPECT_TRUE(includes("first_path_learned_from = c\n", "c"));
+  EXPECT_TRUE(includes("learned_from = b\nfirst_path_learned_from = c\n", "c"));
+  EXPECT_FALSE(includes("imported from learned_from.csv\n", "b"));
+  EXPECT_FALSE(includes("", ""));
+
+  const std::string scenes = "learned_from = b\nlearned_scenes = 76543210 01234567\n";
+  EXPECT_TRUE(includes(scenes, "a copy of b"));
+  EXPECT_FALSE(includes(scenes, "b", "abcdef0123456789")) << "another set of that name";
+  EXPECT_TRUE(includes(scenes, "b", "")) << "of which no scene is known";
+  EXPECT_TRUE(includes(scenes + "first_path_learned_from = d\n", "d", "abcdef0123456789"));
+  EXPECT_TRUE(includes("first_path_learned_scenes = 01234567\n", "d"));
+}
+
+TEST(TrainingTest, APartOfTheSetIsEnough) {
+  StoredRun first = MakeRun(0, 1, 1);
+  first.scene_id = "0123456789abcdef";
+  StoredRun second = MakeRun(0, 2, 1);
+  second.scene_id = "abcdef0123456789";
+  const ComparedSessions compared({Session(
+      "one", {{"A", "learned_from = old\nlearned_scenes = abcdef01\n"}}, {first, second})});
+  EXPECT_TRUE(compared.contestants()[0].IsTrainedOn("shelf"));
+  EXPECT_FALSE(compared.contestants()[0].IsTrainedOn("old"));
 }
 
 TEST(PoolSetsTest, ProblemsOfEverySetStayApartAndPaired) {
