@@ -286,7 +286,7 @@ class OmplPlanner::Workspace {
 };
 
 OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::string& origin)
-    : Planner(robot), settings_(std::move(settings)), origin_(origin) {
+    : Planner(robot), settings_(std::move(settings)) {
   RedirectOmplMessages();
   for (const PlanningGroup& group : robot.groups) {
     workspaces_[&group.space] = std::make_unique<Workspace>(group.space, settings_.metric);
@@ -314,10 +314,10 @@ std::optional<EdgeSampling> OmplPlanner::OwnEdgeSampling(const PlanningGroup& gr
   const std::optional<double> fraction = settings_.longest_valid_segment_fraction;
   if (!fraction) return std::nullopt;
   if (method != EdgeCheck::kFixed) {
-    throw InputError(fmt::format(
-        "{}: longest_valid_segment_fraction: samples edges, which are to be certified here: ask "
-        "for edge_check fixed, or leave the setting out",
-        origin_));
+    throw InputError(
+        fmt::format("{}: samples edges, which are to be certified here: ask for edge_check fixed, "
+                    "or leave the setting out",
+                    settings_.segment_fraction_origin));
   }
   EdgeSampling sampling;
   sampling.weights.assign(static_cast<std::size_t>(group.space.size()), 1.0);

@@ -31,7 +31,6 @@ class OmplPlanner final : public Planner {
   class Workspace;
 
   RrtcSettings settings_;
-  std::string origin_;  ///< Of the settings.
   /// What is kept from one request to the next, for each joint space.
   std::map<const JointSpace*, std::unique_ptr<Workspace>> workspaces_;
 };

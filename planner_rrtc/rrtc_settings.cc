@@ -92,6 +92,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   if (const auto value = node.Find("metric")) settings.metric = value->Enum<Metric>();
   if (const auto value = node.Find("longest_valid_segment_fraction")) {
     settings.longest_valid_segment_fraction = ReadFraction(*value);
+    settings.segment_fraction_origin = value->Where();
   }
   if (const auto value = node.Find("ompl")) {
     for (const std::string& key : value->Keys()) {

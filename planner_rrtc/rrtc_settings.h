@@ -57,8 +57,10 @@ struct RrtcSettings {
   // Of OMPL's planners:
   Metric metric = Metric::kL2;
   /// Edges are sampled so that neighbours are at most this part of the space's extent apart in the
-  /// metric, whatever edge check a request names. None: the request's edge check.
+  /// metric, whatever edge resolution a request names; certified edges are refused. None: as the
+  /// request says.
   std::optional<double> longest_valid_segment_fraction;
+  std::string segment_fraction_origin;  ///< "file:line: key" of that.
   /// `ompl`: a map of parameters of OMPL's planner, by OMPL's names.
   std::map<std::string, std::string> ompl_parameters;
 
