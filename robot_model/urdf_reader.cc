@@ -303,12 +303,16 @@ void FollowLeaders(const UrdfConverter& converter, const RobotModel& model, std:
 }
 
 // Narrows limits that stand for "none", 1e16 for example: nothing can be planned over such a range.
-// A note of that, and of limits that leave no range; "" for nothing.
+// A note of that, and of limits that leave no range; "" for nothing. Of a follower's limits
+// KeepWithinLimits tells.
 std::string KeepWithinReason(Joint* joint) {
   if (NumPositions(joint->type) != 1 || joint->type == JointType::kContinuous) return "";
   const double lower = joint->lower;
   const double upper = joint->upper;
-  if (lower == upper) return fmt::format("its limits leave it no range: both are {}", lower);
+  if (lower == upper) {
+    return joint->leader >= 0 ? ""
+                              : fmt::format("its limits leave it no range: both are {}", lower);
+  }
   if (lower > kWidestLimit || upper < -kWidestLimit) return "";
   joint->lower = std::max(lower, -kWidestLimit);
   joint->upper = std::min(upper, kWidestLimit);
@@ -323,13 +327,13 @@ std::string KeepWithinReason(Joint* joint) {
 std::string KeepWithinLimits(Joint* follower, Joint* leader) {
   const double m = follower->multiplier;
   std::string note;
-  if (m != 0 && std::isfinite(follower->lower)) {
+  const bool has_range = leader->upper - leader->lower > kLimitRounding;
+  if (m != 0 && has_range && std::isfinite(follower->lower)) {
     const double a = (follower->lower - follower->offset) / m;
     const double b = (follower->upper - follower->offset) / m;
     const double lower = std::max(leader->lower, std::min(a, b));
     const double upper = std::min(leader->upper, std::max(a, b));
-    const bool has_range = leader->upper - leader->lower > kLimitRounding;
-    if (has_range && upper - lower <= kLimitRounding) {
+    if (upper - lower <= kLimitRounding) {
       note = fmt::format(
           "the limits of joint '{}', which follows it, contradict its own; they do "
           "not count",
@@ -413,13 +417,13 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
     notes.push_back(fmt::format("{}: soft limits (safety_controller) narrow {}", origin,
                                 fmt::join(converter.soft_limits(), ", ")));
   }
-  for (Joint& joint : model.joints_) {
-    const std::string note = KeepWithinReason(&joint);
-    if (!note.empty()) notes.push_back(converter.WhereJoint(joint.name) + ": " + note);
-  }
   for (std::size_t j = 0; j < model.joints_.size(); ++j) {
     if (converter.MimicOf(model.joints_[j]) == nullptr) continue;
     FollowLeaders(converter, model, j, &model.joints_[j]);
+  }
+  for (Joint& joint : model.joints_) {
+    const std::string note = KeepWithinReason(&joint);
+    if (!note.empty()) notes.push_back(converter.WhereJoint(joint.name) + ": " + note);
   }
   for (Joint& joint : model.joints_) {
     if (joint.position_index < 0 || joint.leader < 0) continue;

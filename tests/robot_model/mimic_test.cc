@@ -193,6 +193,10 @@ TEST(Mimic, ALeaderStaysWhereItsFollowersMayBe) {
   EXPECT_EQ(JointOf(model, "f1").upper, 0.08);
   EXPECT_EQ(JointOf(model, "f2").lower, -0.08);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("contradict")));
+
+  warnings.clear();
+  model = gripper("lower='0' upper='0'", "", &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("joint 'f1': the limits of joint 'f2'")));
 }
 
 TEST(Mimic, AGroupNamesLeadersOnly) {
