@@ -38,6 +38,17 @@ std::vector<std::string> SplitLine(const std::string& line) {
   return cells;
 }
 
+/// Of two columns of one name only one could be believed. Columns without a name are never read.
+void RequireDistinct(const std::vector<std::string>& header, const std::string& file, int line) {
+  std::set<std::string> names;
+  for (const std::string& name : header) {
+    if (name.empty() || names.insert(name).second) continue;
+    throw InputError(
+        fmt::format("{}:{}: two columns are called '{}': remove one or give it another name", file,
+                    line, name));
+  }
+}
+
 /// The cells of one line, by column.
 class Row {
  public:
@@ -149,6 +160,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
     if (line.empty()) continue;
     if (header.empty()) {
       header = SplitLine(line);
+      RequireDistinct(header, file_name, number);
       continue;
     }
     const Row row(file_name, number, header, SplitLine(line));

@@ -89,6 +89,15 @@ TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   ExpectInputError([&] { ImportResults("/none/r.csv", "x", 1, &warnings_); }, {"/none/r.csv"});
 }
 
+TEST_F(ImportedCsvTest, AColumnThatIsThereTwiceIsRefused) {
+  ExpectRefused("\nproblem_set,problem_index,solved,time_s,time_s\nbox,1,1,0.5,50\n",
+                {"r.csv:2: two columns are called 'time_s'"});
+  ExpectRefused("problem_set,note,problem_index,solved,time_s,\"note\"\nbox,a,1,1,0.5,b\n",
+                {"r.csv:1: two columns are called 'note'"});
+  EXPECT_EQ(Read("problem_set,problem_index,solved,time_s,,\nbox,1,1,0.5,,\n").size(), 1u)
+      << "a spreadsheet's empty columns have no name";
+}
+
 TEST_F(ImportedCsvTest, APathAfterTheTimeLimitIsNone) {
   const auto runs = Read(
       "problem_set,problem_index,solved,time_s,time_limit_s\nbox,1,1,10,10\nbox,2,1,11,10\n"
