@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -18,6 +21,19 @@ namespace planbench {
 namespace {
 
 const std::set<std::string> kFlagsThatCount = {"directions", "max-disturbance", "repeat-disturbed"};
+
+/// The number that a text is; nothing if it is none, or one that a double may not tell from its
+/// neighbours, a seed or a hash.
+std::optional<double> NumberOf(const std::string& text) {
+  constexpr double kWholeNumbersEnd = 9007199254740992;  // 2^53
+  const char* const last = text.data() + text.size();
+  double number = 0;
+  const auto [end, error] =
+      std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), last, number);
+  const bool is_number = error == std::errc() && end == last && !text.empty();
+  if (!is_number || !(std::abs(number) < kWholeNumbersEnd)) return std::nullopt;
+  return number;
+}
 
 /// `session` without what may differ from `other`.
 SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
@@ -92,7 +108,23 @@ std::map<std::string, std::string> FieldsOf(const SessionMessage& session) {
   return fields;
 }
 
+/// Whether fields of FieldsOf, by their place and values, say the same.
+bool IsSameField(const std::string& field, const std::string& first, const std::string& second) {
+  if (first == second) return true;
+  const auto is_text = [](const std::string& value) { return value.starts_with('"'); };
+  const bool is_setting = field.find("setting[") != std::string::npos;
+  if (!is_setting || !is_text(first) || !is_text(second)) return false;
+  const auto unquoted = [](const std::string& text) { return text.substr(1, text.size() - 2); };
+  return IsSameSetting(unquoted(first), unquoted(second));
+}
+
 }  // namespace
+
+bool IsSameSetting(const std::string& first, const std::string& second) {
+  if (first == second) return true;
+  const std::optional<double> number = NumberOf(first);
+  return number && number == NumberOf(second);
+}
 
 std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
                                                            const SessionMessage& second) {
@@ -105,7 +137,7 @@ std::optional<ConditionDifference> FindConditionDifference(const SessionMessage&
   for (const auto* fields : {&of_first, &of_second}) {
     for (const auto& [field, value] : *fields) {
       ConditionDifference difference{field, text(of_first, field), text(of_second, field)};
-      if (difference.first != difference.second) return difference;
+      if (!IsSameField(field, difference.first, difference.second)) return difference;
     }
   }
   return std::nullopt;

@@ -14,9 +14,13 @@ struct ConditionDifference {
   std::string second;
 };
 
+/// Whether flags or settings, as texts, say the same: "0.1" and "0.10" are one number.
+bool IsSameSetting(const std::string& first, const std::string& second);
+
 /// Runs of two sessions belong together only if nothing differs that can change a result: every
-/// field must be equal but for those that tell when and where a session ran and what it ran; sets
-/// and planners that only one of them has do not matter. The first field that differs, if any.
+/// field must be equal, settings as IsSameSetting has it, but for those that tell when and where a
+/// session ran and what it ran; sets and planners that only one of them has do not matter. The
+/// first field that differs, if any.
 std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
                                                            const SessionMessage& second);
 

@@ -216,6 +216,31 @@ TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {
   }
 }
 
+TEST(RequireSameConditionsTest, NumbersOfFlagsAndSettingsAreComparedAsNumbers) {
+  const auto resume_with = [](const std::string& before, const std::string& now) {
+    SessionMessage first, second;
+    first.settings["max-disturbance"] = before;
+    second.settings["max-disturbance"] = now;
+    RequireSameConditions(first, second);
+    first = second = Session();
+    first.nodes[1].settings = {{"step", before}};
+    second.nodes[1].settings = {{"step", now}};
+    RequireSameConditions(first, second);
+  };
+  for (const char* other : {"0.10", ".1", "1e-1", "+0.1"}) {
+    EXPECT_NO_THROW(resume_with("0.1", other)) << other;
+  }
+  EXPECT_NO_THROW(resume_with("10", "10.0"));
+  ExpectInputError([&] { resume_with("0.1", "0.11"); }, {"was \"0.1\"", "is \"0.11\" now"});
+  ExpectInputError([&] { resume_with("9007199254740992", "9007199254740993"); }, {"--resume"});
+  ExpectInputError([&] { resume_with("0.1", "0.1 m"); }, {"--resume"});
+  ExpectInputError([&] { resume_with("nan", "NaN"); }, {"--resume"});
+  SessionMessage first, second;  // versions are no numbers
+  first.version = "0.1";
+  second.version = "0.10";
+  ExpectInputError([&] { RequireSameConditions(first, second); }, {"version"});
+}
+
 TEST(ReadEarlierSessionTest, MissingFolderLogOrChoiceIsNamed) {
   const TemporaryFolder folder;
   const std::string path = folder.path().string();
