@@ -13,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -36,6 +35,7 @@
 #include "planning/path_measures.h"
 #include "planning/planner_settings.h"
 #include "planning/resolve.h"
+#include "results/statistics.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -70,22 +70,6 @@ struct Run {
   bool referee_valid = false;
   bool simplified_valid = false;
 };
-
-double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const double place = q * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  if (std::isinf(values[above])) return place == std::floor(place) ? values[below] : values[above];
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
-double Mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 std::unique_ptr<Planner> MakePlanner(const Flags& flags, const Robot& robot) {
   const YamlNode settings =
@@ -197,20 +181,24 @@ void PrintRow(const std::string& set, const std::string& direction, const std::v
     sum.search_s += result.phases.search_s;
   }
   const auto share = [&](double seconds) { return 100 * seconds / total_s; };
+  const auto median = [](const std::vector<double>& values) { return Summarize(values).median; };
+  const Summary solved = Summarize(solved_ms);
+  const Summary all = Summarize(all_ms);
+  std::sort(solved_ms.begin(), solved_ms.end());
   fmt::print(
       "{:24} {:8} {:>4} {:>6} {:>5} {:>5} | {:>8.2f} {:>8.2f} {:>8.2f} {:>8.1f} | {:>8.2f} "
       "{:>8.2f} | {:>8.0f} {:>9.0f} | {:>4.0f}% {:>4.0f}% {:>4.0f}% {:>4.0f}% | {:>6.2f} "
       "{:>7.3f}\n",
-      set, direction, runs.size(), solved_ms.size(), num_refused, num_unsolvable,
-      Quantile(solved_ms, 0.5), Mean(solved_ms), Quantile(solved_ms, 0.95), Quantile(solved_ms, 1),
-      Quantile(all_ms, 0.5), Quantile(all_ms, 0.95), Quantile(edges, 0.5),
-      Quantile(configurations, 0.5), share(sum.setup_s), share(sum.collision_s),
-      share(sum.guidance_s), share(sum.search_s), Quantile(lengths, 0.5),
+      set, direction, runs.size(), solved_ms.size(), num_refused, num_unsolvable, solved.median,
+      solved.mean, solved.percentile_95, Quantile(solved_ms, 1), all.median, all.percentile_95,
+      median(edges), median(configurations), share(sum.setup_s), share(sum.collision_s),
+      share(sum.guidance_s), share(sum.search_s), median(lengths),
       1e6 * sum.collision_s / num_configurations);
   if (with_counters) {
     for (const auto& [name, values] : counters) {
-      fmt::print("    {:28} median {:.6g}, mean {:.6g}, 95 % {:.6g}\n", name, Quantile(values, 0.5),
-                 Mean(values), Quantile(values, 0.95));
+      const Summary counts = Summarize(values);
+      fmt::print("    {:28} median {:.6g}, mean {:.6g}, 95 % {:.6g}\n", name, counts.median,
+                 counts.mean, counts.percentile_95);
     }
   }
   std::fflush(stdout);
@@ -226,11 +214,13 @@ void PrintSimplification(const std::vector<Run>& runs, const JointSpace& space) 
     waypoints.push_back(static_cast<double>(run.result.simplified_path.size()));
     if (!run.simplified_valid) ++num_refused;
   }
+  const Summary times = Summarize(ms);
+  const Summary length = Summarize(lengths);
   fmt::print(
       "    simplified: {} refused; ms median {:.3f}, mean {:.3f}, 95 % {:.3f}; length median "
       "{:.2f}, mean {:.2f}; waypoints median {:.0f}\n",
-      num_refused, Quantile(ms, 0.5), Mean(ms), Quantile(ms, 0.95), Quantile(lengths, 0.5),
-      Mean(lengths), Quantile(waypoints, 0.5));
+      num_refused, times.median, times.mean, times.percentile_95, length.median, length.mean,
+      Summarize(waypoints).median);
 }
 
 void WriteCsv(std::ofstream* csv, const std::string& set, const std::string& direction,
