@@ -39,24 +39,46 @@ void ForEach(const ComparedSessions& compared, Visit visit) {
   }
 }
 
-/// A column after the contestant's that says which have learned from the set, if any have. Names
-/// stay as they are, for those who join tables by them.
-void MarkTrained(const ComparedSessions& compared, Table* table) {
-  std::vector<std::string> marks;  // of the rows, which are those of ForEach
-  ForEach(compared,
-          [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
-            marks.push_back(contestant.IsTrainedOn(set) ? kTrained : "");
-          });
-  if (std::all_of(marks.begin(), marks.end(), [](const auto& mark) { return mark.empty(); })) {
-    return;
+/// Whether a contestant has learned from a set, or of kAllSets from any.
+bool IsTrained(const ComparedSessions& compared, const std::string& set, const std::string& name) {
+  const auto& contestants = compared.contestants();
+  const auto contestant = std::find_if(contestants.begin(), contestants.end(),
+                                       [&](const auto& one) { return one.name == name; });
+  return std::any_of(compared.outcomes().begin(), compared.outcomes().end(), [&](const auto& one) {
+    return (set == kAllSets || set == one.first) && contestant->IsTrainedOn(one.first);
+  });
+}
+
+/// Columns after those of the set and of `num_contestants` contestants that say which have learned
+/// from the set, if any have. Names stay as they are, for those who join tables by them.
+void MarkTrained(const ComparedSessions& compared, std::size_t num_contestants, Table* table) {
+  const auto text = [](const Cell& cell) -> const std::string& {
+    return std::get<std::string>(cell);
+  };
+  bool any = false;
+  std::vector<std::vector<Cell>> marks;
+  for (const std::vector<Cell>& row : table->rows) {
+    std::vector<Cell>& of_row = marks.emplace_back();
+    for (std::size_t i = 1; i <= num_contestants; ++i) {
+      const bool is_trained = IsTrained(compared, text(row[0]), text(row[i]));
+      any = any || is_trained;
+      of_row.emplace_back(std::string(is_trained ? kTrained : ""));
+    }
   }
-  constexpr int kAfterContestant = 2;
-  table->note += std::string(" ") + kTrainedNote;
-  table->columns.insert(table->columns.begin() + kAfterContestant, {"trained", "trained"});
+  if (!any) return;
+  std::vector<Column> columns;
+  for (std::size_t i = 1; i <= num_contestants; ++i) {
+    const std::string& of = table->columns[i].name;
+    columns.push_back(num_contestants == 1 ? Column{"trained", "trained"}
+                                           : Column{of + "_trained", of + " trained"});
+  }
+  const auto place = static_cast<std::ptrdiff_t>(1 + num_contestants);
+  table->columns.insert(table->columns.begin() + place, columns.begin(), columns.end());
   for (std::size_t i = 0; i < marks.size(); ++i) {
     std::vector<Cell>& row = table->rows[i];
-    row.insert(row.begin() + kAfterContestant, marks[i]);
+    row.insert(row.begin() + place, marks[i].begin(), marks[i].end());
   }
+  table->note += std::string(" ") + kTrainedNote;
 }
 
 /// The bodies that a reason names ("'a' and 'b'"), or all of it.
@@ -151,7 +173,7 @@ Table SuccessTable(const ComparedSessions& compared) {
          s.kinds[Kind::kForward], s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
          s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected], s.kinds[Kind::kOther]});
   });
-  MarkTrained(compared, &table);
+  MarkTrained(compared, 1, &table);
   return table;
 }
 
@@ -182,11 +204,11 @@ Table TimeTable(const ComparedSessions& compared) {
                           kMsPerS * s.solved_s.upper_quartile, kMsPerS * s.solved_s.percentile_95,
                           kMsPerS * s.penalised_mean_s});
   });
-  MarkTrained(compared, &table);
+  MarkTrained(compared, 1, &table);
   return table;
 }
 
-Table PairTable(const std::vector<ComparedPair>& pairs) {
+Table PairTable(const ComparedSessions& compared, const std::vector<ComparedPair>& pairs) {
   Table table{
       "pairs",
       "Problem by problem",
@@ -217,6 +239,7 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
                           r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
                           r.test.p_value, pair.adjusted_p, r.test.RankBiserial()});
   }
+  MarkTrained(compared, 2, &table);
   return table;
 }
 
@@ -262,6 +285,7 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
       }
     }
   }
+  MarkTrained(compared, 1, &table);
   return table;
 }
 
@@ -384,7 +408,7 @@ Table MeshTable(const ComparedSessions& compared) {
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed) {
   std::vector<Table> tables = {SessionTable(compared, false), SuccessTable(compared),
-                               TimeTable(compared),           PairTable(pairs),
+                               TimeTable(compared),           PairTable(compared, pairs),
                                QualityTable(compared, seed),  PhaseTable(compared),
                                FailureTable(compared),        MeshTable(compared),
                                ChangeTable(compared, seed),   ConditionTable(compared)};

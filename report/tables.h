@@ -29,9 +29,11 @@ std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::ui
 /// intervals.
 std::uint64_t BootstrapSeed(const ComparedSessions& compared);
 
+// Those of success, times, pairs and quality say who has learned from the very set (training.h).
+
 Table SuccessTable(const ComparedSessions& compared);
 Table TimeTable(const ComparedSessions& compared);
-Table PairTable(const std::vector<ComparedPair>& pairs);
+Table PairTable(const ComparedSessions& compared, const std::vector<ComparedPair>& pairs);
 /// Medians of every path measure, raw and simplified.
 Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);
 Table PhaseTable(const ComparedSessions& compared);

@@ -69,7 +69,7 @@ TEST_F(ReportTest, Times) {
 TEST_F(ReportTest, Pairs) {
   ASSERT_EQ(pairs_.size(), 3u);  // two sets, and both together
   EXPECT_EQ(pairs_[2].set, kAllSets);
-  const Row shelf = Texts(PairTable(pairs_), 1);
+  const Row shelf = Texts(PairTable(compared_, pairs_), 1);
   EXPECT_EQ(shelf[3], "12");
   EXPECT_EQ(shelf[4], "12");
   EXPECT_EQ(shelf[5], "0");
@@ -276,7 +276,9 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
     EXPECT_EQ(Texts(table, 2)[1], kTagName) << "names stay";
     EXPECT_NE(table.note.find("(trained): has learned"), std::string::npos);
   }
-  for (const Table& table : {SuccessTable(compared_), TimeTable(compared_)}) {
+  EXPECT_EQ(QualityTable(compared, 1).columns[2].name, "trained");
+  for (const Table& table :
+       {SuccessTable(compared_), TimeTable(compared_), QualityTable(compared_, 1)}) {
     EXPECT_NE(table.columns[2].name, "trained") << "nobody is";
   }
 
@@ -284,6 +286,19 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
       fmt::format("{} has learned from shelf, on which it is tried here", kTagName);
   EXPECT_TRUE(Cautions(compared).back().starts_with(caution)) << Cautions(compared).back();
   const auto pairs = ComparePairs(compared, 1);
+  const Table table = PairTable(compared, pairs);
+  ASSERT_EQ(table.columns[3].name, "first_trained");
+  ASSERT_EQ(table.columns[4].name, "second_trained");
+  const auto names_and_marks = [&](std::size_t row) {
+    const Row texts = Texts(table, row);
+    return Row(texts.begin(), texts.begin() + 5);
+  };
+  EXPECT_EQ(names_and_marks(0), (Row{"a<i>set</i>", kTagName, kScriptName, "", ""}));
+  EXPECT_EQ(names_and_marks(1), (Row{"shelf", kTagName, kScriptName, "(trained)", ""}));
+  EXPECT_EQ(names_and_marks(2), (Row{kAllSets, kTagName, kScriptName, "(trained)", ""}));
+  EXPECT_THAT(table.note, testing::HasSubstr("(trained): has learned"));
+  EXPECT_EQ(PairTable(compared_, pairs_).columns[3].name, "problems") << "nobody is";
+
   EXPECT_TRUE(Answer(compared, pairs).at(1).starts_with(caution)) << "it ranks first";
   const Json sets = FigureData(compared, pairs, {})["sets"];
   EXPECT_EQ(sets[0]["trained"], Json::array());
