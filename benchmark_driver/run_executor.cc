@@ -29,6 +29,33 @@ std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
   };
 }
 
+/// What clocks of two machines may differ by over a round trip, and what a planner rounds to: the
+/// share of it, and s.
+constexpr double kClockError = 1e-3;
+
+/// No time that a planner tells is longer than that which passed until its answer came.
+void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
+  result->counters.erase(kToldTime);
+  std::vector<double*> times = {&result->planning_time_s,        &result->total_time_s,
+                                &result->phases.setup_s,         &result->phases.collision_s,
+                                &result->phases.guidance_s,      &result->phases.search_s,
+                                &result->phases.simplification_s};
+  for (PlanProgress& progress : result->progress) times.push_back(&progress.elapsed_s);
+  const double told_s =
+      **std::max_element(times.begin(), times.end(), [](auto* a, auto* b) { return *a < *b; });
+  if (told_s <= (1 + kClockError) * roundtrip_time_s + kClockError) return;
+  for (double* time_s : times) *time_s = std::min(*time_s, roundtrip_time_s);
+  result->counters[kToldTime] = told_s;
+}
+
+/// The planner's answer, its times being possible.
+PlannerClient::Answer AnswerOf(PlannerClient* planner, const PlanRequest& request,
+                               const std::function<bool()>& interrupted) {
+  PlannerClient::Answer answer = planner->Solve(request, interrupted);
+  KeepWithinRoundTrip(answer.roundtrip_time_s, &answer.result.result);
+  return answer;
+}
+
 /// How long whoever improves a path waited for it: it is handed over when the first planner has
 /// answered, which may be after the path was found.
 double HandedOverAfter(const PlanResult& first) {
@@ -160,10 +187,10 @@ PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMes
                                        const std::vector<PlannerClient*>& planners,
                                        PlanRequest* request,
                                        const std::function<bool()>& interrupted) const {
-  if (planners.size() == 1) return planners[0]->Solve(*request, interrupted);
+  if (planners.size() == 1) return AnswerOf(planners[0], *request, interrupted);
   PlanRequest first_request = RequestOf(RequestsOf(run).front(), problem);
   first_request.simplify = first_request.anytime = false;
-  PlannerClient::Answer first = planners[0]->Solve(first_request, interrupted);
+  PlannerClient::Answer first = AnswerOf(planners[0], first_request, interrupted);
   PlanResult& found = first.result.result;
   if (first.outcome != PlannerClient::Outcome::kResult || !found.Solves()) {
     for (std::string* message : {&first.message, &found.message}) {
@@ -177,7 +204,7 @@ PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMes
   if (!(rest.time_limit_s > 0)) return first;
   request->initial_joint_names = rest.initial_joint_names = first.result.joint_names;
   request->initial_path = rest.initial_path = found.path;
-  PlannerClient::Answer answer = planners[1]->Solve(rest, interrupted);
+  PlannerClient::Answer answer = AnswerOf(planners[1], rest, interrupted);
   answer.roundtrip_time_s += first.roundtrip_time_s;
   if (answer.outcome == PlannerClient::Outcome::kResult) AddBefore(found, &answer.result.result);
   return answer;

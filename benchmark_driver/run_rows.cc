@@ -1,15 +1,16 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
+#include "results/outcomes.h"
 #include "results/training.h"
 
 namespace planbench {
 
 const RunRow& RunRows::Add(const RunRecordMessage& record) {
   const PlanResult& result = record.result.result;
-  const auto is_counted = [&](const char* name) {
+  const auto counter = [&](const char* name) {
     const auto found = result.counters.find(name);
-    return found != result.counters.end() && found->second > 0;
+    return found == result.counters.end() ? std::nullopt : std::optional(found->second);
   };
   const auto& mesh_verdict = record.path_check.mesh_verdict;
   RunRow& row = rows_.emplace_back();
@@ -24,8 +25,9 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
   row.direction = record.request.direction;
   row.status = record.status;
   row.claimed = result.Solves();
-  row.disturbed = is_counted("disturbed");
-  row.repeated = is_counted("repeats");
+  row.disturbed = counter("disturbed").value_or(0) > 0;
+  row.repeated = counter("repeats").value_or(0) > 0;
+  row.told_time_s = counter(kToldTime);
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
   row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
   if (const auto& simple = record.simplified_check.mesh_verdict) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -238,6 +239,35 @@ std::string Disturbances(const SessionResults& results) {
                                 : fmt::format("; {} had been, and were made again", repeated)));
 }
 
+/// Which planners told of more time than passed, a line each; "" if none did.
+std::string ImpossibleTimes(const SessionResults& results) {
+  struct Told {
+    int num_runs = 0;
+    int num_impossible = 0;
+    double longest_s = 0;
+  };
+  std::map<std::string, Told> by_contestant;
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& one : set.contestants) {
+      Told& told = by_contestant[one.contestant->name];
+      for (const RunRow* run : one.runs) {
+        ++told.num_runs;
+        told.num_impossible += run->told_time_s.has_value();
+        told.longest_s = std::max(told.longest_s, run->told_time_s.value_or(0));
+      }
+    }
+  }
+  std::string text;
+  for (const auto& [name, told] : by_contestant) {
+    if (told.num_impossible == 0) continue;
+    text += BreakLines(
+        fmt::format("{}: {} of {} runs were told to have taken MORE TIME THAN PASSED until the "
+                    "answer came, up to {:.3g} s: the round trip counts in its place.\n",
+                    name, told.num_impossible, told.num_runs, told.longest_s));
+  }
+  return text;
+}
+
 /// What the contestants are, and what holds of all the figures.
 std::string Preface(const SessionConditions& conditions, const SessionResults& results) {
   std::string text = "Contestants\n";
@@ -262,7 +292,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
   }
-  return text + Disturbances(results) + "\n";
+  return text + ImpossibleTimes(results) + Disturbances(results) + "\n";
 }
 
 /// Which problems are in no table, and why; "" if none.

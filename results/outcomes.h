@@ -27,6 +27,10 @@ inline bool IsLate(double time_s, double time_limit_s) {
   return time_s > (1 + 1e-9) * time_limit_s;
 }
 
+/// Counter of a run whose planner told of more time than passed until its answer came: what it
+/// told, s. The round trip stands in its place.
+inline constexpr char kToldTime[] = "told_time";
+
 /// How the attempts of one contestant and trial at one problem ended.
 struct Outcome {
   enum class Kind {

@@ -15,6 +15,7 @@
 #include "common/sqlite.h"
 #include "results/bus_json.h"
 #include "results/database_version.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 namespace {
@@ -164,6 +165,7 @@ class Reader {
     ReadDescriptions();
     ReadRuns();
     ReadProgress();
+    ReadToldTimes();
     const std::optional<BusRecord> bus =
         ReadBusRecord(std::filesystem::absolute(file_).replace_filename("run.json"));
     StoredSessions stored;
@@ -276,6 +278,18 @@ class Reader {
       if (place == places_.end() || !time_s || !cost) continue;
       place->second.first->runs[place->second.second].progress.push_back(
           {*time_s, Real(select.Value(2)).value_or(0), *cost, Int(select.Value(4)).value_or(0)});
+    }
+  }
+
+  void ReadToldTimes() {
+    if (CountTables("'counters'") == 0) return;
+    SqliteStatement select =
+        connection_.Prepare("SELECT runid, value FROM counters WHERE name = ?");
+    select.BindAll(std::string(kToldTime));
+    while (select.Step()) {
+      const auto place = places_.find(select.Int(0));
+      if (place == places_.end()) continue;
+      place->second.first->runs[place->second.second].told_time_s = Real(select.Value(1));
     }
   }
 

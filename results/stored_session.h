@@ -27,6 +27,7 @@ struct StoredRun {
   bool claimed = false;
   std::string message;                    ///< Why it is not solved.
   std::optional<double> time_s;           ///< Planning time; nothing if no answer came.
+  std::optional<double> told_time_s;      ///< What its planner told that cannot be (kToldTime).
   double roundtrip_time_s = 0;            ///< By the driver's clock.
   double time_limit_s = 0;                ///< Of the request.
   PhaseTimes phases;                      ///< Zero if no answer came.

@@ -55,7 +55,7 @@ void FakePlanner::Solve(const PlanRequest& request) {
 PlanResult FakePlanner::SolvedResult() {
   PlanResult result;
   result.status = PlanStatus::kSolved;
-  result.planning_time_s = result.total_time_s = 0.25;
+  result.planning_time_s = result.total_time_s = 1e-4;
   result.path = FakePath();
   return result;
 }

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <set>
 #include <thread>
 
+#include "results/outcomes.h"
 #include "tests/benchmark_driver/fake_nodes.h"
 #include "tests/support/expect_input_error.h"
 
@@ -51,11 +53,14 @@ class RunExecutorTest : public testing::Test {
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run = Scheduled()) {
     return executor_.Execute(run, {&client_}, [this] { return interrupted_.load(); });
   }
-  void AnswerWith(const PlanResult& result) {
-    planner_.OnRequest([this, result](const PlanRequest& request) {
-      planner_.SendResult(request.request_id, result);
+  /// When the time that it tells has passed.
+  static void AnswerWith(const PlanResult& result, FakePlanner* planner) {
+    planner->OnRequest([planner, result](const PlanRequest& request) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(result.total_time_s));
+      planner->SendResult(request.request_id, result);
     });
   }
+  void AnswerWith(const PlanResult& result) { AnswerWith(result, &planner_); }
 
   Bus bus_{"memq://"};
   NodeRegistry registry_{&bus_};
@@ -168,15 +173,55 @@ TEST_F(RunExecutorTest, FailureIsNotJudged) {
 }
 
 TEST_F(RunExecutorTest, APathThatTookLongerThanTheLimitIsNoSuccess) {
+  SessionConditions conditions = Conditions();
+  conditions.request.time_limit_s = 0.01;
   PlanResult result = FakePlanner::SolvedResult();
-  result.planning_time_s = result.total_time_s = 300;  // milliseconds, perhaps
+  result.planning_time_s = result.total_time_s = 0.02;
   AnswerWith(result);
   FakeSceneServer server(&bus_);
-  const auto record = Execute();
+  const auto record =
+      RunExecutor(&bus_, &registry_, conditions).Execute(Scheduled(), {&client_}, [] {
+        return false;
+      });
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-  EXPECT_THAT(record->message, testing::HasSubstr("took 300 s, the limit being"));
+  EXPECT_EQ(record->result.result.planning_time_s, 0.02);
+  EXPECT_THAT(record->message, testing::HasSubstr("took 0.02 s, the limit being 0.01 s"));
   EXPECT_TRUE(server.path_checks().messages().empty());
+}
+
+TEST_F(RunExecutorTest, NoTimeIsLongerThanTheRoundTrip) {
+  PlanResult result = FakePlanner::SolvedResult();
+  result.planning_time_s = 300;  // milliseconds, perhaps
+  result.total_time_s = 400;
+  result.phases.setup_s = 1e-6;
+  result.phases.search_s = 399;
+  result.progress = {{300, 0, 3, 1}, {390, 0, 2, 2}};
+  result.counters[kToldTime] = 7;
+  planner_.OnRequest([this, result](const PlanRequest& request) {
+    planner_.SendResult(request.request_id, result);
+  });
+  const FakeSceneServer server(&bus_);
+  auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << "it came within the limit";
+  const double roundtrip_s = record->roundtrip_time_s;
+  EXPECT_LT(roundtrip_s, 7);
+  const PlanResult& recorded = record->result.result;
+  EXPECT_EQ(recorded.planning_time_s, roundtrip_s);
+  EXPECT_EQ(recorded.total_time_s, roundtrip_s);
+  EXPECT_EQ(recorded.phases.setup_s, 1e-6);
+  EXPECT_EQ(recorded.phases.search_s, roundtrip_s);
+  EXPECT_EQ(recorded.progress.back().elapsed_s, roundtrip_s);
+  EXPECT_EQ(recorded.counters.at(kToldTime), 400);
+
+  result = FakePlanner::SolvedResult();
+  result.counters[kToldTime] = 7;  // nobody's but the driver's
+  AnswerWith(result);
+  record = Execute(Scheduled(3));
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->result.result.planning_time_s, result.planning_time_s);
+  EXPECT_FALSE(record->result.result.counters.contains(kToldTime));
 }
 
 TEST_F(RunExecutorTest, RefusalIsAnInvalidRequest) {
@@ -286,16 +331,15 @@ class FirstPathTest : public RunExecutorTest {
     first.collision_model = CollisionModel::kSpheres;
     conditions.contestants.push_back(first);
     conditions.request.simplify = conditions.request.anytime = true;
+    conditions.request.time_limit_s = 7 * kTick;
     executor_.emplace(&bus_, &registry_, conditions);
   }
+  static constexpr double kTick = 1 / 64.0;  ///< s
+
   std::optional<RunRecordMessage> Execute() {
     return executor_->Execute(Scheduled(), {&first_client_, &client_}, [] { return false; });
   }
-  void FirstAnswers(const PlanResult& result) {
-    first_.OnRequest([this, result](const PlanRequest& request) {
-      first_.SendResult(request.request_id, result);
-    });
-  }
+  void FirstAnswers(const PlanResult& result) { AnswerWith(result, &first_); }
   static PlanResult Found(double planning_time_s) {
     PlanResult result = FakePlanner::SolvedResult();
     result.path = {{0, 0}, {0.5, 2}, {1, 0.5}};
@@ -312,44 +356,44 @@ class FirstPathTest : public RunExecutorTest {
 };
 
 TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) {
-  PlanResult found = Found(2);
-  found.planning_time_s = 1.5;  // it answers half a second later
+  PlanResult found = Found(2 * kTick);
+  found.planning_time_s = 1.5 * kTick;  // it answers later
   FirstAnswers(found);
   PlanResult better = FakePlanner::SolvedResult();
-  better.planning_time_s = 0.5;
-  better.total_time_s = 1;
-  better.phases.search_s = 1;
-  better.progress = {{0.5, 0, 3, 1}};
+  better.planning_time_s = 0.5 * kTick;
+  better.total_time_s = kTick;
+  better.phases.search_s = kTick;
+  better.progress = {{0.5 * kTick, 0, 3, 1}};
   better.counters = {{"edges_checked", 10}};
   AnswerWith(better);
   const auto record = Execute();
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
   EXPECT_EQ(record->result.result.path, FakePath());
-  EXPECT_EQ(record->result.result.planning_time_s, 2.5);
-  EXPECT_EQ(record->result.result.total_time_s, 3);
-  EXPECT_EQ(record->result.result.phases.search_s, 3);
-  EXPECT_EQ(record->result.result.progress.at(0).elapsed_s, 2.5);
+  EXPECT_EQ(record->result.result.planning_time_s, 2.5 * kTick);
+  EXPECT_EQ(record->result.result.total_time_s, 3 * kTick);
+  EXPECT_EQ(record->result.result.phases.search_s, 3 * kTick);
+  EXPECT_EQ(record->result.result.progress.at(0).elapsed_s, 2.5 * kTick);
   const auto& counters = record->result.result.counters;
   EXPECT_EQ(counters.at("edges_checked"), 15);
   EXPECT_EQ(counters.at("samples"), 7);
-  EXPECT_EQ(counters.at("first_path_time"), 2);
+  EXPECT_EQ(counters.at("first_path_time"), 2 * kTick);
 
   const PlanRequest asked_first = first_.requests().messages().at(0);
   EXPECT_THAT(asked_first.request_id, testing::StartsWith("run/cans/2/arm/backward/3/first-path@"));
   EXPECT_EQ(asked_first.collision_model, CollisionModel::kSpheres);
   EXPECT_EQ(asked_first.seed, 9u);
-  EXPECT_EQ(asked_first.time_limit_s, 7);
+  EXPECT_EQ(asked_first.time_limit_s, 7 * kTick);
   EXPECT_FALSE(asked_first.simplify || asked_first.anytime) << "the path is not the answer yet";
   EXPECT_TRUE(asked_first.initial_path.empty());
   const PlanRequest asked = planner_.requests().messages().at(0);
-  EXPECT_EQ(asked.initial_path, Found(2).path);
+  EXPECT_EQ(asked.initial_path, Found(2 * kTick).path);
   EXPECT_EQ(asked.initial_joint_names, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(asked.collision_model, CollisionModel::kVoxels);
-  EXPECT_EQ(asked.time_limit_s, 5);
+  EXPECT_EQ(asked.time_limit_s, 5 * kTick);
   EXPECT_TRUE(asked.simplify && asked.anytime);
   PlanRequest recorded = asked;
-  recorded.time_limit_s = 7;
+  recorded.time_limit_s = 7 * kTick;
   EXPECT_EQ(record->request, recorded);
 }
 
@@ -367,12 +411,12 @@ TEST_F(FirstPathTest, WithoutOneThereIsNothingToImprove) {
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {
-  FirstAnswers(Found(7));
+  FirstAnswers(Found(7 * kTick));
   const auto record = Execute();
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kSolved);
-  EXPECT_EQ(record->result.result.path, Found(7).path);
-  EXPECT_EQ(record->result.result.planning_time_s, 7);
+  EXPECT_EQ(record->result.result.path, Found(7 * kTick).path);
+  EXPECT_EQ(record->result.result.planning_time_s, 7 * kTick);
   EXPECT_TRUE(planner_.requests().messages().empty());
 }
 

@@ -10,6 +10,7 @@
 
 #include "benchmark_driver/text_table.h"
 #include "common/numbers.h"
+#include "results/outcomes.h"
 #include "results/reason_count.h"
 
 namespace planbench {
@@ -239,6 +240,20 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
   }
   EXPECT_EQ(Row(Brief(session), kSuccess, "ARA* (trained)"), "");
   EXPECT_NE(Row(Brief(session), kSuccess, "RRT-Connect (trained)"), "");
+}
+
+TEST(TablesTest, APlannerThatToldOfMoreTimeThanPassedIsNamedOnce) {
+  std::vector<RunRecordMessage> records = FourProblems();
+  EXPECT_THAT(Brief(records), Not(HasSubstr("MORE TIME")));
+  int num_told = 0;
+  for (RunRecordMessage& record : records) {
+    if (record.contestant == "ARA*") record.result.result.counters[kToldTime] = 100 * ++num_told;
+  }
+  const std::string text = Brief(records);
+  EXPECT_THAT(text, HasSubstr(fmt::format("ARA*: {0} of {0} runs were told to have taken MORE TIME",
+                                          num_told)));
+  EXPECT_THAT(text, HasSubstr(fmt::format("up to {}", 100 * num_told)));
+  EXPECT_EQ(text.find("MORE TIME"), text.rfind("MORE TIME"));
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {

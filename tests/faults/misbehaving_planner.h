@@ -18,7 +18,8 @@ namespace planbench {
 /// that it is given a path of, that path, and 4 is then answered when the driver cancels it.
 class MisbehavingPlanner {
  public:
-  static constexpr double kTime = 0.015625;  ///< s
+  static constexpr double kTime =
+      0.0009765625;  ///< s; below that of any round trip and what clocks differ by
 
   /// Waits for the scene server, whose robot it takes.
   explicit MisbehavingPlanner(const std::string& url,

@@ -245,6 +245,16 @@ TEST_F(ReportTest, TheBusIsTold) {
   EXPECT_THROW(cautions(), InputError);
 }
 
+TEST_F(ReportTest, ImpossibleTimesAreTold) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .counters = {{"told_time", 300}}}, {.contestant = "B"}});
+  EXPECT_EQ(Cautions(compared).size(), 2u);
+  EXPECT_EQ(
+      Cautions(compared).at(1),
+      "A: 1 of 1 runs were told to have taken more time than passed until the answer came, up "
+      "to 300 s: the round trip counts in its place.");
+}
+
 TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
   const std::vector<std::string> answer = Answer(compared_, pairs_);
   ASSERT_EQ(answer.size(), 3u);
