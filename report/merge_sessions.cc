@@ -23,6 +23,7 @@
 #include "messaging/event_log_reader.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
+#include "report/session_shares.h"
 #include "results/bus_json.h"
 #include "results/reproduce.h"
 #include "results/shell_quoted.h"
@@ -62,7 +63,7 @@ bool IsBefore(const SessionMessage& a, const SessionMessage& b) {
   return SessionOrder(a) < SessionOrder(b);
 }
 
-bool IsMerged(const SessionMessage& session) { return session.settings.contains(kMergedCommands); }
+bool IsMerged(const SessionMessage& session) { return session.settings.contains(kMergedParts); }
 
 /// Those of a merged session stand in one text.
 void AddTexts(const SessionMessage& session, const std::string& text, const char* separator,
@@ -176,6 +177,7 @@ class Merge {
     const fs::path log = FindEventLog(folder);
     RecordedSession recorded = ReadRecords(log);
     logs_.push_back(log);
+    AddShares(folder, recorded.sessions);
     std::map<std::string, SessionMessage> last_words;
     for (SessionMessage& session : recorded.sessions) {
       const auto [last, is_new] = last_words.try_emplace(session.run_id, session);
@@ -187,11 +189,6 @@ class Merge {
       const auto place = std::upper_bound(part.told.begin(), part.told.end(), session, IsBefore);
       if (place == part.told.end()) part.folder = folder;
       part.told.insert(place, std::move(session));
-    }
-    if (const fs::path run_json = fs::path(folder) / "run.json"; IsFile(run_json)) {
-      bus_ = AddBusJson(bus_, ReadBusJson(run_json));
-    } else {
-      without_bus_.push_back(folder);
     }
     for (RunRecordMessage& record : recorded.runs) {
       const auto part = parts_.find(record.run_id);
@@ -260,7 +257,7 @@ class Merge {
   }
 
   /// What was odd on the buses of all (results/bus_json.h).
-  const std::string& bus() const { return bus_; }
+  std::string bus() const { return shares_.bus(); }
 
   std::string Summary(const fs::path& out) const {
     return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}",
@@ -277,6 +274,21 @@ class Merge {
   }
 
  private:
+  void AddShares(const std::string& folder, const std::vector<SessionMessage>& told) {
+    const fs::path run_json = fs::path(folder) / "run.json";
+    std::string bus;
+    if (IsFile(run_json)) {
+      bus = ReadBusJson(run_json);
+    } else {
+      without_bus_.push_back(folder);
+    }
+    try {
+      shares_.Add(told, bus);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
+    }
+  }
+
   static void RequireEqual(const Part& first, const Part& second) {
     SessionMessage renamed = second.session();
     renamed.run_id = first.session().run_id;
@@ -297,12 +309,11 @@ class Merge {
     });
     session_ = parts.front()->session();
     session_.finished = true;
-    session_.total_time_s = 0;
+    session_.total_time_s = shares_.total_time_s();
     session_.num_runs = 0;
     Texts texts;
     for (const Part* part : parts) {
       session_.finished = session_.finished && part->finished();
-      session_.total_time_s += part->session().total_time_s;
       session_.num_runs += part->num_missing();
       for (const SessionMessage& told : part->told) Add(told, &texts);
     }
@@ -315,6 +326,7 @@ class Merge {
     }
     const std::string command = Joined(texts.commands, kAnd);
     if (!command.empty()) session_.settings[kMergedCommands] = command;
+    session_.settings[kMergedParts] = shares_.Text();
   }
 
   struct Texts {
@@ -333,7 +345,7 @@ class Merge {
                                             told.conditions.problem_sets.end());
     std::erase_if(session_.settings, [&](const auto& flag) {
       const auto other = told.settings.find(flag.first);
-      return other == told.settings.end() || other->second != flag.second;
+      return other == told.settings.end() || !IsSameSetting(other->second, flag.second);
     });
     AddNew(told.conditions.contestants, &Contestant::planner, &session_.conditions.contestants);
     AddNew(told.nodes, &NodeStatusMessage::name, &session_.nodes);
@@ -355,7 +367,7 @@ class Merge {
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
   std::set<std::string> missing_shards_;
-  std::string bus_;
+  SessionShares shares_;
   std::vector<std::string> without_bus_;  ///< Folders that do not tell.
   SessionMessage session_;
 };

@@ -92,7 +92,7 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
     for (const auto& [flag, value] : session.flags) flags.insert(flag);
   }
   for (const std::string& flag : flags) {
-    if (flag == kMergedCommands) continue;
+    if (flag == kMergedCommands || flag == kMergedParts) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
     field("--" + flag, [&](const StoredSession& session) {
       const auto found = session.flags.find(flag);

@@ -1,5 +1,6 @@
 #include "results/bus_json.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr char kBus[] = "bus";
+
+/// Calls `visit` with what the object has; throws InputError if it, or `visit`, finds none of a
+/// logger's.
+template <typename Visit>
+void ForEachEntry(const std::string& bus, Visit visit) {
+  if (bus.empty()) return;
+  try {
+    const Json told = Json::parse(bus);  // must outlive what goes over it
+    for (const auto& [name, value] : told.items()) visit(name, value);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(std::string("what is told of the bus is none of a logger's: ") + error.what());
+  }
+}
 
 }  // namespace
 
@@ -32,22 +46,35 @@ std::string ReadBusJson(const std::filesystem::path& run_json) {
 
 std::string AddBusJson(const std::string& first, const std::string& second) {
   Json sum = Json::object();
-  try {
-    for (const std::string& bus : {first, second}) {
-      if (bus.empty()) continue;
-      const Json told = Json::parse(bus);  // must outlive what goes over it
-      for (const auto& [name, value] : told.items()) {
-        if (value.is_array()) {
-          for (const Json& one : value) sum[name].push_back(one);
-        } else {
-          sum[name] = sum.value(name, std::int64_t{0}) + value.get<std::int64_t>();
-        }
+  for (const std::string& bus : {first, second}) {
+    ForEachEntry(bus, [&](const std::string& name, const Json& value) {
+      if (value.is_array()) {
+        for (const Json& one : value) sum[name].push_back(one);
+      } else {
+        sum[name] = sum.value(name, std::int64_t{0}) + value.get<std::int64_t>();
       }
-    }
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(std::string("what is told of the bus is none of a logger's: ") + error.what());
+    });
   }
   return sum.empty() ? "" : sum.dump();
+}
+
+std::string WithoutBusJson(const std::string& all, const std::string& part) {
+  Json rest = Json::object();
+  ForEachEntry(all, [&](const std::string& name, const Json& value) { rest[name] = value; });
+  ForEachEntry(part, [&](const std::string& name, const Json& value) {
+    if (value.is_array()) {
+      for (const Json& one : value) {
+        const auto found = std::find(rest[name].begin(), rest[name].end(), one);
+        if (found != rest[name].end()) rest[name].erase(found);
+      }
+    } else {
+      rest[name] = rest.value(name, std::int64_t{0}) - value.get<std::int64_t>();
+    }
+  });
+  const bool is_odd = std::any_of(rest.begin(), rest.end(), [](const Json& value) {
+    return value.is_array() ? !value.empty() : value > 0;
+  });
+  return is_odd ? rest.dump() : "";
 }
 
 void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus) {

@@ -15,6 +15,9 @@ std::string ReadBusJson(const std::filesystem::path& run_json);
 /// none of ReadBusJson's.
 std::string AddBusJson(const std::string& first, const std::string& second);
 
+/// What AddBusJson added to `part` to make `all` of it. Throws InputError as that does.
+std::string WithoutBusJson(const std::string& all, const std::string& part);
+
 /// Has the run.json of a folder tell that, if it is not "". Throws InputError if it cannot be
 /// written.
 void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus);

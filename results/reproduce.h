@@ -9,6 +9,9 @@ namespace planbench {
 /// Among the flags of a session that was merged of parts: the commands of the parts.
 inline constexpr char kMergedCommands[] = "merged";
 
+/// Among them too: what the parts took and lost (report/session_shares.h).
+inline constexpr char kMergedParts[] = "merged_parts";
+
 /// The command that runs a session again, from the driver's flags as it recorded them, quoted for a
 /// shell; "" if they are not known. Flags that were left out, and those that name this session's
 /// own folder or bus, are not in it. Of a merged session those of its parts, joined by &&.

@@ -167,6 +167,60 @@ TEST_F(MergeSessionsTest, WhatWasLostOnTheBusIsAddedUp) {
   EXPECT_THAT(errors_, HasSubstr("two/run.json"));
 }
 
+TEST_F(MergeSessionsTest, WhatAPartTookAndLostCountsOnce) {
+  for (const int shard : {1, 2, 3}) {
+    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
+    part.settings["shard"] = fmt::format("{}/3", shard);
+    part.total_time_s = 0.1 * shard;
+    Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
+    folder_.Write(
+        part.run_id + "/run.json",
+        fmt::format(R"({{"bus": {{"malformed_packets": 0, "lost_messages": {}, "contradictions":
+                              [{{"sender": "s", "channel": "C", "count": {}, "first": "x"}}]}}}})",
+                    shard == 1 ? 5 : 10 * shard, shard));
+  }
+  ASSERT_EQ(MergeTo("of12", {"part1", "part2"}), kExitOk) << errors_;
+  ASSERT_EQ(MergeTo("of13", {"part3", "part1"}), kExitOk) << errors_;
+  ASSERT_EQ(MergeTo("of123", {"of12", "of13"}), kExitOk) << errors_;
+  const auto expect_told = [&](const std::string& whole, double total_time_s, int lost,
+                               int contradictions) {
+    SCOPED_TRACE(whole);
+    const StoredSession session = ReadSessions(folder_ / whole).sessions.front();
+    EXPECT_NEAR(session.total_time_s, total_time_s, 1e-9);
+    EXPECT_EQ(session.bus->lost, lost);
+    EXPECT_EQ(session.bus->contradictions, contradictions);
+  };
+  expect_told("of12", 0.3, 25, 3);
+  expect_told("of123", 0.6, 55, 6);
+  int number = 0;
+  for (const std::vector<std::string>& folders :
+       std::vector<std::vector<std::string>>{{"part1", "part2", "part3", "part1"},
+                                             {"of12", "part2", "part3"},
+                                             {"part1", "of12", "of13"},
+                                             {"of123", "part1", "of13", "of123"}}) {
+    const std::string whole = fmt::format("whole{}", ++number);
+    ASSERT_EQ(MergeTo(whole, folders), kExitOk) << errors_;
+    expect_told(whole, 0.6, 55, 6);
+  }
+
+  // A merged session that went on has that beside its parts.
+  SessionMessage resumed = ReadRecords(FindEventLog(folder_ / "of12")).sessions.front();
+  resumed.settings.erase("merged");
+  resumed.settings.erase("merged_parts");
+  resumed.total_time_s += 7;
+  EventLog(FindEventLog(folder_ / "of12"), EventLog::Mode::kAppend)
+      .Write({channel::kSession, Encode(resumed), 3});
+  folder_.Write("of12/run.json",
+                R"({"bus": {"malformed_packets": 0, "lost_messages": 26, "contradictions": [
+                {"sender": "s", "channel": "C", "count": 1, "first": "x"},
+                {"sender": "s", "channel": "C", "count": 2, "first": "x"},
+                {"sender": "s", "channel": "C", "count": 50, "first": "x"}]}})");
+  ASSERT_EQ(MergeTo("on", {"part2", "of12", "of123"}), kExitOk) << errors_;
+  expect_told("on", 7.6, 56, 56);
+  ASSERT_EQ(MergeTo("again", {"of12", "on", "of12"}), kExitOk) << errors_;
+  expect_told("again", 7.6, 56, 56);
+}
+
 TEST_F(MergeSessionsTest, OtherFilesBesideTheMergedSessionStay) {
   Write("one", Session("early", 1000, 1), {{.contestant = "A"}});
   folder_.Write("whole.merging", "somebody's");
