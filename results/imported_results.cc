@@ -11,7 +11,8 @@
 
 #include "common/error.h"
 #include "results/csv_results.h"
-#include "results/ompl_results.h"
+#include "results/ompl_database.h"
+#include "results/ompl_log_reader.h"
 
 namespace planbench {
 namespace {

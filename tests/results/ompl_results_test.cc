@@ -1,5 +1,3 @@
-#include "results/ompl_results.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
