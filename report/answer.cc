@@ -217,8 +217,7 @@ std::string ImpossibleTimes(const ComparedContestant& contestant) {
   if (num_impossible == 0) return "";
   return fmt::format(
       "{}: {} of {} runs were told to have taken more time than passed until the answer came, up "
-      "to "
-      "{} s: the round trip counts in its place.",
+      "to {} s: the round trip counts in its place.",
       contestant.name, num_impossible, contestant.runs.size(), FormatNumber(longest_s));
 }
 

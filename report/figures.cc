@@ -150,16 +150,11 @@ Json ProblemTimesJson(const Outcomes& outcomes) {
   return {{"problem", std::move(problem)}, {"time", std::move(time)}};
 }
 
-/// Places of the contestants that have learned from the set; of those that have from any, if "".
-Json TrainedJson(const ComparedSessions& compared, const std::string& of_set) {
+/// Places of the contestants that have learned from the set.
+Json TrainedJson(const ComparedSessions& compared, const std::string& set) {
   Json places = Json::array();
   for (std::size_t i = 0; i < compared.contestants().size(); ++i) {
-    for (const auto& [set, by_contestant] : compared.outcomes()) {
-      if (!of_set.empty() && set != of_set) continue;
-      if (!compared.contestants()[i].IsTrainedOn(set)) continue;
-      places.push_back(i);
-      break;
-    }
+    if (IsTrained(compared, set, compared.contestants()[i])) places.push_back(i);
   }
   return places;
 }
@@ -173,7 +168,7 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
     });
   };
   Json json = {{"name", name}, {"all", is_all}};
-  json["trained"] = TrainedJson(compared, is_all ? "" : name);
+  json["trained"] = TrainedJson(compared, name);
   const auto profiles = PerformanceProfiles(set);
   json["profile"] =
       ByContestant(compared, set, [&](const Outcomes&, const ComparedContestant& contestant) {

@@ -23,6 +23,12 @@ double OrNothing(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// "" if there is none.
+std::string ValueOf(const std::map<std::string, std::string>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : found->second;
+}
+
 /// Settings by name, of the contestant of that name; none without one.
 std::map<std::string, std::string> SettingsOf(const StoredSession& session,
                                               const std::string& contestant) {
@@ -80,10 +86,7 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   }
   told.erase("cpu");  // that of the session
   for (const std::string& name : told) {
-    field(name, [&](const StoredSession& session) {
-      const auto found = session.machine.find(name);
-      return found == session.machine.end() ? std::string() : found->second;
-    });
+    field(name, [&](const StoredSession& session) { return ValueOf(session.machine, name); });
   }
   field("robot", member(&StoredSession::robot));
   field("seed", member(&StoredSession::seed));
@@ -94,18 +97,13 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   for (const std::string& flag : flags) {
     if (flag == kMergedCommands || flag == kMergedParts) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
-    field("--" + flag, [&](const StoredSession& session) {
-      const auto found = session.flags.find(flag);
-      return found == session.flags.end() ? std::string() : found->second;
-    });
+    field("--" + flag, [&](const StoredSession& session) { return ValueOf(session.flags, flag); });
   }
   if (only_different) {
     for (const auto& [name, keys] : SettingsByContestant(compared)) {
       for (const std::string& key : keys) {
         field(fmt::format("{}: {}", name, key), [&](const StoredSession& session) {
-          const auto settings = SettingsOf(session, name);
-          const auto found = settings.find(key);
-          return found == settings.end() ? std::string() : found->second;
+          return ValueOf(SettingsOf(session, name), key);
         });
       }
     }
@@ -151,7 +149,7 @@ Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
   std::vector<PairedComparison> results;
   const auto confirmed = [](const Outcomes& outcomes) {
     const SuccessSummary s = SummarizeSuccess(outcomes);
-    return Estimate{100 * s.share, Interval{100 * s.interval.lower, 100 * s.interval.upper}};
+    return Percent(s.share, s.interval);
   };
   for (const auto& [set, by_contestant] : compared.outcomes()) {
     for (const ComparedContestant& after : compared.contestants()) {

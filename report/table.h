@@ -18,6 +18,11 @@ struct Estimate {
   std::optional<Interval> interval;
 };
 
+/// Of a share in [0, 1].
+inline Estimate Percent(double share, const Interval& interval) {
+  return {100 * share, Interval{100 * interval.lower, 100 * interval.upper}};
+}
+
 /// Nothing is shown as "-", and so is a number that is not finite.
 using Cell = std::variant<std::monostate, std::string, int, double, Estimate>;
 

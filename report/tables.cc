@@ -39,14 +39,11 @@ void ForEach(const ComparedSessions& compared, Visit visit) {
   }
 }
 
-/// Whether a contestant has learned from a set, or of kAllSets from any.
-bool IsTrained(const ComparedSessions& compared, const std::string& set, const std::string& name) {
+const ComparedContestant& ContestantNamed(const ComparedSessions& compared,
+                                          const std::string& name) {
   const auto& contestants = compared.contestants();
-  const auto contestant = std::find_if(contestants.begin(), contestants.end(),
-                                       [&](const auto& one) { return one.name == name; });
-  return std::any_of(compared.outcomes().begin(), compared.outcomes().end(), [&](const auto& one) {
-    return (set == kAllSets || set == one.first) && contestant->IsTrainedOn(one.first);
-  });
+  return *std::find_if(contestants.begin(), contestants.end(),
+                       [&](const ComparedContestant& one) { return one.name == name; });
 }
 
 /// Columns after those of the set and of `num_contestants` contestants that say which have learned
@@ -60,7 +57,8 @@ void MarkTrained(const ComparedSessions& compared, std::size_t num_contestants, 
   for (const std::vector<Cell>& row : table->rows) {
     std::vector<Cell>& of_row = marks.emplace_back();
     for (std::size_t i = 1; i <= num_contestants; ++i) {
-      const bool is_trained = IsTrained(compared, text(row[0]), text(row[i]));
+      const bool is_trained =
+          IsTrained(compared, text(row[0]), ContestantNamed(compared, text(row[i])));
       any = any || is_trained;
       of_row.emplace_back(std::string(is_trained ? kTrained : ""));
     }
@@ -108,6 +106,15 @@ void AdjustSet(std::vector<ComparedPair>::iterator first,
 }
 
 }  // namespace
+
+bool IsTrained(const ComparedSessions& compared, const std::string& set,
+               const ComparedContestant& contestant) {
+  const auto& sets = compared.outcomes();
+  return std::any_of(sets.begin(), sets.end(), [&](const auto& one) {
+    return (set == kAllSets || set == one.first) && one.second.contains(contestant.name) &&
+           contestant.IsTrainedOn(one.first);
+  });
+}
 
 std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed) {
   std::vector<ComparedPair> pairs;
@@ -167,11 +174,11 @@ Table SuccessTable(const ComparedSessions& compared) {
                         const Outcomes& outcomes) {
     SuccessSummary s = SummarizeSuccess(outcomes);
     using Kind = Outcome::Kind;
-    table.rows.push_back(
-        {set, contestant.name, s.num_problems, s.num_runs, s.claimed, s.confirmed,
-         Estimate{100 * s.share, Interval{100 * s.interval.lower, 100 * s.interval.upper}},
-         s.kinds[Kind::kForward], s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
-         s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected], s.kinds[Kind::kOther]});
+    table.rows.push_back({set, contestant.name, s.num_problems, s.num_runs, s.claimed, s.confirmed,
+                          Percent(s.share, s.interval), s.kinds[Kind::kForward],
+                          s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
+                          s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected],
+                          s.kinds[Kind::kOther]});
   });
   MarkTrained(compared, 1, &table);
   return table;
@@ -372,36 +379,34 @@ Table MeshTable(const ComparedSessions& compared) {
        {"median_ms", "median, ms", Style::kNumber},
        {"commonest_contact", "commonest contact"}},
       {}};
-  ForEach(
-      compared, [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
-        int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
-        std::map<std::string, int> contacts;
-        std::vector<double> depths_m;
-        std::vector<double> times_s;
-        const std::vector<const StoredRun*> confirmed = ConfirmedRuns(contestant, set);
-        for (const StoredRun* run : confirmed) {
-          simple_judged += run->mesh_valid_simple.has_value();
-          simple_valid += run->mesh_valid_simple.value_or(false);
-          if (!run->mesh_valid) continue;
-          ++judged;
-          times_s.push_back(run->time_s.value_or(0));
-          valid += *run->mesh_valid;
-          if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
-          if (run->mesh_depth_m) depths_m.push_back(*run->mesh_depth_m);
-        }
-        if (judged == 0) return;
-        const auto claimed = std::count_if(
-            contestant.runs.begin(), contestant.runs.end(),
-            [&](const StoredRun* run) { return run->claimed && run->problem_set == set; });
-        const Interval interval = WilsonInterval(valid, judged);
-        table.rows.push_back(
-            {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
-             judged, valid,
-             Estimate{100.0 * valid / judged, Interval{100 * interval.lower, 100 * interval.upper}},
-             simple_judged, simple_valid,
-             depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
-             kMsPerS * Summarize(times_s).median, Commonest(contacts)});
-      });
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes&) {
+    int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
+    std::map<std::string, int> contacts;
+    std::vector<double> depths_m;
+    std::vector<double> times_s;
+    const std::vector<const StoredRun*> confirmed = ConfirmedRuns(contestant, set);
+    for (const StoredRun* run : confirmed) {
+      simple_judged += run->mesh_valid_simple.has_value();
+      simple_valid += run->mesh_valid_simple.value_or(false);
+      if (!run->mesh_valid) continue;
+      ++judged;
+      times_s.push_back(run->time_s.value_or(0));
+      valid += *run->mesh_valid;
+      if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
+      if (run->mesh_depth_m) depths_m.push_back(*run->mesh_depth_m);
+    }
+    if (judged == 0) return;
+    const auto claimed = std::count_if(
+        contestant.runs.begin(), contestant.runs.end(),
+        [&](const StoredRun* run) { return run->claimed && run->problem_set == set; });
+    table.rows.push_back(
+        {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
+         judged, valid, Percent(static_cast<double>(valid) / judged, WilsonInterval(valid, judged)),
+         simple_judged, simple_valid,
+         depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
+         kMsPerS * Summarize(times_s).median, Commonest(contacts)});
+  });
   return table;
 }
 

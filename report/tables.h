@@ -13,6 +13,11 @@ namespace planbench {
 /// What stands for all sets together where there are several.
 inline constexpr char kAllSets[] = "all sets";
 
+/// Whether a contestant has learned from a set that it is tried on (training.h), or of kAllSets
+/// from any such.
+bool IsTrained(const ComparedSessions& compared, const std::string& set,
+               const ComparedContestant& contestant);
+
 /// One contestant against another on one set, or on all.
 struct ComparedPair {
   std::string set;

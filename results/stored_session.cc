@@ -283,9 +283,8 @@ class Reader {
 
   void ReadToldTimes() {
     if (CountTables("'counters'") == 0) return;
-    SqliteStatement select =
-        connection_.Prepare("SELECT runid, value FROM counters WHERE name = ?");
-    select.BindAll(std::string(kToldTime));
+    SqliteStatement select = connection_.Prepare(
+        fmt::format("SELECT runid, value FROM counters WHERE name = '{}'", kToldTime));
     while (select.Step()) {
       const auto place = places_.find(select.Int(0));
       if (place == places_.end()) continue;
