@@ -39,38 +39,48 @@ void ForEach(const ComparedSessions& compared, Visit visit) {
   }
 }
 
-const ComparedContestant& ContestantNamed(const ComparedSessions& compared,
-                                          const std::string& name) {
-  const auto& contestants = compared.contestants();
-  return *std::find_if(contestants.begin(), contestants.end(),
-                       [&](const ComparedContestant& one) { return one.name == name; });
+/// Whether whom a table calls so has learned from the set: a contestant, or, of one that is
+/// compared with itself (ChangeTable), whichever of that name.
+bool IsTrained(const ComparedSessions& compared, const std::string& set, const std::string& name) {
+  const auto& all = compared.contestants();
+  const auto of_name = [&](std::string ComparedContestant::*member) {
+    return std::any_of(all.begin(), all.end(), [&](const ComparedContestant& one) {
+      return one.*member == name && IsTrained(compared, set, one);
+    });
+  };
+  return of_name(&ComparedContestant::name) || of_name(&ComparedContestant::own_name);
 }
 
-/// Columns after those of the set and of `num_contestants` contestants that say which have learned
-/// from the set, if any have. Names stay as they are, for those who join tables by them.
-void MarkTrained(const ComparedSessions& compared, std::size_t num_contestants, Table* table) {
-  const auto text = [](const Cell& cell) -> const std::string& {
-    return std::get<std::string>(cell);
+/// Columns that say which contestants have learned from the set of their row, behind those that
+/// name them, if any have. Names stay as they are, for those who join tables by them. A table whose
+/// rows are of no set is left as it is.
+void MarkTrained(const ComparedSessions& compared, Table* table) {
+  const auto is_of_contestants = [](const Column& column) {
+    return column.name == "contestant" || column.name == "first" || column.name == "second";
   };
+  if (table->columns.front().name != "set") return;
+  const auto begin = table->columns.begin() + 1;
+  const auto end = std::find_if_not(begin, table->columns.end(), is_of_contestants);
+  const std::vector<Column> contestants(begin, end);
   bool any = false;
   std::vector<std::vector<Cell>> marks;
   for (const std::vector<Cell>& row : table->rows) {
     std::vector<Cell>& of_row = marks.emplace_back();
-    for (std::size_t i = 1; i <= num_contestants; ++i) {
+    for (std::size_t i = 1; i <= contestants.size(); ++i) {
       const bool is_trained =
-          IsTrained(compared, text(row[0]), ContestantNamed(compared, text(row[i])));
+          IsTrained(compared, std::get<std::string>(row[0]), std::get<std::string>(row[i]));
       any = any || is_trained;
       of_row.emplace_back(std::string(is_trained ? kTrained : ""));
     }
   }
   if (!any) return;
   std::vector<Column> columns;
-  for (std::size_t i = 1; i <= num_contestants; ++i) {
-    const std::string& of = table->columns[i].name;
-    columns.push_back(num_contestants == 1 ? Column{"trained", "trained"}
-                                           : Column{of + "_trained", of + " trained"});
+  for (const Column& of : contestants) {
+    columns.push_back(contestants.size() == 1
+                          ? Column{"trained", "trained"}
+                          : Column{of.name + "_trained", of.heading + " trained"});
   }
-  const auto place = static_cast<std::ptrdiff_t>(1 + num_contestants);
+  const auto place = static_cast<std::ptrdiff_t>(1 + contestants.size());
   table->columns.insert(table->columns.begin() + place, columns.begin(), columns.end());
   for (std::size_t i = 0; i < marks.size(); ++i) {
     std::vector<Cell>& row = table->rows[i];
@@ -180,7 +190,6 @@ Table SuccessTable(const ComparedSessions& compared) {
                           s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected],
                           s.kinds[Kind::kOther]});
   });
-  MarkTrained(compared, 1, &table);
   return table;
 }
 
@@ -211,11 +220,10 @@ Table TimeTable(const ComparedSessions& compared) {
                           kMsPerS * s.solved_s.upper_quartile, kMsPerS * s.solved_s.percentile_95,
                           kMsPerS * s.penalised_mean_s});
   });
-  MarkTrained(compared, 1, &table);
   return table;
 }
 
-Table PairTable(const ComparedSessions& compared, const std::vector<ComparedPair>& pairs) {
+Table PairTable(const std::vector<ComparedPair>& pairs) {
   Table table{
       "pairs",
       "Problem by problem",
@@ -246,7 +254,6 @@ Table PairTable(const ComparedSessions& compared, const std::vector<ComparedPair
                           r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
                           r.test.p_value, pair.adjusted_p, r.test.RankBiserial()});
   }
-  MarkTrained(compared, 2, &table);
   return table;
 }
 
@@ -292,7 +299,6 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
       }
     }
   }
-  MarkTrained(compared, 1, &table);
   return table;
 }
 
@@ -413,11 +419,12 @@ Table MeshTable(const ComparedSessions& compared) {
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed) {
   std::vector<Table> tables = {SessionTable(compared, false), SuccessTable(compared),
-                               TimeTable(compared),           PairTable(compared, pairs),
+                               TimeTable(compared),           PairTable(pairs),
                                QualityTable(compared, seed),  PhaseTable(compared),
                                FailureTable(compared),        MeshTable(compared),
                                ChangeTable(compared, seed),   ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  for (Table& table : tables) MarkTrained(compared, &table);
   return tables;
 }
 

@@ -34,11 +34,9 @@ std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::ui
 /// intervals.
 std::uint64_t BootstrapSeed(const ComparedSessions& compared);
 
-// Those of success, times, pairs and quality say who has learned from the very set (training.h).
-
 Table SuccessTable(const ComparedSessions& compared);
 Table TimeTable(const ComparedSessions& compared);
-Table PairTable(const ComparedSessions& compared, const std::vector<ComparedPair>& pairs);
+Table PairTable(const std::vector<ComparedPair>& pairs);
 /// Medians of every path measure, raw and simplified.
 Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);
 Table PhaseTable(const ComparedSessions& compared);
@@ -46,7 +44,8 @@ Table FailureTable(const ComparedSessions& compared);
 /// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
 Table MeshTable(const ComparedSessions& compared);
 
-/// All of them and those of the sessions (session_tables.h) that have rows.
+/// All of them and those of the sessions (session_tables.h) that have rows. Those whose rows are of
+/// a set mark in columns of their own who has learned from it (training.h).
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed);
 

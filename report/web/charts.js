@@ -28,14 +28,17 @@ const charts = (() => {
     ({scale, orient, title, values: logTicks(domain), grid: true, format: "~r", domain: false, zindex: 0,
       encode: {labels: {update: {text: {signal: "format(datum.value, datum.value < 1 ? '~g' : ',')"}}}}});
 
-  // One row a contestant.
+  // One row a contestant. A mark behind its name stands below it, so that a name that is cut short keeps it.
+  const MARK = " (trained)";
+  const lines = name => (name.endsWith(MARK) ? [name.slice(0, -MARK.length), MARK.trim()] : name);
   const rowsHeight = count => (count > 12 ? 24 : 34) * count;
   const rows = names => ({
     height: rowsHeight(names.length),
     scale: {name: "y", type: "band", domain: names.map((name, i) => i), range: "height", padding: 0.2},
     axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8,
-           encode: {labels: {update: {text: {signal: "names[datum.value]"}}}}},
-    signal: {name: "names", value: names},
+           encode: {labels: {update: {
+             text: {signal: "names[datum.value]"}, dy: {signal: "isArray(names[datum.value]) ? -5 : 0"}, lineHeight: {value: 12}}}}},
+    signal: {name: "names", value: names.map(lines)},
   });
   const middle = {scale: "y", band: 0.5};
 

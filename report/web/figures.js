@@ -58,10 +58,15 @@ function improvement(names, places, values, title) {
   });
 }
 
-// What the contestants at these places are called in the figures of a set.
-function namesOf(data, set, places) {
-  return places.map(place => data.contestants[place].name + (set.trained.includes(place) ? " (trained)" : ""));
+// What a contestant is called where these sets are shown: with a mark if it has learned from all, or from which, that it is tried on.
+function nameIn(data, sets, place) {
+  const {name} = data.contestants[place];
+  const trained = sets.filter(set => set.trained.includes(place));
+  if (trained.length === 0) return name;
+  const tried = sets.filter(set => set.survival.some(one => one.contestant === place));
+  return name + (trained.length === tried.length ? " (trained)" : ` (trained on ${trained.map(set => set.name).join(", ")})`);
 }
+const namesOf = (data, set, places) => places.map(place => nameIn(data, [set], place));
 
 // The figure of a measure on a set, by the measure's place in data.measures.
 function qualityFigure(data, set, kind) {

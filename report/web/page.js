@@ -3,8 +3,10 @@
 const report = (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
   const main = document.getElementById("main");
-  const names = data.contestants.map(contestant => contestant.name);
   const sets = data.sets.filter(set => !set.all);
+  // Those of the data, by which tables are searched, and those shown beside all sets.
+  const plainNames = data.contestants.map(contestant => contestant.name);
+  const names = plainNames.map((name, place) => nameIn(data, sets, place));
   const tables = Object.fromEntries(data.tables.map(table => [table.name, table]));
 
   // ---- Elements ---------------------------------------------------------------------------------
@@ -148,7 +150,7 @@ const report = (() => {
     if (tables.changes) made.append(element("h3", {}, tables.changes.title), tableBlock("changes", true));
     made.append(note("Contestants, in the order of their penalised mean time over all runs; each opens to its settings."));
     data.contestants.forEach((contestant, place) => {
-      made.append(element("details", {}, element("summary", {}, contestantSwatch(place), " " + contestant.name),
+      made.append(element("details", {}, element("summary", {}, contestantSwatch(place), " " + names[place]),
                           element("pre", {tabindex: "0"}, contestant.settings)));
     });
   }
@@ -200,18 +202,19 @@ const report = (() => {
     const chart = element("div");
     const figure = element("div");
     const shown = pictures.add(chart, "Times of two contestants, problem by problem", charts.SCATTER_SIDE, () => charts.scatter(
-      pairPoints(data.sets[set], first, second), names[first], names[second],
+      pairPoints(data.sets[set], first, second), ...namesOf(data, data.sets[set], [first, second]),
       Math.max(...data.sets[set].survival.map(value => value.limit))));
     function update() {
       // The table holds each pair once, the higher rank first.
       if (first > second) [first, second] = [second, first];
-      const row = tables.pairs.rows.filter(row => row[0] === data.sets[set].name && row[1] === names[first] &&
-                                                  row[2] === names[second]);
+      const row = tables.pairs.rows.filter(row => row[0] === data.sets[set].name && row[1] === plainNames[first] &&
+                                                  row[2] === plainNames[second]);
+      const choices = namesOf(data, data.sets[set], [...names.keys()]);
       figure.replaceChildren(
         element("div", {class: "controls"},
           select("set", data.sets.map(one => one.name), set, value => { set = value; update(); }),
-          select("first", names, first, value => { second = value === second ? first : second; first = value; update(); }),
-          select("second", names, second, value => { first = value === first ? second : first; second = value; update(); })),
+          select("first", choices, first, value => { second = value === second ? first : second; first = value; update(); }),
+          select("second", choices, second, value => { first = value === first ? second : first; second = value; update(); })),
         row.length > 0 ? tableElement({...tables.pairs, rows: row}) : note("These two have no problem of this set in common."));
       if (shown.view) pictures.render(shown);
     }
@@ -284,7 +287,9 @@ const report = (() => {
   // The problems of failures lead to what happened there.
   function failureCell(row, heading, text) {
     if (heading !== "problems") return [text];
-    const [setName, contestant, status] = row, {attempts} = data;
+    const {attempts} = data, {columns} = tables.failures;
+    const [setName, contestant, status] = ["set", "contestant", "status"].map(name =>
+      row[columns.findIndex(column => column.heading === name)]);
     const set = sets.findIndex(one => one.name === setName);
     return text.split(", ").flatMap((one, i) => {
       const problem = parseInt(one, 10);
@@ -292,7 +297,7 @@ const report = (() => {
       link.addEventListener("click", () => {
         showProblem(set, problem);
         const shown = attempts.run.findIndex((run, k) => attempts.set[k] === set && attempts.problem[k] === problem &&
-          names[attempts.contestant[k]] === contestant && attempts.statuses[attempts.status[k]] === status &&
+          plainNames[attempts.contestant[k]] === contestant && attempts.statuses[attempts.status[k]] === status &&
           viewData(k));
         if (shown >= 0) showView(shown);
       });
@@ -344,7 +349,7 @@ const report = (() => {
     const number = value => value == null ? "-" : Number(value.toPrecision(4)).toString();
     attempts.run.forEach((run, i) => {
       if (attempts.set[i] !== problem.set || attempts.problem[i] !== problem.index) return;
-      rows.push([names[attempts.contestant[i]], String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
+      rows.push([nameIn(data, [sets[problem.set]], attempts.contestant[i]), String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
                  attempts.statuses[attempts.status[i]], number(attempts.time[i]), number(attempts.length[i]),
                  number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run), viewButton(i)]);
     });

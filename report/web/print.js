@@ -3,9 +3,8 @@
 const fs = require("fs");
 const [dataFile, folder] = process.argv.slice(2);
 const data = JSON.parse(fs.readFileSync(dataFile, "utf8"));
-const names = data.contestants.map(contestant => contestant.name);
 const WIDTH = 440;  // one of two columns
-const config = {...theme.vegaConfig(), background: "white"};
+const config = {...theme.vegaConfig(WIDTH), background: "white"};
 config.axis.labelLimit = 0;
 config.legend = {labelColor: theme.property("--text"), labelFontSize: 12, labelFont: config.axis.labelFont, labelLimit: 0};
 // Without a canvas nothing measures text: what letters of a sans-serif are wide on average.
@@ -17,7 +16,8 @@ function write(name, spec) {
 }
 
 // The page has its legends beside the figures.
-function withLegend(kind, spec) {
+// `names`: of all contestants.
+function withLegend(kind, spec, names) {
   const ofCurves = {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300};
   const legend = {
     survival: ofCurves, profile: ofCurves, cost: ofCurves, bound: ofCurves,
@@ -49,7 +49,7 @@ for (const set of data.sets) {
     if (!values || values.length === 0) continue;
     const places = values.map(value => value.contestant);
     const spec = make(set, namesOf(data, set, places), places, values, () => {});
-    written.push(write(`${kind}-${own}`, withLegend(kind, spec)));
+    written.push(write(`${kind}-${own}`, withLegend(kind, spec, namesOf(data, set, [...data.contestants.keys()]))));
   }
   data.measures.forEach((measure, kind) => {
     if (set.all || set.quality[kind].raw.length === 0) return;

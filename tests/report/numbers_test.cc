@@ -324,7 +324,7 @@ Interval ResampledInterval(const std::vector<double>& logs) {
 }
 
 TEST_F(NumbersTest, Pairs) {
-  const Table table = PairTable(compared_, pairs_);
+  const Table table = PairTable(pairs_);
   ASSERT_EQ(table.rows.size(), 9u);  // three pairs of two sets, and of both
   std::map<std::string, std::vector<double>> p_values;
   for (const auto& row : table.rows) {

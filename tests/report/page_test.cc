@@ -20,6 +20,16 @@ constexpr char kProbe[] = R"script(
     for (const chart of pictures.all) visit(chart.view.scenegraph().root);
     return marks;
   };
+  // What stands beside the axes of the figures.
+  const labels = () => {
+    const texts = [];
+    const visit = item => {
+      if (item.role === "axis-label") texts.push(...item.items);
+      else (item.items || []).forEach(visit);
+    };
+    for (const chart of pictures.all) visit(chart.view.scenegraph().root);
+    return texts;
+  };
   const contrasts = () => {
     const luminance = colour => {
       const parts = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16) / 255)
@@ -51,6 +61,15 @@ constexpr char kProbe[] = R"script(
   found.evil = document.querySelectorAll(".evil, main i").length;
   found.unreachable = [...document.querySelectorAll("a, button:not(:disabled), select, summary, .scroll")]
     .filter(one => one.tabIndex < 0).length;
+  found.legends = [...document.querySelectorAll(".legend button")].map(one => one.textContent);
+  found.pair = [...document.querySelectorAll("#pairs .controls select")].slice(1)
+    .flatMap(one => [...one.options].map(option => option.textContent));
+  found.trained_rows = {};
+  for (const section of document.querySelectorAll("section")) {
+    found.trained_rows[section.id] = [...section.querySelectorAll("table tr")]
+      .filter(row => [...row.children].some(cell => cell.textContent === "(trained)")).length;
+  }
+  found.trained_labels = labels().filter(label => [label.text].flat().pop() === "(trained)").length;
   found.contestants = report.data.contestants.map(one => one.name);
   const problem = document.getElementById("problem");
   if (problem) {
@@ -120,6 +139,30 @@ TEST_F(PageTest, DrawsImprovementsWithTheirBounds) {
             {.contestant = "A", .problem = 2, .progress = {{0.5, 3, 10, 1}}}});
   // Cost and bound besides success, times, survival, phases and path quality.
   EXPECT_EQ(found["charts"], 7);
+}
+
+TEST_F(PageTest, MarksWhoHasLearnedWhereverItIsShown) {
+  std::vector<MadeRun> runs;
+  for (const char* contestant : {"Pupil", "Other"}) {
+    for (const char* set : {"exam", "shelf"}) {
+      for (int problem = 1; problem <= 2; ++problem) {
+        MadeRun& run = runs.emplace_back();
+        run = {.contestant = contestant, .set = set, .problem = problem};
+        if (run.contestant == "Pupil") run.settings["learned_from"] = "shelf";
+        if (problem == 2 && run.set == "shelf") run.status = PlanStatus::kTimedOut;
+      }
+    }
+  }
+  const nlohmann::json found = Open(runs);
+  const std::string in_page = "Pupil (trained on shelf)", in_set = "Pupil (trained)";
+  EXPECT_EQ(found["legends"], (nlohmann::json{in_page, "Other", in_page, "Other"}));
+  EXPECT_EQ(found["pair"], (nlohmann::json{in_set, "Other", in_set, "Other"})) << "of all sets";
+  EXPECT_EQ(found["led"], (nlohmann::json{"shelf", "2"}));
+  for (const char* section : {"success", "times", "quality", "phases", "failures"}) {
+    EXPECT_EQ(found["trained_rows"][section].get<int>() > 0, true) << section;
+  }
+  // Its figures: its row in success, times, quality and phases.
+  EXPECT_EQ(found["trained_labels"], 4);
 }
 
 TEST_F(PageTest, IsRightForNoRunAndForOne) {

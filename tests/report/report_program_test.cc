@@ -132,6 +132,36 @@ TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
   EXPECT_EQ(count, 2u) << crosses;
 }
 
+TEST_F(ReportProgramTest, FiguresAndTablesMarkWhoHasLearned) {
+  if (std::system("command -v node >/dev/null") != 0) {
+    GTEST_SKIP() << "no node here: apt-get install nodejs";
+  }
+  WriteSession(folder_ / "example",
+               {{.contestant = "A", .settings = {{"learned_from", "shelf"}}},
+                {.contestant = "A", .set = "other", .settings = {{"learned_from", "shelf"}}},
+                {.contestant = "B"},
+                {.contestant = "B", .set = "other"}});
+  ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--figures", Path("figures"), "--csv",
+                 Path("csv"), "--latex", Path("latex")}),
+            kExitOk)
+      << errors_;
+  for (const char* kind : {"success", "times", "survival", "profile", "phases", "path_length"}) {
+    EXPECT_THAT(ReadText(folder_ / "figures" / (std::string(kind) + "-shelf.svg")),
+                HasSubstr("(trained)<"))
+        << kind;
+    EXPECT_THAT(ReadText(folder_ / "figures" / (std::string(kind) + "-other.svg")),
+                testing::Not(HasSubstr("trained")))
+        << kind;
+  }
+  for (const char* table : {"success", "times", "pairs", "quality", "phases"}) {
+    EXPECT_THAT(ReadText(folder_ / "csv" / (std::string(table) + ".csv")), HasSubstr(",(trained),"))
+        << table;
+    EXPECT_THAT(ReadText(folder_ / "latex" / (std::string(table) + ".tex")),
+                HasSubstr(" & (trained) & "))
+        << table;
+  }
+}
+
 TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {
   const std::string source = PLANBENCH_SOURCE_DIR;
   ASSERT_EQ(Run({"--problems", source + "/problems/shelf_demo/3", "--robot",

@@ -69,7 +69,7 @@ TEST_F(ReportTest, Times) {
 TEST_F(ReportTest, Pairs) {
   ASSERT_EQ(pairs_.size(), 3u);  // two sets, and both together
   EXPECT_EQ(pairs_[2].set, kAllSets);
-  const Row shelf = Texts(PairTable(compared_, pairs_), 1);
+  const Row shelf = Texts(PairTable(pairs_), 1);
   EXPECT_EQ(shelf[3], "12");
   EXPECT_EQ(shelf[4], "12");
   EXPECT_EQ(shelf[5], "0");
@@ -273,30 +273,34 @@ TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
 
 TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
   const TemporaryFolder folder;
-  WriteSession(folder / "example", ExampleRuns(), ExampleSession());
+  std::vector<MadeRun> runs = ExampleRuns();
+  // Judged by meshes once, and failed once.
+  runs.push_back({.contestant = kTagName, .problem = 13, .mesh_valid = true});
+  runs.push_back({.contestant = kTagName, .problem = 14, .status = PlanStatus::kTimedOut});
+  WriteSession(folder / "example", runs, ExampleSession());
   std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
   for (StoredContestant& one : sessions[0].contestants) {
     if (one.name == kTagName) one.settings += "learned_from = other, shelf\n";
   }
   const ComparedSessions compared(std::move(sessions));
-  for (const Table& table : {SuccessTable(compared), TimeTable(compared)}) {
-    ASSERT_EQ(table.columns[2].name, "trained");
-    const auto mark = [&](std::size_t row) { return Texts(table, row)[2]; };
-    EXPECT_EQ((Row{mark(0), mark(1), mark(2), mark(3)}), (Row{"", "", "(trained)", ""}));
-    EXPECT_EQ(Texts(table, 2)[1], kTagName) << "names stay";
-    EXPECT_NE(table.note.find("(trained): has learned"), std::string::npos);
-  }
-  EXPECT_EQ(QualityTable(compared, 1).columns[2].name, "trained");
-  for (const Table& table :
-       {SuccessTable(compared_), TimeTable(compared_), QualityTable(compared_, 1)}) {
-    EXPECT_NE(table.columns[2].name, "trained") << "nobody is";
-  }
-
-  const std::string caution =
-      fmt::format("{} has learned from shelf, on which it is tried here", kTagName);
-  EXPECT_TRUE(Cautions(compared).back().starts_with(caution)) << Cautions(compared).back();
   const auto pairs = ComparePairs(compared, 1);
-  const Table table = PairTable(compared, pairs);
+  std::map<std::string, Table> tables;
+  for (Table& table : AllTables(compared, pairs, 1)) tables[table.name] = std::move(table);
+  // Every table whose rows are of a set: the name stays, the mark stands behind it.
+  for (const char* name : {"success", "times", "quality", "phases", "failures", "meshes"}) {
+    const Table& table = tables.at(name);
+    ASSERT_EQ(table.columns[2].name, "trained") << name;
+    bool any = false;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const Row texts = Texts(table, row);
+      const bool trained = texts[0] == "shelf" && texts[1] == kTagName;
+      EXPECT_EQ(texts[2], trained ? "(trained)" : "") << name;
+      any = any || trained;
+    }
+    EXPECT_TRUE(any) << name;
+    EXPECT_THAT(table.note, testing::HasSubstr("(trained): has learned")) << name;
+  }
+  const Table& table = tables.at("pairs");
   ASSERT_EQ(table.columns[3].name, "first_trained");
   ASSERT_EQ(table.columns[4].name, "second_trained");
   const auto names_and_marks = [&](std::size_t row) {
@@ -307,13 +311,43 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
   EXPECT_EQ(names_and_marks(1), (Row{"shelf", kTagName, kScriptName, "(trained)", ""}));
   EXPECT_EQ(names_and_marks(2), (Row{kAllSets, kTagName, kScriptName, "(trained)", ""}));
   EXPECT_THAT(table.note, testing::HasSubstr("(trained): has learned"));
-  EXPECT_EQ(PairTable(compared_, pairs_).columns[3].name, "problems") << "nobody is";
+  for (const Table& unmarked : AllTables(compared_, pairs_, 1)) {
+    for (const Column& column : unmarked.columns) {
+      EXPECT_EQ(column.name.find("trained"), std::string::npos) << unmarked.name << ": nobody is";
+    }
+  }
 
+  const std::string caution =
+      fmt::format("{} has learned from shelf, on which it is tried here", kTagName);
+  EXPECT_TRUE(Cautions(compared).back().starts_with(caution)) << Cautions(compared).back();
   EXPECT_TRUE(Answer(compared, pairs).at(1).starts_with(caution)) << "it ranks first";
   const Json sets = FigureData(compared, pairs, {})["sets"];
   EXPECT_EQ(sets[0]["trained"], Json::array());
   EXPECT_EQ(sets[1]["trained"], Json::array({0}));
   EXPECT_EQ(sets[2]["trained"], Json::array({0})) << "all sets";
+}
+
+TEST_F(ReportTest, WhoHasLearnedIsMarkedInChanges) {
+  const TemporaryFolder folder;
+  std::vector<StoredSession> sessions;
+  for (const char* name : {"one", "two"}) {
+    SessionMessage session = ExampleSession();
+    session.start_utime = static_cast<std::int64_t>(sessions.size()) * 86'400'000'000;
+    WriteSession(folder / name, {{.contestant = "A"}, {.contestant = "B"}}, session);
+    sessions.push_back(ReadSessions(folder / name).sessions.at(0));
+  }
+  sessions[1].contestants[0].settings += "learned_from = shelf\n";
+  const ComparedSessions compared(std::move(sessions));
+  const std::vector<Table> tables = AllTables(compared, ComparePairs(compared, 1), 1);
+  const auto changes = std::find_if(tables.begin(), tables.end(),
+                                    [](const Table& table) { return table.name == "changes"; });
+  ASSERT_NE(changes, tables.end());
+  ASSERT_EQ(changes->columns[2].name, "trained");
+  ASSERT_EQ(changes->rows.size(), 2u);
+  for (std::size_t row = 0; row < 2; ++row) {
+    const Row texts = Texts(*changes, row);
+    EXPECT_EQ(texts[2], texts[1] == "A" ? "(trained)" : "");
+  }
 }
 
 TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {

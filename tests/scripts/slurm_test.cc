@@ -184,12 +184,21 @@ TEST(PlotSessionTest, ContestantsMayBeCalledAnything) {
   {
     SqliteConnection database(folder / "results.sqlite", SqliteConnection::Mode::kReadWriteCreate);
     database.Execute(
-        "CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name TEXT);"
+        "CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY, name TEXT, settings TEXT DEFAULT "
+        "'algorithm = A');"
         "CREATE TABLE runs (plannerid INTEGER, direction TEXT, time REAL, time_limit REAL, solved "
-        "BOOLEAN)");
+        "BOOLEAN, problem_set TEXT DEFAULT 'shelf')");
     SqliteStatement insert = database.Prepare("INSERT INTO plannerConfigs (name) VALUES (?)");
     for (const std::string& name : names) insert.BindAll(name).Run();
-    database.Execute("INSERT INTO runs SELECT id, 'forward', 0.5, 10, 1 FROM plannerConfigs");
+    database.Execute(
+        "INSERT INTO plannerConfigs (name, settings) VALUES "
+        "('Pupil', 'algorithm = A' || char(10) || 'learned_from = box, shelf' || char(10) || 'n = "
+        "1'),"
+        "('Heir', 'first_path_learned_from = shelf' || char(10)),"
+        "('Other', 'learned_from = shelf_thin' || char(10))");
+    database.Execute(
+        "INSERT INTO runs (plannerid, direction, time, time_limit, solved) "
+        "SELECT id, 'forward', 0.5, 10, 1 FROM plannerConfigs");
   }
   const std::string picture = folder / "its picture.svg";
   ChildProcess plot({PLANBENCH_SOURCE_DIR "/scripts/plot_session", folder.path().string(), picture},
@@ -197,6 +206,9 @@ TEST(PlotSessionTest, ContestantsMayBeCalledAnything) {
   EXPECT_EQ(plot.Wait(), 0);
   EXPECT_EQ(plot.Errors(), "");
   for (const std::string& name : names) EXPECT_THAT(Read(picture), HasSubstr(name + " forward"));
+  EXPECT_THAT(Read(picture), HasSubstr("Pupil (trained) forward"));
+  EXPECT_THAT(Read(picture), HasSubstr("Heir (trained) forward"));
+  EXPECT_THAT(Read(picture), HasSubstr("Other forward")) << "has learned from another set";
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct MadeRun {
   std::optional<bool> mesh_valid_simplified = {};
   std::map<std::string, double> counters = {};
   std::vector<PlanProgress> progress = {};
+  std::map<std::string, std::string> settings = {};
 };
 
 inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id, int number) {
@@ -40,6 +41,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
       fmt::format("{}-{}", run_id, number);
   record.planner = record.result.planner = record.algorithm = "planner";
   record.contestant = run.contestant;
+  record.settings = run.settings;
   record.problem_set = run.set;
   record.problem_index = run.problem;
   record.trial = run.trial;
