@@ -202,7 +202,7 @@ const charts = (() => {
            `${second}: ${point.y == null ? "not solved" : shortNumber(point.y) + " ms"}`,
     }));
     return {
-      width: side + 90, height: side, autosize: {type: "fit-x", contains: "padding"},
+      usermeta: {mostWidth: side + 90}, height: side,
       data: [{name: "points", values}, {name: "ends", values: domain.map(end => ({end}))}],
       scales: [{name: "x", type: "log", domain, range: [0, {signal: `width - ${column}`}]},
                {name: "y", type: "log", domain, range: [{signal: "height"}, column]}],

@@ -2,6 +2,7 @@
 // Colours of figures; property(name) gives a variable of page.css.
 function makePalette(property) {
   const DASHES = [[], [7, 3], [2, 2], [9, 3, 2, 3]];
+  const NARROW = 480;
   const list = name => property(name).split(",").map(colour => colour.trim());
   const series = () => list("--series");
   return {
@@ -10,15 +11,19 @@ function makePalette(property) {
     colour: index => { const all = series(); return all[index % all.length]; },
     phase: index => list("--phases")[index],
     dash: index => DASHES[Math.floor(index / series().length) % DASHES.length],
-    vegaConfig: () => {
+    // Of a figure that is so wide, px.
+    vegaConfig: width => {
       const text = property("--text"), muted = property("--muted"), line = property("--line");
       return {
         background: null,
         axis: {
           labelColor: text, titleColor: muted, domainColor: muted, tickColor: muted, gridColor: line,
-          gridOpacity: 0.6, labelFontSize: 12, titleFontSize: 12, titleFontWeight: "normal", labelLimit: 210,
+          gridOpacity: 0.6, labelFontSize: 12, titleFontSize: 12, titleFontWeight: "normal",
+          labelLimit: Math.min(210, 0.33 * width), labelOverlap: "greedy", labelSeparation: 6, titleLimit: 0.8 * width,
           labelFont: "system-ui, sans-serif", titleFont: "system-ui, sans-serif",
         },
+        // In a narrow figure titles reach below the labels on the left.
+        axisBottom: width < NARROW ? {titleAnchor: "end"} : {},
         text: {fill: text, font: "system-ui, sans-serif", fontSize: 12},
         rule: {stroke: muted},
         style: {cell: {stroke: "transparent"}},

@@ -15,7 +15,7 @@ const pictures = (() => {
     chart.width = width;
     const spec = {description: chart.label, ...chart.make()};
     const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
-    chart.view = vega.view(spec, width, theme.vegaConfig(), {
+    chart.view = vega.view(spec, width, theme.vegaConfig(width), {
       container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg",
       tooltip: (handler, event, item, value) => showTooltip(event, value),
     });

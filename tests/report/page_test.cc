@@ -70,6 +70,19 @@ constexpr char kProbe[] = R"script(
       .filter(row => [...row.children].some(cell => cell.textContent === "(trained)")).length;
   }
   found.trained_labels = labels().filter(label => [label.text].flat().pop() === "(trained)").length;
+  // In a narrow window.
+  document.body.style.maxWidth = "420px";
+  pictures.all.forEach(chart => pictures.render(chart));
+  const right = document.body.getBoundingClientRect().right;
+  found.wider = [...document.querySelectorAll("body *")]
+    .filter(one => !one.closest(".scroll table, svg, #tooltip, pre") && one.getBoundingClientRect().right > right + 1)
+    .map(one => one.tagName);
+  const ofAxis = new Map();
+  for (const label of labels().filter(one => one.opacity !== 0)) {
+    ofAxis.set(label.mark, [...(ofAxis.get(label.mark) || []), label.bounds]);
+  }
+  found.crossing = [...ofAxis.values()].flatMap(all => all.filter((one, i) => i > 0 && one.intersects(all[i - 1]))).length;
+  document.body.style.maxWidth = "";
   found.contestants = report.data.contestants.map(one => one.name);
   const problem = document.getElementById("problem");
   if (problem) {
@@ -107,6 +120,8 @@ class PageTest : public testing::Test {
     EXPECT_EQ(found["evil"], 0) << "a name was taken for markup";
     EXPECT_EQ(found["unreachable"], 0) << "not reachable with the keyboard";
     EXPECT_EQ(found["empty"], 0);
+    EXPECT_EQ(found["wider"], nlohmann::json::array()) << "than a narrow window";
+    EXPECT_EQ(found["crossing"], 0) << "labels that run into one another";
     EXPECT_EQ(found["names"], found["charts"]) << "figures without names of their own";
     for (const auto& contrast : found["contrast"]) {
       EXPECT_GE(contrast["text"], 4.5);
