@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <iostream>
+#include <optional>
 
 #include "common/command_line.h"
 #include "common/error.h"
@@ -19,7 +20,7 @@ namespace {
 struct Flags {
   std::string session;
   std::string log;
-  std::int64_t run = 0;
+  std::optional<std::int64_t> run;
   std::string problem;
   std::string robot;
   std::string out = "view.html";
@@ -29,21 +30,26 @@ struct Flags {
 constexpr int kFrames = 120;
 
 Json ViewOfRun(const Flags& flags) {
+  if (!flags.run) {
+    throw InputError(flags.session + ": give --run ID: the id of a run in its table runs");
+  }
   for (const StoredSession& session : ReadSessions(flags.session).sessions) {
     for (const StoredRun& run : session.runs) {
-      if (run.id == flags.run) return RecordedViews(session, flags.robot).View(run, kFrames);
+      if (run.id == *flags.run) return RecordedViews(session, flags.robot).View(run, kFrames);
     }
   }
-  throw InputError(fmt::format("{}: no run {}", flags.session, flags.run));
+  throw InputError(fmt::format("{}: no run {} in its table runs", flags.session, *flags.run));
 }
 
-/// The run of that number among those of the log, from 1; 0: the last.
+/// The run of that number among those of the log, from 1, or the last.
 Json ViewOfLog(const Flags& flags) {
   RecordedSession recorded = ReadRecords(flags.log);
   const auto num_runs = static_cast<std::int64_t>(recorded.runs.size());
-  const std::int64_t number = flags.run == 0 ? num_runs : flags.run;
+  const std::int64_t number = flags.run.value_or(num_runs);
+  if (num_runs == 0) throw InputError(flags.log + ": no run is recorded in it");
   if (number < 1 || number > num_runs) {
-    throw InputError(fmt::format("{}: no run {}; it holds {}", flags.log, number, num_runs));
+    throw InputError(
+        fmt::format("{}: no run {}; --run takes 1 to {}", flags.log, number, num_runs));
   }
   const RunRecordMessage& run = recorded.runs[static_cast<std::size_t>(number - 1)];
   const auto scenes = ReadScenes(flags.log);
@@ -68,6 +74,7 @@ Json ViewOfLog(const Flags& flags) {
 
 Json ViewOfProblem(const Flags& flags) {
   if (flags.robot.empty()) throw InputError("--problems needs --robot");
+  if (flags.run) throw InputError("--run is of --session and --log; --problems shows no run");
   const std::filesystem::path place = flags.problem;
   const std::string number = place.filename().string();
   int index = 0;

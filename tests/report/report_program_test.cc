@@ -5,6 +5,9 @@
 
 #include "common/exit_codes.h"
 #include "common/read_text.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/event_log.h"
 #include "tests/report/example_session.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -189,7 +192,17 @@ TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {
   expect_refused({"--session", Path("example"), "--run", "7"}, "no run 7");
   expect_refused({"--session", Path("example"), "--run", "1"}, "holds no .lcmlog");
   folder_.Write("empty.lcmlog", "");
-  expect_refused({"--log", Path("empty.lcmlog")}, "it holds 0");
+  expect_refused({"--session", Path("example")}, "example: give --run ID");
+  expect_refused({"--session", Path("example"), "--run", "0"}, "no run 0");
+  expect_refused({"--problem", set + "/3", "--robot", robot, "--run", "1"},
+                 "--problems shows no run");
+  expect_refused({"--log", Path("empty.lcmlog")}, "no run is recorded");
+  const std::string log = Path("one.lcmlog");
+  const std::vector<std::uint8_t> record = Encode(MakeRecord({.contestant = "A"}, "one", 1));
+  EventLog(log, EventLog::Mode::kNew).Write({channel::kRunRecord, record, 1});
+  for (const char* number : {"0", "2"}) {
+    expect_refused({"--log", log, "--run", number}, "--run takes 1 to 1");
+  }
 }
 
 }  // namespace
