@@ -24,6 +24,9 @@ void AppendPose(const Eigen::Isometry3d& X, Json* list) {
   }
 }
 
+/// Without a path; more would hide one another.
+constexpr std::size_t kGoalsShown = 8;
+
 Json Pose(const Eigen::Isometry3d& X) {
   Json pose = Json::array();
   AppendPose(X, &pose);
@@ -102,7 +105,6 @@ class View {
       json_["links"].push_back(std::move(one));
       if (kinematics_.Moves(link)) moving_.push_back(link);
     }
-    json_["goal"] = Poses(query_.goals.front().nominal);
     json_["motions"] = Json::array();
   }
 
@@ -153,9 +155,30 @@ class View {
     json_["motions"].push_back(std::move(motion));
   }
 
-  Json Take(const std::string& title, const std::vector<std::string>& facts) {
+  /// That of the goal's alternatives in which `path` ends, or which is nearest to its end; of an
+  /// empty path the first kGoalsShown of them.
+  void AddGoals(const Path& path, const std::vector<std::string>& joint_names) {
+    const std::size_t num_goals = query_.goals.size();
+    std::size_t first = 0;
+    std::size_t num_shown = std::min(num_goals, kGoalsShown);
+    if (!path.empty()) {
+      first = NearestGoal(InGroupOrder({path.back()}, joint_names).front());
+      num_shown = 1;
+    }
+    for (std::size_t i = first; i < first + num_shown; ++i) {
+      json_["goals"].push_back(Poses(query_.goals[i].nominal));
+    }
+    if (num_shown < num_goals) {
+      goals_fact_ = path.empty()
+                        ? fmt::format("{} of {} goals are shown.", num_shown, num_goals)
+                        : fmt::format("Of {} goals the one at the path's end is shown.", num_goals);
+    }
+  }
+
+  Json Take(const std::string& title, std::vector<std::string> facts) {
+    if (!goals_fact_.empty()) facts.push_back(std::move(goals_fact_));
     json_["title"] = title;
-    json_["facts"] = facts;
+    json_["facts"] = std::move(facts);
     return std::move(json_);
   }
 
@@ -167,6 +190,18 @@ class View {
     };
     return std::any_of(spheres_.begin(), spheres_.end(), of_link) ||
            std::any_of(scene.attached.begin(), scene.attached.end(), at_link);
+  }
+
+  /// One that contains the configuration, before all others.
+  std::size_t NearestGoal(const Configuration& q) const {
+    const auto distance = [&](const GoalBox& goal) {
+      return std::make_pair(!goal.Contains(group_.space, q),
+                            group_.space.Distance(goal.nominal, q));
+    };
+    const auto nearest = std::min_element(
+        query_.goals.begin(), query_.goals.end(),
+        [&](const GoalBox& a, const GoalBox& b) { return distance(a) < distance(b); });
+    return static_cast<std::size_t>(nearest - query_.goals.begin());
   }
 
   /// Of the links that move, in one list.
@@ -200,41 +235,67 @@ class View {
   ResolvedQuery query_;
   GroupKinematics kinematics_;
   std::vector<int> moving_;
+  std::string goals_fact_;  // What is not shown of the goal; empty: nothing.
   Json json_;
 };
+
+/// The view of a request, without goals and paths.
+View ViewOfRequest(const Robot& robot, const Scene& scene, const RunRecordMessage& run) {
+  const PlanRequest& request = run.request;
+  if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
+    throw InputError(fmt::format("{} is not the robot of run {}, whose content is {}",
+                                 robot.folder.string(), run.request_id, request.robot_id));
+  }
+  return {robot,         scene,        request.group,
+          request.start, request.goal, ModelSpheres(robot, request.collision_model)};
+}
+
+std::string TitleOf(const RunRecordMessage& run) {
+  return run.problem_set.empty() ? "Request " + run.request_id
+                                 : fmt::format("{} {}", run.problem_set, run.problem_index);
+}
+
+/// Who tries, in which direction and for which time, as far as it is known.
+std::string AttemptOf(const RunRecordMessage& run) {
+  std::string text = run.contestant.empty() ? "" : run.contestant + ", ";
+  text += EnumName(run.request.direction);
+  if (!run.problem_set.empty()) text += fmt::format(", trial {}", run.trial);
+  return text;
+}
 
 }  // namespace
 
 Json ProblemView(const Robot& robot, const Problem& problem) {
   View view(robot, problem.scene, problem.group, problem.start, problem.goal, robot.spheres);
+  view.AddGoals({}, {});
   return view.Take(
       fmt::format("{} {}", problem.set, problem.index),
       {fmt::format("Robot {}, group {}.", robot.name, robot.Group(problem.group).name)});
 }
 
 Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run, int num_frames) {
-  const PlanRequest& request = run.request;
-  if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
-    throw InputError(fmt::format("{} is not the robot of run {}, whose content is {}",
-                                 robot.folder.string(), run.request_id, request.robot_id));
-  }
-  View view(robot, scene, request.group, request.start, request.goal,
-            ModelSpheres(robot, request.collision_model));
+  View view = ViewOfRequest(robot, scene, run);
   const PlanResult& result = run.result.result;
   const auto verdict = [](const PathCheckReplyMessage& check) {
     return check.verdict ? &*check.verdict : nullptr;
   };
+  view.AddGoals(result.path, run.result.joint_names);
   view.AddMotion("raw", result.path, run.result.joint_names, verdict(run.path_check), num_frames);
   view.AddMotion("simplified", result.simplified_path, run.result.joint_names,
                  verdict(run.simplified_check), num_frames);
-  std::vector<std::string> facts = {
-      fmt::format("{}, {}, trial {}: {}{}{}.", run.contestant, EnumName(request.direction),
-                  run.trial, EnumName(run.status), run.message.empty() ? "" : ": ", run.message)};
+  std::vector<std::string> facts = {fmt::format("{}: {}{}{}.", AttemptOf(run), EnumName(run.status),
+                                                run.message.empty() ? "" : ": ", run.message)};
   if (run.status != PlanStatus::kNoAnswer) {
     facts.push_back(
         fmt::format("Planning time {} ms.", FormatNumber(1e3 * result.planning_time_s)));
   }
-  return view.Take(fmt::format("{} {}", run.problem_set, run.problem_index), facts);
+  return view.Take(TitleOf(run), std::move(facts));
+}
+
+Json RequestView(const Robot& robot, const Scene& scene, const RunRecordMessage& run) {
+  View view = ViewOfRequest(robot, scene, run);
+  view.AddGoals({}, {});
+  return view.Take(TitleOf(run), {fmt::format("{}: {}.", AttemptOf(run), run.message)});
 }
 
 }  // namespace planbench

@@ -15,14 +15,20 @@ namespace planbench {
 ///   {title, facts: [line, ...],
 ///    solids: [{name, link (of attached ones), shape: {type, ...}, pose}],
 ///    links: [{name, pose (at the start), moves, spheres: [[x, y, z, radius], ...]}],
-///    goal: [pose of each link that moves],
+///    goals: [[pose of each link that moves, all in one list], ...],
 ///    motions: [{name, frames: [[pose of each link that moves, all in one list], ...],
 ///               tips: [[[x, y, z], ...], ...], collision: frame, contact: text}]}
+/// Of a goal's alternatives that one is shown in which the path ends; without a path as many as
+/// can be told apart, and a fact says of how many.
 /// Throws InputError for a problem that does not fit the robot.
 Json ProblemView(const Robot& robot, const Problem& problem);
 
 /// The same of a run, with its raw and simplified paths, each in about `num_frames` frames, every
 /// waypoint among them; the referee's finding is the collision.
 Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run, int num_frames);
+
+/// The same of a request that is being planned: `run` is what is known of it. It has neither paths
+/// nor a status; a set or a contestant that is not known is empty.
+Json RequestView(const Robot& robot, const Scene& scene, const RunRecordMessage& run);
 
 }  // namespace planbench

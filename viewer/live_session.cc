@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <regex>
+#include <string_view>
+
 #include "common/error.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
@@ -14,6 +17,26 @@ namespace {
 constexpr std::size_t kRunsShown = 30;
 constexpr std::size_t kScenesKept = 200;
 constexpr int kFrames = 60;
+
+constexpr std::string_view kRequestPrefix = "PLAN_REQUEST_";
+
+/// Takes from the id of a request of the driver's (RUN/SET/INDEX/PLANNER/DIRECTION/TRIAL, for what,
+/// '@' and what makes it unique) what it tells of the run. Others have ids of their own.
+void ReadRequestId(const PlanRequest& request, RunRecordMessage* run) {
+  static const std::regex form(
+      "(.+)/([0-9]{1,9})/([^/]+)/[a-z]+/([0-9]{1,9})(/first-path)?@[^@/]*(/warm-up)?");
+  const std::string prefix = request.run_id + "/";
+  std::smatch parts;
+  if (!request.request_id.starts_with(prefix)) return;
+  const std::string rest = request.request_id.substr(prefix.size());
+  if (!std::regex_match(rest, parts, form)) return;
+  run->problem_set = parts[1];
+  run->problem_index = std::stoi(parts[2]);
+  run->planner = parts[3];
+  run->trial = std::stoi(parts[4]);
+  if (parts[5].matched) run->message = "a first path is being planned";
+  if (parts[6].matched) run->message = "is being planned to warm up";
+}
 
 /// A number, or null where 0 means that there is none.
 Json UnlessZero(double value) { return value == 0 ? Json() : Json(value); }
@@ -42,8 +65,8 @@ void LiveSession::Hear(const ReceivedMessage& message) {
       if (scenes_.size() >= kScenesKept) scenes_.clear();  // planners ask anew for what they lack
       scenes_.insert_or_assign(answer.scene_id, std::move(answer.scene));
       ++view_number_;
-    } else if (name.starts_with("PLAN_REQUEST_")) {
-      HearRequest(Decode<PlanRequest>(message.bytes, name));
+    } else if (name.starts_with(kRequestPrefix)) {
+      HearRequest(Decode<PlanRequest>(message.bytes, name), name.substr(kRequestPrefix.size()));
     } else if (name.starts_with("PLAN_PROGRESS_")) {
       const auto progress = Decode<PlanProgressMessage>(message.bytes, name);
       if (shown_ && shown_->request_id == progress.request_id) {
@@ -63,26 +86,38 @@ void LiveSession::HearStatus(const NodeStatusMessage& status, std::int64_t utime
   nodes_.insert_or_assign({status.kind, status.name}, Node{status, utime});
 }
 
-void LiveSession::HearRequest(const PlanRequest& request) {
+void LiveSession::HearRequest(const PlanRequest& request, const std::string& planner) {
   if (shown_ && shown_->request_id == request.request_id) return;  // repeated
   RunRecordMessage run;
   run.request_id = request.request_id;
   run.request = request;
   run.message = "is being planned";
   if (session_) run.run_id = session_->run_id;
+  ReadRequestId(request, &run);
+  run.contestant = ContestantOf(run.planner.empty() ? planner : run.planner);
   shown_ = std::move(run);
+  is_answered_ = false;
   progress_.clear();
   ++view_number_;
 }
 
 void LiveSession::HearResult(const PlanResultMessage& result) {
-  if (!shown_ || shown_->request_id != result.request_id || !shown_->result.planner.empty()) return;
+  if (!shown_ || shown_->request_id != result.request_id || is_answered_) return;
+  is_answered_ = true;
   shown_->result = result;
-  shown_->planner = shown_->contestant = result.planner;
   shown_->status = result.result.status;
   shown_->message = result.result.message;
   progress_ = result.result.progress;
   ++view_number_;
+}
+
+/// Its name in tables, or, if the session does not tell of it, as it stands.
+std::string LiveSession::ContestantOf(const std::string& planner) const {
+  if (!session_) return planner;
+  for (const Contestant& one : session_->conditions.contestants) {
+    if (one.planner == planner) return one.name;
+  }
+  return planner;
 }
 
 void LiveSession::HearRecord(const RunRecordMessage& record) {
@@ -95,6 +130,7 @@ void LiveSession::HearRecord(const RunRecordMessage& record) {
   records_.push_front(record);
   if (records_.size() > kRunsShown) records_.pop_back();
   shown_ = record;
+  is_answered_ = true;
   shown_->request_id =
       record.result.request_id.empty() ? record.request_id : record.result.request_id;
   ++view_number_;
@@ -164,7 +200,8 @@ std::optional<Json> LiveSession::View() const {
   const auto scene = scenes_.find(shown_->request.scene_id);
   if (scene == scenes_.end()) return Json{{"message", "The scene has not been heard yet."}};
   try {
-    return RunView(LoadedRobot(), scene->second, *shown_, kFrames);
+    return is_answered_ ? RunView(LoadedRobot(), scene->second, *shown_, kFrames)
+                        : RequestView(LoadedRobot(), scene->second, *shown_);
   } catch (const InputError& error) {
     return Json{{"message", error.what()}};
   }

@@ -44,8 +44,10 @@ class LiveSession {
 
  private:
   void HearStatus(const NodeStatusMessage& status, std::int64_t utime);
-  void HearRequest(const PlanRequest& request);
+  /// `planner`: what its channel calls the planner, in capitals.
+  void HearRequest(const PlanRequest& request, const std::string& planner);
   void HearResult(const PlanResultMessage& result);
+  std::string ContestantOf(const std::string& planner) const;
   void HearRecord(const RunRecordMessage& record);
   const Robot& LoadedRobot() const;
 
@@ -60,6 +62,7 @@ class LiveSession {
   std::map<std::string, Scene> scenes_;  ///< By content id.
   /// The last request and what is known of it.
   std::optional<RunRecordMessage> shown_;
+  bool is_answered_ = false;  ///< The last request, by its planner or by a record.
   std::vector<PlanProgress> progress_;
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.

@@ -116,7 +116,8 @@ function makeViewer(container, data, previous = null) {
         scene.add(edges);
       }
     }
-    const start = robot(material(series(2), 0.3), null, true), goal = robot(material(series(1), 0.3), data.goal, true);
+    const start = robot(material(series(2), 0.3), null, true), goal = {group: new THREE.Group()};
+    for (const poses of data.goals) goal.group.add(robot(material(series(1), 0.3), poses, true).group);
     scene.add(start.group, goal.group);
     const body = robot(material(series(0)), null, false);
     scene.add(body.group);
@@ -137,7 +138,7 @@ function makeViewer(container, data, previous = null) {
   let scenes = [];
 
   // ---- Picture ----------------------------------------------------------------------------------
-  const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view: drag to turn, wheel to come nearer; arrow keys turn"});
+  const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view: drag or arrow keys turn, wheel or + and - come nearer and go away, shift and arrow keys move"});
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(devicePixelRatio);
   renderer.setScissorTest(true);
@@ -203,7 +204,7 @@ function makeViewer(container, data, previous = null) {
     box.addEventListener("change", apply);
     return {label: element("label", {}, box, label), apply};
   };
-  const toggles = [shown("start (green)", "start", true), shown("goal (orange)", "goal", true)];
+  const toggles = [shown("start (green)", "start", true), shown(data.goals.length > 1 ? "goals (orange)" : "goal (orange)", "goal", true)];
   if (data.motions.some(motion => motion.collision !== undefined)) toggles.push(shown("collision (red)", "hit", true));
   const views = {"from behind": [-1, -0.9, 0.8], "from ahead": [1, -0.6, 0.5], "from the side": [0, -1, 0.1],
                  "from above": [-0.01, 0, 1]};
@@ -212,16 +213,31 @@ function makeViewer(container, data, previous = null) {
     button.addEventListener("click", () => { look(direction); draw(); });
     return button;
   });
-  canvas.addEventListener("keydown", event => {
-    const turn = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
-    if (!turn) return;
-    event.preventDefault();
+  // What the mouse does, by keys: of the camera about its target.
+  function turn(sideways, upwards) {
     const offset = new THREE.Spherical().setFromVector3(
       camera.position.clone().sub(controls.target).applyAxisAngle(new THREE.Vector3(1, 0, 0), -Math.PI / 2));
-    offset.theta += 0.1 * turn[0];
-    offset.phi += 0.1 * turn[1];
+    offset.theta += 0.1 * sideways;
+    offset.phi -= 0.1 * upwards;
     offset.makeSafe();
     camera.position.setFromSpherical(offset).applyAxisAngle(new THREE.Vector3(1, 0, 0), Math.PI / 2).add(controls.target);
+  }
+  function move(sideways, upwards) {
+    const step = new THREE.Vector3(sideways, upwards, 0).applyQuaternion(camera.quaternion)
+      .multiplyScalar(0.05 * camera.position.distanceTo(controls.target));
+    camera.position.add(step);
+    controls.target.add(step);
+  }
+  const NEARER = 1 / 1.15;
+  const approach = factor => camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+  canvas.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;  // the browser's own
+    const direction = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    if (direction) (event.shiftKey ? move : turn)(...direction);
+    else if (event.key === "+" || event.key === "=") approach(NEARER);
+    else if (event.key === "-") approach(1 / NEARER);
+    else return;
+    event.preventDefault();
     controls.update();
     draw();
   });

@@ -68,8 +68,8 @@ TEST_F(ViewDataTest, FramesAreTheArmsPosesAlongThePath) {
   expect_tip(7, 0.65);
   expect_tip(11, 1);
   // The last frame is the goal: upper arm, forearm, hand.
-  EXPECT_EQ(motion["frames"][11], view["goal"]);
-  const Json& goal = view["goal"];
+  EXPECT_EQ(motion["frames"][11], view["goals"][0]);
+  const Json& goal = view["goals"][0];
   ASSERT_EQ(goal.size(), 3u * 7);
   EXPECT_NEAR(goal[7], 0.5, 1e-5);                // the elbow's place
   EXPECT_NEAR(goal[7 + 5], std::sin(0.5), 1e-5);  // turned by 1 rad about z
@@ -93,7 +93,40 @@ TEST_F(ViewDataTest, ARunThatFoundNothingShowsItsProblem) {
   run_.result.result.path.clear();
   const Json view = RunView(robot_, scene_, run_, 10);
   EXPECT_TRUE(view["motions"].empty());
-  EXPECT_FALSE(view["goal"].empty());
+  EXPECT_EQ(view["goals"].size(), 1u);
+}
+
+TEST_F(ViewDataTest, OfSeveralGoalsThatAtThePathsEndIsShown) {
+  run_.request.goal.clear();
+  for (const double elbow : {-1.0, 0.5, 1.1, 1.0}) {
+    for (const JointGoal& one : std::vector<JointGoal>{{"shoulder", 0, 0, 0},
+                                                       {"elbow", elbow, 0, elbow == 1.1 ? 0.2 : 0},
+                                                       {"wrist", 0, 0, 0}}) {
+      run_.request.goal.push_back(one);
+    }
+  }
+  const auto elbow_turned = [](const Json& goal) {
+    return 2 * std::asin(goal[7 + 5].get<double>());
+  };
+  Json view = RunView(robot_, scene_, run_, 10);
+  ASSERT_EQ(view["goals"].size(), 1u);
+  EXPECT_NEAR(elbow_turned(view["goals"][0]), 1.0, 1e-4) << "nearest of those that contain it";
+  EXPECT_EQ(view["facts"].back(), "Of 4 goals the one at the path's end is shown.");
+  run_.result.result.path.back()[0] = 0.4;  // ends in none
+  EXPECT_NEAR(elbow_turned(RunView(robot_, scene_, run_, 10)["goals"][0]), 0.5, 1e-4);
+  // Without a path: all, or as many as can be told apart.
+  run_.result.result.path.clear();
+  view = RunView(robot_, scene_, run_, 10);
+  ASSERT_EQ(view["goals"].size(), 4u);
+  EXPECT_NEAR(elbow_turned(view["goals"][0]), -1.0, 1e-4);
+  EXPECT_EQ(view["facts"].size(), 2u) << "nothing is left out";
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<JointGoal> copy = run_.request.goal;
+    run_.request.goal.insert(run_.request.goal.end(), copy.begin(), copy.end());
+  }
+  view = RunView(robot_, scene_, run_, 10);
+  EXPECT_EQ(view["goals"].size(), 8u);
+  EXPECT_EQ(view["facts"].back(), "8 of 16 goals are shown.");
 }
 
 TEST_F(ViewDataTest, WhatDoesNotFitTheRobotIsRefused) {
@@ -126,6 +159,16 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
     found.moved = differing(first, last);
     view.canvas.dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
     found.turned = differing(last, pixels());
+    const press = (key, shiftKey = false) => view.canvas.dispatchEvent(new KeyboardEvent("keydown", {key, shiftKey}));
+    const distance = () => view.seenFrom().position.distanceTo(view.seenFrom().target);
+    const far = distance();
+    press("+");
+    found.nearer = distance() / far;
+    press("-");
+    found.back = distance() / far;
+    const target = view.seenFrom().target;
+    press("ArrowUp", true);
+    found.moved_to = view.seenFrom().target.distanceTo(target);
     found.caption = document.querySelector(".captions").textContent;
     document.getElementById("theme").click();
     found.dark = differing(last, pixels());
@@ -135,6 +178,9 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
   EXPECT_GT(found["colours"], 10);
   EXPECT_GT(found["moved"], 100);
   EXPECT_GT(found["turned"], 100);
+  EXPECT_LT(found["nearer"], 0.95);
+  EXPECT_NEAR(found["back"], 1, 1e-6);
+  EXPECT_GT(found["moved_to"], 0.01);
   EXPECT_GT(found["dark"], 1000);
   EXPECT_EQ(found["caption"], "raw path; the referee: " + Describe(Contact{"hand", "box", 0.01}));
   EXPECT_EQ(found["left"], 0);

@@ -28,12 +28,17 @@ TEST_F(LiveSessionTest, ShowsARequestThenItsPathThenTheVerdict) {
   Json view = *live_.View();
   EXPECT_FALSE(view["links"].empty());
   EXPECT_TRUE(view["motions"].empty());
+  EXPECT_EQ(view["title"], "shelf 1");
+  EXPECT_EQ(view["facts"], Json({"ARA*, forward, trial 2: is being planned."}));
   const std::int64_t before = live_.view_number();
   Hear("PLAN_REQUEST_ARA", bus_.request);  // repeated
   EXPECT_EQ(live_.view_number(), before);
   Hear("PLAN_RESULT_ARA", bus_.result);
   EXPECT_GT(live_.view_number(), before);
-  EXPECT_EQ((*live_.View())["motions"].size(), 1u);
+  view = *live_.View();
+  EXPECT_EQ(view["motions"].size(), 1u);
+  EXPECT_EQ(view["title"], "shelf 1");
+  EXPECT_EQ(view["facts"][0], "ARA*, forward, trial 2: SOLVED.");
   bus_.record.status = PlanStatus::kInvalidPath;
   bus_.record.path_check.verdict.emplace();
   bus_.record.path_check.verdict->segment = 0;
@@ -45,11 +50,28 @@ TEST_F(LiveSessionTest, ShowsARequestThenItsPathThenTheVerdict) {
   EXPECT_EQ(view["motions"][0]["contact"], "hits itself");
 }
 
+TEST_F(LiveSessionTest, TellsOfARequestWhatIsKnown) {
+  Hear(channel::kSession, bus_.session);
+  Hear(channel::kScene, bus_.scene);
+  const auto title_and_facts = [&](const std::string& id) {
+    bus_.request.request_id = id;
+    Hear("PLAN_REQUEST_ARA", bus_.request);
+    const Json view = *live_.View();
+    return Json{view["title"], view["facts"]};
+  };
+  EXPECT_EQ(title_and_facts("session/a/b 1/12/ara/backward/3/first-path@7"),
+            (Json{"a/b 1 12", {"ARA*, forward, trial 3: a first path is being planned."}}));
+  EXPECT_EQ(title_and_facts("session/shelf/2/ara/forward/1@7/warm-up"),
+            (Json{"shelf 2", {"ARA*, forward, trial 1: is being planned to warm up."}}));
+  // A request of somebody else's has an id of its own.
+  EXPECT_EQ(title_and_facts("mine"), (Json{"Request mine", {"ARA, forward: is being planned."}}));
+}
+
 TEST_F(LiveSessionTest, CountsEveryRunOnce) {
   Hear(channel::kSession, bus_.session);
   Hear(channel::kRunRecord, bus_.record);
   Hear(channel::kRunRecord, bus_.record);
-  bus_.record.request_id = "session/shelf/2";
+  bus_.record.request_id = "session/shelf/2/ara/forward/1";
   bus_.record.status = PlanStatus::kNoAnswer;
   Hear(channel::kRunRecord, bus_.record);
   const Json state = State();
@@ -67,7 +89,7 @@ TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   node.name = "ara";
   node.instance = std::string(16, 'a');
   node.busy = true;
-  node.request_id = "session/shelf/1@7";
+  node.request_id = bus_.request.request_id;
   Hear(channel::kNodeStatus, node);
   EXPECT_EQ(State(3'900'000)["nodes"][0]["gone"], false);
   EXPECT_EQ(State(3'900'000)["nodes"][0]["busy"], true);
