@@ -94,8 +94,9 @@ std::vector<std::string> MissingRuns(const std::string& log, const RecordedSessi
   }
   std::vector<std::string> lines;
   for (const auto& [run_id, num_planned] : planned) {
-    const auto num_held = std::count_if(recorded.runs.begin(), recorded.runs.end(),
-                                        [&](const auto& run) { return run.run_id == run_id; });
+    const auto num_held =
+        std::count_if(recorded.runs.begin(), recorded.runs.end(),
+                      [&id = run_id](const auto& run) { return run.run_id == id; });
     if (num_held >= num_planned) continue;
     lines.push_back(
         fmt::format("{} holds {} of the {} runs of the session {}: the others were not compared.",

@@ -100,10 +100,10 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
     field("--" + flag, [&](const StoredSession& session) { return ValueOf(session.flags, flag); });
   }
   if (only_different) {
-    for (const auto& [name, keys] : SettingsByContestant(compared)) {
-      for (const std::string& key : keys) {
-        field(fmt::format("{}: {}", name, key), [&](const StoredSession& session) {
-          return ValueOf(SettingsOf(session, name), key);
+    for (const auto& contestant : SettingsByContestant(compared)) {
+      for (const std::string& key : contestant.second) {
+        field(fmt::format("{}: {}", contestant.first, key), [&](const StoredSession& session) {
+          return ValueOf(SettingsOf(session, contestant.first), key);
         });
       }
     }

@@ -139,7 +139,7 @@ std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::ui
         if (first == by_contestant.end() || second == by_contestant.end()) continue;
         PairedComparison result = Compare(first->second, second->second, seed);
         if (result.num_problems == 0) continue;
-        pairs.push_back({set, first->first, second->first, std::move(result)});
+        pairs.push_back({set, first->first, second->first, result});
       }
     }
     AdjustSet(pairs.begin() + num_before, pairs.end());
