@@ -500,21 +500,17 @@ class CheckPass {
     }
     alignas(64) float margins[kBlock];
     Store(margin, margins);
-    LaneMask left = 0;
     // Configurations of a block are alike: a plane found in one lane is the first tried in the
-    // next.
+    // next, and where one lane has none the others are not asked.
+    LaneMask open = Bits(lanes);
     float direction[3];
-    bool found = false;
-    for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
+    Difference(placement_.node(a).center, placement_.node(b).center,
+               Relation(std::countr_zero(open)), direction);
+    for (; open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
-      const Transform& X_AB = Relation(lane);
-      if (!found) {
-        Difference(placement_.node(a).center, placement_.node(b).center, X_AB, direction);
-      }
-      found = HullsApart(robot_, hull_a, hull_b, X_AB, margins[lane], direction);
-      if (!found) left |= LaneMask{1} << lane;
+      if (!HullsApart(robot_, hull_a, hull_b, Relation(lane), margins[lane], direction)) break;
     }
-    return MaskOf(left);
+    return MaskOf(open);
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
@@ -557,6 +553,14 @@ class CheckPass {
     }
     touching = NotApart(index, body_a, other_index, motion, touching);
     if (None(touching)) return false;
+    if constexpr (kAround) {
+      // Hulls that are apart at q itself tell how near the patches are, well enough not to ask
+      // their triangles.
+      const M overlapping = NotApart(index, body_a, other_index, Zero(), touching);
+      hits_ = hn::Or(hits_, hn::AndNot(overlapping, touching));
+      touching = overlapping;
+      if (None(touching)) return false;
+    }
     const PatchView other_patch = PatchOf(other_index);
     return NoteExact(touching, motion, [&](int lane, float margin) {
       return PatchesMeet(patch, other_patch, Relation(lane), margin + kTrianglePadding);
