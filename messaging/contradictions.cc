@@ -18,7 +18,9 @@ void Contradictions::Note(const PacketSender& sender, const std::string& channel
   }
   if (entries_.size() == kMaxEntries) return;
   entries_[key] = {key.first, channel, Printable(what), 1};
-  spdlog::warn("{} on {}: {}: refused, as its next ones are", key.first, channel, Printable(what));
+  spdlog::warn(
+      "{} on {}: {}: refused; whatever else it sends there that contradicts is counted, not told",
+      key.first, channel, Printable(what));
 }
 
 std::int64_t Contradictions::count() const {
