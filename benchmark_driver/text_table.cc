@@ -13,9 +13,12 @@ TextTable::TextTable(std::string title, std::vector<std::string> header, int num
   rows_.push_back(std::move(header));
 }
 
-void TextTable::Add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+void TextTable::Add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = Shortened(std::move(cell));
+  rows_.push_back(std::move(row));
+}
 
-void TextTable::AddHeading(std::string text) { rows_.push_back({std::move(text)}); }
+void TextTable::AddHeading(std::string text) { rows_.push_back({Shortened(std::move(text))}); }
 
 std::string TextTable::Format(const std::string& notes) const {
   const std::size_t num_columns = rows_[0].size();
@@ -64,7 +67,10 @@ std::string BreakLines(const std::string& text, std::size_t indent) {
 
 std::string Shortened(std::string text, std::size_t width) {
   if (text.size() <= width) return text;
-  text.resize(std::min(text.find_last_of(' ', width - 4), width - 4));
+  std::size_t end = std::min(text.find_last_of(' ', width - 4), width - 4);
+  // Not within a character of UTF-8.
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  text.resize(end);
   return text.substr(0, text.find_last_not_of(' ') + 1) + " ...";
 }
 

@@ -10,6 +10,7 @@ class TextTable {
  public:
   TextTable(std::string title, std::vector<std::string> header, int num_left);
 
+  /// Cells are Shortened to kTextWidth: whoever wants all of a text finds it in the database.
   void Add(std::vector<std::string> row);
   /// A line of its own between the rows.
   void AddHeading(std::string text);
