@@ -240,9 +240,20 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       "event log of a session whose requests are made again, of live planners or with --launch; "
       "tells which answers differ. --planners chooses; what a request says is the log's");
   // All but who answers, how they are started and where they are found.
-  const std::set<std::string> taken = {
-      "help",  "version", "replay", "lcm-url",      "planners",        "lineup",           "launch",
-      "robot", "out",     "set",    "package-path", "planner-command", "discovery-timeout"};
+  const std::set<std::string> taken = {"help",
+                                       "version",
+                                       "replay",
+                                       "lcm-url",
+                                       "planners",
+                                       "lineup",
+                                       "launch",
+                                       "robot",
+                                       "out",
+                                       "set",
+                                       "package-path",
+                                       "planner-command",
+                                       "discovery-timeout",
+                                       "problems"};
   for (CLI::Option* option : app->get_options()) {
     if (!taken.contains(option->get_single_name())) replay->excludes(option);
   }

@@ -111,6 +111,19 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
   }
 }
 
+void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
+                       const std::string& lcm_url, Supervisor* supervisor) {
+  std::vector<std::string> server = WithRobot("scene_server", options.robot);
+  for (const std::filesystem::path& folder : options.problems) {
+    server.insert(server.end(), {"--problems", folder.string()});
+  }
+  if (options.referee_robot) {
+    server.insert(server.end(), {"--referee-robot", options.referee_robot->string()});
+    if (options.allow_standing_contacts) server.emplace_back("--allow-standing-contacts");
+  }
+  supervisor->Start(Child(kSceneServer, std::move(server), logs, lcm_url));
+}
+
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor) {
@@ -122,16 +135,7 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   logger.when_again = {"--resume"};
   supervisor->Start(std::move(logger));
 
-  std::vector<std::string> server = WithRobot("scene_server", options.robot);
-  for (const std::filesystem::path& folder : options.problems) {
-    server.insert(server.end(), {"--problems", folder.string()});
-  }
-  if (options.referee_robot) {
-    server.insert(server.end(), {"--referee-robot", options.referee_robot->string()});
-    if (options.allow_standing_contacts) server.emplace_back("--allow-standing-contacts");
-  }
-  supervisor->Start(Child(kSceneServer, std::move(server), logs, lcm_url));
-
+  LaunchSceneServer(options, logs, lcm_url, supervisor);
   LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
 }
 

@@ -24,6 +24,10 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
                     const std::filesystem::path& logs, const std::string& lcm_url,
                     Supervisor* supervisor);
 
+/// The same for the scene server.
+void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
+                       const std::string& lcm_url, Supervisor* supervisor);
+
 /// The same for scene server, planners and logger, with their output in <session>/logs/.
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,

@@ -83,6 +83,8 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor.emplace();
+    // The driver hands out the log's scenes; a planner may need more of a scene server than that.
+    if (!options.problems.empty()) LaunchSceneServer(options, folder / "logs", url, &*supervisor);
     LaunchPlanners(options, line_up, folder / "logs", url, &*supervisor);
   }
   const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
@@ -100,7 +102,11 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
           if (registry.Find(planner, NodeKind::kPlanner)) continue;
           missing.push_back("a planner named '" + planner + "'");
         }
-        return fmt::format("{}", fmt::join(missing, ", "));
+        const bool may_lack_server = options.launch && options.problems.empty() && !missing.empty();
+        return fmt::format("{}{}", fmt::join(missing, ", "),
+                           may_lack_server ? " (one that needs a scene server: --problems, as the "
+                                             "session had it, starts that too)"
+                                           : "");
       },
       [&] {
         if (stop()) throw std::runtime_error("interrupted");
