@@ -1,10 +1,15 @@
 #include "benchmark_driver/planner_client.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <utility>
+
+#include "messaging/node_announcer.h"
+#include "messaging/session_conditions.h"
 
 namespace planbench {
 namespace {
@@ -12,16 +17,28 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{50};
 
+/// Whether the process runs on this machine, as far as its id can be seen from here.
+bool IsSeenHere(const NodeStatusMessage& process) {
+  static const std::string host = MakeNodeStatus("driver", NodeKind::kDriver).host;
+  return process.host == host && process.pid > 0 &&
+         (kill(static_cast<pid_t>(process.pid), 0) == 0 || errno != ESRCH);
+}
+
 }  // namespace
 
 PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner)
+    : PlannerClient(bus, registry, planner, Terms()) {}
+
+PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner,
+                             Terms terms)
     : bus_(bus),
       registry_(registry),
       planner_(planner),
       channels_(planner),
+      terms_(std::move(terms)),
       acks_(bus->SubscribeFrom<PlanAckMessage>(
-          channels_.ack, [this](const PlanAckMessage& ack,
-                                const Origin& origin) { Add(ack, origin.sender, channels_.ack); })),
+          channels_.ack,
+          [this](const PlanAckMessage& ack, const Origin& origin) { OnAck(ack, origin); })),
       results_(bus->SubscribeFrom<PlanResultMessage>(
           channels_.result,
           [this](const PlanResultMessage& result, const Origin& origin) {
@@ -30,6 +47,24 @@ PlannerClient::PlannerClient(Bus* bus, NodeRegistry* registry, const std::string
           [this](const MessageError& error, const Origin& origin) {
             OnBadResult(error, origin);
           })) {}
+
+void PlannerClient::OnAck(const PlanAckMessage& ack, const Origin& origin) {
+  const auto process = registry_->Find(planner_, NodeKind::kPlanner);
+  Add(RequestExchange::Acknowledgement{ack, process ? process->request_id : ""}, origin.sender,
+      channels_.ack);
+}
+
+std::string PlannerClient::WhyUnusable(const PlanResultMessage& result) const {
+  if (result.planner != planner_ || result.run_id != run_id_) {
+    return fmt::format("it is of planner '{}' in session '{}'", result.planner, result.run_id);
+  }
+  const bool solved = result.result.status == PlanStatus::kSolved;
+  if (solved == result.result.path.empty()) {
+    return fmt::format("its status is {}, but it has {} path", EnumName(result.result.status),
+                       solved ? "no" : "a");
+  }
+  return "";
+}
 
 void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& origin) {
   RequestExchange::Event event = RequestExchange::ArrivedResult{result, origin.arrival};
@@ -41,10 +76,8 @@ void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& orig
                                   "another result of " + result.request_id + " than before");
       return;
     }
-    if (result.planner != planner_ || result.run_id != run_id_) {
-      event = RequestExchange::UnusableResult{
-          result.request_id,
-          fmt::format("it is of planner '{}' in session '{}'", result.planner, result.run_id)};
+    if (std::string why = WhyUnusable(result); !why.empty()) {
+      event = RequestExchange::UnusableResult{result.request_id, std::move(why)};
     }
   }
   Add(std::move(event), origin.sender, channels_.result);
@@ -74,9 +107,13 @@ std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until
   return message;
 }
 
+bool PlannerClient::HasEnded(const NodeStatusMessage& process) const {
+  return process.instance == seen_here_ && !IsSeenHere(process);
+}
+
 std::optional<NodeRegistry::Node> PlannerClient::Live() const {
   for (NodeRegistry::Node& node : registry_->LiveNodes(NodeKind::kPlanner)) {
-    if (node.status.name == planner_) return std::move(node);
+    if (node.status.name == planner_ && !HasEnded(node.status)) return std::move(node);
   }
   return std::nullopt;
 }
@@ -84,22 +121,38 @@ std::optional<NodeRegistry::Node> PlannerClient::Live() const {
 std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
     const std::function<bool()>& interrupted) {
   bool told = false;
-  while (!interrupted()) {
+  while (!interrupted() && terms_.given_up().empty()) {
     if (auto node = Live()) return node;
     if (!told) spdlog::warn("waiting for the planner '{}' to come (back) to the bus", planner_);
     told = true;
-    registry_->WaitUntil([&] { return interrupted() || Live().has_value(); },
-                         std::chrono::seconds(1));
+    registry_->WaitUntil(
+        [&] { return interrupted() || !terms_.given_up().empty() || Live().has_value(); },
+        std::chrono::seconds(1));
   }
   return std::nullopt;
+}
+
+std::string PlannerClient::ReasonNotToAsk(const NodeStatusMessage& process) const {
+  if (!terms_.expected) return "";
+  const auto difference = FindConditionDifference(*terms_.expected, process);
+  if (!difference) return "";
+  return fmt::format(
+      "not asked, since '{}' has come back as another than the session began with: {} is {}, was "
+      "{}",
+      planner_, difference->field, difference->second, difference->first);
 }
 
 PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
                                            const std::function<bool()>& interrupted) {
   const std::optional<NodeRegistry::Node> process = WaitUntilLive(interrupted);
-  if (!process) return {.outcome = Outcome::kInterrupted};
+  const std::string reason = process ? ReasonNotToAsk(process->status) : terms_.given_up();
+  if (interrupted() || (!process && reason.empty())) return {.outcome = Outcome::kInterrupted};
+  if (!reason.empty()) return {.outcome = Outcome::kNoAnswer, .message = reason};
+  seen_here_ = IsSeenHere(process->status) ? process->status.instance : "";
   const auto look_around = [&]() -> RequestExchange::Event {
     if (interrupted()) return RequestExchange::Interruption{};
+    // Before it is asked again: what it died of would reach its successor.
+    if (HasEnded(process->status)) return RequestExchange::PlannerLost{"the process ended"};
     const auto now = Live();
     if (!now) return RequestExchange::PlannerLost{"the process died or fell silent"};
     if (now->status.instance != process->status.instance) {

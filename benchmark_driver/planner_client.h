@@ -21,13 +21,25 @@ class PlannerClient {
   using Outcome = RequestExchange::Outcome;
   using Answer = RequestExchange::Answer;
 
+  /// What a session holds its planner to.
+  struct Terms {
+    /// A process that is described otherwise (FindConditionDifference) is not asked.
+    std::optional<NodeStatusMessage> expected = {};
+    /// Why the planner will not come any more; "" while it may.
+    std::function<std::string()> given_up = [] { return std::string(); };
+  };
+
   PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner);
+  PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner, Terms terms);
 
   const std::string& planner() const { return planner_; }
 
+  /// Waits until the planner is live, or given up, or the caller interrupts.
+  void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
   /// Waits until the planner is live and asks it until the request has come to its end. Only what
   /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
-  /// restarts meanwhile gives none; `interrupted` (asked every 50 ms) cancels the request.
+  /// restarts meanwhile, is given up, or is another than the terms say, gives none; `interrupted`
+  /// (asked every 50 ms) cancels the request.
   Answer Solve(const PlanRequest& request, const std::function<bool()>& interrupted);
 
  private:
@@ -35,6 +47,13 @@ class PlannerClient {
 
   std::optional<NodeRegistry::Node> WaitUntilLive(const std::function<bool()>& interrupted);
   std::optional<NodeRegistry::Node> Live() const;
+  /// Of a process that has been seen on this machine, at once: whether it has ended.
+  bool HasEnded(const NodeStatusMessage& process) const;
+  /// Why that process is not to be asked; "" if it is.
+  std::string ReasonNotToAsk(const NodeStatusMessage& process) const;
+  void OnAck(const PlanAckMessage& ack, const Origin& origin);
+  /// Why that is no answer to what was asked; "" if it is. Holds mutex_.
+  std::string WhyUnusable(const PlanResultMessage& result) const;
   void OnResult(const PlanResultMessage& result, const Origin& origin);
   void OnBadResult(const MessageError& error, const Origin& origin);
   /// For the request under way, if it is from the process asked.
@@ -46,6 +65,8 @@ class PlannerClient {
   NodeRegistry* registry_;
   std::string planner_;
   PlannerChannels channels_;
+  Terms terms_;
+  std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -44,20 +44,13 @@ RequestExchange::Answer RequestExchange::End(Outcome outcome, std::string messag
 }
 
 std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, const Event& event) {
-  if (const auto* ack = std::get_if<PlanAckMessage>(&event); ack && Ours(ack->request_id)) {
-    last_ack_ = now;
-    switch (ack->verdict) {
-      case PlanAckVerdict::kWorking:
-        if (!working_) working_ = now;
-        break;
-      case PlanAckVerdict::kBusy:
-        was_busy_ = true;
-        break;
-      case PlanAckVerdict::kRefused:
-        return End(Outcome::kRefused, ack->message, now);
+  if (const auto* ack = std::get_if<Acknowledgement>(&event)) {
+    if (Ours(ack->message.request_id)) return HearAck(now, *ack);
+  } else if (const auto* result = std::get_if<ArrivedResult>(&event)) {
+    if (!Ours(result->message.request_id)) {
+      what_came_ = "a result for '" + result->message.request_id + "'";
+      return std::nullopt;
     }
-  } else if (const auto* result = std::get_if<ArrivedResult>(&event);
-             result && Ours(result->message.request_id)) {
     Answer answer = End(Outcome::kResult, "", result->arrival);
     if (!interrupted_) answer.result = result->message;
     answer.overdue = cancelled_.has_value();
@@ -66,7 +59,7 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
     if (Ours(unusable->request_id)) {
       return End(Outcome::kNoAnswer, "the result cannot be used: " + unusable->why, now);
     }
-    if (unusable->request_id.empty()) unusable_result_ = unusable->why;
+    if (unusable->request_id.empty()) what_came_ = unusable->why;
   } else if (std::holds_alternative<Interruption>(event)) {
     if (!interrupted_) {
       interrupted_ = now;
@@ -78,28 +71,45 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
   return std::nullopt;
 }
 
+std::optional<RequestExchange::Answer> RequestExchange::HearAck(TimePoint now,
+                                                                const Acknowledgement& ack) {
+  last_ack_ = now;
+  switch (ack.message.verdict) {
+    case PlanAckVerdict::kWorking:
+      working_ = true;
+      break;
+    case PlanAckVerdict::kBusy:
+      denied_ = ack.working_on.empty() || Ours(ack.working_on);
+      if (!denied_) other_request_ = ack.working_on;
+      was_busy_ = was_busy_ || (!denied_ && !working_);
+      break;
+    case PlanAckVerdict::kRefused:
+      return End(Outcome::kRefused, ack.message.message, now);
+  }
+  return std::nullopt;
+}
+
 std::optional<RequestExchange::Answer> RequestExchange::LosePatience(TimePoint now) {
-  const auto give_up = [&](const std::string& why) {
-    return End(Outcome::kNoAnswer,
-               unusable_result_.empty() ? why : why + "; what came: " + unusable_result_, now);
+  const auto give_up = [&](std::string why) {
+    if (denied_) why += "; it answered BUSY, though its status named no other request";
+    if (!what_came_.empty()) why += "; what came: " + what_came_;
+    return End(Outcome::kNoAnswer, why, now);
   };
   if (interrupted_) {
     if (now - *interrupted_ > kCancelPatience) return give_up("");
-  } else if (!working_) {
-    if (now - last_ack_ > kAckPatience) {
-      return give_up(fmt::format("no acknowledgement within {} s", kAckPatience.count()));
+  } else if (cancelled_) {
+    if (now - *cancelled_ > kResultPatience) {
+      return give_up(fmt::format("no result, though live, {} s after the time limit",
+                                 2 * kResultPatience.count()));
     }
-    if (now - begun_ > time_limit_ + kBusyPatience) {
-      return give_up(fmt::format("busy with other requests for {:.0f} s", Seconds(now - begun_)));
-    }
-  } else if (!cancelled_) {
-    if (now - *working_ > time_limit_ + kResultPatience) {
-      cancelled_ = now;
-      next_send_ = now;
-    }
-  } else if (now - *cancelled_ > kResultPatience) {
-    return give_up(fmt::format("no result, though live, {} s after the time limit",
-                               2 * kResultPatience.count()));
+  } else if (!working_ && now - last_ack_ > kAckPatience) {
+    return give_up(fmt::format("no acknowledgement within {} s", kAckPatience.count()));
+  } else if (!working_ && now - begun_ > time_limit_ + kBusyPatience) {
+    return give_up(fmt::format("busy with other requests for {:.0f} s, the last being '{}'",
+                               Seconds(now - begun_), other_request_));
+  } else if (now - sent_ > time_limit_ + kResultPatience) {
+    cancelled_ = now;
+    next_send_ = now;
   }
   return std::nullopt;
 }

@@ -22,7 +22,7 @@ class RequestExchange {
   static constexpr std::chrono::seconds kAckPatience{10};
   /// How long beyond the time limit the planner may work on the requests of others, ...
   static constexpr std::chrono::seconds kBusyPatience{60};
-  /// ... on this one until it is cancelled, and then until the planner is given up.
+  /// ... have this one until it is cancelled, and then until the planner is given up.
   static constexpr std::chrono::seconds kResultPatience{15};
   /// How long an interrupted request is cancelled without a result to it.
   static constexpr std::chrono::seconds kCancelPatience{1};
@@ -36,6 +36,10 @@ class RequestExchange {
     double roundtrip_time_s = 0;    ///< Request sent -> result arrived, or given up.
   };
 
+  struct Acknowledgement {
+    PlanAckMessage message;
+    std::string working_on;  ///< The request that its process announces to work on; "" if none.
+  };
   /// Nothing but that time has passed.
   struct Tick {};
   struct ArrivedResult {
@@ -54,7 +58,7 @@ class RequestExchange {
     std::string why;
   };
   using Event =
-      std::variant<Tick, PlanAckMessage, ArrivedResult, UnusableResult, Interruption, PlannerLost>;
+      std::variant<Tick, Acknowledgement, ArrivedResult, UnusableResult, Interruption, PlannerLost>;
 
   /// What to do, the sending at once.
   struct Step {
@@ -65,7 +69,9 @@ class RequestExchange {
 
   RequestExchange(std::string request_id, double time_limit_s, TimePoint now);
 
-  /// Messages about other requests change nothing. Not to be called after the end.
+  /// Messages about other requests change nothing but the reason, should no answer come. That the
+  /// planner is busy with others excuses it as long as its process announces the same. Not to be
+  /// called after the end.
   Step Take(TimePoint now, const Event& event);
   /// When the next thing is to be sent, if nothing else happens.
   TimePoint NextSend() const { return next_send_; }
@@ -75,17 +81,20 @@ class RequestExchange {
   bool Cancelling() const { return cancelled_ || interrupted_; }
   Answer End(Outcome outcome, std::string message, TimePoint now) const;
   std::optional<Answer> Hear(TimePoint now, const Event& event);
+  std::optional<Answer> HearAck(TimePoint now, const Acknowledgement& ack);
   std::optional<Answer> LosePatience(TimePoint now);
 
   std::string request_id_;
   std::chrono::steady_clock::duration time_limit_;
   TimePoint begun_;
-  TimePoint sent_;  // the first time since the planner was last busy with others
+  TimePoint sent_;  // the first time since the planner was last busy with others: it has it since
   bool was_busy_ = true;
   TimePoint next_send_;
   TimePoint last_ack_;
-  std::string unusable_result_;         // why one was that may have been ours
-  std::optional<TimePoint> working_;    // since when we know the planner to be
+  std::string other_request_;  // that it was last busy with
+  bool denied_ = false;        // it said that it was busy with others, and announced nothing such
+  bool working_ = false;       // on this request, by its word
+  std::string what_came_;      // in place of a result, last
   std::optional<TimePoint> cancelled_;  // because it was overdue
   std::optional<TimePoint> interrupted_;
 };

@@ -143,4 +143,12 @@ std::optional<ConditionDifference> FindConditionDifference(const SessionMessage&
   return std::nullopt;
 }
 
+std::optional<ConditionDifference> FindConditionDifference(const NodeStatusMessage& first,
+                                                           const NodeStatusMessage& second) {
+  SessionMessage of_first, of_second;
+  of_first.nodes = {first};
+  of_second.nodes = {second};
+  return FindConditionDifference(of_first, of_second);
+}
+
 }  // namespace planbench

@@ -23,5 +23,8 @@ bool IsSameSetting(const std::string& first, const std::string& second);
 /// first field that differs, if any.
 std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
                                                            const SessionMessage& second);
+/// The same of two processes of one name.
+std::optional<ConditionDifference> FindConditionDifference(const NodeStatusMessage& first,
+                                                           const NodeStatusMessage& second);
 
 }  // namespace planbench

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <future>
@@ -30,6 +33,16 @@ class PlannerClientTest : public testing::Test {
   }
   PlannerClient::Answer Solve(const std::string& id) {
     return client_.Solve(Request(id), [this] { return interrupted_.load(); });
+  }
+  /// Has the planner announce itself as it now is, and waits until that is what is heard.
+  void Restart(FakePlanner* planner) {
+    planner->Restart();
+    ASSERT_TRUE(registry_.WaitUntil(
+        [&] {
+          const auto heard = registry_.Find("arm", NodeKind::kPlanner);
+          return heard && heard->instance == planner->status.instance;
+        },
+        kTestPatience));
   }
   std::future<PlannerClient::Answer> BeginToSolve(const std::string& id) {
     return std::async(std::launch::async, [this, id] { return Solve(id); });
@@ -190,6 +203,93 @@ TEST_F(PlannerClientTest, PlannerThatWasRestartedGivesNoAnswer) {
   // The next request is the new process's.
   planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
   EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
+}
+
+TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    pause();
+    _exit(0);
+  }
+  FakePlanner planner(&bus_);  // goes on to be announced, as if its end were to be noticed yet
+  planner.status.pid = pid;
+  Restart(&planner);
+  planner.OnRequest([&](const PlanRequest&) {
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+  });
+  const PlannerClient::Answer answer = Solve("a");
+  EXPECT_EQ(answer.message, "the process ended");
+  EXPECT_EQ(planner.requests().messages().size(), 1u) << "its successor would die of it too";
+  // Nor is it asked again.
+  auto next = BeginToSolve("b");
+  planner.status.pid = getpid();
+  Restart(&planner);
+  planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
+  EXPECT_EQ(next.get().outcome, PlannerClient::Outcome::kResult);
+}
+
+TEST_F(PlannerClientTest, APlannerThatComesBackAsAnotherIsNotAsked) {
+  FakePlanner planner(&bus_);
+  PlannerClient client(&bus_, &registry_, "arm", {.expected = planner.status});
+  const auto solve = [&](const std::string& id) {
+    return client.Solve(Request(id), [] { return false; });
+  };
+  EXPECT_EQ(solve("a").outcome, PlannerClient::Outcome::kResult);
+  planner.status.settings["step"] = "6";
+  Restart(&planner);
+  const PlannerClient::Answer answer = solve("b");
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+  EXPECT_THAT(answer.message, HasSubstr("node[arm].setting[step].value is \"6\", was \"5\""));
+  EXPECT_EQ(planner.requests().messages().size(), 1u);
+  planner.status.settings["step"] = "5";
+  Restart(&planner);
+  EXPECT_EQ(solve("c").outcome, PlannerClient::Outcome::kResult);
+}
+
+TEST_F(PlannerClientTest, APlannerThatIsGivenUpIsNotWaitedFor) {
+  std::atomic<bool> given_up = false;
+  PlannerClient client(&bus_, &registry_, "arm", {.given_up = [&] {
+    return given_up ? std::string("given up: it died") : "";
+  }});
+  auto answer = std::async(std::launch::async,
+                           [&] { return client.Solve(Request("a"), [] { return false; }); });
+  given_up = true;
+  EXPECT_EQ(answer.get().message, "given up: it died");
+  EXPECT_EQ(client.Solve(Request("b"), [] { return false; }).outcome,
+            PlannerClient::Outcome::kNoAnswer);
+}
+
+TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {
+  for (const bool announced : {true, false}) {
+    FakePlanner planner(&bus_);
+    planner.status.request_id = announced ? "another" : "";
+    Restart(&planner);
+    std::atomic<int> num_requests = 0;
+    planner.OnRequest([&](const PlanRequest& request) {
+      if (++num_requests < 3) return planner.Acknowledge(request, Verdict::kBusy);
+      planner.Solve(request);
+    });
+    const PlannerClient::Answer answer = Solve(announced ? "a" : "b");
+    EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kResult);
+    EXPECT_EQ(answer.roundtrip_time_s < 0.4, announced) << answer.roundtrip_time_s;
+  }
+}
+
+TEST_F(PlannerClientTest, ASolutionHasAPathAndNothingElseHas) {
+  FakePlanner planner(&bus_);
+  PlanResult without_path = FakePlanner::SolvedResult();
+  without_path.path.clear();
+  PlanResult unsolved_path = FakePlanner::SolvedResult();
+  unsolved_path.status = PlanStatus::kExhausted;
+  int id = 0;
+  for (const PlanResult& result : {without_path, unsolved_path}) {
+    planner.OnRequest(
+        [&](const PlanRequest& request) { planner.SendResult(request.request_id, result); });
+    const PlannerClient::Answer answer = Solve(std::to_string(++id));
+    EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+    EXPECT_THAT(answer.message, HasSubstr("the result cannot be used: "));
+  }
 }
 
 TEST_F(PlannerClientTest, InterruptionCancelsTheRequestUntilItsResultComes) {

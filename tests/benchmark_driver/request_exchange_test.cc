@@ -20,11 +20,11 @@ Exchange::TimePoint At(double seconds) {
                                      std::chrono::duration<double>(1000 + seconds));
 }
 
-Event Ack(PlanAckVerdict verdict, const std::string& id = "r") {
-  return PlanAckMessage{"arm", id, verdict, "why"};
+Event Ack(PlanAckVerdict verdict, const std::string& id = "r", const std::string& working_on = "") {
+  return Exchange::Acknowledgement{{"arm", id, verdict, "why"}, working_on};
 }
 Event Working() { return Ack(PlanAckVerdict::kWorking); }
-Event Busy() { return Ack(PlanAckVerdict::kBusy); }
+Event Busy() { return Ack(PlanAckVerdict::kBusy, "r", "another"); }
 Event Result(double arrival, const std::string& id = "r") {
   PlanResultMessage message;
   message.request_id = id;
@@ -158,8 +158,9 @@ TEST(RequestExchange, PlannerThatHearsNothingIsGivenUp) {
 
 TEST(RequestExchange, PlannerThatIsAlwaysBusyIsGivenUp) {
   Play(Repeated(0, 70.1, Busy(), "request") +
-       std::vector<Line>{
-           {70.25, Busy(), "no answer after 0.25: busy with other requests for 70 s"}});
+       std::vector<Line>{{70.25, Busy(),
+                          "no answer after 0.25: busy with other requests for 70 s, the last being "
+                          "'another'"}});
 }
 
 TEST(RequestExchange, OverdueRequestIsCancelledUntilItsResultComes) {
@@ -184,7 +185,37 @@ TEST(RequestExchange, PlannerThatForgotTheRequestIsAskedOn) {
         {0.1, Working(), ""},
         {0.25, Busy(), "request"},
         {0.5, Working(), "request"},
-        {0.6, Result(0.6), "result after 0.35"}});
+        {0.6, Result(0.6), "result after 0.60"}});
+}
+
+TEST(RequestExchange, BusyIsNoExcuseUnlessThePlannerAnnouncesAnotherRequest) {
+  for (const std::string working_on : {"", "r"}) {
+    const Event busy = Ack(PlanAckVerdict::kBusy, "r", working_on);
+    Play(Repeated(0, 25.1, busy, "request") + std::vector<Line>{{25.1, busy, "cancel"}} +
+         std::vector<Line>{{25.2, Result(25.2), "overdue result after 25.20"}});
+    Play(Repeated(0, 3.9, busy, "request") +
+         std::vector<Line>{{4, Result(4), "result after 4.00"}});
+    Play(Repeated(0, 25.1, busy, "request") + Repeated(25.1, 40.2, busy, "cancel") +
+         std::vector<Line>{
+             {40.3, kTick,
+              "no answer after 40.30: no result, though live, 30 s after the time limit; it "
+              "answered BUSY, though its status named no other request"}});
+  }
+}
+
+TEST(RequestExchange, BusyDoesNotMoveTheClockOnceThePlannerHasTheRequest) {
+  Play(std::vector<Line>{{0, kTick, "request"}, {0.1, Working(), ""}} +
+       Repeated(0.25, 25.1, Busy(), "request") +
+       std::vector<Line>{{25.1, Busy(), "cancel"},
+                         {25.2, Result(25.2), "overdue result after 25.20"}});
+}
+
+TEST(RequestExchange, WhatCameInPlaceOfTheResultIsTold) {
+  Play(std::vector<Line>{{0, kTick, "request"}, {0.1, Result(0.1, "an other"), ""}} +
+       Repeated(0.25, 10.1, kTick, "request") +
+       std::vector<Line>{{10.2, kTick,
+                          "no answer after 10.20: no acknowledgement within 10 s; what came: a "
+                          "result for 'an other'"}});
 }
 
 TEST(RequestExchange, InterruptionCancelsUntilTheResultComes) {
