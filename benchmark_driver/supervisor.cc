@@ -67,10 +67,27 @@ int Supervisor::num_restarts() const {
   return num_restarts_;
 }
 
-void Supervisor::ThrowIfHopeless() const {
+void Supervisor::CameUp(const std::string& name) {
   const std::scoped_lock lock(mutex_);
-  if (!bad_input_.empty()) throw InputError(bad_input_);
-  if (!hopeless_.empty()) throw std::runtime_error(hopeless_);
+  if (Child* child = Find(name)) child->quick_deaths = 0;
+}
+
+std::map<std::string, std::string> Supervisor::Hopeless() const {
+  const std::scoped_lock lock(mutex_);
+  std::map<std::string, std::string> reasons;
+  for (const Child& child : children_) {
+    if (!child.hopeless.empty()) reasons[child.spec.name] = child.hopeless;
+  }
+  return reasons;
+}
+
+void Supervisor::ThrowIfHopeless(const std::set<std::string>& spared) const {
+  const std::scoped_lock lock(mutex_);
+  for (const Child& child : children_) {
+    if (child.hopeless.empty() || spared.contains(child.spec.name)) continue;
+    if (child.bad_input) throw InputError(child.hopeless);
+    throw std::runtime_error(child.hopeless);
+  }
 }
 
 void Supervisor::Supervise() {
@@ -102,16 +119,17 @@ void Supervisor::Reap(Child* child) {
   if (!child->wanted) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
-    bad_input_ = LastLine(child->spec.log);
+    child->bad_input = true;
+    child->hopeless = LastLine(child->spec.log);
     return;
   }
   const auto now = Clock::now();
   child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
   if (child->quick_deaths >= kMaxQuickDeaths) {
     child->wanted = false;
-    hopeless_ = child->spec.name + " ended " + DescribeEnd(status) +
-                " again and again; its last words in " + child->spec.log.string() + ": " +
-                LastLine(child->spec.log);
+    child->hopeless = child->spec.name + " ended " + DescribeEnd(status) +
+                      " again and again; its last words in " + child->spec.log.string() + ": " +
+                      LastLine(child->spec.log);
     return;
   }
   spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));

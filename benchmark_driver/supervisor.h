@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,10 +39,15 @@ class Supervisor {
   /// killed. Others follow, the last started first.
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
-  /// Throws InputError with its last words if a child ended with exit code 2 (bad input: a restart
-  /// would not help), or std::runtime_error if one died kMaxQuickDeaths times in a row within
-  /// kQuick of its start.
-  void ThrowIfHopeless() const;
+  /// That child's process does its work, so that it did not die of its start: deaths until now do
+  /// not count.
+  void CameUp(const std::string& name);
+  /// Why children, by name, are not started again: one ended with exit code 2 (bad input: a restart
+  /// would not help), or died kMaxQuickDeaths times in a row within kQuick of its start.
+  std::map<std::string, std::string> Hopeless() const;
+  /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
+  /// input, else std::runtime_error.
+  void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
   /// Restarts made so far.
   int num_restarts() const;
 
@@ -55,6 +61,8 @@ class Supervisor {
     bool wanted = true;
     bool was_started = false;
     int quick_deaths = 0;
+    bool bad_input = false;
+    std::string hopeless;  // why, if it is
     std::chrono::steady_clock::time_point started;
     std::chrono::steady_clock::time_point restart_at;
   };
@@ -67,8 +75,6 @@ class Supervisor {
   std::vector<Child> children_;
   bool stopping_ = false;
   int num_restarts_ = 0;
-  std::string bad_input_;
-  std::string hopeless_;
   std::thread
       thread_;  // starts every child: the kernel's death signal is tied to the starting thread
 };

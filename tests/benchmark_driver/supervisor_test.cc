@@ -172,6 +172,27 @@ TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
   EXPECT_EQ(Lines(out_).size(), static_cast<std::size_t>(Supervisor::kMaxQuickDeaths));
 }
 
+TEST_F(SupervisorTest, WhatCameUpHasNotDiedOfItsStart) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "echo run >> $OUT; exit 3"));
+  for (std::size_t i = 1; i <= 2 * Supervisor::kMaxQuickDeaths; ++i) {
+    AwaitOutput(i);
+    supervisor.CameUp("child");
+  }
+  EXPECT_FALSE(Hopeless(supervisor));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); })) << "of late it does not come up";
+}
+
+TEST_F(SupervisorTest, TheHopelessCanBeSpared) {
+  Supervisor supervisor;
+  supervisor.Start(Script("bad", "echo 'no robot'; exit 2"));
+  supervisor.Start(Script("good", "exec sleep 1000"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  supervisor.ThrowIfHopeless({"bad"});
+  EXPECT_EQ(supervisor.Hopeless(), (std::map<std::string, std::string>{{"bad", "no robot"}}));
+  EXPECT_THROW(supervisor.ThrowIfHopeless({"good"}), InputError);
+}
+
 TEST_F(SupervisorTest, StopsInTheOrderAskedTheRestLastStartedFirst) {
   const std::string script =
       "trap 'echo $0 stopped >> $OUT; exit 0' TERM\n"
