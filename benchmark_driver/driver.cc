@@ -257,10 +257,9 @@ SessionMessage Driver::Session(bool finished) const {
   session.settings = flags_;
   session.left_out = left_out_;
   for (const NodeStatusMessage& node : registry_.Live()) {
-    if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) {
-      session.nodes.push_back(node);
-    }
+    if (node.kind != NodeKind::kPlanner) session.nodes.push_back(node);
   }
+  for (const auto& [name, planner] : planners_) session.nodes.push_back(planner);
   return session;
 }
 
@@ -270,6 +269,25 @@ const RunRow& Driver::Keep(const RunRecordMessage& record) {
   return runs_.Add(record);
 }
 
+void Driver::GiveUp(const std::string& planner, const std::string& reason) {
+  const std::scoped_lock lock(mutex_);
+  if (!given_up_.emplace(planner, reason).second) return;
+  spdlog::error("the planner '{}' is given up, the others go on: {}", planner, reason);
+}
+
+std::map<std::string, std::string> Driver::given_up() const {
+  const std::scoped_lock lock(mutex_);
+  return given_up_;
+}
+
+PlannerClient::Terms Driver::TermsOf(const std::string& planner) const {
+  return {.expected = planners_.at(planner), .given_up = [this, planner]() -> std::string {
+            const std::scoped_lock lock(mutex_);
+            const auto found = given_up_.find(planner);
+            return found == given_up_.end() ? "" : "given up: " + found->second;
+          }};
+}
+
 std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,
                                              const std::function<bool()>& interrupted) {
   const std::vector<ScheduledRun> requests = executor_->RequestsOf(run);
@@ -277,17 +295,15 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
   for (const ScheduledRun& request : requests) {
     std::unique_ptr<PlannerClient>& client = (*clients)[request.planner];
     if (!client) {
-      client = std::make_unique<PlannerClient>(bus_, &registry_, request.planner);
+      client = std::make_unique<PlannerClient>(bus_, &registry_, request.planner,
+                                               TermsOf(request.planner));
       if (!executor_->WarmUp(request, kWarmUpLimit, client.get(), interrupted)) return std::nullopt;
     }
     asked.push_back(client.get());
   }
   std::optional<RunRecordMessage> record = executor_->Execute(run, asked, interrupted);
   if (!record) return std::nullopt;
-  // One that died is described as it was when last heard.
-  const std::scoped_lock lock(mutex_);
-  NodeStatusMessage& planner = planners_.at(run.planner);
-  planner = registry_.Find(run.planner, NodeKind::kPlanner).value_or(planner);
+  const NodeStatusMessage& planner = planners_.at(run.planner);
   record->algorithm = planner.algorithm;
   record->planner_class = planner.planner_class;
   record->settings = planner.settings;

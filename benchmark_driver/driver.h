@@ -37,12 +37,17 @@ class Driver {
   /// recorded.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
+  /// Whatever is left to that planner is recorded as NO_ANSWER for that reason. Thread-safe.
+  void GiveUp(const std::string& planner, const std::string& reason);
+
   /// All runs so far, those of the resumed session included.
   const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
+  /// Planners that were given up, and why.
+  std::map<std::string, std::string> given_up() const;
   /// SessionMessage's.
   const std::map<std::string, std::string>& left_out() const { return left_out_; }
   /// Complete once the processes are found.
@@ -59,6 +64,7 @@ class Driver {
   SessionMessage Session(bool finished) const;
   /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
+  PlannerClient::Terms TermsOf(const std::string& planner) const;
   using Clients = std::map<std::string, std::unique_ptr<PlannerClient>>;
   /// The record of a run, nothing if interrupted.
   std::optional<RunRecordMessage> Make(const ScheduledRun& run, Clients* clients,
@@ -81,8 +87,11 @@ class Driver {
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::unique_ptr<RunExecutor> executor_;
 
-  std::mutex mutex_;
-  std::map<std::string, NodeStatusMessage> planners_;  // as last heard, by name
+  /// By name, as found: processes that are described otherwise are not asked.
+  std::map<std::string, NodeStatusMessage> planners_;
+
+  mutable std::mutex mutex_;
+  std::map<std::string, std::string> given_up_;
   RunRows runs_;
   /// Of attempts that others depend on, by request id: whether the planner found a path, by its own
   /// word.

@@ -26,6 +26,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
+#include "messaging/channels.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/program.h"
@@ -116,6 +117,22 @@ void WriteTables(const std::filesystem::path& file, const std::string& tables) {
   if (!stream) spdlog::error("cannot write {}: {}", file.string(), std::strerror(errno));
 }
 
+/// A planner that comes up has not died of its start: a request may be what it dies of. Scene
+/// server and logger, without which no run is made, are to stay up.
+Subscription ReportPlannersThatComeUp(Bus* bus, const std::set<std::string>& planners,
+                                      Supervisor* supervisor) {
+  if (supervisor == nullptr) return {};
+  return bus->Subscribe<NodeStatusMessage>(
+      channel::kNodeStatus, [=, instances = std::map<std::string, std::string>()](
+                                const NodeStatusMessage& status) mutable {
+        if (status.kind != NodeKind::kPlanner || !planners.contains(status.name)) return;
+        std::string& instance = instances[status.name];
+        if (std::exchange(instance, status.instance) != status.instance) {
+          supervisor->CameUp(status.name);
+        }
+      });
+}
+
 }  // namespace
 
 int RunSession(const DriverOptions& given_options, const std::map<std::string, std::string>& flags,
@@ -175,6 +192,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (supervisor) supervisor->ThrowIfHopeless();
     if (interrupted()) throw std::runtime_error("interrupted");
   };
+  std::set<std::string> planners;
+  for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
+  const Subscription statuses = ReportPlannersThatComeUp(&bus, planners, supervisor.get());
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
   driver.Discover(options.launch, watch);
   const std::vector<Attempt> reference_attempts =
@@ -183,7 +203,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
   const bool complete = driver.Run(interrupted, [&] {
     announcer.ThrowIfDisplaced();
-    if (supervisor) supervisor->ThrowIfHopeless();
+    if (!supervisor) return;
+    supervisor->ThrowIfHopeless(planners);
+    for (const auto& [name, reason] : supervisor->Hopeless()) driver.GiveUp(name, reason);
   });
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
@@ -201,7 +223,10 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   fmt::print("\n{}", tables.brief);
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
-  return complete ? kExitOk : kExitFailed;
+  for (const auto& [planner, reason] : driver.given_up()) {
+    spdlog::error("the planner '{}' was given up: {}", planner, reason);
+  }
+  return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }
 
 }  // namespace planbench

@@ -388,6 +388,52 @@ TEST_F(DriverTest, DeadPlannersRunsSayWhatItWas) {
   EXPECT_EQ(record.settings.at("step"), "5");
 }
 
+TEST_F(DriverTest, OneThatIsGivenUpLeavesTheOthersTheirRuns) {
+  FakePlanner arm(&bus_, "arm");
+  FakePlanner leg(&bus_, "leg");
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm", "leg"}), {});
+  driver.Discover(true, Idle);
+  arm.FallSilent();
+  EXPECT_TRUE(driver.given_up().empty());
+  EXPECT_TRUE(driver.Run(Never, [&] { driver.GiveUp("arm", "it died"); }));
+  EXPECT_EQ(driver.given_up(), (std::map<std::string, std::string>{{"arm", "it died"}}));
+  ASSERT_EQ(driver.runs().size(), 8u);
+  int num_solved = 0;
+  for (const RunRecordMessage& record : logger.records().messages()) {
+    if (record.planner == "leg") {
+      num_solved += record.status == PlanStatus::kSolved;
+    } else if (record.message != "the process died or fell silent") {
+      EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
+      EXPECT_EQ(record.message, "given up: it died");
+    }
+  }
+  EXPECT_GE(num_solved, 4);
+  EXPECT_TRUE(logger.sessions().messages().back().finished);
+}
+
+TEST_F(DriverTest, OneThatComesBackWithOtherSettingsHasNoMoreRuns) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  planner.status.settings["step"] = "6";
+  Reannounce(&planner);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_TRUE(planner.requests().messages().empty());
+  const RunRecordMessage record = logger.records().messages().at(0);
+  EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
+  EXPECT_THAT(record.message, testing::HasSubstr("step"));
+  EXPECT_EQ(record.settings.at("step"), "5") << "those of the contestant";
+  for (const NodeStatusMessage& node : logger.sessions().messages().back().nodes) {
+    if (node.name == "arm") {
+      EXPECT_EQ(node.settings.at("step"), "5");
+    }
+  }
+}
+
 TEST_F(DriverTest, SaysWhoIsMissingAndWhoIsThere) {
   const FakePlanner planner(&bus_);
   DriverOptions options = Options();
