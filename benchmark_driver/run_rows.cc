@@ -1,7 +1,6 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
-#include "results/outcomes.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -27,7 +26,9 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
   row.claimed = result.Solves();
   row.disturbed = counter("disturbed").value_or(0) > 0;
   row.repeated = counter("repeats").value_or(0) > 0;
-  row.told_time_s = counter(kToldTime);
+  for (std::size_t i = 0; i < kNumOddTimes; ++i) {
+    row.odd_times_s[i] = counter(kOddTimes[i].counter).value_or(0);
+  }
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
   row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
   if (const auto& simple = record.simplified_check.mesh_verdict) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "messaging/messages.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 
@@ -27,7 +28,7 @@ struct RunRow {
   bool trained = false;                       ///< On this very problem (training.h).
   bool disturbed = false;
   bool repeated = false;
-  std::optional<double> told_time_s;      ///< Of a planner that told an impossible one (kToldTime).
+  OddTimesFound odd_times_s = {};
   std::optional<bool> mesh_valid;         ///< The raw path, if meshes judged it.
   std::optional<bool> mesh_valid_simple;  ///< The simplified path.
   double time_s = 0;                      ///< Planning time; without an answer, the time waited.

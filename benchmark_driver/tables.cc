@@ -239,31 +239,19 @@ std::string Disturbances(const SessionResults& results) {
                                 : fmt::format("; {} had been, and were made again", repeated)));
 }
 
-/// Which planners told of more time than passed, a line each; "" if none did.
-std::string ImpossibleTimes(const SessionResults& results) {
-  struct Told {
-    int num_runs = 0;
-    int num_impossible = 0;
-    double longest_s = 0;
-  };
-  std::map<std::string, Told> by_contestant;
+/// Whose times are odd, a line each; "" if nobody's are.
+std::string OddTimesTold(const SessionResults& results) {
+  std::map<std::string, std::vector<OddTimesFound>> by_contestant;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
-      Told& told = by_contestant[one.contestant->name];
       for (const RunRow* run : one.runs) {
-        ++told.num_runs;
-        told.num_impossible += run->told_time_s.has_value();
-        told.longest_s = std::max(told.longest_s, run->told_time_s.value_or(0));
+        by_contestant[one.contestant->name].push_back(run->odd_times_s);
       }
     }
   }
   std::string text;
-  for (const auto& [name, told] : by_contestant) {
-    if (told.num_impossible == 0) continue;
-    text += BreakLines(
-        fmt::format("{}: {} of {} runs were told to have taken MORE TIME THAN PASSED until the "
-                    "answer came, up to {:.3g} s: the round trip counts in its place.\n",
-                    name, told.num_impossible, told.num_runs, told.longest_s));
+  for (const auto& [name, odd_times] : by_contestant) {
+    for (const std::string& line : DescribeOddTimes(name, odd_times)) text += BreakLines(line);
   }
   return text;
 }
@@ -292,7 +280,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
   }
-  return text + ImpossibleTimes(results) + Disturbances(results) + "\n";
+  return text + OddTimesTold(results) + Disturbances(results) + "\n";
 }
 
 /// Which problems are in no table, and why; "" if none.

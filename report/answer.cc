@@ -206,21 +206,6 @@ std::string LeftOut(const std::string& name, const std::map<std::string, std::st
                      problems.front(), left_out.begin()->second);
 }
 
-/// That a planner told of more time than passed until its answers came; "" if it did not.
-std::string ImpossibleTimes(const ComparedContestant& contestant) {
-  int num_impossible = 0;
-  double longest_s = 0;
-  for (const StoredRun* run : contestant.runs) {
-    num_impossible += run->told_time_s.has_value();
-    longest_s = std::max(longest_s, run->told_time_s.value_or(0));
-  }
-  if (num_impossible == 0) return "";
-  return fmt::format(
-      "{}: {} of {} runs were told to have taken more time than passed until the answer came, up "
-      "to {} s: the round trip counts in its place.",
-      contestant.name, num_impossible, contestant.runs.size(), FormatNumber(longest_s));
-}
-
 /// That some of what a contestant is tried on is what it has learned from; "" if none is.
 std::string Trained(const ComparedSessions& compared, const ComparedContestant& contestant) {
   std::vector<std::string> sets;
@@ -311,8 +296,13 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     }
   }
   for (const ComparedContestant& contestant : compared.contestants()) {
-    for (std::string caution : {Trained(compared, contestant), ImpossibleTimes(contestant)}) {
-      if (!caution.empty()) cautions.push_back(std::move(caution));
+    if (std::string trained = Trained(compared, contestant); !trained.empty()) {
+      cautions.push_back(std::move(trained));
+    }
+    std::vector<OddTimesFound> odd_times;
+    for (const StoredRun* run : contestant.runs) odd_times.push_back(run->odd_times_s);
+    for (std::string& line : DescribeOddTimes(contestant.name, odd_times)) {
+      cautions.push_back(std::move(line));
     }
   }
   return cautions;

@@ -1,5 +1,7 @@
 #include "results/outcomes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -29,6 +31,23 @@ Outcome::Kind KindOfUnsolved(const Attempt* forward, const Attempt* backward) {
 }
 
 }  // namespace
+
+std::vector<std::string> DescribeOddTimes(const std::string& contestant,
+                                          const std::vector<OddTimesFound>& runs) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < kNumOddTimes; ++i) {
+    int num_odd = 0;
+    double largest_s = 0;
+    for (const OddTimesFound& run : runs) {
+      num_odd += run[i] > 0;
+      largest_s = std::max(largest_s, run[i]);
+    }
+    if (num_odd == 0) continue;
+    lines.push_back(fmt::format("{}: {} of {} runs {}.", contestant, num_odd, runs.size(),
+                                fmt::format(fmt::runtime(kOddTimes[i].text), largest_s)));
+  }
+  return lines;
+}
 
 Outcome FoldAttempts(const Attempt* forward, const Attempt* backward) {
   Outcome outcome;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,9 +30,39 @@ inline bool IsLate(double time_s, double time_limit_s) {
   return time_s > (1 + 1e-9) * time_limit_s;
 }
 
-/// Counter of a run whose planner told of more time than passed until its answer came: what it
-/// told, s. The round trip stands in its place.
+/// Times that a planner told and that cannot be, or that leave much untold: counters of its run, s,
+/// and what is to be said of runs that have them, with the largest.
+struct OddTimes {
+  const char* counter;
+  const char* text;
+};
+/// The longest that was told, where it is more than passed until the answer came.
 inline constexpr char kToldTime[] = "told_time";
+/// By how much planning time, phases or progress go beyond the total time.
+inline constexpr char kContradictoryTime[] = "contradictory_time";
+/// What is left of the round trip of an answer that came after the time limit.
+inline constexpr char kUntoldTime[] = "untold_time";
+inline constexpr OddTimes kOddTimes[] = {
+    {kToldTime,
+     "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
+     "round "
+     "trip counts in its place"},
+    {kContradictoryTime,
+     "were told times of which a part is longer than the total, by up to {:.3g} s: planning time "
+     "and "
+     "total are taken as the longer of them, parts as shares of it"},
+    {kUntoldTime,
+     "were answered after the time limit though less time was told; up to {:.3g} s are not "
+     "accounted "
+     "for"},
+};
+inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
+/// Largest of each of kOddTimes; 0 if there is none.
+using OddTimesFound = std::array<double, kNumOddTimes>;
+
+/// A line on each of kOddTimes that runs have, beginning with the contestant's name.
+std::vector<std::string> DescribeOddTimes(const std::string& contestant,
+                                          const std::vector<OddTimesFound>& runs);
 
 /// How the attempts of one contestant and trial at one problem ended.
 struct Outcome {

@@ -165,7 +165,7 @@ class Reader {
     ReadDescriptions();
     ReadRuns();
     ReadProgress();
-    ReadToldTimes();
+    ReadOddTimes();
     const std::optional<BusRecord> bus =
         ReadBusRecord(std::filesystem::absolute(file_).replace_filename("run.json"));
     StoredSessions stored;
@@ -281,14 +281,17 @@ class Reader {
     }
   }
 
-  void ReadToldTimes() {
+  void ReadOddTimes() {
     if (CountTables("'counters'") == 0) return;
-    SqliteStatement select = connection_.Prepare(
-        fmt::format("SELECT runid, value FROM counters WHERE name = '{}'", kToldTime));
-    while (select.Step()) {
-      const auto place = places_.find(select.Int(0));
-      if (place == places_.end()) continue;
-      place->second.first->runs[place->second.second].told_time_s = Real(select.Value(1));
+    for (std::size_t i = 0; i < kNumOddTimes; ++i) {
+      SqliteStatement select = connection_.Prepare(
+          fmt::format("SELECT runid, value FROM counters WHERE name = '{}'", kOddTimes[i].counter));
+      while (select.Step()) {
+        const auto place = places_.find(select.Int(0));
+        if (place == places_.end()) continue;
+        StoredRun& run = place->second.first->runs[place->second.second];
+        run.odd_times_s[i] = Real(select.Value(1)).value_or(0);
+      }
     }
   }
 

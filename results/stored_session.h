@@ -10,6 +10,7 @@
 #include "planning/path_measures.h"
 #include "planning/plan_result.h"
 #include "planning/plan_status.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 
@@ -25,9 +26,9 @@ struct StoredRun {
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;
-  std::string message;                    ///< Why it is not solved.
-  std::optional<double> time_s;           ///< Planning time; nothing if no answer came.
-  std::optional<double> told_time_s;      ///< What its planner told that cannot be (kToldTime).
+  std::string message;           ///< Why it is not solved.
+  std::optional<double> time_s;  ///< Planning time; nothing if no answer came.
+  OddTimesFound odd_times_s = {};
   double roundtrip_time_s = 0;            ///< By the driver's clock.
   double time_limit_s = 0;                ///< Of the request.
   PhaseTimes phases;                      ///< Zero if no answer came.

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <set>
 #include <thread>
 
+#include "common/utime.h"
 #include "results/outcomes.h"
 #include "tests/benchmark_driver/fake_nodes.h"
 #include "tests/support/expect_input_error.h"
@@ -210,8 +212,8 @@ TEST_F(RunExecutorTest, NoTimeIsLongerThanTheRoundTrip) {
   const PlanResult& recorded = record->result.result;
   EXPECT_EQ(recorded.planning_time_s, roundtrip_s);
   EXPECT_EQ(recorded.total_time_s, roundtrip_s);
-  EXPECT_EQ(recorded.phases.setup_s, 1e-6);
-  EXPECT_EQ(recorded.phases.search_s, roundtrip_s);
+  EXPECT_LT(recorded.phases.setup_s, 1e-6) << "a share of the total, as it was";
+  EXPECT_NEAR(recorded.phases.search_s, roundtrip_s, 1e-6);
   EXPECT_EQ(recorded.progress.back().elapsed_s, roundtrip_s);
   EXPECT_EQ(recorded.counters.at(kToldTime), 400);
 
@@ -222,6 +224,100 @@ TEST_F(RunExecutorTest, NoTimeIsLongerThanTheRoundTrip) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record->result.result.planning_time_s, result.planning_time_s);
   EXPECT_FALSE(record->result.result.counters.contains(kToldTime));
+}
+
+TEST_F(RunExecutorTest, NoPartIsLongerThanTheTotalTime) {
+  const FakeSceneServer server(&bus_);
+  PlanResult parts = FakePlanner::SolvedResult();
+  parts.total_time_s = parts.planning_time_s = 0.01;
+  parts.phases.setup_s = parts.phases.search_s = 5;
+  PlanResult planning = FakePlanner::SolvedResult();
+  planning.total_time_s = 0.01;
+  planning.planning_time_s = 0.02;
+  PlanResult progress = FakePlanner::SolvedResult();
+  progress.total_time_s = progress.planning_time_s = 0.02;
+  progress.progress = {{0.02, 0, 3, 1}, {100, 0, 2, 2}};
+  const double excess_s[] = {10 - 0.01, 0.02 - 0.01, 100 - 0.02};
+  int index = 0;
+  for (PlanResult result : {parts, planning, progress}) {
+    planner_.OnRequest([this, result](const PlanRequest& request) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(25));
+      planner_.SendResult(request.request_id, result);
+    });
+    const auto record = Execute(Scheduled(++index));
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->status, PlanStatus::kSolved);
+    const PlanResult& recorded = record->result.result;
+    EXPECT_NEAR(recorded.counters.at(kContradictoryTime), excess_s[index - 1], 1e-9);
+    EXPECT_FALSE(recorded.counters.contains(kToldTime));
+    EXPECT_EQ(recorded.total_time_s, std::max(result.total_time_s, result.planning_time_s));
+    EXPECT_EQ(recorded.planning_time_s, result.planning_time_s);
+    EXPECT_LE(recorded.phases.setup_s + recorded.phases.search_s, recorded.total_time_s + 1e-9);
+    for (const PlanProgress& one : recorded.progress) {
+      EXPECT_LE(one.elapsed_s, recorded.total_time_s);
+    }
+  }
+}
+
+TEST_F(RunExecutorTest, SimplificationIsWithinTheRoundTripToo) {
+  const FakeSceneServer server(&bus_);
+  PlanResult result = FakePlanner::SolvedResult();
+  result.phases.simplification_s = 3;
+  planner_.OnRequest([this, result](const PlanRequest& request) {
+    planner_.SendResult(request.request_id, result);
+  });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  const PlanResult& recorded = record->result.result;
+  EXPECT_LE(recorded.total_time_s + recorded.phases.simplification_s,
+            record->roundtrip_time_s + 1e-9);
+  EXPECT_EQ(recorded.counters.at(kToldTime), 3 + result.total_time_s);
+}
+
+TEST_F(RunExecutorTest, WhatALateAnswerDoesNotTellOfIsNoted) {
+  const FakeSceneServer server(&bus_);
+  SessionConditions conditions = Conditions();
+  conditions.request.time_limit_s = 0.01;
+  RunExecutor executor(&bus_, &registry_, conditions);
+  planner_.OnRequest([this](const PlanRequest& request) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    planner_.Solve(request);
+  });
+  const auto record = executor.Execute(Scheduled(), {&client_}, [] { return false; });
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved);
+  EXPECT_GT(record->result.result.counters.at(kUntoldTime), 1);
+}
+
+TEST_F(RunExecutorTest, ARunBeginsWhenItsPlannerIsThere) {
+  const FakeSceneServer server(&bus_);
+  planner_.FallSilent();
+  NodeRegistry registry(&bus_);
+  PlannerClient client(&bus_, &registry, "arm");
+  RunExecutor executor(&bus_, &registry_, Conditions());
+  std::atomic<std::int64_t> back_utime = 0;
+  std::thread comes_back([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    back_utime = NowUtime();
+    planner_.Restart();
+  });
+  const auto record = executor.Execute(Scheduled(), {&client}, [] { return false; });
+  comes_back.join();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
+  EXPECT_GE(record->start_utime, back_utime);
+}
+
+TEST_F(RunExecutorTest, AWarmUpWithoutAResultIsTold) {
+  const FakeSceneServer server(&bus_);
+  planner_.OnRequest([&](const PlanRequest& request) {
+    planner_.Acknowledge(request, PlanAckVerdict::kRefused, "too cold");
+  });
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(executor_.WarmUp(Scheduled(), 0.5, &client_, [] { return false; }));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              testing::ContainsRegex("arm: no result to the warm-up request "
+                                     "run/cans/2/arm/backward/3.*: too cold"));
 }
 
 TEST_F(RunExecutorTest, RefusalIsAnInvalidRequest) {

@@ -242,18 +242,33 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
   EXPECT_NE(Row(Brief(session), kSuccess, "RRT-Connect (trained)"), "");
 }
 
-TEST(TablesTest, APlannerThatToldOfMoreTimeThanPassedIsNamedOnce) {
+TEST(TablesTest, APlannerWhoseTimesAreOddIsNamedOnce) {
   std::vector<RunRecordMessage> records = FourProblems();
-  EXPECT_THAT(Brief(records), Not(HasSubstr("MORE TIME")));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("more time")));
   int num_told = 0;
   for (RunRecordMessage& record : records) {
     if (record.contestant == "ARA*") record.result.result.counters[kToldTime] = 100 * ++num_told;
   }
   const std::string text = Brief(records);
-  EXPECT_THAT(text, HasSubstr(fmt::format("ARA*: {0} of {0} runs were told to have taken MORE TIME",
+  EXPECT_THAT(text, HasSubstr(fmt::format("ARA*: {0} of {0} runs were told to have taken more time",
                                           num_told)));
   EXPECT_THAT(text, HasSubstr(fmt::format("up to {}", 100 * num_told)));
-  EXPECT_EQ(text.find("MORE TIME"), text.rfind("MORE TIME"));
+  EXPECT_EQ(text.find("more time"), text.rfind("more time"));
+  records.front().result.result.counters[kContradictoryTime] = 2;
+  EXPECT_THAT(Brief(records), HasSubstr("times of which a part is longer than the total"));
+  records.front().result.result.counters[kUntoldTime] = 2;
+  EXPECT_THAT(Brief(records), HasSubstr("answered after the time limit"));
+}
+
+TEST(TablesTest, LongTextsAreShortened) {
+  std::vector<RunRecordMessage> records = FourProblems();
+  for (const std::string& reason :
+       {std::string(1'000'000, 'x'), std::string(999, 'x') + "\u00e4"}) {
+    for (RunRecordMessage& record : records) record.message = reason;
+    std::istringstream lines(Full(records));
+    for (std::string line; std::getline(lines, line);) EXPECT_LT(line.size(), 300u);
+  }
+  EXPECT_EQ(Shortened("12345\u00e4678901", 10), "12345 ...") << "whole characters";
 }
 
 TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
