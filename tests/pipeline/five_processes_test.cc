@@ -31,11 +31,12 @@ TEST_F(FiveProcesses, KilledPlannerIsNoAnswerAndTheBenchmarkGoesOnWhenItIsBack) 
   const auto session = folder() / "session";
   ChildProcess* logger = StartLogger(session);
   ChildProcess* server = StartSceneServer();
-  // Tiny steps: every request lasts its whole time limit, so that the kill comes in the middle of
-  // one.
-  ChildProcess* rrtc = StartPlanner("rrtc", {"--set", "range=0.0001"});
-  ChildProcess* driver = StartDriver({"--problems-range", "1-2", "--time", "2", "--planners",
-                                      "rrtc", "--directions", "forward", "--trials", "3"});
+  // An anytime planner that never knows its best path to be the best: every request lasts its
+  // whole time limit, so that the kill comes in the middle of one.
+  ChildProcess* rrtc = StartPlanner("rrtc", {"--set", "algorithm=RRTstar"});
+  ChildProcess* driver =
+      StartDriver({"--problems-range", "1-2", "--time", "2", "--planners", "rrtc", "--directions",
+                   "forward", "--trials", "3", "--anytime"});
   ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 2; }))
       << driver->Errors();
   rrtc->Signal(SIGKILL);
@@ -44,7 +45,7 @@ TEST_F(FiveProcesses, KilledPlannerIsNoAnswerAndTheBenchmarkGoesOnWhenItIsBack) 
     return Query(session, "SELECT count(*) FROM runs WHERE status = 7") == 1;
   })) << driver->Errors();
   EXPECT_TRUE(driver->Running());
-  ChildProcess* back = StartPlanner("rrtc", {"--set", "range=0.0001"});
+  ChildProcess* back = StartPlanner("rrtc", {"--set", "algorithm=RRTstar"});
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   for (ChildProcess* process : {server, back, logger}) ExpectEndsCleanly(process);
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 6);
