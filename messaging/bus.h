@@ -41,8 +41,7 @@ struct Origin {
 /// The only owner of an LCM connection. Messages are sent by LCM, but received by this project's
 /// own reader of its protocol, which no packet harms. Handlers run on the bus's threads, one at a
 /// time, from Start() on; what they throw is logged with the channel's name, once, and goes no
-/// further.
-/// Publishing is thread-safe.
+/// further. Publishing is thread-safe.
 class Bus {
  public:
   /// Messages a subscription can hold while its handler is busy.

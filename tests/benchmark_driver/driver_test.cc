@@ -427,7 +427,8 @@ TEST_F(DriverTest, OneThatComesBackWithOtherSettingsHasNoMoreRuns) {
   EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
   EXPECT_THAT(record.message, testing::HasSubstr("step"));
   EXPECT_EQ(record.settings.at("step"), "5") << "those of the contestant";
-  for (const NodeStatusMessage& node : logger.sessions().messages().back().nodes) {
+  const SessionMessage session = logger.sessions().messages().back();
+  for (const NodeStatusMessage& node : session.nodes) {
     if (node.name == "arm") {
       EXPECT_EQ(node.settings.at("step"), "5");
     }
