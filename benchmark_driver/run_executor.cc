@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "benchmark_driver/possible_times.h"
 #include "common/error.h"
 #include "common/random_id.h"
 #include "common/utime.h"
@@ -29,85 +30,12 @@ std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
   };
 }
 
-/// What clocks of two machines may differ by over a round trip, and what a planner rounds to: the
-/// share of it, and s.
-constexpr double kClockError = 1e-3;
-
-/// Whether a time is beyond one that it has to be within.
-bool IsBeyond(double time_s, double limit_s) {
-  return time_s > (1 + kClockError) * limit_s + kClockError;
-}
-
-/// The parts of the total time.
-std::vector<double*> PartsOf(PhaseTimes* phases) {
-  return {&phases->setup_s, &phases->collision_s, &phases->guidance_s, &phases->search_s};
-}
-
-double SumOf(const std::vector<double*>& times) {
-  double sum_s = 0;
-  for (const double* time_s : times) sum_s += *time_s;
-  return sum_s;
-}
-
-/// Brings planning time, parts and progress within the total time.
-void KeepWithinTotal(PlanResult* result) {
-  result->planning_time_s = std::min(result->planning_time_s, result->total_time_s);
-  const std::vector<double*> parts = PartsOf(&result->phases);
-  if (const double sum_s = SumOf(parts); IsBeyond(sum_s, result->total_time_s)) {
-    for (double* part_s : parts) *part_s *= result->total_time_s / sum_s;
-  }
-  for (PlanProgress& progress : result->progress) {
-    progress.elapsed_s = std::min(progress.elapsed_s, result->total_time_s);
-  }
-}
-
-/// No part of a time is longer than the whole.
-void KeepTogether(PlanResult* result) {
-  result->counters.erase(kContradictoryTime);
-  double longest_s = std::max(result->planning_time_s, SumOf(PartsOf(&result->phases)));
-  for (const PlanProgress& progress : result->progress) {
-    longest_s = std::max(longest_s, progress.elapsed_s);
-  }
-  if (IsBeyond(longest_s, result->total_time_s)) {
-    result->counters[kContradictoryTime] = longest_s - result->total_time_s;
-  }
-  result->total_time_s = std::max(result->total_time_s, result->planning_time_s);
-  KeepWithinTotal(result);
-}
-
-/// No time is longer than that which passed until the answer came.
-void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
-  result->counters.erase(kToldTime);
-  double& simplification_s = result->phases.simplification_s;
-  const double told_s = result->total_time_s + simplification_s;
-  if (!IsBeyond(told_s, roundtrip_time_s)) return;
-  result->counters[kToldTime] = told_s;
-  result->total_time_s = std::min(result->total_time_s, roundtrip_time_s);
-  simplification_s = std::min(simplification_s, roundtrip_time_s - result->total_time_s);
-  KeepWithinTotal(result);
-}
-
-/// What an answer that came after the time limit does not tell of, though it tells of less.
-void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
-  constexpr double kMuch = 1;  // s
-  result->counters.erase(kUntoldTime);
-  const double told_s = result->total_time_s + result->phases.simplification_s;
-  const double untold_s = roundtrip_time_s - told_s;
-  if (roundtrip_time_s - result->phases.simplification_s > time_limit_s + kMuch &&
-      untold_s > kMuch) {
-    result->counters[kUntoldTime] = untold_s;
-  }
-}
-
 /// The planner's answer, its times being possible.
 PlannerClient::Answer AnswerOf(PlannerClient* planner, const PlanRequest& request,
                                const std::function<bool()>& interrupted) {
   PlannerClient::Answer answer = planner->Solve(request, interrupted);
   if (answer.outcome != PlannerClient::Outcome::kResult) return answer;
-  PlanResult& result = answer.result.result;
-  KeepTogether(&result);
-  KeepWithinRoundTrip(answer.roundtrip_time_s, &result);
-  NoteUntoldTime(answer.roundtrip_time_s, request.time_limit_s, &result);
+  KeepTimesPossible(answer.roundtrip_time_s, request.time_limit_s, &answer.result.result);
   return answer;
 }
 
@@ -123,10 +51,7 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
   result->planning_time_s += before_s;
   result->total_time_s += before_s;
   for (PlanProgress& progress : result->progress) progress.elapsed_s += before_s;
-  for (double PhaseTimes::*const phase : {&PhaseTimes::setup_s, &PhaseTimes::collision_s,
-                                          &PhaseTimes::guidance_s, &PhaseTimes::search_s}) {
-    result->phases.*phase += first.phases.*phase;
-  }
+  for (double PhaseTimes::*const part : kPartsOfTotal) result->phases.*part += first.phases.*part;
   for (const auto& [name, count] : first.counters) result->counters[name] += count;
   result->peak_memory_mb = std::max(result->peak_memory_mb, first.peak_memory_mb);
 }

@@ -45,16 +45,13 @@ inline constexpr char kUntoldTime[] = "untold_time";
 inline constexpr OddTimes kOddTimes[] = {
     {kToldTime,
      "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
-     "round "
-     "trip counts in its place"},
+     "round trip counts in its place"},
     {kContradictoryTime,
      "were told times of which a part is longer than the total, by up to {:.3g} s: planning time "
-     "and "
-     "total are taken as the longer of them, parts as shares of it"},
+     "and total are taken as the longer of them, parts as shares of it"},
     {kUntoldTime,
      "were answered after the time limit though less time was told; up to {:.3g} s are not "
-     "accounted "
-     "for"},
+     "accounted for"},
 };
 inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
 /// Largest of each of kOddTimes; 0 if there is none.

@@ -1,0 +1,82 @@
+#include "benchmark_driver/possible_times.h"
+
+#include <algorithm>
+
+#include "results/outcomes.h"
+
+namespace planbench {
+namespace {
+
+/// What clocks of two machines may differ by over a round trip, and what a planner rounds to: the
+/// share of it, and s.
+constexpr double kClockError = 1e-3;
+/// So much untold time, s, is told.
+constexpr double kMuch = 1;
+
+/// Whether a time is beyond one that it has to be within.
+bool IsBeyond(double time_s, double limit_s) {
+  return time_s > (1 + kClockError) * limit_s + kClockError;
+}
+
+double SumOfParts(const PhaseTimes& phases) {
+  double sum_s = 0;
+  for (double PhaseTimes::*const part : kPartsOfTotal) sum_s += phases.*part;
+  return sum_s;
+}
+
+/// Brings planning time, parts and progress within the total time.
+void KeepWithinTotal(PlanResult* result) {
+  result->planning_time_s = std::min(result->planning_time_s, result->total_time_s);
+  if (const double sum_s = SumOfParts(result->phases); IsBeyond(sum_s, result->total_time_s)) {
+    for (double PhaseTimes::*const part : kPartsOfTotal) {
+      result->phases.*part *= result->total_time_s / sum_s;
+    }
+  }
+  for (PlanProgress& progress : result->progress) {
+    progress.elapsed_s = std::min(progress.elapsed_s, result->total_time_s);
+  }
+}
+
+/// No part of a time is longer than the whole.
+void KeepTogether(PlanResult* result) {
+  double longest_s = std::max(result->planning_time_s, SumOfParts(result->phases));
+  for (const PlanProgress& progress : result->progress) {
+    longest_s = std::max(longest_s, progress.elapsed_s);
+  }
+  if (IsBeyond(longest_s, result->total_time_s)) {
+    result->counters[kContradictoryTime] = longest_s - result->total_time_s;
+  }
+  result->total_time_s = std::max(result->total_time_s, result->planning_time_s);
+  KeepWithinTotal(result);
+}
+
+/// No time is longer than that which passed until the answer came.
+void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
+  double& simplification_s = result->phases.simplification_s;
+  const double told_s = result->total_time_s + simplification_s;
+  if (!IsBeyond(told_s, roundtrip_time_s)) return;
+  result->counters[kToldTime] = told_s;
+  result->total_time_s = std::min(result->total_time_s, roundtrip_time_s);
+  simplification_s = std::min(simplification_s, roundtrip_time_s - result->total_time_s);
+  KeepWithinTotal(result);
+}
+
+/// What an answer that came after the time limit does not tell of, though it tells of less.
+void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
+  const double simplification_s = result->phases.simplification_s;
+  const double untold_s = roundtrip_time_s - result->total_time_s - simplification_s;
+  if (roundtrip_time_s - simplification_s > time_limit_s + kMuch && untold_s > kMuch) {
+    result->counters[kUntoldTime] = untold_s;
+  }
+}
+
+}  // namespace
+
+void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
+  for (const OddTimes& odd : kOddTimes) result->counters.erase(odd.counter);
+  KeepTogether(result);
+  KeepWithinRoundTrip(roundtrip_time_s, result);
+  NoteUntoldTime(roundtrip_time_s, time_limit_s, result);
+}
+
+}  // namespace planbench

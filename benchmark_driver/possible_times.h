@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+#include "planning/plan_result.h"
+
+namespace planbench {
+
+/// The phases that the total time is made of; simplification comes on top.
+inline constexpr std::array<double PhaseTimes::*, 4> kPartsOfTotal = {
+    &PhaseTimes::setup_s, &PhaseTimes::collision_s, &PhaseTimes::guidance_s, &PhaseTimes::search_s};
+
+/// Brings the times that a planner tells of within each other and within the round trip (s) that
+/// the driver saw, and notes in counters (kOddTimes of results/outcomes.h; a planner's own of these
+/// names are dropped) by how much they were not, and what an answer that came after the time limit
+/// (s) does not tell of.
+void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, PlanResult* result);
+
+}  // namespace planbench
