@@ -19,8 +19,7 @@ constexpr std::chrono::milliseconds kPoll{50};
 
 /// Whether the process runs on this machine, as far as its id can be seen from here.
 bool IsSeenHere(const NodeStatusMessage& process) {
-  static const std::string host = MakeNodeStatus("driver", NodeKind::kDriver).host;
-  return process.host == host && process.pid > 0 &&
+  return process.host == HostName() && process.pid > 0 &&
          (kill(static_cast<pid_t>(process.pid), 0) == 0 || errno != ESRCH);
 }
 

@@ -143,11 +143,10 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
 }
 
 std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {
-  static const std::string host = MakeNodeStatus("driver", NodeKind::kDriver).host;
   std::vector<pid_t> pids;
   for (const PlannerClient* planner : planners) {
     const auto node = registry_->Find(planner->planner(), NodeKind::kPlanner);
-    if (!node || node->host != host) return {};
+    if (!node || node->host != HostName()) return {};
     pids.push_back(static_cast<pid_t>(node->pid));
   }
   return pids;

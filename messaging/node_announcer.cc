@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kPeriod{500};
 
-std::string HostName() {
-  char host[HOST_NAME_MAX + 1] = {};
-  return gethostname(host, HOST_NAME_MAX) == 0 ? host : "unknown";
-}
-
 /// Whether only one of them can be on a bus.
 bool AreRivals(const NodeStatusMessage& a, const NodeStatusMessage& b) {
   if (a.kind == b.kind && a.kind == NodeKind::kLogger) return false;
@@ -43,6 +38,14 @@ std::string Displaced(const NodeStatusMessage& self, const NodeStatusMessage& ol
 }
 
 }  // namespace
+
+const std::string& HostName() {
+  static const std::string name = [] {
+    char host[HOST_NAME_MAX + 1] = {};
+    return std::string(gethostname(host, HOST_NAME_MAX) == 0 ? host : "unknown");
+  }();
+  return name;
+}
 
 NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind) {
   RequireNodeName(name);

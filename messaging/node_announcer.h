@@ -13,6 +13,9 @@
 
 namespace planbench {
 
+/// Of this machine, as processes announce it.
+const std::string& HostName();
+
 /// Who this process is: host, pid, version, commit, start time and a new instance id filled in, the
 /// rest as given.
 NodeStatusMessage MakeNodeStatus(const std::string& name, NodeKind kind);
