@@ -18,6 +18,7 @@
 #include "common/sibling_program.h"
 #include "common/utime.h"
 #include "common/version.h"
+#include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
 #include "results/training.h"
 
@@ -97,10 +98,13 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
     RequireSameConditions(session, Session(false));
   }
   for (const ScheduledRun& run : schedule_) {
-    if (run.unless_solved) claims_[*run.unless_solved] = false;
+    if (run.unless_solved) suffices_[*run.unless_solved] = false;
   }
+  std::set<std::string> scheduled;
+  for (const ScheduledRun& run : schedule_) scheduled.insert(run.request_id);
   std::set<std::string> done;
   for (const RunRecordMessage& record : earlier_.runs) {
+    if (!WasAsked(record) && scheduled.contains(record.request_id)) continue;  // made anew
     done.insert(record.request_id);
     Keep(record);
   }
@@ -264,8 +268,10 @@ SessionMessage Driver::Session(bool finished) const {
 }
 
 const RunRow& Driver::Keep(const RunRecordMessage& record) {
-  const auto claim = claims_.find(record.request_id);
-  if (claim != claims_.end()) claim->second = record.result.result.Solves();
+  const auto attempt = suffices_.find(record.request_id);
+  if (attempt != suffices_.end()) {
+    attempt->second = record.result.result.Solves() || !WasAsked(record);
+  }
   return runs_.Add(record);
 }
 
@@ -331,7 +337,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
         continue;
       }
       if (const std::scoped_lock lock(mutex_);
-          run.unless_solved && claims_.at(*run.unless_solved)) {
+          run.unless_solved && suffices_.at(*run.unless_solved)) {
         --num_runs_;
         progress_->Drop();
         continue;

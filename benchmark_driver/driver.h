@@ -37,7 +37,8 @@ class Driver {
   /// recorded.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
-  /// Whatever is left to that planner is recorded as NO_ANSWER for that reason. Thread-safe.
+  /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
+  /// is resumed. Thread-safe.
   void GiveUp(const std::string& planner, const std::string& reason);
 
   /// All runs so far, those of the resumed session included.
@@ -93,9 +94,10 @@ class Driver {
   mutable std::mutex mutex_;
   std::map<std::string, std::string> given_up_;
   RunRows runs_;
-  /// Of attempts that others depend on, by request id: whether the planner found a path, by its own
-  /// word.
-  std::map<std::string, bool> claims_;
+  /// Of attempts that others depend on, by request id: whether these are not made, since the
+  /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows
+  /// yet whether they are needed.
+  std::map<std::string, bool> suffices_;
   std::unique_ptr<ProgressBar> progress_;
 };
 

@@ -233,7 +233,8 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   app->add_flag("--skip-bad-problems", options->skip_bad_problems,
                 "leave out problems that cannot be read; default: end before the first run");
   CLI::Option* resume = app->add_option(
-      "--resume", options->resume, "session folder to go on with: finished runs are not run again");
+      "--resume", options->resume,
+      "session folder to go on with: runs whose planner was asked are not run again");
   AddLaunchFlags(app, resume, options);
   CLI::Option* replay = app->add_option(
       "--replay", options->replay,

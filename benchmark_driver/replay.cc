@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/progress_line.h"
 #include "common/random_id.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "results/statistics.h"
 #include "results/training.h"
@@ -20,11 +21,11 @@
 namespace planbench {
 namespace {
 
-/// A run whose problem could not be had is no request to its planner, nor is one that lacked the
-/// path that the planner was to improve.
-bool WasAsked(const RunRecordMessage& run) {
+/// A run that was not asked is no request to its planner, nor is one that lacked the path that the
+/// planner was to improve.
+bool HoldsRequest(const RunRecordMessage& run) {
   const std::string& answered = run.result.planner;
-  return !run.request.scene_id.empty() && (answered.empty() || answered == run.planner);
+  return WasAsked(run) && (answered.empty() || answered == run.planner);
 }
 
 std::string PathDifference(const std::string& what, const Path& then, const Path& now) {
@@ -81,7 +82,8 @@ std::string Difference(const RunRecordMessage& recorded, const PlannerClient::An
 std::vector<std::string> PlannersAsked(const std::vector<RunRecordMessage>& runs) {
   std::vector<std::string> planners;
   for (const RunRecordMessage& run : runs) {
-    if (WasAsked(run) && std::find(planners.begin(), planners.end(), run.planner) == planners.end())
+    if (HoldsRequest(run) &&
+        std::find(planners.begin(), planners.end(), run.planner) == planners.end())
       planners.push_back(run.planner);
   }
   return planners;
@@ -112,7 +114,7 @@ Replay::Replay(Bus* bus, NodeRegistry* registry, std::string run_id,
   for (const std::string& planner : planners) tallies_[planner];
   for (RunRecordMessage& run : runs) {
     const auto tally = tallies_.find(run.planner);
-    if (!WasAsked(run) || tally == tallies_.end()) continue;
+    if (!HoldsRequest(run) || tally == tallies_.end()) continue;
     if (!scenes_.contains(run.request.scene_id)) {
       throw InputError(
           fmt::format("the log lacks the scene {} of {}", run.request.scene_id, run.request_id));

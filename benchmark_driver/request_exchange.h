@@ -33,7 +33,8 @@ class RequestExchange {
     PlanResultMessage result = {};  ///< kResult only.
     bool overdue = false;           ///< It came after the request had been cancelled for that.
     std::string message = {};       ///< Why, for kRefused and kNoAnswer.
-    double roundtrip_time_s = 0;    ///< Request sent -> result arrived, or given up.
+    /// Request sent -> result arrived, or given up; 0: none was sent.
+    double roundtrip_time_s = 0;
   };
 
   struct Acknowledgement {

@@ -184,6 +184,8 @@ PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMes
   request->initial_joint_names = rest.initial_joint_names = first.result.joint_names;
   request->initial_path = rest.initial_path = found.path;
   PlannerClient::Answer answer = AnswerOf(planners[1], rest, interrupted);
+  // A planner that could not be asked for its part was not asked for the run (asked_runs.h).
+  if (answer.roundtrip_time_s == 0) return answer;
   answer.roundtrip_time_s += first.roundtrip_time_s;
   if (answer.outcome == PlannerClient::Outcome::kResult) AddBefore(found, &answer.result.result);
   return answer;
@@ -269,6 +271,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
       return std::nullopt;
     case PlannerClient::Outcome::kRefused:
       record.status = PlanStatus::kInvalidRequest;
+      record.roundtrip_time_s = answer.roundtrip_time_s;
       record.message = "refused: " + answer.message;
       return record;
     case PlannerClient::Outcome::kNoAnswer:

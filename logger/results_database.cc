@@ -12,6 +12,7 @@
 #include "logger/run_columns.h"
 #include "logger/session_json.h"
 #include "logger/utc_time.h"
+#include "messaging/asked_runs.h"
 #include "results/database_version.h"
 
 namespace planbench {
@@ -122,8 +123,10 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
           connection_.Prepare("SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?")),
       insert_planner_(
           connection_.Prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")),
-      find_run_(connection_.Prepare("SELECT id FROM runs WHERE run_id = ? AND request_id = ?")),
+      find_run_(connection_.Prepare("SELECT id, status, scene_id, roundtrip_time FROM runs "
+                                    "WHERE run_id = ? AND request_id = ?")),
       find_equal_run_(connection_.Prepare(FindEqualRunSql())),
+      delete_run_(connection_.Prepare("DELETE FROM runs WHERE id = ?")),
       insert_run_(connection_.Prepare(InsertRunSql())),
       // Two improvements at one reading of the clock: the later one stands.
       insert_progress_(connection_.Prepare(
@@ -175,9 +178,11 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   const auto bind_columns = [&](SqliteStatement* statement, int parameter) {
     for (const SqliteValue& value : values) statement->Bind(++parameter, value);
   };
-  if (const auto id = find_run_.BindAll(record.run_id, record.request_id).First()) {
-    bind_columns(&find_equal_run_.BindAll(*id), 1);
-    return find_equal_run_.First() ? Outcome::kAlreadyStored : Outcome::kContradicts;
+  if (const auto known = FindRun(record)) {
+    bind_columns(&find_equal_run_.BindAll(known->id), 1);
+    if (find_equal_run_.First() || !WasAsked(record)) return Outcome::kAlreadyStored;
+    if (!Replaces(record, known->standing)) return Outcome::kContradicts;
+    delete_run_.BindAll(known->id).Run();
   }
   const std::int64_t experiment = ExperimentId(record);
   const std::int64_t planner = PlannerId(record);
@@ -193,6 +198,18 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   InsertPath(run, "simplified", result.simplified_path, record.result.joint_names);
   transaction.Commit();
   return Outcome::kStored;
+}
+
+std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecordMessage& record) {
+  find_run_.BindAll(record.run_id, record.request_id);
+  if (!find_run_.Step()) return std::nullopt;
+  KnownRun known;
+  known.id = find_run_.Int(0);
+  known.standing.status = static_cast<PlanStatus>(find_run_.Int(1));
+  known.standing.request.scene_id = find_run_.Text(2);
+  known.standing.roundtrip_time_s = find_run_.Double(3);
+  find_run_.Reset();
+  return known;
 }
 
 std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {

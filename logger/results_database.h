@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ class ResultsDatabase {
   void Store(const SessionMessage& session);
 
   enum class Outcome { kStored, kAlreadyStored, kContradicts };
-  /// Stores a run. Of records with the same run_id and request_id the first counts; a later one
-  /// repeats or contradicts it. Throws InputError for a record that contradicts itself.
+  /// Stores a run. Of records with the same run_id and request_id the first counts, or the first
+  /// that tells of a request (asked_runs.h); a later one repeats or contradicts it. Throws
+  /// InputError for a record that contradicts itself.
   Outcome Store(const RunRecordMessage& record);
 
   /// SessionJson of every session, oldest first.
@@ -44,6 +46,12 @@ class ResultsDatabase {
   std::vector<IncompleteSession> IncompleteSessions();
 
  private:
+  struct KnownRun {
+    std::int64_t id = 0;
+    RunRecordMessage standing;  ///< As far as asked_runs.h looks at it.
+  };
+  /// The run that is stored of the record's ids.
+  std::optional<KnownRun> FindRun(const RunRecordMessage& record);
   std::int64_t ExperimentId(const RunRecordMessage& record);
   std::int64_t PlannerId(const RunRecordMessage& record);
   void InsertProgress(std::int64_t run, const PlanResult& result);
@@ -63,6 +71,7 @@ class ResultsDatabase {
   SqliteStatement insert_planner_;
   SqliteStatement find_run_;
   SqliteStatement find_equal_run_;
+  SqliteStatement delete_run_;
   SqliteStatement insert_run_;
   SqliteStatement insert_progress_;
   SqliteStatement insert_counter_;

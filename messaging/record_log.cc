@@ -1,10 +1,11 @@
 #include "messaging/record_log.h"
 
-#include <set>
+#include <map>
 #include <string>
 #include <utility>
 
 #include "common/error.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log_reader.h"
@@ -28,13 +29,18 @@ void ReadMessages(const std::filesystem::path& event_log, Visit visit) {
 
 RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   RecordedSession recorded;
-  std::set<std::string> seen;
+  std::map<std::string, std::size_t> places;  // by request id
   ReadMessages(event_log, [&](const ReceivedMessage& message) {
     if (message.channel == channel::kSession) {
       recorded.sessions.push_back(Decode<SessionMessage>(message.bytes, message.channel));
     } else if (message.channel == channel::kRunRecord) {
       auto run = Decode<RunRecordMessage>(message.bytes, message.channel);
-      if (seen.insert(run.request_id).second) recorded.runs.push_back(std::move(run));
+      const auto [place, is_new] = places.try_emplace(run.request_id, recorded.runs.size());
+      if (is_new) {
+        recorded.runs.push_back(std::move(run));
+      } else if (RunRecordMessage& known = recorded.runs[place->second]; Replaces(run, known)) {
+        known = std::move(run);
+      }
     }
   });
   return recorded;

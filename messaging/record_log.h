@@ -12,7 +12,7 @@ namespace planbench {
 /// What a session's LCM event log holds of results.
 struct RecordedSession {
   std::vector<SessionMessage> sessions;  ///< In order.
-  std::vector<RunRecordMessage> runs;    ///< In order, one for each request_id.
+  std::vector<RunRecordMessage> runs;    ///< In order, one for each request_id (asked_runs.h).
 };
 
 /// Reads the RUN_RECORD and SESSION messages of an LCM event log. A torn last event (of a logger

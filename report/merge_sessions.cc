@@ -17,6 +17,7 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/sibling_program.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
@@ -225,8 +226,12 @@ class Merge {
         united.push_back(std::move(run));
         continue;
       }
-      const Run& known = united[place->second];
-      if (known.record == record) continue;
+      Run& known = united[place->second];
+      if (known.record == record || !WasAsked(record)) continue;
+      if (Replaces(record, known.record)) {
+        known = std::move(run);
+        continue;
+      }
       throw InputError(fmt::format(
           "--merge: {} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
           "are not parts of one session",

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/error.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/node_registry.h"
@@ -123,9 +124,13 @@ std::string LiveSession::ContestantOf(const std::string& planner) const {
 void LiveSession::HearRecord(const RunRecordMessage& record) {
   // Recorded runs are repeated until they are acknowledged; a request's messages carry the process
   // of the driver behind the run's id.
-  if (!seen_.insert(record.request_id).second) return;
+  const bool asked = WasAsked(record);
+  const auto [seen, is_new] = seen_.try_emplace(record.request_id, asked);
+  if (!is_new && (seen->second || !asked)) return;
+  seen->second = asked;
+  std::erase_if(records_, [&](const auto& one) { return one.request_id == record.request_id; });
   auto& [num_runs, num_solved] = tallies_[record.contestant];
-  ++num_runs;
+  num_runs += is_new;
   num_solved += record.status == PlanStatus::kSolved;
   records_.push_front(record);
   if (records_.size() > kRunsShown) records_.pop_back();

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +65,7 @@ class LiveSession {
   std::vector<PlanProgress> progress_;
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.
-  std::set<std::string> seen_;                          ///< Request ids of records.
+  std::map<std::string, bool> seen_;  ///< Request ids of records: whether they were asked.
   std::int64_t view_number_ = 0;
   std::int64_t num_undecodable_ = 0;
 };

@@ -102,7 +102,11 @@ TEST_F(ReplayTest, AsksAgainWhatWasAskedAndTellsWhatDiffers) {
   moved.result.result.path[1][0] = 0.75;
   RunRecordMessage without_problem = Recorded("then/c");
   without_problem.request.scene_id = "";
-  Replay replay = Make({Recorded("then/a"), moved, without_problem, Recorded("then/d", "another")});
+  RunRecordMessage given_up = Recorded("then/e");
+  given_up.status = PlanStatus::kNoAnswer;
+  given_up.result = {};
+  Replay replay =
+      Make({Recorded("then/a"), moved, without_problem, given_up, Recorded("then/d", "another")});
   std::vector<std::string> lines;
   EXPECT_FALSE(
       replay.Run([] { return false; }, [&](const std::string& line) { lines.push_back(line); }));

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/utime.h"
+#include "messaging/asked_runs.h"
 #include "results/outcomes.h"
 #include "tests/benchmark_driver/fake_nodes.h"
 #include "tests/support/expect_input_error.h"
@@ -329,6 +330,7 @@ TEST_F(RunExecutorTest, RefusalIsAnInvalidRequest) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kInvalidRequest);
   EXPECT_EQ(record->message, "refused: another robot");
+  EXPECT_TRUE(WasAsked(*record));
 }
 
 TEST_F(RunExecutorTest, PlannerThatIsRestartedGivesNoAnswer) {
@@ -343,7 +345,7 @@ TEST_F(RunExecutorTest, PlannerThatIsRestartedGivesNoAnswer) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
   EXPECT_THAT(record->message, HasSubstr("restarted"));
-  EXPECT_GT(record->roundtrip_time_s, 0);
+  EXPECT_TRUE(WasAsked(*record));
 }
 
 TEST_F(RunExecutorTest, AProblemThatTheServerNoLongerHasIsAnInvalidRequest) {
@@ -352,6 +354,7 @@ TEST_F(RunExecutorTest, AProblemThatTheServerNoLongerHasIsAnInvalidRequest) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kInvalidRequest);
   EXPECT_THAT(record->message, HasSubstr("no such problem"));
+  EXPECT_FALSE(WasAsked(*record));
   std::set<std::string> ids;
   for (const auto& request : server.problem_requests().messages()) ids.insert(request.request_id);
   EXPECT_EQ(ids.size(), 3u);  // it was asked anew
@@ -504,6 +507,16 @@ TEST_F(FirstPathTest, WithoutOneThereIsNothingToImprove) {
   EXPECT_EQ(record->message, "first: too hard");
   EXPECT_TRUE(record->request.initial_path.empty());
   EXPECT_TRUE(planner_.requests().messages().empty());
+}
+
+TEST_F(FirstPathTest, WithoutAnybodyToImproveItTheRunWasNotAsked) {
+  FirstAnswers(Found(kTick));
+  PlannerClient given_up(&bus_, &registry_, "nobody", {.given_up = [] { return "given up: it"; }});
+  const auto record =
+      executor_->Execute(Scheduled(), {&first_client_, &given_up}, [] { return false; });
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->message, "given up: it");
+  EXPECT_FALSE(WasAsked(*record));
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {

@@ -196,6 +196,34 @@ TEST_F(ResultsDatabaseTest, ARepeatedRecordIsStoredOnce) {
   EXPECT_EQ(database_.Store(other_session), Outcome::kStored);
 }
 
+TEST_F(ResultsDatabaseTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
+  RunRecordMessage not_asked = UnansweredRecord("request-1");
+  not_asked.message = "given up: it died";
+  database_.Store(not_asked);
+  RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.message = "given up: it died again";
+  EXPECT_EQ(database_.Store(not_asked_again), Outcome::kAlreadyStored);
+  EXPECT_EQ(Run("message"), SqliteValue(not_asked.message));
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
+  EXPECT_EQ(Count("runs"), Int(1));
+  EXPECT_EQ(Run("solved"), Int(1));
+  EXPECT_EQ(Count("progress"), Int(2));
+  const std::string before = DumpDatabase(file_);
+  EXPECT_EQ(database_.Store(not_asked), Outcome::kAlreadyStored) << "as when a log is read anew";
+  EXPECT_EQ(DumpDatabase(file_), before);
+  RunRecordMessage crashed = not_asked;
+  crashed.roundtrip_time_s = 0.5;
+  EXPECT_EQ(database_.Store(crashed), Outcome::kContradicts);
+}
+
+TEST_F(ResultsDatabaseTest, ARunInWhichThePlannerCrashedStands) {
+  RunRecordMessage crashed = UnansweredRecord("request-1");
+  crashed.roundtrip_time_s = 0.5;
+  database_.Store(crashed);
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kContradicts);
+  EXPECT_EQ(Run("solved"), Int(0));
+}
+
 TEST_F(ResultsDatabaseTest, ARecordThatContradictsItselfLeavesNoTrace) {
   const std::string before = DumpDatabase(file_);
   RunRecordMessage record = SampleRecord();

@@ -76,6 +76,24 @@ TEST_F(RecordLogTest, RepeatedRecordsCountOnce) {
   EXPECT_EQ(recorded.runs[0].roundtrip_time_s, 1);
 }
 
+TEST_F(RecordLogTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
+  const RunRecordMessage not_asked = Record("a", 0);
+  RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.message = "given up again";
+  Add(channel::kRunRecord, Encode(not_asked));
+  Add(channel::kRunRecord, Encode(Record("b", 1)));
+  Add(channel::kRunRecord, Encode(not_asked_again));
+  EXPECT_EQ(Read().runs.front(), not_asked);
+  log_.reset(lcm_eventlog_create(file_.c_str(), "a"));
+  Add(channel::kRunRecord, Encode(Record("a", 2)));
+  Add(channel::kRunRecord, Encode(not_asked_again));
+  Add(channel::kRunRecord, Encode(Record("a", 3)));
+  const RecordedSession recorded = Read();
+  ASSERT_EQ(recorded.runs.size(), 2u);
+  EXPECT_EQ(recorded.runs[0], Record("a", 2));
+  EXPECT_EQ(recorded.runs[1], Record("b", 1));
+}
+
 TEST_F(RecordLogTest, TornLastEventIsNoError) {
   Add(channel::kRunRecord, Encode(Record("a")));
   Add(channel::kRunRecord, Encode(Record("b")));

@@ -295,6 +295,24 @@ TEST_F(MergeSessionsTest, ARunThatTwoTellOfCountsOnce) {
   EXPECT_EQ(whole.num_runs, 2);
 }
 
+TEST_F(MergeSessionsTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
+  const MadeRun made = {.contestant = "A", .problem = 1};
+  MadeRun not_asked = made;
+  not_asked.status = PlanStatus::kNoAnswer;
+  not_asked.asked = false;
+  Write("one", Session("same", 1'000'000, 1), {not_asked});
+  Write("two", Session("same", 2'000'000, 1), {made});
+  int number = 0;
+  for (const std::vector<std::string>& folders :
+       std::vector<std::vector<std::string>>{{"one", "two"}, {"two", "one"}}) {
+    const std::string whole = fmt::format("whole{}", ++number);
+    ASSERT_EQ(MergeTo(whole, folders), kExitOk) << errors_;
+    const StoredSession session = ReadSessions(folder_ / whole).sessions.front();
+    ASSERT_EQ(session.runs.size(), 1u);
+    EXPECT_TRUE(session.runs.front().confirmed());
+  }
+}
+
 TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {
   Write("one", Session("early", 1'000'000, 1), {{.contestant = "A"}});
   Write("again", Session("later", 2'000'000, 1), {{.contestant = "A", .time_s = 2}});

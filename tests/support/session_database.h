@@ -32,6 +32,7 @@ struct MadeRun {
   std::map<std::string, double> counters = {};
   std::vector<PlanProgress> progress = {};
   std::map<std::string, std::string> settings = {};
+  bool asked = true;  ///< Else there is no round trip, nor an answer.
 };
 
 inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id, int number) {
@@ -50,6 +51,11 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   record.roundtrip_time_s = run.time_s + 0.5;
   record.request.direction = run.direction;
   record.request.time_limit_s = 10;
+  if (!run.asked) {
+    record.roundtrip_time_s = 0;
+    record.result = {};
+    return record;
+  }
   PlanResult& result = record.result.result;
   const bool claimed = run.status == PlanStatus::kSolved || run.status == PlanStatus::kInvalidPath;
   result.status = claimed ? PlanStatus::kSolved : run.status;

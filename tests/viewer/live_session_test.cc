@@ -84,6 +84,22 @@ TEST_F(LiveSessionTest, CountsEveryRunOnce) {
   EXPECT_EQ(state["runs"][1]["time_s"], 0.25);
 }
 
+TEST_F(LiveSessionTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
+  Hear(channel::kSession, bus_.session);
+  RunRecordMessage not_asked = bus_.record;
+  not_asked.status = PlanStatus::kNoAnswer;
+  not_asked.roundtrip_time_s = 0;
+  not_asked.result = {};
+  for (const RunRecordMessage& record : {not_asked, bus_.record, not_asked}) {
+    Hear(channel::kRunRecord, record);
+  }
+  const Json state = State();
+  EXPECT_EQ(state["contestants"][0]["runs"], 1);
+  EXPECT_EQ(state["contestants"][0]["solved"], 1);
+  ASSERT_EQ(state["runs"].size(), 1u);
+  EXPECT_EQ(state["runs"][0]["time_s"], 0.25);
+}
+
 TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   NodeStatusMessage node;
   node.name = "ara";

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "messaging/messages.h"
+
+namespace planbench {
+
+/// Whether a request of the run was sent. A run that was not (its planner had been given up, or had
+/// come back as another; its problem could not be had) has a record that says why, and is still to
+/// be made: --resume makes it.
+bool WasAsked(const RunRecordMessage& run);
+
+/// A run has one record. Of two that differ the first stands, but for this: whether `record` stands
+/// in the place of `known`, which tells of no request. The other way round, and of two that tell of
+/// none, `record` is to be passed over.
+bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
+
+}  // namespace planbench
