@@ -15,6 +15,7 @@
 #include "common/random_id.h"
 #include "messaging/asked_runs.h"
 #include "messaging/channels.h"
+#include "messaging/session_conditions.h"
 #include "results/statistics.h"
 #include "results/training.h"
 
@@ -147,7 +148,8 @@ void Replay::CompareSettings(const RunRecordMessage& run) const {
   if (!planner) return;
   const auto compare = [&](const std::string& what, const std::string& then,
                            const std::string& now) {
-    if (then != now) spdlog::warn("{}: {} was '{}', is '{}'", run.planner, what, then, now);
+    if (!IsSameSetting(then, now))
+      spdlog::warn("{}: {} was '{}', is '{}'", run.planner, what, then, now);
   };
   compare("algorithm", run.algorithm, planner->algorithm);
   std::map<std::string, std::string> own_settings = run.settings;

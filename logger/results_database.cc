@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -13,7 +14,9 @@
 #include "logger/session_json.h"
 #include "logger/utc_time.h"
 #include "messaging/asked_runs.h"
+#include "messaging/session_conditions.h"
 #include "results/database_version.h"
+#include "results/stored_session.h"
 
 namespace planbench {
 namespace {
@@ -85,6 +88,16 @@ std::string PlannerSettings(const RunRecordMessage& record) {
          AsLines(settings);
 }
 
+/// Whether such settings are one contestant's: parts of a session may spell numbers otherwise.
+bool IsSamePlanner(const std::string& first, const std::string& second) {
+  const auto of_first = ParseSettings(first);
+  const auto of_second = ParseSettings(second);
+  return std::equal(of_first.begin(), of_first.end(), of_second.begin(), of_second.end(),
+                    [](const auto& a, const auto& b) {
+                      return a.first == b.first && IsSameSetting(a.second, b.second);
+                    });
+}
+
 /// What Planner Arena compares over time; it shows the last word.
 std::string ExperimentVersion(const SessionMessage& session) {
   std::string version = "planbench " + session.version;
@@ -121,6 +134,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
           "WHERE experimentid = ?1 AND plannerid = ?2)) WHERE id = ?1")),
       find_planner_(
           connection_.Prepare("SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?")),
+      find_planners_(connection_.Prepare(
+          "SELECT id, settings FROM plannerConfigs WHERE name = ? ORDER BY id")),
       insert_planner_(
           connection_.Prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")),
       find_run_(connection_.Prepare("SELECT id, status, scene_id, roundtrip_time FROM runs "
@@ -227,6 +242,13 @@ std::int64_t ResultsDatabase::PlannerId(const RunRecordMessage& record) {
   const std::string settings = PlannerSettings(record);
   if (const auto id = find_planner_.BindAll(record.contestant, settings).First()) {
     return std::get<std::int64_t>(*id);
+  }
+  find_planners_.BindAll(record.contestant);
+  while (find_planners_.Step()) {
+    if (!IsSamePlanner(find_planners_.Text(1), settings)) continue;
+    const std::int64_t id = find_planners_.Int(0);
+    find_planners_.Reset();
+    return id;
   }
   insert_planner_.BindAll(record.contestant, settings).Run();
   return connection_.LastInsertId();

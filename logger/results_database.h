@@ -68,6 +68,7 @@ class ResultsDatabase {
   SqliteStatement insert_experiment_session_;
   SqliteStatement count_run_;
   SqliteStatement find_planner_;
+  SqliteStatement find_planners_;
   SqliteStatement insert_planner_;
   SqliteStatement find_run_;
   SqliteStatement find_equal_run_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "messaging/session_conditions.h"
 #include "results/comparison.h"
 #include "results/quality.h"
 #include "results/reproduce.h"
@@ -64,12 +66,20 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   table.columns.push_back({"field", ""});
   // By field, in the order of the table; a session without it has "".
   std::vector<std::pair<std::string, std::vector<std::string>>> fields;
-  const auto field = [&](const std::string& name, const auto& value_of) {
+  const auto add = [&](const std::string& name, const auto& value_of, const auto& is_same) {
     std::vector<std::string> values;
     for (const StoredSession& session : compared.sessions()) values.push_back(value_of(session));
-    const bool different = std::any_of(values.begin(), values.end(),
-                                       [&](const auto& value) { return value != values.front(); });
-    if (different || !only_different) fields.emplace_back(name, std::move(values));
+    const bool same = std::all_of(values.begin(), values.end(), [&](const std::string& value) {
+      return is_same(value, values.front());
+    });
+    if (!same || !only_different) fields.emplace_back(name, std::move(values));
+  };
+  const auto field = [&](const std::string& name, const auto& value_of) {
+    add(name, value_of, std::equal_to<>());
+  };
+  // Of flags and settings, in which numbers are numbers.
+  const auto setting = [&](const std::string& name, const auto& value_of) {
+    add(name, value_of, IsSameSetting);
   };
   const auto member = [](std::string StoredSession::*text) {
     return [text](const StoredSession& session) { return session.*text; };
@@ -86,7 +96,7 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   }
   told.erase("cpu");  // that of the session
   for (const std::string& name : told) {
-    field(name, [&](const StoredSession& session) { return ValueOf(session.machine, name); });
+    setting(name, [&](const StoredSession& session) { return ValueOf(session.machine, name); });
   }
   field("robot", member(&StoredSession::robot));
   field("seed", member(&StoredSession::seed));
@@ -97,12 +107,13 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   for (const std::string& flag : flags) {
     if (flag == kMergedCommands || flag == kMergedParts) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
-    field("--" + flag, [&](const StoredSession& session) { return ValueOf(session.flags, flag); });
+    setting("--" + flag,
+            [&](const StoredSession& session) { return ValueOf(session.flags, flag); });
   }
   if (only_different) {
     for (const auto& contestant : SettingsByContestant(compared)) {
       for (const std::string& key : contestant.second) {
-        field(fmt::format("{}: {}", contestant.first, key), [&](const StoredSession& session) {
+        setting(fmt::format("{}: {}", contestant.first, key), [&](const StoredSession& session) {
           return ValueOf(SettingsOf(session, contestant.first), key);
         });
       }

@@ -264,6 +264,16 @@ TEST_F(ResultsDatabaseTest, PlannersAreToldApartByNameAndSettings) {
             SqliteValue("ARA* (two-way)"));
 }
 
+TEST_F(ResultsDatabaseTest, SettingsThatAreOneNumberAreOnePlanners) {
+  int number = 0;
+  for (const char* epsilon : {"5", "5.0", "6"}) {
+    RunRecordMessage record = SampleRecord(std::to_string(++number));
+    record.request.parameters["epsilon"] = epsilon;
+    database_.Store(record);
+  }
+  EXPECT_EQ(Query("SELECT group_concat(plannerid) FROM runs"), SqliteValue("1,1,2"));
+}
+
 TEST_F(ResultsDatabaseTest, OneExperimentForEachSessionAndSet) {
   database_.Store(SampleSession());
   database_.Store(SampleRecord("a"));

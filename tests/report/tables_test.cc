@@ -460,11 +460,15 @@ TEST_F(ReportTest, ChangesBetweenSessionsAreToldWithTheirUncertainty) {
 
 TEST_F(ReportTest, SeveralSessionsAreListedWhereTheyDiffer) {
   const TemporaryFolder folder;
-  WriteSession(folder / "one", {{.contestant = "A"}}, ExampleSession());
+  const auto run_with = [](const std::string& step) {
+    return MadeRun{.contestant = "A", .settings = {{"range", "1"}, {"step", step}}};
+  };
+  WriteSession(folder / "one", {run_with("10")}, ExampleSession());
   SessionMessage other = ExampleSession();
   other.commit = "def456";
   other.settings["time"] = "20";
-  WriteSession(folder / "two", {{.contestant = "A", .time_s = 2}}, other);
+  other.settings["trials"] += ".0";  // the same number
+  WriteSession(folder / "two", {run_with("10.0")}, other);
   std::vector<StoredSession> sessions = ReadSessions(folder / "one").sessions;
   sessions.push_back(ReadSessions(folder / "two").sessions.front());
   const ComparedSessions compared(std::move(sessions));
