@@ -157,7 +157,7 @@ std::string MeshTable(const SessionResults& results) {
       table.Add({set.name, one.label(), fmt::format("{}", raw.judged), fmt::format("{}", raw.valid),
                  fmt::format("{}", simplified.judged), fmt::format("{}", simplified.valid)});
       if (raw.valid == raw.judged) continue;
-      notes += fmt::format("{}, {}: {} not mesh-valid, {}\n", set.name, one.contestant->name,
+      notes += fmt::format("{}, {}: {} not mesh-valid, {}\n", set.name, one.label(),
                            raw.judged - raw.valid, raw.reasons.Summary());
     }
   }

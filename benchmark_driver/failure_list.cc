@@ -32,9 +32,9 @@ std::string FailureSummary(const SessionResults& results) {
         failures.reasons.Add(*run->message);
       }
       for (const auto& [status, failures] : by_status) {
-        std::string line = fmt::format("  {}, {}: {} {}, problem{}", set.name, one.contestant->name,
-                                       failures.num_runs, EnumName(status),
-                                       failures.by_problem.size() > 1 ? "s" : "");
+        std::string line =
+            fmt::format("  {}, {}: {} {}, problem{}", set.name, one.label(), failures.num_runs,
+                        EnumName(status), failures.by_problem.size() > 1 ? "s" : "");
         for (const auto& [problem, count] : failures.by_problem)
           line += fmt::format(" {}", problem);
         text += Shortened(line) + "\n";
@@ -56,7 +56,7 @@ std::string FailureList(const SessionResults& results) {
       for (const RunRow* run : one.runs) {
         if (run->confirmed()) continue;
         any = true;
-        table.Add({set.name, fmt::format("{}", run->problem_index), one.contestant->name,
+        table.Add({set.name, fmt::format("{}", run->problem_index), one.label(),
                    std::string(EnumName(run->direction)), fmt::format("{}", run->trial),
                    std::string(EnumName(run->status)), *run->message});
       }

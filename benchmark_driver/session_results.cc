@@ -31,6 +31,20 @@ std::string ContestantResults::label() const {
   return is_trained ? contestant->name + " " + kTrained : contestant->name;
 }
 
+std::string SessionResults::LabelOf(const Contestant& contestant) const {
+  std::vector<std::string> trained_on;
+  std::size_t num_tried = 0;
+  for (const SetResults& set : sets_) {
+    for (const ContestantResults& one : set.contestants) {
+      if (one.contestant->name != contestant.name) continue;
+      ++num_tried;
+      if (one.is_trained) trained_on.push_back(set.name);
+    }
+  }
+  const std::string mark = TrainedMark(trained_on, num_tried);
+  return mark.empty() ? contestant.name : contestant.name + " " + mark;
+}
+
 SessionResults::SessionResults(const SessionConditions& conditions, const RunRows& runs,
                                const std::vector<Attempt>& references)
     : contestants_(conditions.contestants) {

@@ -41,6 +41,8 @@ class SessionResults {
 
   const std::vector<Contestant>& contestants() const { return contestants_; }
   const std::vector<SetResults>& sets() const { return sets_; }
+  /// A contestant's name where all sets are shown together.
+  std::string LabelOf(const Contestant& contestant) const;
 
  private:
   std::vector<Contestant> contestants_;

@@ -261,7 +261,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   std::string text = "Contestants\n";
   const std::map<std::string, std::string> classes = ClassesIfSeveral(results);
   for (const Contestant& one : results.contestants()) {
-    std::string line = one.name;
+    std::string line = results.LabelOf(one);
     if (const auto found = classes.find(one.name); found != classes.end()) {
       line += ", " + found->second;
     }

@@ -36,6 +36,18 @@ std::string MedianTime(const Outcomes& outcomes) {
   return text;
 }
 
+const ComparedContestant& ContestantCalled(const ComparedSessions& compared,
+                                           const std::string& name) {
+  const auto& all = compared.contestants();
+  return *std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+}
+
+/// What a contestant is called here, where its figures are of all sets.
+std::string Called(const ComparedSessions& compared, const std::string& name) {
+  const std::string mark = MarkOf(compared, ContestantCalled(compared, name));
+  return mark.empty() ? name : name + " " + mark;
+}
+
 /// The pairs of the leader over all sets.
 std::vector<const ComparedPair*> LeadersPairs(const ComparedSessions& compared,
                                               const std::vector<ComparedPair>& pairs) {
@@ -62,10 +74,11 @@ std::string WhoIsBest(const ComparedSessions& compared) {
   const char* rule = std::isnan(SummarizeTimes(outcomes).penalised_mean_s)
                          ? "the share solved, as time limits are not known"
                          : "penalised mean time";
+  const std::string called = Called(compared, leader);
   const std::string begin = num_contestants == 1
-                                ? leader
+                                ? called
                                 : fmt::format("Of {} contestants {} ranks first by {}: it",
-                                              num_contestants, leader, rule);
+                                              num_contestants, called, rule);
   return fmt::format("{} solved {}{}, over {} of {}.", begin, SolvedShare(outcomes),
                      MedianTime(outcomes),
                      Count(static_cast<int>(outcomes.by_problem.size()), "problem"),
@@ -76,7 +89,7 @@ std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next
   const bool is_second = next.second == compared.contestants()[1].name;
   std::string text =
       fmt::format("The next{}, {}, solved {}", is_second ? "" : " that tried a problem of its",
-                  next.second, SolvedShare(compared.pooled().at(next.second)));
+                  Called(compared, next.second), SolvedShare(compared.pooled().at(next.second)));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
     text += fmt::format(" and took {} times as long on the {} that both solved (geometric mean",
@@ -99,21 +112,22 @@ std::string HowSure(const ComparedSessions& compared,
   std::vector<std::string> open;
   for (const ComparedPair* pair : of_leader) {
     if (pair->adjusted_p > kLevel || pair->result.test.RankBiserial() >= 0) {
-      open.push_back(pair->second);
+      open.push_back(Called(compared, pair->second));
     }
   }
   const std::string& leader = of_leader.front()->first;
+  const std::string called = Called(compared, leader);
   std::string text;
   if (of_leader.size() == 1) {
     text = fmt::format("Problem by problem {} {} {} beyond chance (signed-rank test, 5 % level)",
-                       leader, open.empty() ? "is faster than" : "is not shown to be faster than",
-                       of_leader.front()->second);
+                       called, open.empty() ? "is faster than" : "is not shown to be faster than",
+                       Called(compared, of_leader.front()->second));
   } else {
     text = fmt::format(
         "Problem by problem {} is faster than {} others beyond chance (signed-rank tests, 5 % "
         "level "
         "after Holm's correction)",
-        leader,
+        called,
         open.empty()
             ? fmt::format("each of the {}", of_leader.size())
             : fmt::format("{} of the {}", of_leader.size() - open.size(), of_leader.size()));
@@ -208,10 +222,7 @@ std::string LeftOut(const std::string& name, const std::map<std::string, std::st
 
 /// That some of what a contestant is tried on is what it has learned from; "" if none is.
 std::string Trained(const ComparedSessions& compared, const ComparedContestant& contestant) {
-  std::vector<std::string> sets;
-  for (const auto& [set, by_contestant] : compared.outcomes()) {
-    if (by_contestant.contains(contestant.name) && contestant.IsTrainedOn(set)) sets.push_back(set);
-  }
+  const std::vector<std::string> sets = SetsLearnedFrom(compared, contestant);
   if (sets.empty()) return "";
   return fmt::format(
       "{} has learned from {}, on which it is tried here: its figures there are no test.",
@@ -231,11 +242,13 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
     return {nobody + "; " + Rejections(compared) + "."};
   }
   std::vector<std::string> sentences;
+  const auto add_training = [&](const ComparedContestant& contestant) {
+    if (std::string trained = Trained(compared, contestant); !trained.empty()) {
+      sentences.push_back(std::move(trained));
+    }
+  };
   sentences.push_back(WhoIsBest(compared));
-  if (const std::string trained = Trained(compared, compared.contestants().front());
-      !trained.empty()) {
-    sentences.push_back(trained);
-  }
+  add_training(compared.contestants().front());
   const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
   if (of_leader.empty()) {
     const char* nothing = compared.contestants().size() == 1
@@ -244,6 +257,7 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
     sentences.push_back(nothing + Rejections(compared) + ".");
   } else {
     sentences.push_back(ByHowMuch(compared, *of_leader.front()));
+    add_training(ContestantCalled(compared, of_leader.front()->second));
     sentences.push_back(HowSure(compared, of_leader) + "; " + Rejections(compared) + ".");
   }
   return sentences;

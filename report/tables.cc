@@ -51,26 +51,40 @@ bool IsTrained(const ComparedSessions& compared, const std::string& set, const s
   return of_name(&ComparedContestant::name) || of_name(&ComparedContestant::own_name);
 }
 
-/// Columns that say which contestants have learned from the set of their row, behind those that
-/// name them, if any have. Names stay as they are, for those who join tables by them. A table whose
-/// rows are of no set is left as it is.
+/// What marks whom a table calls so, rows being of no set.
+std::string MarkOf(const ComparedSessions& compared, const std::string& name) {
+  const auto& all = compared.contestants();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const ComparedContestant& one) { return one.name == name; });
+  return found == all.end() ? "" : MarkOf(compared, *found);
+}
+
+/// Columns that say which contestants have learned from the set of their row, or from which sets if
+/// it is of none, behind those that name them, if any have. Names stay as they are, for those who
+/// join tables by them.
 void MarkTrained(const ComparedSessions& compared, Table* table) {
   const auto is_of_contestants = [](const Column& column) {
     return column.name == "contestant" || column.name == "first" || column.name == "second";
   };
-  if (table->columns.front().name != "set") return;
-  const auto begin = table->columns.begin() + 1;
+  const bool of_sets = table->columns.front().name == "set";
+  const auto begin = std::find_if(table->columns.begin(), table->columns.end(), is_of_contestants);
+  const auto first = static_cast<std::size_t>(begin - table->columns.begin());
   const auto end = std::find_if_not(begin, table->columns.end(), is_of_contestants);
   const std::vector<Column> contestants(begin, end);
   bool any = false;
   std::vector<std::vector<Cell>> marks;
   for (const std::vector<Cell>& row : table->rows) {
     std::vector<Cell>& of_row = marks.emplace_back();
-    for (std::size_t i = 1; i <= contestants.size(); ++i) {
-      const bool is_trained =
-          IsTrained(compared, std::get<std::string>(row[0]), std::get<std::string>(row[i]));
-      any = any || is_trained;
-      of_row.emplace_back(std::string(is_trained ? kTrained : ""));
+    for (std::size_t i = first; i < first + contestants.size(); ++i) {
+      const auto& name = std::get<std::string>(row[i]);
+      std::string mark;
+      if (!of_sets) {
+        mark = MarkOf(compared, name);
+      } else if (IsTrained(compared, std::get<std::string>(row[0]), name)) {
+        mark = kTrained;
+      }
+      any = any || !mark.empty();
+      of_row.emplace_back(std::move(mark));
     }
   }
   if (!any) return;
@@ -80,13 +94,13 @@ void MarkTrained(const ComparedSessions& compared, Table* table) {
                           ? Column{"trained", "trained"}
                           : Column{of.name + "_trained", of.heading + " trained"});
   }
-  const auto place = static_cast<std::ptrdiff_t>(1 + contestants.size());
+  const auto place = static_cast<std::ptrdiff_t>(first + contestants.size());
   table->columns.insert(table->columns.begin() + place, columns.begin(), columns.end());
   for (std::size_t i = 0; i < marks.size(); ++i) {
     std::vector<Cell>& row = table->rows[i];
     row.insert(row.begin() + place, marks[i].begin(), marks[i].end());
   }
-  table->note += std::string(" ") + kTrainedNote;
+  table->note += std::string(" ") + (of_sets ? kTrainedNote : kTrainedOnNote);
 }
 
 /// The bodies that a reason names ("'a' and 'b'"), or all of it.
@@ -124,6 +138,23 @@ bool IsTrained(const ComparedSessions& compared, const std::string& set,
     return (set == kAllSets || set == one.first) && one.second.contains(contestant.name) &&
            contestant.IsTrainedOn(one.first);
   });
+}
+
+std::vector<std::string> SetsLearnedFrom(const ComparedSessions& compared,
+                                         const ComparedContestant& contestant) {
+  std::vector<std::string> sets;
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    if (by_contestant.contains(contestant.name) && contestant.IsTrainedOn(set)) sets.push_back(set);
+  }
+  return sets;
+}
+
+std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& contestant) {
+  const auto& sets = compared.outcomes();
+  const auto num_tried = std::count_if(sets.begin(), sets.end(), [&](const auto& set) {
+    return set.second.contains(contestant.name);
+  });
+  return TrainedMark(SetsLearnedFrom(compared, contestant), static_cast<std::size_t>(num_tried));
 }
 
 std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed) {

@@ -18,6 +18,13 @@ inline constexpr char kAllSets[] = "all sets";
 bool IsTrained(const ComparedSessions& compared, const std::string& set,
                const ComparedContestant& contestant);
 
+/// The sets that it is tried on and has learned from.
+std::vector<std::string> SetsLearnedFrom(const ComparedSessions& compared,
+                                         const ComparedContestant& contestant);
+/// What stands behind its name, or in a column beside it, where all sets are shown together
+/// (TrainedMark).
+std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& contestant);
+
 /// One contestant against another on one set, or on all.
 struct ComparedPair {
   std::string set;
@@ -44,8 +51,8 @@ Table FailureTable(const ComparedSessions& compared);
 /// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
 Table MeshTable(const ComparedSessions& compared);
 
-/// All of them and those of the sessions (session_tables.h) that have rows. Those whose rows are of
-/// a set mark in columns of their own who has learned from it (training.h).
+/// All of them and those of the sessions (session_tables.h) that have rows. Columns of their own
+/// mark who has learned from the set of a row, or from any if rows are of none (training.h).
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed);
 

@@ -1,5 +1,8 @@
 #include "results/training.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "planning/path_library.h"
@@ -20,6 +23,12 @@ bool Lists(const std::string& list, const std::string& separator, const std::str
 }
 
 }  // namespace
+
+std::string TrainedMark(const std::vector<std::string>& trained_on, std::size_t num_sets_tried) {
+  if (trained_on.empty()) return "";
+  if (trained_on.size() == num_sets_tried) return kTrained;
+  return fmt::format("(trained on {})", fmt::join(trained_on, ", "));
+}
 
 std::map<std::string, std::string> FirstPathTraining(
     const std::map<std::string, std::string>& first_planner) {

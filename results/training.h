@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@ namespace planbench {
 inline constexpr char kTrained[] = "(trained)";
 inline constexpr char kTrainedNote[] =
     "(trained): has learned from problems of this set, which is therefore no test.";
+
+/// The same where several sets are shown together: kTrained if it has learned from all that it is
+/// tried on, "(trained on shelf)" if from some, "" if from none.
+std::string TrainedMark(const std::vector<std::string>& trained_on, std::size_t num_sets_tried);
+inline constexpr char kTrainedOnNote[] =
+    "(trained): has learned from problems of the sets, or of those named, which are therefore no "
+    "test.";
 
 /// Settings of a contestant that is given the path of another (`first_path_of`), by which it tells
 /// what that one, of such settings, has learned from; none if that is nothing.

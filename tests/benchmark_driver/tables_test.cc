@@ -228,6 +228,13 @@ TEST(TablesTest, WhoLearnedFromTheSetItselfIsMarked) {
   EXPECT_THAT(Row(text, kSuccess, "ARA* (trained)"), StartsWith("4 2 2 50.0 ["));
   EXPECT_THAT(Row(text, kSuccess, "RRT-Connect"), StartsWith("2 2 1 50.0 ["));
   EXPECT_THAT(text, HasSubstr("no test"));
+  EXPECT_THAT(text, HasSubstr("\n  ARA* (trained): what ARA* is"));
+  EXPECT_THAT(text, HasSubstr("\n  RRT-Connect: what RRT-Connect is"));
+  EXPECT_THAT(Full(session), HasSubstr("\n  ARA* (trained): what ARA* is"));
+  auto of_two_sets = session;
+  of_two_sets.push_back(OfProblem(1, session.front()));
+  of_two_sets.back().problem_set = "elsewhere";
+  EXPECT_THAT(Brief(of_two_sets), HasSubstr("\n  ARA* (trained on " + set + "): what ARA* is"));
   EXPECT_NE(Row(text, kTimes, "ARA* (trained)"), "");
   EXPECT_THAT(text.substr(text.find("Problem by problem")), HasSubstr("ARA* (trained)"));
 

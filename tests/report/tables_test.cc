@@ -311,6 +311,13 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
   EXPECT_EQ(names_and_marks(1), (Row{"shelf", kTagName, kScriptName, "(trained)", ""}));
   EXPECT_EQ(names_and_marks(2), (Row{kAllSets, kTagName, kScriptName, "(trained)", ""}));
   EXPECT_THAT(table.note, testing::HasSubstr("(trained): has learned"));
+  const Table& conditions = tables.at("conditions");
+  ASSERT_EQ(conditions.columns[2].name, "trained");
+  for (std::size_t row = 0; row < conditions.rows.size(); ++row) {
+    const Row texts = Texts(conditions, row);
+    EXPECT_EQ(texts[2], texts[1] == kTagName ? "(trained on shelf)" : "");
+  }
+  EXPECT_THAT(conditions.note, testing::HasSubstr("(trained on ...)"));
   for (const Table& unmarked : AllTables(compared_, pairs_, 1)) {
     for (const Column& column : unmarked.columns) {
       EXPECT_EQ(column.name.find("trained"), std::string::npos) << unmarked.name << ": nobody is";
@@ -320,11 +327,27 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
   const std::string caution =
       fmt::format("{} has learned from shelf, on which it is tried here", kTagName);
   EXPECT_TRUE(Cautions(compared).back().starts_with(caution)) << Cautions(compared).back();
-  EXPECT_TRUE(Answer(compared, pairs).at(1).starts_with(caution)) << "it ranks first";
+  const std::vector<std::string> answer = Answer(compared, pairs);
+  EXPECT_TRUE(answer.at(1).starts_with(caution)) << "it ranks first";
+  const std::string marked = fmt::format("{} (trained on shelf)", kTagName);
+  EXPECT_THAT(answer.front(), testing::HasSubstr(marked));
+  EXPECT_THAT(answer.back(), testing::HasSubstr(marked));
   const Json sets = FigureData(compared, pairs, {})["sets"];
   EXPECT_EQ(sets[0]["trained"], Json::array());
   EXPECT_EQ(sets[1]["trained"], Json::array({0}));
   EXPECT_EQ(sets[2]["trained"], Json::array({0})) << "all sets";
+}
+
+TEST_F(ReportTest, TheNextIsMarkedLikeTheFirst) {
+  const std::map<std::string, std::string> settings = {{"learned_from", "shelf"}};
+  const ComparedSessions compared =
+      Read({{.contestant = "A"}, {.contestant = "B", .time_s = 2, .settings = settings}});
+  const std::vector<std::string> answer = Answer(compared, ComparePairs(compared, 1));
+  ASSERT_EQ(answer.size(), 4u);
+  EXPECT_THAT(answer[0], testing::HasSubstr("contestants A ranks first"));
+  EXPECT_THAT(answer[1], testing::HasSubstr("The next, B (trained), solved"));
+  EXPECT_THAT(answer[2], testing::StartsWith("B has learned from shelf"));
+  EXPECT_THAT(answer[3], testing::HasSubstr("faster than B (trained) beyond chance"));
 }
 
 TEST_F(ReportTest, WhoHasLearnedIsMarkedInChanges) {
