@@ -47,6 +47,7 @@ SqliteConnection Open(const std::filesystem::path& file) {
     throw not_ours(fmt::format("its user_version is {}, not {}", std::get<std::int64_t>(version),
                                kResultsSchemaVersion));
   }
+  KeepEveryProgressEntry(&connection);
   return connection;
 }
 
@@ -143,9 +144,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
       find_equal_run_(connection_.Prepare(FindEqualRunSql())),
       delete_run_(connection_.Prepare("DELETE FROM runs WHERE id = ?")),
       insert_run_(connection_.Prepare(InsertRunSql())),
-      // Two improvements at one reading of the clock: the later one stands.
       insert_progress_(connection_.Prepare(
-          "INSERT OR REPLACE INTO progress (runid, time, epsilon, cost, expansions, best_cost) "
+          "INSERT INTO progress (runid, time, epsilon, cost, expansions, best_cost) "
           "VALUES (?1, ?2, ?3, ?4, ?5, ?4)")),
       insert_counter_(connection_.Prepare("INSERT INTO counters VALUES (?, ?, ?)")),
       insert_position_(connection_.Prepare("INSERT INTO paths VALUES (?, ?, ?, ?, ?)")) {}

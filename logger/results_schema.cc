@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "logger/run_columns.h"
 #include "planning/plan_status.h"
 #include "results/database_version.h"
@@ -34,13 +36,17 @@ CREATE INDEX runs_by_experiment ON runs (experimentid, plannerid);
 CREATE INDEX runs_by_problem ON runs (problem_set, problem_index);
 )sql";
 
-// Planner Arena cannot do without progress.best_cost.
-constexpr char kOtherTables[] = R"sql(
+// Planner Arena cannot do without progress.best_cost, and draws every further column. There is no
+// key: of several entries at one reading of the clock all are kept, in the order of their rowid.
+constexpr char kProgressTable[] = R"sql(
 CREATE TABLE progress (
   runid INTEGER, time REAL, epsilon REAL, cost REAL, expansions INTEGER,
   best_cost REAL,
-  PRIMARY KEY (runid, time),
   FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
+CREATE INDEX progress_by_run ON progress (runid, time);
+)sql";
+
+constexpr char kOtherTables[] = R"sql(
 CREATE TABLE counters (
   runid INTEGER, name TEXT, value REAL,
   PRIMARY KEY (runid, name),
@@ -75,9 +81,24 @@ std::string ResultsSchema() {
     sql += fmt::format("  {} {},\n", column.name, column.type);
   }
   sql += kRunsKeys;
+  sql += kProgressTable;
   sql += kOtherTables;
   sql += fmt::format("PRAGMA user_version = {};\n", kResultsSchemaVersion);
   return sql;
+}
+
+void KeepEveryProgressEntry(SqliteConnection* connection) {
+  if (connection->QueryValue("SELECT count(*) FROM pragma_table_info('progress') WHERE pk > 0") ==
+      SqliteValue(std::int64_t{0})) {
+    return;
+  }
+  SqliteTransaction transaction(connection);
+  connection->Execute("ALTER TABLE progress RENAME TO progress_by_time");
+  connection->Execute(kProgressTable);
+  connection->Execute(
+      "INSERT INTO progress SELECT runid, time, epsilon, cost, expansions, best_cost "
+      "FROM progress_by_time ORDER BY runid, time; DROP TABLE progress_by_time");
+  transaction.Commit();
 }
 
 }  // namespace planbench

@@ -76,7 +76,10 @@ std::vector<Property> LoggedProperties() {
 
 std::string ProgressOf(const StoredRun& run) {
   std::string text;
-  for (const PlanProgress& one : run.progress) {
+  for (std::size_t i = 0; i < run.progress.size(); ++i) {
+    const PlanProgress& one = run.progress[i];
+    // OMPL's tables have room for one a time.
+    if (i + 1 < run.progress.size() && run.progress[i + 1].elapsed_s == one.elapsed_s) continue;
     text += fmt::format("{},{},;", one.elapsed_s, one.cost);
   }
   return text;

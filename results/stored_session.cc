@@ -270,7 +270,8 @@ class Reader {
   void ReadProgress() {
     if (CountTables("'progress'") == 0) return;
     SqliteStatement select = connection_.Prepare(
-        "SELECT runid, time, epsilon, cost, expansions FROM progress ORDER BY runid, time");
+        "SELECT runid, time, epsilon, cost, expansions FROM progress "
+        "ORDER BY runid, time, rowid");
     while (select.Step()) {
       const auto place = places_.find(select.Int(0));
       const auto time_s = Real(select.Value(1));

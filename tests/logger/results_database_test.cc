@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "results/stored_session.h"
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/temporary_folder.h"
@@ -15,6 +16,10 @@ using Outcome = ResultsDatabase::Outcome;
 const SqliteValue kNull;
 
 SqliteValue Int(std::int64_t value) { return value; }
+
+constexpr char kProgressSchema[] =
+    "SELECT group_concat(sql) FROM (SELECT sql FROM sqlite_master WHERE tbl_name = 'progress' "
+    "ORDER BY name)";
 
 class ResultsDatabaseTest : public testing::Test {
  protected:
@@ -128,13 +133,38 @@ TEST_F(ResultsDatabaseTest, KeepsPathsProgressAndCounters) {
   EXPECT_EQ(Query("SELECT value FROM counters WHERE name = 'goal_tries'"), SqliteValue(66.5));
 }
 
-TEST_F(ResultsDatabaseTest, OfTwoImprovementsAtOneTimeTheLaterStands) {
+TEST_F(ResultsDatabaseTest, ImprovementsAtOneTimeAreAllKeptInOrder) {
   RunRecordMessage record = SampleRecord();
-  record.result.result.progress = {{0.25, 5, 4000, 100}, {0.25, 0, 3000, 200}};
+  record.result.result.progress = {
+      {0.25, 5, 3000, 100}, {0.25, 0, 4000, 200}, {0.25, 5, 3000, 100}};
   database_.Store(record);
-  EXPECT_EQ(Count("progress"), Int(1));
-  EXPECT_EQ(Query("SELECT cost FROM progress"), SqliteValue(3000.0));
-  EXPECT_EQ(Query("SELECT epsilon FROM progress"), kNull);  // no bound
+  EXPECT_EQ(Count("progress"), Int(3));
+  EXPECT_EQ(Query("SELECT epsilon FROM progress WHERE cost = 4000"), kNull);  // no bound
+  const StoredRun run = ReadSessions(file_).sessions.at(0).runs.at(0);
+  EXPECT_EQ(run.progress, record.result.result.progress);
+}
+
+TEST_F(ResultsDatabaseTest, ADatabaseThatHadRoomForOneImprovementATimeGetsRoomForAll) {
+  const auto file = folder_ / "old.sqlite";
+  { ResultsDatabase(file).Store(SampleRecord("a")); }
+  SqliteConnection(file, SqliteConnection::Mode::kReadWriteCreate)
+      .Execute(
+          "CREATE TABLE old (runid INTEGER, time REAL, epsilon REAL, cost REAL, expansions "
+          "INTEGER, "
+          "best_cost REAL, PRIMARY KEY (runid, time), "
+          "FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE); "
+          "INSERT INTO old SELECT * FROM progress; DROP TABLE progress; "
+          "ALTER TABLE old RENAME TO progress");
+  RunRecordMessage record = SampleRecord("b");
+  record.result.result.progress = {{0.25, 5, 4000, 100}, {0.25, 0, 3000, 200}};
+  { ResultsDatabase(file).Store(record); }
+  const std::vector<StoredRun> runs = ReadSessions(file).sessions.at(0).runs;
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].progress, SampleRecord().result.result.progress);
+  EXPECT_EQ(runs[1].progress, record.result.result.progress);
+  SqliteConnection connection(file, SqliteConnection::Mode::kReadOnly);
+  const SqliteValue schema_then = connection.QueryValue(kProgressSchema);
+  EXPECT_EQ(schema_then, Query(kProgressSchema)) << "as of a new one";
 }
 
 TEST_F(ResultsDatabaseTest, ARunWithoutAnswerHasNoTimes) {

@@ -238,6 +238,14 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
   ExpectInputError([&] { KeepProblemsOf(own, &imported); }, {"own.log", "shelf", "other"});
 }
 
+TEST_F(OmplResultsTest, OfImprovementsAtOneTimeALogHasTheLast) {
+  WriteSession(
+      folder_ / "example",
+      {{.contestant = "A", .progress = {{0.5, 0, 30, 1}, {0.5, 0, 20, 2}, {1, 0, 10, 3}}}});
+  const std::string log = OmplLog(ReadSessions(folder_ / "example").sessions.front(), "shelf");
+  EXPECT_NE(log.find("\n0.5,20,;1,10,;\n"), std::string::npos) << log;
+}
+
 TEST_F(OmplResultsTest, OmplsOwnReaderTakesALogOfOurs) {
   if (std::system("command -v ompl_benchmark_statistics >/dev/null") != 0) {
     GTEST_SKIP() << "no reader of OMPL's here: apt-get install ompl-demos";
