@@ -194,8 +194,11 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       ->capture_default_str();
   AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, "robot geometry")
       ->default_str(std::string(EnumName(request.collision_model)));
-  app->add_option("--edge-resolution", request.edge_resolution_m,
-                  "largest motion of any point between samples of an edge, m; default: the robot's")
+  app->add_option(
+         "--edge-resolution", request.edge_resolution_m,
+         "largest motion of any point between samples of an edge, m; default: the robot's; "
+         "planners that sample edges by a rule of their own do not heed it, which the "
+         "tables say")
       ->check(Positive());
   AddEnum<EdgeCheck>(
       app, "--edge-check", &request.edge_check,

@@ -1,6 +1,7 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
+#include "planning/told_edges.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -17,6 +18,8 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
   row.planner = Shared(record.planner);
   row.contestant = Shared(record.contestant);
   row.planner_class = Shared(record.planner_class);
+  row.edges = Shared(
+      DescribeEdges(record.request.edge_check, record.request.edge_resolution_m, record.settings));
   row.trained = Training(record.settings).Includes(record.problem_set, record.request.scene_id);
   row.message = Shared(record.message);
   row.problem_index = record.problem_index;

@@ -18,6 +18,7 @@ struct RunRow {
   const std::string* planner = nullptr;
   const std::string* contestant = nullptr;
   const std::string* planner_class = nullptr;
+  const std::string* edges = nullptr;  ///< How they were checked (planning/told_edges.h).
   const std::string* message = nullptr;
   const std::string* mesh_reason = nullptr;  ///< Why the meshes do not allow the raw path.
   int problem_index = 0;

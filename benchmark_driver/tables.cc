@@ -12,6 +12,7 @@
 #include "benchmark_driver/published_study.h"
 #include "benchmark_driver/session_results.h"
 #include "benchmark_driver/text_table.h"
+#include "planning/told_edges.h"
 #include "results/comparison.h"
 #include "results/training.h"
 
@@ -256,6 +257,18 @@ std::string OddTimesTold(const SessionResults& results) {
   return text;
 }
 
+/// How a contestant's edges were checked; without runs, how they are to be.
+std::string EdgesOf(const Contestant& contestant, const SessionResults& results) {
+  for (const SetResults& set : results.sets()) {
+    for (const ContestantResults& one : set.contestants) {
+      if (one.contestant->name == contestant.name && !one.runs.empty()) {
+        return *one.runs.front()->edges;
+      }
+    }
+  }
+  return DescribeEdges(contestant.edge_check, contestant.edge_resolution_m, {});
+}
+
 /// What the contestants are, and what holds of all the figures.
 std::string Preface(const SessionConditions& conditions, const SessionResults& results) {
   std::string text = "Contestants\n";
@@ -267,12 +280,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     }
     if (!one.about.empty()) line += ": " + one.about;
     if (one.collision_model) {
-      line += fmt::format(" [{}, edges {}", EnumName(*one.collision_model),
-                          one.edge_check ? EnumName(*one.edge_check) : "as the robot says");
-      if (one.edge_check == EdgeCheck::kFixed && one.edge_resolution_m) {
-        line += fmt::format(" at {} m", *one.edge_resolution_m);
-      }
-      line += "]";
+      line += fmt::format(" [{}, edges {}]", EnumName(*one.collision_model), EdgesOf(one, results));
     }
     text += BreakLines(line + "\n");
   }

@@ -1,6 +1,7 @@
 #include "logger/results_database.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "logger/utc_time.h"
 #include "messaging/asked_runs.h"
 #include "messaging/session_conditions.h"
+#include "planning/told_edges.h"
 #include "results/database_version.h"
 #include "results/stored_session.h"
 
@@ -79,13 +81,18 @@ std::string PlannerSettings(const RunRecordMessage& record) {
   std::map<std::string, std::string> settings = record.request.parameters;
   settings.insert(record.settings.begin(), record.settings.end());
   const PlanRequest& request = record.request;
+  const ToldSampling sampling =
+      SamplingOf(request.edge_check, request.edge_resolution_m, record.settings);
+  std::vector<std::string> edges;
+  if (sampling.resolution_m) edges.push_back(fmt::format("{}", *sampling.resolution_m));
+  if (!sampling.own.empty()) edges.push_back("own sampling: " + sampling.own);
+  if (edges.empty()) edges.emplace_back("the robot's");
   return fmt::format(
              "algorithm = {}\nplanner_class = {}\ncollision_model = {}\nedge_check = {}\n"
              "edge_resolution = {}\n",
              record.algorithm, record.planner_class, EnumName(request.collision_model),
              request.edge_check ? EnumName(*request.edge_check) : "the robot's",
-             request.edge_resolution_m ? fmt::format("{}", *request.edge_resolution_m)
-                                       : "the robot's") +
+             fmt::join(edges, ", ")) +
          AsLines(settings);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "logger/utc_time.h"
+#include "planning/told_edges.h"
 
 namespace planbench {
 namespace {
@@ -149,7 +150,8 @@ std::vector<RunColumn> MakeRunColumns() {
        [](const Record& r) { return Text(std::string(EnumName(r.request.collision_model))); }},
       {"edge_resolution", "REAL",
        [](const Record& r) {
-         const auto& step_m = r.request.edge_resolution_m;
+         const auto step_m =
+             SamplingOf(r.request.edge_check, r.request.edge_resolution_m, r.settings).resolution_m;
          return step_m ? Real(*step_m) : SqliteValue(kNull);
        }},
       {"edge_check", "TEXT",

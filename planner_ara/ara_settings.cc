@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "planning/experience.h"
+#include "planning/told_edges.h"
 
 namespace planbench {
 namespace {
@@ -86,7 +87,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "shorten",
                   "wrap_heuristic",
                   "fit_cells",
-                  "edge_weights",
+                  kEdgeWeights,
                   "experience",
                   "recall",
                   "epsilon_initial",
@@ -94,7 +95,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "epsilon_final",
                   "memory_limit_mb"});
   ApplyByJoint(node, "discretization", &discretization);
-  ApplyByJoint(node, "edge_weights", &edge_weights);
+  ApplyByJoint(node, kEdgeWeights, &edge_weights);
   fit_cells = node.BoolOr("fit_cells", fit_cells);
   if (const std::optional<YamlNode> value = node.Find("evaluation")) {
     evaluation = value->Enum<Evaluation>();
@@ -182,7 +183,7 @@ std::map<std::string, std::string> AraSettings::AsText() const {
     text["experience"] = experience;
     text["recall"] = fmt::format("{}", recall);
   }
-  if (!edge_weights.empty()) text["edge_weights"] = ByJointAsText(edge_weights);
+  if (!edge_weights.empty()) text[kEdgeWeights] = ByJointAsText(edge_weights);
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "planner_rrtc/ompl_algorithms.h"
 #include "planning/experience.h"
+#include "planning/told_edges.h"
 
 namespace planbench {
 namespace {
@@ -68,7 +69,7 @@ double ShrinkingRange(std::int64_t iterations) {
 
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
   node.AllowOnly({"algorithm", "sampler", "range", "extension", "balance", "domain_radius",
-                  "experience", "recall", "metric", "longest_valid_segment_fraction", "ompl"});
+                  "experience", "recall", "metric", kSegmentFraction, "ompl"});
   RrtcSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
@@ -85,12 +86,12 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   }
   if (const auto value = node.Find("experience")) settings.experience = value->String();
   if (const auto value = node.Find("recall")) settings.recall = ReadRecall(*value);
-  for (const char* key : {"metric", "longest_valid_segment_fraction", "ompl"}) {
+  for (const char* key : {"metric", kSegmentFraction, "ompl"}) {
     const auto value = node.Find(key);
     if (value && !is_ompl) value->Fail("is for OMPL's planners only, not for RRT-Connect");
   }
   if (const auto value = node.Find("metric")) settings.metric = value->Enum<Metric>();
-  if (const auto value = node.Find("longest_valid_segment_fraction")) {
+  if (const auto value = node.Find(kSegmentFraction)) {
     settings.longest_valid_segment_fraction = ReadFraction(*value);
     settings.segment_fraction_origin = value->Where();
   }
@@ -110,7 +111,7 @@ std::map<std::string, std::string> DescribeSettings(const RrtcSettings& settings
   if (settings.ompl_algorithm != nullptr) {
     text["metric"] = EnumName(settings.metric);
     if (const auto fraction = settings.longest_valid_segment_fraction) {
-      text["longest_valid_segment_fraction"] = fmt::format("{}", *fraction);
+      text[kSegmentFraction] = fmt::format("{}", *fraction);
     }
     for (const auto& [key, value] : settings.ompl_parameters) text["ompl." + key] = value;
     return text;

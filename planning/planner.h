@@ -62,7 +62,8 @@ class Planner {
   /// Throws InputError for bad parameters.
   virtual SearchResult Search(SearchQuery& query) = 0;
   /// How edges are sampled, for a planner that reproduces another system's way; nothing: as the
-  /// request says, by `method` and at `resolution_m`.
+  /// request says, by `method` and at `resolution_m`. A setting tells of it
+  /// (planning/told_edges.h).
   virtual std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& /*group*/,
                                                       EdgeCheck /*method*/,
                                                       double /*resolution_m*/) const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 #include "benchmark_driver/text_table.h"
@@ -31,6 +32,8 @@ RunRecordMessage AttemptOf(PlanStatus status, double planning_time_s,
   record.status = status;
   record.request.direction = direction;
   record.request.time_limit_s = 60;
+  record.request.edge_check = EdgeCheck::kFixed;
+  record.request.edge_resolution_m = 0.02;
   record.roundtrip_time_s = planning_time_s + 0.001;
   PlanResult& result = record.result.result;
   result.planning_time_s = result.total_time_s = planning_time_s;
@@ -421,6 +424,14 @@ TEST(TablesTest, ContestantsAreExplained) {
   EXPECT_THAT(text, StartsWith("Contestants\n  RRT-Connect: what RRT-Connect is [spheres, edges "
                                "fixed at 0.02 m]\n  ARA*: what ARA* is [spheres, edges fixed at "
                                "0.02 m]\n\nSuccess\n"));
+  auto records = FourProblems();
+  records.back().settings["longest_valid_segment_fraction"] = "0.01";
+  records[records.size() - 2].settings = records.back().settings;
+  std::string line = Brief(records);
+  line = line.substr(0, line.find("  ARA*"));
+  line = std::regex_replace(line, std::regex("\\s+"), " ");  // it is broken
+  EXPECT_THAT(line, HasSubstr("[spheres, edges fixed, own sampling: longest_valid_segment_fraction "
+                              "0.01]"));
   SessionConditions conditions = Conditions();
   EXPECT_THAT(text, Not(HasSubstr("UNDER LOAD")));
   conditions.parallel = true;

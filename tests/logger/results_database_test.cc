@@ -294,6 +294,18 @@ TEST_F(ResultsDatabaseTest, PlannersAreToldApartByNameAndSettings) {
             SqliteValue("ARA* (two-way)"));
 }
 
+TEST_F(ResultsDatabaseTest, APlannerThatSamplesEdgesByItsOwnRuleHasNoResolutionOfTheRequest) {
+  RunRecordMessage record = SampleRecord("a");
+  record.request.edge_check = EdgeCheck::kFixed;
+  record.settings["longest_valid_segment_fraction"] = "0.005";
+  database_.Store(record);
+  EXPECT_EQ(Run("edge_check", "a"), SqliteValue("fixed"));
+  EXPECT_EQ(Run("edge_resolution", "a"), kNull);
+  EXPECT_NE(std::get<std::string>(Query("SELECT settings FROM plannerConfigs"))
+                .find("\nedge_resolution = own sampling: longest_valid_segment_fraction 0.005\n"),
+            std::string::npos);
+}
+
 TEST_F(ResultsDatabaseTest, SettingsThatAreOneNumberAreOnePlanners) {
   int number = 0;
   for (const char* epsilon : {"5", "5.0", "6"}) {
