@@ -5,67 +5,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <map>
 #include <regex>
 #include <set>
 #include <stdexcept>
 
-#include "tests/benchmark_driver/fake_nodes.h"
-#include "tests/support/expect_input_error.h"
+#include "tests/benchmark_driver/driver_fixture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
-
-/// Ids of all that came; what was repeated counts once.
-template <typename Message>
-std::set<std::string> Ids(MessageCollector<Message>& collector) {
-  std::set<std::string> ids;
-  for (const Message& message : collector.messages()) ids.insert(message.request_id);
-  return ids;
-}
-
-void Idle() {}
-bool Never() { return false; }
-
-std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners) {
-  LineUpFlags flags;
-  flags.planners = planners;
-  return MakeLineUp(flags, std::nullopt);
-}
-
-class DriverTest : public testing::Test {
- protected:
-  DriverTest() { bus_.Start(); }
-
-  static DriverOptions Options() {
-    DriverOptions options;
-    options.directions = Directions::kBoth;
-    options.problem_indices = {1, 2};
-    options.discovery_timeout_s = 60;
-    options.conditions.request.run_id = "run";
-    return options;
-  }
-  void ExpectNotDiscovered(const DriverOptions& options, const std::vector<std::string>& parts) {
-    Driver driver(&bus_, options, LineUp({"arm"}), {});
-    ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
-  }
-
-  /// Has the planner announce itself as it now is, and waits until that is what is heard.
-  void Reannounce(FakePlanner* planner) {
-    NodeRegistry registry(&bus_);
-    planner->Restart();
-    ASSERT_TRUE(registry.WaitUntil(
-        [&] {
-          const auto heard = registry.Find("arm", NodeKind::kPlanner);
-          return heard && heard->instance == planner->status.instance;
-        },
-        kTestPatience));
-  }
-
-  Bus bus_{"memq://"};
-};
 
 TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   FakePlanner planner(&bus_);
@@ -298,43 +246,6 @@ TEST_F(DriverTest, RunsThatAreNotRecordedAreAFailure) {
   EXPECT_EQ(driver.runs().size(), 4u);
 }
 
-TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
-  FakePlanner planner(&bus_);
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kForward;
-  EarlierSession earlier;
-  {
-    Driver driver(&bus_, options, LineUp({"arm"}), {});
-    driver.Discover(true, Idle);
-    EXPECT_TRUE(driver.Run(Never, Idle));
-    earlier = {logger.sessions().messages(), logger.records().messages()};
-  }
-  const std::set<std::string> recorded_before = Ids(logger.records());
-  options.problem_indices = {1};  // no longer 2
-  options.directions = Directions::kBoth;
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
-  std::set<std::string> recorded = Ids(logger.records());
-  for (const std::string& id : recorded_before) recorded.erase(id);
-  EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
-  EXPECT_EQ(driver.runs().size(), 3u);
-  EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
-  EXPECT_EQ(logger.sessions().messages().back().start_utime, earlier.sessions[0].start_utime);
-  EXPECT_GT(logger.sessions().messages().back().total_time_s, earlier.sessions.back().total_time_s);
-
-  options.conditions.request.time_limit_s = 7;
-  Driver other(&bus_, options, LineUp({"arm"}), {}, earlier);
-  ExpectInputError([&] { other.Discover(true, Idle); }, {"--resume", "time_limit_s", "60", "7"});
-  planner.status.settings["step"] = "6";
-  Reannounce(&planner);
-  Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier);
-  ExpectInputError([&] { another.Discover(true, Idle); },
-                   {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
-}
-
 TEST_F(DriverTest, InterruptionStopsAndSaysSo) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
@@ -413,56 +324,6 @@ TEST_F(DriverTest, OneThatIsGivenUpLeavesTheOthersTheirRuns) {
   }
   EXPECT_GE(num_solved, 4);
   EXPECT_TRUE(logger.sessions().messages().back().finished);
-}
-
-TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSession) {
-  FakePlanner planner(&bus_);
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kAuto;
-  options.problem_indices = {1, 2, 3};
-  EarlierSession earlier;
-  std::map<std::string, RunRecordMessage> before;
-  {
-    // It dies of problem 2.
-    std::atomic<bool> dead = false;
-    planner.OnRequest([&](const PlanRequest& request) {
-      if (request.request_id.find("/cans/2/") == std::string::npos) return planner.Solve(request);
-      planner.FallSilent();
-      dead = true;
-    });
-    Driver driver(&bus_, options, LineUp({"arm"}), {});
-    driver.Discover(true, Idle);
-    EXPECT_TRUE(driver.Run(Never, [&] {
-      if (dead) driver.GiveUp("arm", "it died");
-    }));
-    // Whether problem 3 needs the backward search is not known.
-    EXPECT_EQ(driver.num_runs(), 4);
-    for (const RunRecordMessage& record : logger.records().messages()) {
-      if (before.emplace(record.request_id, record).second) earlier.runs.push_back(record);
-    }
-    earlier.sessions = logger.sessions().messages();
-  }
-  ASSERT_EQ(before.size(), 4u);
-  EXPECT_GT(before.at("run/cans/2/arm/forward/1").roundtrip_time_s, 0);
-  EXPECT_EQ(before.at("run/cans/2/arm/backward/1").message, "given up: it died");
-  EXPECT_EQ(before.at("run/cans/3/arm/forward/1").message, "given up: it died");
-
-  planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
-  Reannounce(&planner);
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
-  std::set<std::string> made;
-  for (const RunRecordMessage& record : logger.records().messages()) {
-    if (before.at(record.request_id) == record) continue;
-    made.insert(record.request_id);
-    EXPECT_EQ(record.status, PlanStatus::kSolved);
-  }
-  EXPECT_EQ(made, (std::set<std::string>{"run/cans/2/arm/backward/1", "run/cans/3/arm/forward/1"}));
-  EXPECT_EQ(driver.runs().size(), 4u);
-  EXPECT_EQ(driver.num_runs(), 4);
 }
 
 TEST_F(DriverTest, OneThatComesBackWithOtherSettingsHasNoMoreRuns) {

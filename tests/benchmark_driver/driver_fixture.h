@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "benchmark_driver/driver.h"
+#include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/support/expect_input_error.h"
+
+namespace planbench {
+
+/// Ids of all that came; what was repeated counts once.
+template <typename Message>
+std::set<std::string> Ids(MessageCollector<Message>& collector) {
+  std::set<std::string> ids;
+  for (const Message& message : collector.messages()) ids.insert(message.request_id);
+  return ids;
+}
+
+inline void Idle() {}
+inline bool Never() { return false; }
+
+inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners) {
+  LineUpFlags flags;
+  flags.planners = planners;
+  return MakeLineUp(flags, std::nullopt);
+}
+
+class DriverTest : public testing::Test {
+ protected:
+  DriverTest() { bus_.Start(); }
+
+  static DriverOptions Options() {
+    DriverOptions options;
+    options.directions = Directions::kBoth;
+    options.problem_indices = {1, 2};
+    options.discovery_timeout_s = 60;
+    options.conditions.request.run_id = "run";
+    return options;
+  }
+  void ExpectNotDiscovered(const DriverOptions& options, const std::vector<std::string>& parts) {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
+  }
+
+  /// Has the planner announce itself as it now is, and waits until that is what is heard.
+  void Reannounce(FakePlanner* planner) {
+    NodeRegistry registry(&bus_);
+    planner->Restart();
+    ASSERT_TRUE(registry.WaitUntil(
+        [&] {
+          const auto heard = registry.Find("arm", NodeKind::kPlanner);
+          return heard && heard->instance == planner->status.instance;
+        },
+        kTestPatience));
+  }
+
+  Bus bus_{"memq://"};
+};
+
+}  // namespace planbench

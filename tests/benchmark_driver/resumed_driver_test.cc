@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <map>
+#include <set>
+#include <string>
+
+#include "tests/benchmark_driver/driver_fixture.h"
+
+namespace planbench {
+namespace {
+
+TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  EarlierSession earlier;
+  {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(true, Idle);
+    EXPECT_TRUE(driver.Run(Never, Idle));
+    earlier = {logger.sessions().messages(), logger.records().messages()};
+  }
+  const std::set<std::string> recorded_before = Ids(logger.records());
+  options.problem_indices = {1};  // no longer 2
+  options.directions = Directions::kBoth;
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  std::set<std::string> recorded = Ids(logger.records());
+  for (const std::string& id : recorded_before) recorded.erase(id);
+  EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
+  EXPECT_EQ(driver.runs().size(), 3u);
+  EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+  EXPECT_EQ(logger.sessions().messages().back().start_utime, earlier.sessions[0].start_utime);
+  EXPECT_GT(logger.sessions().messages().back().total_time_s, earlier.sessions.back().total_time_s);
+
+  options.conditions.request.time_limit_s = 7;
+  Driver other(&bus_, options, LineUp({"arm"}), {}, earlier);
+  ExpectInputError([&] { other.Discover(true, Idle); }, {"--resume", "time_limit_s", "60", "7"});
+  planner.status.settings["step"] = "6";
+  Reannounce(&planner);
+  Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier);
+  ExpectInputError([&] { another.Discover(true, Idle); },
+                   {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
+}
+
+TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSession) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kAuto;
+  options.problem_indices = {1, 2, 3};
+  EarlierSession earlier;
+  std::map<std::string, RunRecordMessage> before;
+  {
+    // It dies of problem 2.
+    std::atomic<bool> dead = false;
+    planner.OnRequest([&](const PlanRequest& request) {
+      if (request.request_id.find("/cans/2/") == std::string::npos) return planner.Solve(request);
+      planner.FallSilent();
+      dead = true;
+    });
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(true, Idle);
+    EXPECT_TRUE(driver.Run(Never, [&] {
+      if (dead) driver.GiveUp("arm", "it died");
+    }));
+    // Whether problem 3 needs the backward search is not known.
+    EXPECT_EQ(driver.num_runs(), 4);
+    for (const RunRecordMessage& record : logger.records().messages()) {
+      if (before.emplace(record.request_id, record).second) earlier.runs.push_back(record);
+    }
+    earlier.sessions = logger.sessions().messages();
+  }
+  ASSERT_EQ(before.size(), 4u);
+  EXPECT_GT(before.at("run/cans/2/arm/forward/1").roundtrip_time_s, 0);
+  EXPECT_EQ(before.at("run/cans/2/arm/backward/1").message, "given up: it died");
+  EXPECT_EQ(before.at("run/cans/3/arm/forward/1").message, "given up: it died");
+
+  planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
+  Reannounce(&planner);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  std::set<std::string> made;
+  for (const RunRecordMessage& record : logger.records().messages()) {
+    if (before.at(record.request_id) == record) continue;
+    made.insert(record.request_id);
+    EXPECT_EQ(record.status, PlanStatus::kSolved);
+  }
+  EXPECT_EQ(made, (std::set<std::string>{"run/cans/2/arm/backward/1", "run/cans/3/arm/forward/1"}));
+  EXPECT_EQ(driver.runs().size(), 4u);
+  EXPECT_EQ(driver.num_runs(), 4);
+}
+
+}  // namespace
+}  // namespace planbench
