@@ -160,7 +160,7 @@ struct Bus::Impl {
     if (!message) return;
     // Large ones take long to decode, and meanwhile others come.
     const bool at_once = started && message->bytes.size() <= kSmallMessageBytes;
-    if (!at_once || !inbox.HandleNow(*message)) inbox.Push(*std::move(message));
+    inbox.Take(*std::move(message), at_once);
   }
 
   lcm_t* sender = nullptr;  ///< Null: what is published goes into the inbox.
@@ -196,7 +196,7 @@ void Bus::Start() {
 
 void Bus::PublishBytes(const std::string& channel, std::span<const std::uint8_t> bytes) {
   if (impl_->sender == nullptr) {
-    impl_->inbox.Push({channel, {bytes.begin(), bytes.end()}, NowUtime()});
+    impl_->inbox.Take({channel, {bytes.begin(), bytes.end()}, NowUtime()}, false);
     return;
   }
   if (lcm_publish(impl_->sender, channel.c_str(), bytes.data(),

@@ -9,6 +9,7 @@
 #include "common/text.h"
 
 namespace planbench {
+
 void Inbox::Add(std::shared_ptr<Subscriber> subscriber) {
   const std::scoped_lock lock(mutex_);
   subscribers_.push_back(std::move(subscriber));
@@ -33,39 +34,36 @@ std::optional<std::set<std::string>> Inbox::Channels() const {
   return channels;
 }
 
-void Inbox::Push(ReceivedMessage message) {
-  const std::scoped_lock lock(mutex_);
-  const bool full = bytes_ + message.bytes.size() > kMaxBytes;
-  Entry entry;
-  for (const std::shared_ptr<Subscriber>& subscriber : subscribers_) {
-    if (!subscriber->channel.empty() && subscriber->channel != message.channel) continue;
-    if (full || (subscriber->capacity > 0 && subscriber->num_waiting >= subscriber->capacity)) {
-      ++num_dropped_;
-      continue;
-    }
-    ++subscriber->num_waiting;
-    entry.subscribers.push_back(subscriber);
-  }
-  if (entry.subscribers.empty()) return;
-  bytes_ += message.bytes.size();
-  entry.message = std::move(message);
-  entries_.push_back(std::move(entry));
-  changed_.notify_one();
-}
-
-bool Inbox::HandleNow(const ReceivedMessage& message) {
+void Inbox::Take(ReceivedMessage message, bool at_once) {
   std::vector<std::shared_ptr<Subscriber>> subscribers;
   {
     const std::scoped_lock lock(mutex_);
-    if (handling_ || !entries_.empty()) return false;
+    at_once = at_once && !handling_ && entries_.empty();
     for (const std::shared_ptr<Subscriber>& subscriber : subscribers_) {
-      if (subscriber->channel.empty()) return false;
-      if (subscriber->channel == message.channel) subscribers.push_back(subscriber);
+      const bool to_all = subscriber->channel.empty();
+      if (!to_all && subscriber->channel != message.channel) continue;
+      at_once = at_once && !to_all;
+      subscribers.push_back(subscriber);
     }
+    if (subscribers.empty()) return;
+    if (!at_once) return Queue(std::move(subscribers), std::move(message));
     handling_ = true;
   }
   Handle(subscribers, message);
-  return true;
+}
+
+void Inbox::Queue(std::vector<std::shared_ptr<Subscriber>> subscribers, ReceivedMessage message) {
+  const bool full = bytes_ + message.bytes.size() > kMaxBytes;
+  num_dropped_ += static_cast<std::int64_t>(
+      std::erase_if(subscribers, [full](const std::shared_ptr<Subscriber>& subscriber) {
+        return full ||
+               (subscriber->capacity > 0 && subscriber->num_waiting >= subscriber->capacity);
+      }));
+  if (subscribers.empty()) return;
+  for (const std::shared_ptr<Subscriber>& subscriber : subscribers) ++subscriber->num_waiting;
+  bytes_ += message.bytes.size();
+  entries_.push_back({std::move(message), std::move(subscribers)});
+  changed_.notify_one();
 }
 
 void Inbox::HandleOne(std::chrono::milliseconds timeout) {

@@ -44,12 +44,10 @@ class Inbox {
   std::optional<std::set<std::string>> Channels() const;
 
   /// Queues a message for the subscribers of its channel; one whose messages are too many gets
-  /// none.
-  void Push(ReceivedMessage message);
-  /// Hands a message to its handlers on this thread, which is spared waking another; false, and
-  /// nothing is done, where that has to wait: for other messages, or because a subscriber to all
-  /// channels, who has more to do than its sender can wait for, is among them.
-  bool HandleNow(const ReceivedMessage& message);
+  /// none. `at_once`: hands it to them on this thread, which is spared waking another, unless that
+  /// has to wait: for other messages, or because a subscriber to all channels, who has more to do
+  /// than its sender can wait for, is among them.
+  void Take(ReceivedMessage message, bool at_once);
   /// Hands the oldest message to its handlers, waiting for one up to `timeout`. What a handler
   /// throws is logged, once for each channel and text, as long as those are not too many.
   void HandleOne(std::chrono::milliseconds timeout);
@@ -66,6 +64,8 @@ class Inbox {
     std::vector<std::shared_ptr<Subscriber>> subscribers;
   };
 
+  /// Needs the lock.
+  void Queue(std::vector<std::shared_ptr<Subscriber>> subscribers, ReceivedMessage message);
   /// Runs handlers, without the lock, and says when they are done.
   void Handle(const std::vector<std::shared_ptr<Subscriber>>& subscribers,
               const ReceivedMessage& message);
