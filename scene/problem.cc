@@ -21,13 +21,6 @@ fs::path PartnerOf(const fs::path& file, const std::string& kind) {
   return file.parent_path() / (kind + name.substr(name.find_first_of("0123456789")));
 }
 
-void RefuseDanglingLink(const fs::path& path) {
-  if (!IsDanglingLink(path)) return;
-  std::error_code ignored;
-  throw InputError(path.string() + ": is a link to '" + fs::read_symlink(path, ignored).string() +
-                   "', which leads nowhere");
-}
-
 }  // namespace
 
 const ProblemFiles* ProblemSet::Find(int index) const {
@@ -54,6 +47,13 @@ std::optional<int> ProblemIndexOf(const fs::path& scene_or_request_file) {
 std::string ProblemSetNameOf(const fs::path& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+void RefuseDanglingLink(const fs::path& path) {
+  if (!IsDanglingLink(path)) return;
+  std::error_code ignored;
+  throw InputError(path.string() + ": is a link to '" + fs::read_symlink(path, ignored).string() +
+                   "', which leads nowhere");
 }
 
 void RequireProblemFolder(const fs::path& folder) {

@@ -66,6 +66,9 @@ struct ProblemSet {
   const ProblemFiles* Find(int index) const;
 };
 
+/// Throws InputError for a symbolic link that leads nowhere.
+void RefuseDanglingLink(const std::filesystem::path& path);
+
 /// Throws InputError if there is no such folder.
 void RequireProblemFolder(const std::filesystem::path& folder);
 

@@ -240,6 +240,22 @@ TEST(ProblemSets, AreFoundAtAnyDepth) {
   EXPECT_THAT(names, ElementsAre("boxes", "cans", "cups"));
 }
 
+TEST(ProblemSets, LinksToNowhereAreRefusedAtAnyDepth) {
+  const TemporaryFolder folder;
+  const fs::path problems = folder.path() / "problems";
+  WriteTinyProblem(TinyProblem(), problems / "cans", 1);
+  fs::create_directories(problems / "far/away");
+  fs::create_symlink("somebody@somewhere.1", problems / "far/.#notes");  // an editor's lock
+  const Robot robot = LoadRobot(WriteTinyRobot(folder));
+  EXPECT_EQ(SceneService(robot, std::nullopt, {problems}).ProblemSets("server").sets.size(), 1u);
+  for (const char* target : {"gone", "cups"}) {  // the second is a link to itself
+    fs::create_directory_symlink(target, problems / "far/away/cups");
+    ExpectStartFailure(folder, {problems},
+                       {"problems/far/away/cups: is a link to '", target, "leads nowhere"});
+    fs::remove(problems / "far/away/cups");
+  }
+}
+
 TEST(ProblemSets, AreNotHiddenByFoldersNamedLikeAProblem) {
   const TemporaryFolder folder;
   WriteTinyProblem(TinyProblem(), folder.path() / "problems" / "cans", 1);
