@@ -82,6 +82,23 @@ void Load(const Link& link, const ResourceResolver& resources, Mesh* mesh) {
   }
 }
 
+void LoadAndRemark(const Link& link, const ResourceResolver& resources, Shape* shape,
+                   const SayLine& say) {
+  if (auto* mesh = std::get_if<Mesh>(shape)) Load(link, resources, mesh);
+  RemarkSize(link.name, *shape, say);
+}
+
+bool IsMissing(const Shape& shape, const ResourceResolver& resources) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (mesh == nullptr) return false;
+  try {
+    resources.Resolve(mesh->resource);
+  } catch (const InputError&) {
+    return true;
+  }
+  return false;
+}
+
 LinkBody MakeBody(const Link& link, const std::vector<PlacedShape>& shapes, const SayLine& say) {
   LinkBody body;
   for (const PlacedShape& placed : shapes) {
@@ -101,11 +118,23 @@ std::vector<std::vector<PlacedShape>> LoadLinkShapes(const RobotModel& model,
   std::vector<std::vector<PlacedShape>> shapes;
   for (const Link& link : model.links()) {
     for (PlacedShape& placed : shapes.emplace_back(link.collision)) {
-      if (auto* mesh = std::get_if<Mesh>(&placed.shape)) Load(link, resources, mesh);
-      RemarkSize(link.name, placed.shape, say);
+      LoadAndRemark(link, resources, &placed.shape, say);
     }
   }
   return shapes;
+}
+
+void RemarkSizes(const RobotModel& model, const ResourceResolver& resources, const SayLine& say) {
+  for (const Link& link : model.links()) {
+    for (PlacedShape placed : link.collision) {
+      if (IsMissing(placed.shape, resources)) continue;
+      try {
+        LoadAndRemark(link, resources, &placed.shape, say);
+      } catch (const InputError& error) {
+        say(error.what());
+      }
+    }
+  }
 }
 
 LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources,

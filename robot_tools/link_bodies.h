@@ -22,9 +22,13 @@ std::vector<std::vector<PlacedShape>> LoadLinkShapes(const RobotModel& model,
                                                      const ResourceResolver& resources,
                                                      const SayLine& say);
 
-/// Bodies of that geometry. After its sizes also the rest that is odd about meshes is told: those
-/// that are not closed or turned inside out, parts that disagree about where their outside is,
-/// triangles without area. Throws InputError as LoadLinkShapes does.
+/// Tells the same of a robot that can do without its meshes: those that cannot be read are told
+/// too, those that cannot be found are left out.
+void RemarkSizes(const RobotModel& model, const ResourceResolver& resources, const SayLine& say);
+
+/// Bodies of the geometry that LoadLinkShapes loads. After its sizes also the rest that is odd
+/// about meshes is told: those that are not closed or turned inside out, parts that disagree about
+/// where their outside is, triangles without area. Throws InputError as LoadLinkShapes does.
 LinkBodies ReadLinkBodies(const RobotModel& model, const ResourceResolver& resources,
                           const SayLine& say);
 

@@ -190,11 +190,10 @@ class RobotMaker {
       return;
     }
     if (!flags_.spheres.empty()) {
-      robot().spheres = ReadLinkSpheres(flags_.spheres, ReadText(flags_.spheres), robot().model);
-      SayWhatSpheresLeave("from " + flags_.spheres.filename().string());
+      TakeSpheres(ReadLinkSpheres(flags_.spheres, ReadText(flags_.spheres), robot().model),
+                  "from " + flags_.spheres.filename().string());
     } else if (srdf_ && !srdf_->spheres.empty()) {
-      robot().spheres = srdf_->spheres;
-      SayWhatSpheresLeave("the SRDF's approximations");
+      TakeSpheres(srdf_->spheres, "the SRDF's approximations");
     } else {
       EncloseUrdf();
     }
@@ -203,6 +202,14 @@ class RobotMaker {
           fmt::format("{}: no link has collision geometry; give a sphere model with --spheres FILE",
                       flags_.urdf.string()));
     }
+  }
+
+  // The URDF's geometry is not what they are made of, but the robot's all the same. What is missing
+  // of it is told where it would be copied.
+  void TakeSpheres(std::vector<LinkSphere> spheres, const std::string& origin) {
+    RemarkSizes(robot().model, robot().resources, say_);
+    robot().spheres = std::move(spheres);
+    SayWhatSpheresLeave(origin);
   }
 
   void SayWhatSpheresLeave(const std::string& origin) {

@@ -331,6 +331,27 @@ TEST_F(MakeRobotTest, SizesAreToldWithoutSpheresToo) {
   EXPECT_THAT(Make(), HasSubstr("link 'hook', hook.obj: is 260 m large"));
 }
 
+TEST_F(MakeRobotTest, SizesAreToldWhereverTheSpheresComeFrom) {
+  folder_.Write("in/hook.obj", MeshAsObj(TorusMesh(100, 30, 20, 10)));
+  folder_.Write("in/crane.urdf", MeshCrane("hook.obj", "nowhere.obj"));
+  folder_.Write("in/spheres.yaml", "links: {hook: [{center: [0, 0, 0], radius: 0.1}]}");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  EXPECT_THAT(Make(), AllOf(HasSubstr("link 'hook', hook.obj: is 260 m large"),
+                            HasSubstr("1 mesh file missing")));
+
+  folder_.Write("in/base.obj", "no mesh");
+  folder_.Write("in/crane.urdf", MeshCrane("hook.obj", "base.obj"));
+  Srdf(
+      "<robot name='crane'><group name='jib'><joint name='slew'/></group>"
+      "<link_sphere_approximation link='hook'><sphere center='0 0 0' radius='0.1'/>"
+      "</link_sphere_approximation></robot>");
+  flags_.spheres.clear();
+  flags_.replace = true;
+  EXPECT_THAT(Make(), AllOf(HasSubstr("the SRDF's approximations"),
+                            HasSubstr("link 'hook', hook.obj: is 260 m large"),
+                            testing::ContainsRegex("crane.urdf:[0-9]+: .*base.obj")));
+}
+
 TEST_F(MakeRobotTest, SpheresThatReachFurtherThanAskedAreNamed) {
   folder_.Write("in/crane.urdf",
                 "<robot name='crane'><link name='base'><collision><geometry>"
