@@ -62,7 +62,8 @@ std::string PlannerClient::WhyUnusable(const PlanResultMessage& result) const {
     return fmt::format("its status is {}, but it has {} path", EnumName(result.result.status),
                        solved ? "no" : "a");
   }
-  return "";
+  const std::string fault = WhyTooLong(result.result.path);
+  return fault.empty() ? WhyTooLong(result.result.simplified_path) : fault;
 }
 
 void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& origin) {

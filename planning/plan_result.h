@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -13,6 +14,19 @@ namespace planbench {
 using Configuration = std::vector<double>;
 /// Waypoints from start to goal, joined by edges.
 using Path = std::vector<Configuration>;
+
+/// Waypoints that a path of a result has at most. The raw and the simplified path of 8 joints are
+/// then 1.92 MB together, which is half of a receiver's buffer. Each passes the bus several times,
+/// in result, checks and record: 13 MB of them kept the processes busy for 15 s, and who does not
+/// announce himself for 3 s counts as gone.
+inline constexpr std::size_t kMostResultWaypoints = 15'000;
+
+/// What is wrong with a path that a result cannot hold; "" if it can.
+inline std::string WhyTooLong(const Path& path) {
+  if (path.size() <= kMostResultWaypoints) return "";
+  return "path of " + std::to_string(path.size()) + " waypoints; a result holds at most " +
+         std::to_string(kMostResultWaypoints);
+}
 
 /// An improved solution of an anytime planner.
 struct PlanProgress {

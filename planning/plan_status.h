@@ -15,7 +15,7 @@ enum class PlanStatus {
   kCancelled = 6,
   kNoAnswer = 7,     ///< The process died or fell silent (set by the driver).
   kInvalidPath = 8,  ///< The referee rejected the path (set by the driver).
-  kMemoryLimit = 9,
+  kMemoryLimit = 9,  ///< Out of memory that it may have, or the path is too long for a result.
 };
 template <>
 struct EnumNames<PlanStatus> {

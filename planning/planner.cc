@@ -336,6 +336,11 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   }
   // A search that still wanted a better bound when the limit came had its path by then.
   result->planning_time_s = std::min(result->planning_time_s, request.time_limit_s);
+  if (std::string fault = WhyTooLong(found.path); !fault.empty()) {
+    result->status = PlanStatus::kMemoryLimit;
+    result->message = std::move(fault);
+    return;
+  }
   result->path = std::move(found.path);
   result->epsilon = found.epsilon;
   result->cost = found.cost;

@@ -52,8 +52,9 @@ class Planner {
   /// kInvalidRequest with a message. The clock starts when robot and meshes are compiled as the
   /// request has them, which only the first of requests that are alike in this has to wait for.
   /// Deterministic up to the time limit: the same request gives the same path whatever ran before.
-  /// A solution that comes after the time limit counts as kTimedOut. A search that breaks its
-  /// contract (see SearchResult) aborts the process. `control` may be null.
+  /// A solution that comes after the time limit counts as kTimedOut, one that is too long for a
+  /// result (kMostResultWaypoints) as kMemoryLimit. A search that breaks its contract (see
+  /// SearchResult) aborts the process. `control` may be null.
   PlanResult Plan(const PlanRequest& request, const Scene& scene, PlanControl* control);
 
  protected:

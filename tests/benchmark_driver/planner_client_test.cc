@@ -292,6 +292,26 @@ TEST_F(PlannerClientTest, ASolutionHasAPathAndNothingElseHas) {
   }
 }
 
+TEST_F(PlannerClientTest, APathThatAResultCannotHoldIsNoAnswer) {
+  FakePlanner planner(&bus_);
+  int id = 0;
+  for (Path PlanResult::*const path : {&PlanResult::path, &PlanResult::simplified_path}) {
+    const auto answer_with = [&](std::size_t num_waypoints) {
+      PlanResult result = FakePlanner::SolvedResult();
+      result.*path = Path(num_waypoints, Configuration{0, 0});
+      planner.OnRequest([&planner, result](const PlanRequest& request) {
+        planner.SendResult(request.request_id, result);
+      });
+      return Solve(std::to_string(++id));
+    };
+    const PlannerClient::Answer answer = answer_with(kMostResultWaypoints + 1);
+    EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+    EXPECT_EQ(answer.message,
+              "the result cannot be used: path of 15001 waypoints; a result holds at most 15000");
+    EXPECT_EQ(answer_with(kMostResultWaypoints).outcome, PlannerClient::Outcome::kResult);
+  }
+}
+
 TEST_F(PlannerClientTest, InterruptionCancelsTheRequestUntilItsResultComes) {
   FakePlanner planner(&bus_);
   planner.OnRequest([](const PlanRequest&) {});

@@ -545,6 +545,27 @@ TEST_F(PlannerTest, RunningOutOfMemoryIsAStatus) {
   EXPECT_GT(result.planning_time_s, 0);
 }
 
+TEST_F(PlannerTest, APathThatAResultCannotHoldIsAStatus) {
+  std::size_t num_waypoints = kMostResultWaypoints;
+  const auto search = [&](SearchQuery& query) {
+    Path path(num_waypoints, query.start());
+    path.back() = query.goal().nominal;
+    return Solved(std::move(path));
+  };
+  PlanRequest request = Request();
+  request.simplify = false;
+  request.time_limit_s = 3600;
+  EXPECT_EQ(Plan(search, request).path.size(), kMostResultWaypoints);
+  ++num_waypoints;
+  request.simplify = true;
+  const PlanResult result = Plan(search, request);
+  EXPECT_EQ(result.status, PlanStatus::kMemoryLimit);
+  EXPECT_EQ(result.message, "path of 15001 waypoints; a result holds at most 15000");
+  EXPECT_TRUE(result.path.empty());
+  EXPECT_TRUE(result.simplified_path.empty());
+  EXPECT_GT(result.planning_time_s, 0);
+}
+
 TEST_F(PlannerTest, OtherExceptionsAreNotSwallowed) {
   EXPECT_THROW(
       Plan([](SearchQuery&) -> SearchResult { throw std::logic_error("a mistake"); }, Request()),
