@@ -238,7 +238,9 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
                                                      const std::vector<PlannerClient*>& planners,
                                                      const std::function<bool()>& interrupted) {
   // The server's answer also hands out the scene. Once is enough: a planner that has come up since
-  // asks for it, and sending it again before each request would be in the request's way.
+  // asks for it, and sending it again before each request would be in the request's way. That it
+  // was asked when the session began does not spare it: planners keep the last few scenes only, and
+  // a server that was started again since reads this problem, not all of them for one scene.
   const std::optional<ProblemMessage> problem = ProblemOf(run, interrupted);
   if (!problem) return std::nullopt;
 
