@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "planner_trajopt/smoothness.h"
 
@@ -29,8 +30,8 @@ void Chomp::Restart() {
   last_cost_ = std::numeric_limits<double>::infinity();
 }
 
-Trajectory Chomp::FunctionalGradient(const std::vector<double>& distances,
-                                     const Trajectory& trajectory) {
+std::optional<Trajectory> Chomp::FunctionalGradient(const std::vector<double>& distances,
+                                                    const Trajectory& trajectory) {
   const Eigen::Index n = trajectory.cols();
   std::vector<Eigen::Index> near;  // rows whose cost is not zero
   for (Eigen::Index i = 1; i + 1 < trajectory.rows(); ++i) {
@@ -46,9 +47,9 @@ Trajectory Chomp::FunctionalGradient(const std::vector<double>& distances,
       }
     }
   }
-  Trajectory gradient = Trajectory::Zero(trajectory.rows() - 2, n);
-  if (!cost_->FindDistances(probes_, &probe_distances_)) return gradient;
+  if (!cost_->FindDistances(probes_, &probe_distances_)) return std::nullopt;
 
+  Trajectory gradient = Trajectory::Zero(trajectory.rows() - 2, n);
   std::size_t probe = 0;
   Eigen::RowVectorXd slope(n);
   for (const Eigen::Index i : near) {
@@ -74,7 +75,7 @@ Trajectory Chomp::FunctionalGradient(const std::vector<double>& distances,
   return gradient;
 }
 
-void Chomp::KeepWithinLimits(Trajectory* trajectory) const {
+bool Chomp::KeepWithinLimits(Trajectory* trajectory) const {
   auto inner = trajectory->middleRows(1, NumInner(*trajectory));
   for (int k = 0; k < kLimitCorrections; ++k) {
     Trajectory within = inner;
@@ -82,12 +83,14 @@ void Chomp::KeepWithinLimits(Trajectory* trajectory) const {
     const Trajectory violation = within - inner;
     Eigen::Index row = 0, joint = 0;
     const double largest = violation.cwiseAbs().maxCoeff(&row, &joint);
-    if (!(largest > 0)) return;
+    if (!(largest > 0)) return true;
+    if (cost_->ShouldStop()) return false;
     // Smooth, and such that the worst one is mended.
     const Trajectory correction = inverse_metric_ * violation;
     inner += correction * (violation(row, joint) / correction(row, joint));
   }
   bounds_.Clamp(inner);
+  return true;
 }
 
 void Chomp::Iterate(const std::vector<double>& distances, Trajectory* trajectory) {
@@ -96,7 +99,9 @@ void Chomp::Iterate(const std::vector<double>& distances, Trajectory* trajectory
   last_cost_ = cost;
 
   const Eigen::Index num_inner = NumInner(*trajectory);
-  Trajectory descent = -inverse_metric_ * FunctionalGradient(distances, *trajectory);
+  const std::optional<Trajectory> gradient = FunctionalGradient(distances, *trajectory);
+  if (!gradient) return;
+  Trajectory descent = -inverse_metric_ * *gradient;
   // The metric's own gradient, in the metric: towards the straight line.
   for (Eigen::Index i = 0; i < num_inner; ++i) {
     const double t = static_cast<double>(i + 1) / static_cast<double>(num_inner + 1);
@@ -106,8 +111,9 @@ void Chomp::Iterate(const std::vector<double>& distances, Trajectory* trajectory
   }
   const double largest = descent.cwiseAbs().maxCoeff();
   if (largest > step_) descent *= step_ / largest;
-  trajectory->middleRows(1, num_inner) += descent;
-  KeepWithinLimits(trajectory);
+  Trajectory next = *trajectory;
+  next.middleRows(1, num_inner) += descent;
+  if (KeepWithinLimits(&next)) *trajectory = std::move(next);
 }
 
 }  // namespace planbench

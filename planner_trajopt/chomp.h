@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner_trajopt/optimiser.h"
@@ -21,9 +22,11 @@ class Chomp final : public Optimiser {
   void Iterate(const std::vector<double>& distances, Trajectory* trajectory) override;
 
  private:
-  /// Of the obstacles' cost, N x n; zero if that was stopped.
-  Trajectory FunctionalGradient(const std::vector<double>& distances, const Trajectory& trajectory);
-  void KeepWithinLimits(Trajectory* trajectory) const;
+  /// Of the obstacles' cost, N x n. Nothing if it was stopped.
+  std::optional<Trajectory> FunctionalGradient(const std::vector<double>& distances,
+                                               const Trajectory& trajectory);
+  /// False if it was stopped.
+  bool KeepWithinLimits(Trajectory* trajectory) const;
 
   const TrajectoryCost* cost_;
   JointBounds bounds_;

@@ -46,10 +46,11 @@ Stomp::Stomp(const JointSpace& space, const TrajoptSettings& settings, const Tra
   }
 }
 
-void Stomp::DrawRollouts(const Trajectory& trajectory) {
+bool Stomp::DrawRollouts(const Trajectory& trajectory) {
   Eigen::MatrixXd steps(num_rows_ - 2, trajectory.cols());
   Eigen::RowVectorXd noise(trajectory.cols());
   for (int k = 0; k < num_rollouts_; ++k) {
+    if (cost_->ShouldStop()) return false;
     DrawNormal(&random_, &steps);
     auto rollout = Rollout(k);
     rollout = trajectory;
@@ -64,12 +65,14 @@ void Stomp::DrawRollouts(const Trajectory& trajectory) {
     }
     bounds_.Clamp(rollout.middleRows(1, steps.rows()));
   }
+  return true;
 }
 
 bool Stomp::FindCosts() {
   if (!cost_->FindDistances(rollouts_, &distances_)) return false;
   costs_.resize(num_rows_ - 2, num_rollouts_);
   for (int k = 0; k < num_rollouts_; ++k) {
+    if (cost_->ShouldStop()) return false;
     const auto rollout = Rollout(k);
     for (Eigen::Index i = 1; i + 1 < num_rows_; ++i) {
       const double distance = distances_[static_cast<std::size_t>(k * num_rows_ + i)];
@@ -82,12 +85,11 @@ bool Stomp::FindCosts() {
   return true;
 }
 
-void Stomp::Iterate(const std::vector<double>& /*distances*/, Trajectory* trajectory) {
-  DrawRollouts(*trajectory);
-  if (!FindCosts()) return;
+std::optional<Trajectory> Stomp::FindUpdate(const Trajectory& trajectory) const {
   const Eigen::Index num_inner = num_rows_ - 2;
-  Trajectory update = Trajectory::Zero(num_inner, trajectory->cols());
+  Trajectory update = Trajectory::Zero(num_inner, trajectory.cols());
   for (Eigen::Index i = 0; i < num_inner; ++i) {
+    if (cost_->ShouldStop()) return std::nullopt;
     const double least = costs_.row(i).minCoeff();
     const double range = costs_.row(i).maxCoeff() - least;
     if (!(range > 0)) continue;
@@ -95,11 +97,19 @@ void Stomp::Iterate(const std::vector<double>& /*distances*/, Trajectory* trajec
     for (int k = 0; k < num_rollouts_; ++k) {
       const double weight = std::exp(-kSensitivity * (costs_(i, k) - least) / range);
       total += weight;
-      update.row(i) += weight * (Rollout(k).row(i + 1) - trajectory->row(i + 1));
+      update.row(i) += weight * (Rollout(k).row(i + 1) - trajectory.row(i + 1));
     }
     update.row(i) /= total;
   }
-  trajectory->middleRows(1, num_inner) += smoothing_ * update;
+  return update;
+}
+
+void Stomp::Iterate(const std::vector<double>& /*distances*/, Trajectory* trajectory) {
+  if (!DrawRollouts(*trajectory) || !FindCosts()) return;
+  const std::optional<Trajectory> update = FindUpdate(*trajectory);
+  if (!update) return;
+  const Eigen::Index num_inner = num_rows_ - 2;
+  trajectory->middleRows(1, num_inner) += smoothing_ * *update;
   bounds_.Clamp(trajectory->middleRows(1, num_inner));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -25,11 +26,14 @@ class Stomp final : public Optimiser {
  private:
   /// Noisy trajectory k, with the ends.
   auto Rollout(int k) { return rollouts_.middleRows(k * num_rows_, num_rows_); }
+  auto Rollout(int k) const { return rollouts_.middleRows(k * num_rows_, num_rows_); }
   /// Adds noise to the trajectory: of the inner waypoints of a joint it has the inverse of the
-  /// metric of smoothness for its covariance, scaled.
-  void DrawRollouts(const Trajectory& trajectory);
+  /// metric of smoothness for its covariance, scaled. False if it was stopped.
+  bool DrawRollouts(const Trajectory& trajectory);
   /// Of each noisy trajectory (column) at each inner waypoint (row). False if it was stopped.
   bool FindCosts();
+  /// Of the inner waypoints, before it is smoothed. Nothing if it was stopped.
+  std::optional<Trajectory> FindUpdate(const Trajectory& trajectory) const;
 
   const TrajectoryCost* cost_;
   JointBounds bounds_;

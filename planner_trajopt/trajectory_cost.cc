@@ -7,8 +7,9 @@
 namespace planbench {
 namespace {
 
-/// Whole batches of the engine, and more than an iteration of the default settings has.
-constexpr std::size_t kMostAtOnce = 4096;
+/// Whole batches of the engine, so that distances are those of all rows at once; of meshes some
+/// milliseconds' work.
+constexpr std::size_t kMostAtOnce = 64;
 
 }  // namespace
 
@@ -18,7 +19,7 @@ bool TrajectoryCost::FindDistances(const Trajectory& rows, std::vector<double>* 
   distances->resize(num_rows);
   const std::span<const double> qs(rows.data(), num_rows * n);
   for (std::size_t first = 0; first < num_rows; first += kMostAtOnce) {
-    if (first > 0 && should_stop_ && should_stop_()) return false;
+    if (first > 0 && ShouldStop()) return false;
     const std::size_t num = std::min(kMostAtOnce, num_rows - first);
     edges_->FindClearances(qs.subspan(first * n, num * n), static_cast<int>(num), clearance_,
                            std::span(*distances).subspan(first, num));

@@ -21,11 +21,13 @@ class TrajectoryCost {
   double clearance() const { return clearance_; }
   double smoothness() const { return smoothness_; }
 
-  /// Distances of many rows can take long. `should_stop` is asked between some thousands of them.
+  /// Distances of many rows can take long. `should_stop` is asked between some dozens of them.
   void StopWhen(std::function<bool()> should_stop) { should_stop_ = std::move(should_stop); }
+  /// Asks that. Whoever else does much for an iteration asks between its parts.
+  bool ShouldStop() const { return should_stop_ && should_stop_(); }
 
-  /// m, of every row, some thousands handed to the collision engine at once; the clearance where
-  /// they are larger. Of meshes lower bounds, which take a thirtieth of the time. False, and the
+  /// m, of every row, some dozens handed to the collision engine at once; the clearance where they
+  /// are larger. Of meshes lower bounds, which take a thirtieth of the time. False, and the
   /// distances of no use, if it was stopped.
   bool FindDistances(const Trajectory& rows, std::vector<double>* distances) const;
   /// CHOMP's (Ratliff et al. 2009) of a distance: 0 from the clearance on, a parabola down to

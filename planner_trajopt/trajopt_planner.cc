@@ -109,7 +109,7 @@ class TrajectorySearch {
     double least = std::numeric_limits<double>::infinity();
     int since_least = 0;
     for (int i = 0; MayGoOn(); ++i) {
-      cost_.FindDistances(*trajectory, &distances_);
+      if (!cost_.FindDistances(*trajectory, &distances_)) return;
       Keep(*trajectory);
       const double cost = cost_.OfTrajectory(*trajectory, distances_);
       since_least = cost < (1 - kImprovement) * least ? 0 : since_least + 1;

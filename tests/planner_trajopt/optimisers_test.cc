@@ -226,5 +226,58 @@ TEST_F(TrajectoryTest, DistancesOfManyConfigurationsCanBeStopped) {
   EXPECT_LT(edges_->counters().configurations - num_checked, 20 * 1002 / 2);
 }
 
+TEST_F(TrajectoryTest, DistancesFoundInPartsAreThoseOfAllRowsAtOnce) {
+  const TrajectoryCost cost(edges_.get(), 0.05, 0);
+  const Trajectory rows = Through(space_, {left_, {0, 1.2, 0.3}, right_}, 301);
+  std::vector<double> distances;
+  ASSERT_TRUE(cost.FindDistances(rows, &distances));
+  std::vector<double> at_once(distances.size());
+  edges_->FindClearances({rows.data(), static_cast<std::size_t>(rows.size())},
+                         static_cast<int>(rows.rows()), 0.05, at_once);
+  EXPECT_EQ(distances, at_once);
+}
+
+TEST_F(TrajectoryTest, IterationsAskAllTheWayAndAreLeftUndoneWhereverTheyAreStopped) {
+  TrajoptSettings settings;
+  settings.waypoints = 60;
+  settings.rollouts = 12;
+  // Near enough a post all along for CHOMP's gradient to be found in parts, too.
+  TrajectoryCost cost(edges_.get(), /*clearance=*/0.45, settings.smoothness);
+  const Trajectory guess = Through(space_, {left_, {0, 1.2, 0.3}, right_}, settings.waypoints);
+  std::vector<double> distances;
+  ASSERT_TRUE(cost.FindDistances(guess, &distances));
+  for (const bool is_stomp : {true, false}) {
+    // A new one each time: the same noise.
+    const auto iterated = [&] {
+      std::unique_ptr<Optimiser> optimiser;
+      if (is_stomp) {
+        optimiser = std::make_unique<Stomp>(space_, settings, &cost, 1);
+      } else {
+        optimiser = std::make_unique<Chomp>(space_, settings, &cost);
+      }
+      Trajectory trajectory = guess;
+      optimiser->Iterate(distances, &trajectory);
+      return trajectory;
+    };
+    cost.StopWhen({});
+    const Trajectory undisturbed = iterated();
+    EXPECT_NE(undisturbed, guess);
+    int num_asked = 0;
+    int stop_at = 0;  // never
+    cost.StopWhen([&] { return ++num_asked == stop_at; });
+    EXPECT_EQ(iterated(), undisturbed);
+    const int num_parts = num_asked;
+    if (is_stomp) {
+      EXPECT_GE(num_parts, 2 * settings.rollouts + settings.waypoints);
+    }
+    EXPECT_GT(num_parts, 0);
+    for (stop_at = 1; stop_at <= num_parts; ++stop_at) {
+      num_asked = 0;
+      EXPECT_EQ(iterated(), guess) << is_stomp << ", " << stop_at;
+      EXPECT_EQ(num_asked, stop_at) << "goes on though it was stopped";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace planbench
