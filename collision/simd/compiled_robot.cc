@@ -133,16 +133,13 @@ void CompiledRobot::ShareArrays() {
   kernel.points = points_.data();
 }
 
-double CompiledRobot::PaddingOf(const Ball& ball_G, int link) const {
-  double reach = ball_G.center.norm() + ball_G.radius;
-  for (int body = rigid_bodies_.BodyOf(link); body > 0; body = At(kernel.bodies, body).parent) {
-    reach += Eigen::Map<const Eigen::Vector3f>(At(kernel.bodies, body).position).norm();
-  }
-  return kRadiusPadding * std::max(1.0, reach / kPaddedReach);
+double CompiledRobot::PaddingOf(const Ball& ball_G, int body) const {
+  const Ball reach_W = rigid_bodies_.Reach(0, body, ball_G);
+  return PaddingWithin(reach_W.center.norm() + reach_W.radius);
 }
 
 void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_patch) {
-  Emit(tree, link, index, first_patch, PaddingOf(tree.ball(), link));
+  Emit(tree, link, index, first_patch, PaddingOf(tree.ball(), rigid_bodies_.BodyOf(link)));
 }
 
 void CompiledRobot::Emit(const BallTree& tree, int link, int index, int first_patch,
@@ -187,15 +184,26 @@ void CompiledRobot::AddPatches(const std::vector<RobotMeshes::Patch>& patches) {
   for (const RobotMeshes::Patch& patch : patches) {
     const Pose X_CL = PoseOfLink(patch.link);
     kernels::Patch& placed = kernel.patches.emplace_back();
+    // Triangles reach beyond the patch, and are rounded where their corners are.
+    Ball around{Eigen::Vector3d::Zero(), 0};
+    for (const RobotMeshes::Group& group : patch.groups) {
+      for (const Corners& corners : group.triangles) {
+        for (const Eigen::Vector3d& corner : corners) {
+          around.radius = std::max(around.radius, (X_CL * corner).norm());
+        }
+      }
+    }
+    const double padding = PaddingOf(around, rigid_bodies_.BodyOf(patch.link));
+    placed.padding = static_cast<float>(padding);
     placed.boxes = MakeBoxGroup();
     placed.num_groups = static_cast<int>(patch.groups.size());
     Eigen::AlignedBox3d all;
     for (std::size_t g = 0; g < patch.groups.size(); ++g) {
       const auto& [triangles, corners_L, hull] = patch.groups[g];
-      placed.hulls[g] = AddHull(hull, X_CL, kRadiusPadding);
+      placed.hulls[g] = AddHull(hull, X_CL, padding);
       Eigen::AlignedBox3d box;
       for (const Eigen::Vector3d& corner : corners_L) box.extend(X_CL * corner);
-      SetBox(box, 2 * kRadiusPadding, static_cast<int>(triangles_.size()), g, &placed.boxes);
+      SetBox(box, 2 * padding, static_cast<int>(triangles_.size()), g, &placed.boxes);
       all.extend(box);
       kernels::TriangleGroup& group = triangles_.emplace_back();
       group.count = static_cast<std::int32_t>(triangles.size());
@@ -208,8 +216,7 @@ void CompiledRobot::AddPatches(const std::vector<RobotMeshes::Patch>& patches) {
     }
     SetVector(all.center(), placed.box.center);
     // The rounding of the center, too.
-    SetVector(all.sizes() / 2 + Eigen::Vector3d::Constant(3 * kRadiusPadding),
-              placed.box.half_size);
+    SetVector(all.sizes() / 2 + Eigen::Vector3d::Constant(3 * padding), placed.box.half_size);
     for (const Eigen::Vector3d& point : patch.points) {
       SetVector(X_CL * point, placed.points.emplace_back().data());
     }
@@ -222,6 +229,7 @@ kernels::NodeHull CompiledRobot::AddHull(const Hull& hull, const Pose& X_C, doub
   placed.first = static_cast<std::int32_t>(points_.size());
   placed.num = (num + kernels::kWide - 1) / kernels::kWide;
   placed.slack = static_cast<float>(hull.slack + padding);
+  placed.padding = static_cast<float>(padding);
   for (std::int32_t i = 0; i < placed.num * kernels::kWide; ++i) {
     if (i % kernels::kWide == 0) points_.emplace_back();
     const Eigen::Vector3d p_C = X_C * At(hull.points, std::min(i, num - 1));
@@ -291,7 +299,7 @@ void CompiledRobot::AddInsideTests(const CompiledTree& of, const CompiledTree& i
   for (const auto& point : test->points) points.push_back({{point[0], point[1], point[2]}, 0});
   const Ball ball = EnclosingBall(points);
   SetVector(ball.center, test->center);
-  test->radius = static_cast<float>(ball.radius + kRadiusPadding);
+  test->radius = static_cast<float>(ball.radius + PaddingOf(ball, of.body));
 }
 
 int CompiledRobot::AddReach(const Ball& ball_G, int link, double radius) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -15,11 +16,15 @@
 
 namespace planbench {
 
-/// Radii are enlarged by this much, m, which covers the rounding of positions that single precision
-/// gives within kPaddedReach, m, and in proportion by more further out: verdicts err towards
-/// collision.
+/// Balls and triangles are enlarged by this much, m, which covers the rounding of positions that
+/// single precision gives within kPaddedReach, m, and in proportion by more further out: verdicts
+/// err towards collision.
 inline constexpr double kRadiusPadding = 2e-5;
 inline constexpr double kPaddedReach = 5;
+/// Of what is nowhere further than so far (m) from W's origin, with a robot's links between them.
+inline double PaddingWithin(double reach) {
+  return kRadiusPadding * std::max(1.0, reach / kPaddedReach);
+}
 
 /// A tree of balls in the kernel's robot.
 struct CompiledTree {
@@ -98,8 +103,8 @@ struct CompiledRobot {
   void Emit(const BallTree& tree, int link, int index, int first_patch);
   /// `padding`: of its balls.
   void Emit(const BallTree& tree, int link, int index, int first_patch, double padding);
-  /// What covers the rounding of all in a ball of a link's body.
-  double PaddingOf(const Ball& ball_G, int link) const;
+  /// What covers the rounding of all in a ball of a body.
+  double PaddingOf(const Ball& ball_G, int body) const;
   void SetBall(const Ball& ball_G, double padding, int link, int index);
   /// Of the link's, if it has any.
   const LinkMeshes* MeshesOf(int link) const;

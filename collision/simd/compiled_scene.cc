@@ -149,7 +149,12 @@ void CompiledScene::SetGrid() {
   }
   grid.resolution = field.resolution;
   grid.outside = field.outside;
-  grid.rounding = static_cast<float>(kRadiusPadding);
+  // Of positions, and of the grid's own.
+  const double padding =
+      PaddingWithin(std::max(robot_reach_W_.center.norm() + robot_reach_W_.radius,
+                             Eigen::Vector3f::Map(grid.origin).cast<double>().norm()));
+  grid.rounding = static_cast<float>(padding);
+  grid.is_far = padding > kRadiusPadding;
   grid.values = field.values.data();
 }
 

@@ -50,6 +50,53 @@ TEST(VoxelsModelTest, VerdictIsThatOfTheFieldAtTheSpheresCentre) {
   EXPECT_GT(num_free, 100);
 }
 
+/// Far out single precision may take a centre to be in the next cell.
+TEST(VoxelsModelTest, FarFromTheOriginNoCellThatCollidesIsMissed) {
+  Robot robot = MakeRailRobot();
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double far_m : {10.0, 100.0, 1000.0}) {
+    // The sphere far along its link and the rail.
+    const Eigen::Vector3d p_L(0.003, 0.001, far_m);
+    robot.spheres[0].p_LS = p_L;
+    robot.voxels = VoxelSettings{0.02, p_L - Eigen::Vector3d(0.4, 0.4, 2),
+                                 p_L + Eigen::Vector3d(0.4, 0.4, 2), false};
+    const Scene scene = SceneWith("box", Box{Eigen::Vector3d(0.1, 0.1, 0.4)},
+                                  Eigen::Isometry3d(Eigen::Translation3d(p_L)));
+    SimdChecker checker(robot, robot.groups.front(), CollisionModel::kVoxels);
+    checker.SetScene(scene, std::vector<double>{0.0});
+    DistanceFieldBuilder builder(*robot.voxels);
+    const DistanceField& field = builder.Rebuild(scene);
+    const auto value_at = [&](const Eigen::Vector3d& p_W) {
+      std::size_t index = 0;
+      for (int axis = 2; axis >= 0; --axis) {
+        const auto cell = std::floor((p_W[axis] - robot.voxels->lower[axis]) / 0.02);
+        index = index * static_cast<std::size_t>(field.size[static_cast<std::size_t>(axis)]) +
+                static_cast<std::size_t>(cell);
+      }
+      return field.values[index];
+    };
+    int num_free = 0;
+    int num_hit = 0;
+    for (int i = 0; i < 2000; ++i) {
+      // Half of them close to a side of a cell, where the verdict changes.
+      double z = 1.8 * unit(generator);
+      if (i % 2 == 0) {
+        z = std::copysign(0.45, z) + 0.07 * unit(generator);
+        const double lower = robot.voxels->lower.z() - p_L.z();
+        z = lower + 0.02 * std::round((z - lower) / 0.02) + 1e-6 * unit(generator);
+      }
+      const std::vector<double> q = {z};
+      const bool hits = value_at(p_L + Eigen::Vector3d(0, 0, z)) < 0.25;
+      num_hit += hits ? 1 : 0;
+      num_free += checker.IsFree(q) ? 1 : 0;
+      EXPECT_FALSE(hits && checker.IsFree(q)) << far_m << " m, " << z;
+    }
+    EXPECT_GT(num_hit, 300);
+    EXPECT_GT(num_free, 300);
+  }
+}
+
 TEST(VoxelsModelTest, WallsStandWhereTheGridEnds) {
   for (const bool walls : {false, true}) {
     const Robot robot = RailRobotWithGrid(walls);

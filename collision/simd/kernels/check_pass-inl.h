@@ -18,9 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
 
-/// Enlargement of the robot's triangles, m: what single precision rounds.
-inline constexpr float kTrianglePadding = 2e-5f;
-
 /// The verdict pass. kAround: with half widths.
 template <bool kAround>
 class CheckPass {
@@ -168,18 +165,18 @@ class CheckPass {
   }
 
   /// Takes note of what touches(lane, margin) in the lanes given; `motion` bounds that of all of
-  /// its points. Returns true to stop.
+  /// its points, `padding` is part of every margin. Returns true to stop.
   template <typename Touches>
-  bool NoteExact(M lanes, V motion, Touches touches) {
+  bool NoteExact(M lanes, V motion, float padding, Touches touches) {
     alignas(64) float margins[kBlock];
     Store(hn::IfThenZeroElse(hits_, motion), margins);
     LaneMask touching = 0;
     LaneMask certain = 0;
     for (LaneMask open = Bits(lanes); open != 0; open &= open - 1) {
       const int lane = std::countr_zero(open);
-      if (!touches(lane, margins[lane] + kTrianglePadding)) continue;
+      if (!touches(lane, margins[lane] + padding)) continue;
       touching |= LaneMask{1} << lane;
-      if (margins[lane] > 0 && !touches(lane, kTrianglePadding)) continue;
+      if (margins[lane] > 0 && !touches(lane, padding)) continue;
       certain |= LaneMask{1} << lane;
       if (query_.stop_at_first) break;
     }
@@ -352,7 +349,7 @@ class CheckPass {
       const auto touches = [&](int lane, float margin) {
         return PatchMeetsSolid(patch, placement_.PosesOf(body).InLane(lane), world_, solid, margin);
       };
-      if (NoteExact(near, motion, touches)) return true;
+      if (NoteExact(near, motion, patch.patch.padding, touches)) return true;
     }
     return false;
   }
@@ -367,14 +364,14 @@ class CheckPass {
     const V squared = SquaredNorm(d);
     const V gap = LeastAlong(robot_.points + hull.first, hull.num, X_WC.InverseRotate(d)) +
                   Dot(d, X_WC.translation() - p) + squared;
-    return hn::AndNot(Exceeds(gap, Margin(motion) + Fill(hull.slack), squared), lanes);
+    return hn::AndNot(Exceeds(gap, Margin(motion, 2 * hull.padding) + Fill(hull.slack), squared),
+                      lanes);
   }
 
   /// What planes are to leave between what moves so far.
-  HWY_INLINE V Margin(V motion) const {
-    const V padding = Fill(2 * kTrianglePadding);
-    if constexpr (kAround) return padding + hn::IfThenZeroElse(hits_, motion);
-    return padding;
+  HWY_INLINE V Margin(V motion, float padding) const {
+    if constexpr (kAround) return Fill(padding) + hn::IfThenZeroElse(hits_, motion);
+    return Fill(padding);
   }
   /// Whether a gap along a direction of that squared length is wider than a margin.
   static HWY_INLINE M Exceeds(V gap, V margin, V squared) {
@@ -419,7 +416,13 @@ class CheckPass {
       }
       // Note compares squares; what is certain is compared here.
       const V distance = GridDistance(grid, p, grid.outside);
-      return Note(Zero(), node.radius, hn::Lt(distance, Fill(node.radius)), false);
+      M meets = hn::Lt(distance, Fill(node.radius));
+      if constexpr (!kAround) {
+        if (HWY_UNLIKELY(grid.is_far)) {
+          meets = hn::Or(meets, MeetsGridAround(grid, p, Zero(), node.radius, alive_));
+        }
+      }
+      return Note(Zero(), node.radius, meets, false);
     }
     // Nothing is known of what a ball of balls outside of the grid has inside of it.
     const V limit = Grown(node.radius, motion) + Fill(GridSlack(grid));
@@ -484,7 +487,7 @@ class CheckPass {
     if (body_a != pair_body_a_) std::swap(a, b);
     const NodeHull& hull_a = HullOf(a);
     const NodeHull& hull_b = HullOf(b);
-    const V margin = Margin(motion);
+    const V margin = Margin(motion, hull_a.padding + hull_b.padding);
     {  // In all lanes, planes across the line between the middles.
       const Points d = placement_.Position(a) - placement_.Position(b);
       const Poses X_WA = placement_.PosesOf(pair_body_a_);
@@ -544,7 +547,7 @@ class CheckPass {
     const V motion = kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other)) : Zero();
     const PatchView patch = PatchOf(index);
     if (other.patch < 0) {
-      return NoteExact(touching, motion, [&](int lane, float margin) {
+      return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
         float center_W[3], center[3];
         placement_.Position(other_index, lane, center_W);
         placement_.PosesOf(body_a).InLane(lane).InverseTimes(center_W, center);
@@ -562,8 +565,8 @@ class CheckPass {
       if (None(touching)) return false;
     }
     const PatchView other_patch = PatchOf(other_index);
-    return NoteExact(touching, motion, [&](int lane, float margin) {
-      return PatchesMeet(patch, other_patch, Relation(lane), margin + kTrianglePadding);
+    return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
+      return PatchesMeet(patch, other_patch, Relation(lane), margin + other_patch.patch.padding);
     });
   }
 

@@ -125,7 +125,9 @@ HWY_INLINE M MeetsGridAround(const DistanceGrid& grid, const Points& p, V motion
 
 /// How far grid values at two points may differ beyond the distance of the points: each is that of
 /// the middle of its cell.
-HWY_INLINE float GridSlack(const DistanceGrid& grid) { return 1.7321f * grid.resolution; }
+HWY_INLINE float GridSlack(const DistanceGrid& grid) {
+  return 1.7321f * grid.resolution + 2 * grid.rounding;
+}
 
 }  // namespace planbench::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -73,6 +73,7 @@ struct NodeHull {
   std::int32_t first = 0;
   std::int32_t num = 0;  ///< 0: none is known.
   float slack = 0;       ///< What the node encloses reaches no further beyond the hull, m.
+  float padding = 0;     ///< What single precision rounds of it, m.
 };
 
 /// Part of a link's surface, in groups of triangles. Where these leave the part, and its ball and
@@ -82,6 +83,7 @@ struct Patch {
   int num_groups;
   NodeHull hulls[kWide];  ///< Of groups.
   CenteredBox box;        ///< Around all of them.
+  float padding;          ///< Enlargement of the triangles, m: what single precision rounds.
   /// One of each connected part of the surface that this patch answers for.
   std::vector<std::array<float, 3>> points;
 };
@@ -192,8 +194,11 @@ struct DistanceGrid {
   float origin[3] = {0, 0, 0};
   float resolution = 1;
   int size[3] = {0, 0, 0};
-  float outside = 0;              ///< The value everywhere outside.
-  float rounding = 0;             ///< Of the positions of balls, m.
+  float outside = 0;   ///< The value everywhere outside.
+  float rounding = 0;  ///< Of the positions of balls, m.
+  /// Whether single configurations are judged with it, too: a ball that far out is in any of the
+  /// cells within it.
+  bool is_far = false;
   const float* values = nullptr;  ///< x fastest.
 };
 

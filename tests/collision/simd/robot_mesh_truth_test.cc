@@ -31,10 +31,27 @@ namespace {
 
 constexpr char kToolGeometry[] = R"(<mesh filename="tool.obj"/>)";
 
+/// Links in a row along x, the first one `from`, the last one `to`, `length_m` apart.
+std::string Boom(const std::string& from, const std::string& to, double length_m) {
+  constexpr double kStep = 500;  // lengths beyond a kilometre are refused
+  std::string urdf;
+  std::string last = from;
+  for (double left_m = length_m; left_m > 0; left_m -= kStep) {
+    const std::string next = left_m <= kStep ? to : to + std::to_string(left_m);
+    if (next != to) urdf += "<link name=\"" + next + "\"/>";
+    urdf += "<joint name=\"to_" + next + "\" type=\"fixed\"> <parent link=\"" + last +
+            "\"/> <child link=\"" + next + "\"/> <origin xyz=\"" +
+            std::to_string(std::min(left_m, kStep)) + " 0 0\"/> </joint>";
+    last = next;
+  }
+  return urdf;
+}
+
 /// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
-/// angles.
+/// angles. The base is `far_m` from the origin, along x.
 Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
-                const std::string& base_geometry = {}, bool with_middles = false) {
+                const std::string& base_geometry = {}, bool with_middles = false,
+                double far_m = 0) {
   folder.Write("tool.obj", MeshAsObj(tool));
   const auto body = [](const std::string& name, const std::string& geometry) {
     if (geometry.empty()) return "<link name=\"" + name + "\"/>";
@@ -43,6 +60,7 @@ Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
            geometry + "</geometry> </collision> </link>";
   };
   std::string urdf = "<robot name=\"flyer\">" + body("base", base_geometry);
+  if (far_m > 0) urdf += "<link name=\"origin\"/>" + Boom("origin", "base", far_m);
   const std::vector<std::string> links = {"a", "b", "c", "d", "e", "tool"};
   const std::vector<std::string> joints = {"x", "y", "z", "roll", "pitch", "yaw"};
   const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
@@ -129,6 +147,7 @@ class MeshComparison {
 
   int num_free = 0;
   int num_hit = 0;
+  double band_m = kBand_m;  ///< Within which the engine may err towards collision.
 
   /// By rows of 6.
   void Judge(const std::vector<double>& qs) {
@@ -142,7 +161,7 @@ class MeshComparison {
       EXPECT_EQ(fast_.IsFree(q), free[i] != 0) << "lanes matter";
       if ((free[i] != 0) == exact_free) continue;
       EXPECT_FALSE(free[i]) << "errs towards free";
-      EXPECT_LE(exact_.FindClosest(q).distance_m, kBand_m);
+      EXPECT_LE(exact_.FindClosest(q).distance_m, band_m);
     }
   }
 
@@ -222,6 +241,73 @@ TEST(RobotMeshTruthTest, LinksBesideAndInsideEachOther) {
     MeshComparison comparison(robot);
     comparison.SetScene({});
     comparison.JudgeRandom(Trials(8), &random);
+  }
+}
+
+/// How far from the origin robots are tried, m.
+constexpr double kFarAway[] = {10, 100, 1000, 1e5};
+
+TEST(RobotMeshTruthTest, FarFromTheOriginNoContactIsMissed) {
+  std::mt19937_64 random(25);
+  std::size_t next = 0;
+  for (const double far_m : kFarAway) {
+    for (const GeneratedMesh& mesh : ToolMeshes()) {
+      const TemporaryFolder folder;
+      folder.Write("ring.obj", MeshAsObj(TorusMesh(0.35, 0.12, 12, 8)));
+      const Robot robot =
+          MakeFlyer(folder, mesh.triangles, R"(<mesh filename="ring.obj"/>)", false, far_m);
+      MeshComparison comparison(robot);
+      comparison.band_m = kBand_m * (far_m + 10) / 5;
+      for (const Shape& solid : SolidsOfEveryKind()) {
+        if (++next % 4 != 0) continue;
+        SCOPED_TRACE(mesh.what + " and " + ShapeTypeName(solid) + " at " + std::to_string(far_m));
+        Eigen::Isometry3d X_WO = RandomPose(&random, 0.2);
+        X_WO.pretranslate(Eigen::Vector3d(far_m, 0, 0));
+        comparison.SetScene(SceneWith("thing", solid, X_WO));
+        comparison.JudgeRandom(2, &random);
+      }
+    }
+  }
+}
+
+/// What single precision makes of an angle moves the end of a long boom most.
+TEST(RobotMeshTruthTest, AtTheEndOfALongBoomNoContactIsMissed) {
+  std::mt19937_64 random(26);
+  for (const double far_m : kFarAway) {
+    const TemporaryFolder folder;
+    folder.Write("tool.obj", MeshAsObj(BoxMesh({0.1, 0.1, 0.1})));
+    Robot robot;
+    robot.name = "boom";
+    robot.model = RobotModel::FromUrdf(
+        R"(<robot name="boom"> <link name="base"/> <link name="arm"/>
+           <link name="tool"> <collision> <geometry> <mesh filename="tool.obj"/> </geometry>
+           </collision> </link>
+           <joint name="yaw" type="continuous"> <parent link="base"/> <child link="arm"/>
+           <origin xyz="0.1 0.2 1"/> <axis xyz="0.1 0.2 1"/> </joint>)" +
+            Boom("arm", "tool", far_m) + "</robot>",
+        "boom.urdf");
+    robot.groups = {robot.model.MakeGroup("arm", {"yaw"}, "tool")};
+    robot.resources.base_folder = folder.path();
+    SimdChecker fast(robot, robot.groups.front(), CollisionModel::kMeshes);
+    FclChecker exact(robot, robot.groups.front(), CollisionModel::kMeshes);
+    const int tool = robot.model.FindLink("tool");
+    // A corner of a box is 0.01 mm inside of a face of the tool's.
+    Eigen::Isometry3d X_TO(Eigen::Translation3d(0.01, 0.05 + 0.05 * std::sqrt(3.0) - 1e-5, 0.02));
+    X_TO.rotate(
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::Ones(), Eigen::Vector3d::UnitY()));
+    int num_hit = 0;
+    for (int i = 0; i < Trials(60); ++i) {
+      const std::vector<double> q = {6 * UniformFraction(&random) - 3};
+      const Eigen::Isometry3d X_WT =
+          ComputeLinkPoses(robot.model, q)[static_cast<std::size_t>(tool)];
+      const Scene scene = SceneWith("wall", Box{{0.1, 0.1, 0.1}}, X_WT * X_TO);
+      fast.SetScene(scene, std::vector<double>{0.0});
+      exact.SetScene(scene, std::vector<double>{0.0});
+      if (exact.IsFree(q)) continue;
+      ++num_hit;
+      EXPECT_FALSE(fast.IsFree(q)) << far_m;
+    }
+    EXPECT_GT(num_hit, Trials(60) / 2) << far_m;
   }
 }
 

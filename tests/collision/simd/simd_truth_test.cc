@@ -280,6 +280,35 @@ TEST(SimdTruthTest, ContactsFarFromTheLinkAreNotMissed) {
   }
 }
 
+TEST(SimdTruthTest, ContactsFarAlongARailAreNotMissed) {
+  std::mt19937_64 generator(9);
+  for (const double far_m : {10.0, 100.0, 1000.0, 10'000.0}) {
+    Robot robot;
+    robot.name = "train";
+    robot.model = RobotModel::FromUrdf(
+        R"(<robot name="train"> <link name="base"/> <link name="tool"/>
+           <joint name="slide" type="prismatic"> <parent link="base"/> <child link="tool"/>
+           <origin xyz="0.1 0.2 1"/> <axis xyz="0.3 0.2 1"/> <limit lower="0" upper=")" +
+            std::to_string(far_m) + R"(" velocity="1" effort="1"/> </joint> </robot>)",
+        "train.urdf");
+    robot.groups = {robot.model.MakeGroup("rail", {"slide"}, "tool")};
+    const int tool = robot.model.FindLink("tool");
+    robot.spheres = {{tool, Eigen::Vector3d(0.01, 0.02, 0.03), 0.05}};
+    for (int i = 0; i < Trials(60); ++i) {
+      const std::vector<double> q = {far_m * (1 - UniformFraction(&generator) / 2)};
+      const Eigen::Vector3d p_W =
+          ComputeLinkPoses(robot.model, q)[static_cast<std::size_t>(tool)] * robot.spheres[0].p_LS;
+      // 1 um inside of a box's face.
+      const Eigen::Isometry3d X_WO(Eigen::Translation3d(p_W) *
+                                   Eigen::Translation3d(0.01, 0.1 - 1e-6, 0.02));
+      Comparison comparison(robot, SceneWith("wall", Box{{0.1, 0.1, 0.1}}, X_WO),
+                            std::vector<double>{0.0});
+      EXPECT_FALSE(comparison.exact().IsFree(q)) << far_m;
+      EXPECT_FALSE(comparison.fast().IsFree(q)) << far_m;
+    }
+  }
+}
+
 TEST(SimdTruthTest, EdgesAtFixedSamples) {
   for (const World& world : FetchWorlds()) {
     SCOPED_TRACE(world.what);
