@@ -39,7 +39,7 @@ class Recorder {
   /// session as it is.
   bool Complete();
 
-  /// Records that the logger with the most of them does not have.
+  /// Records that the logger with the most of them does not have; for tests.
   std::size_t num_unrecorded() const;
   /// What is not recorded and why, in a line for each logger that lacks something; empty if nothing
   /// is.

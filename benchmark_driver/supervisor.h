@@ -48,7 +48,7 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// Restarts made so far.
+  /// Restarts made so far; for tests.
   int num_restarts() const;
 
   static constexpr int kMaxQuickDeaths = 5;

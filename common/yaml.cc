@@ -492,11 +492,6 @@ double YamlNode::DoubleOr(const std::string& key, double fallback) const {
   return value ? value->Double() : fallback;
 }
 
-long long YamlNode::IntOr(const std::string& key, long long fallback) const {
-  const std::optional<YamlNode> value = Find(key);
-  return value ? value->Int() : fallback;
-}
-
 bool YamlNode::BoolOr(const std::string& key, bool fallback) const {
   const std::optional<YamlNode> value = Find(key);
   return value ? value->Bool() : fallback;

@@ -82,7 +82,6 @@ class YamlNode {
 
   /// Shorthands for optional keys of a map.
   double DoubleOr(const std::string& key, double fallback) const;
-  long long IntOr(const std::string& key, long long fallback) const;
   bool BoolOr(const std::string& key, bool fallback) const;
   std::string StringOr(const std::string& key, const std::string& fallback) const;
 

@@ -45,7 +45,8 @@ class Planner {
   /// the models that cannot be used, with the reason.
   std::map<CollisionModel, std::string> WarmUp();
   /// How often a robot was compiled for a model and a group: at most once at warming up, and again
-  /// for other positions of the joints outside the group and another allowed-collision matrix.
+  /// for other positions of the joints outside the group and another allowed-collision matrix. For
+  /// tests.
   int num_compilations() const { return num_compilations_; }
 
   /// Solves a request in its scene. Never throws for bad requests: they come back as

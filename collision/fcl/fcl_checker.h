@@ -114,7 +114,6 @@ class FclChecker : public CollisionChecker {
 
   void Place(std::span<const double> q);
   void PlaceNodes(int geometry);
-  bool Apart(const Geometry& a, const Geometry& b) const;
   double RelativeMotion(const Pair& pair, std::span<const double> motion) const;
   /// Whether the pair is no further apart than `margin`, m.
   bool Within(const Pair& pair, double margin);

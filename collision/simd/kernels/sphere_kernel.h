@@ -281,10 +281,10 @@ struct SampleBlock {
 /// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock].
 void PlaceSamples(const Joints& joints, const SampleBlock& block, float* q, float* half_widths);
 
-/// Sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
+/// For tests: sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
 void BlockSinCos(const float* angles, float* sines, float* cosines);
 
-/// Name of the instruction set that is used here, e.g. "AVX3".
+/// For tests: name of the instruction set that is used here, e.g. "AVX3".
 const char* InstructionSet();
 
 }  // namespace planbench::kernels
