@@ -77,6 +77,7 @@ std::optional<RequestExchange::Answer> RequestExchange::HearAck(TimePoint now,
   switch (ack.message.verdict) {
     case PlanAckVerdict::kWorking:
       working_ = true;
+      denied_ = false;
       break;
     case PlanAckVerdict::kBusy:
       denied_ = ack.working_on.empty() || Ours(ack.working_on);

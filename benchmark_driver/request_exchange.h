@@ -93,7 +93,7 @@ class RequestExchange {
   TimePoint next_send_;
   TimePoint last_ack_;
   std::string other_request_;  // that it was last busy with
-  bool denied_ = false;        // it said that it was busy with others, and announced nothing such
+  bool denied_ = false;        // its last word: busy with others, though it announced nothing such
   bool working_ = false;       // on this request, by its word
   std::string what_came_;      // in place of a result, last
   std::optional<TimePoint> cancelled_;  // because it was overdue

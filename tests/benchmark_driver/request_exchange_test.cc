@@ -203,6 +203,15 @@ TEST(RequestExchange, BusyIsNoExcuseUnlessThePlannerAnnouncesAnotherRequest) {
   }
 }
 
+TEST(RequestExchange, BusyIsNotBlamedOnceThePlannerHasTheRequest) {
+  const Event busy = Ack(PlanAckVerdict::kBusy, "r", "");
+  Play(Repeated(0, 1.1, busy, "request") + Repeated(1.25, 25.1, Working(), "request") +
+       Repeated(25.1, 40.2, Working(), "cancel") +
+       std::vector<Line>{
+           {40.3, kTick,
+            "no answer after 40.30: no result, though live, 30 s after the time limit"}});
+}
+
 TEST(RequestExchange, BusyDoesNotMoveTheClockOnceThePlannerHasTheRequest) {
   Play(std::vector<Line>{{0, kTick, "request"}, {0.1, Working(), ""}} +
        Repeated(0.25, 25.1, Busy(), "request") +
