@@ -94,6 +94,11 @@ class DisturbedMachine {
     Write();
     planner_->OnRequest([this](const PlanRequest& request) { OnRequest(request); });
   }
+  ~DisturbedMachine() {
+    planner_->OnRequest([](const PlanRequest&) {});
+  }
+  DisturbedMachine(const DisturbedMachine&) = delete;
+  DisturbedMachine& operator=(const DisturbedMachine&) = delete;
   KernelFolders folders() const { return {folder_ / "proc", folder_ / "sys"}; }
 
  private:

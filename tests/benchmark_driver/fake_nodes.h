@@ -25,7 +25,8 @@ class FakePlanner {
  public:
   explicit FakePlanner(Bus* bus, const std::string& name = "arm");
 
-  /// What to do with a request, in its handler. At first: Solve.
+  /// What to do with a request, in its handler. At first: Solve. A request that is repeated may
+  /// come until the planner ends: what the handler uses must live as long.
   void OnRequest(std::function<void(const PlanRequest&)> handler);
   void Acknowledge(const PlanRequest& request, PlanAckVerdict verdict,
                    const std::string& message = "");

@@ -77,8 +77,8 @@ TEST_F(PlannerClientTest, WaitingForThePlannerCanBeInterrupted) {
 }
 
 TEST_F(PlannerClientTest, AsksAgainUntilTheResultComes) {
-  FakePlanner planner(&bus_);
   std::atomic<int> num_requests = 0;
+  FakePlanner planner(&bus_);
   planner.OnRequest([&](const PlanRequest& request) {
     ++num_requests;  // the first was lost, the second is worked on, the third one's result is lost
     if (num_requests == 2) planner.Acknowledge(request, Verdict::kWorking);
@@ -152,8 +152,8 @@ TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
   for (Bus* one : {&bus, &planner_bus, &forger_bus}) one->Start();
   NodeRegistry registry(&bus);
   PlannerClient client(&bus, &registry, "arm");
-  FakePlanner planner(&planner_bus);
   std::atomic<int> num_requests = 0;
+  FakePlanner planner(&planner_bus);
   planner.OnRequest([&](const PlanRequest& request) {
     if (++num_requests >= 3) planner.Solve(request);
   });
@@ -262,10 +262,10 @@ TEST_F(PlannerClientTest, APlannerThatIsGivenUpIsNotWaitedFor) {
 
 TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {
   for (const bool announced : {true, false}) {
+    std::atomic<int> num_requests = 0;
     FakePlanner planner(&bus_);
     planner.status.request_id = announced ? "another" : "";
     Restart(&planner);
-    std::atomic<int> num_requests = 0;
     planner.OnRequest([&](const PlanRequest& request) {
       if (++num_requests < 3) return planner.Acknowledge(request, Verdict::kBusy);
       planner.Solve(request);
@@ -284,8 +284,9 @@ TEST_F(PlannerClientTest, ASolutionHasAPathAndNothingElseHas) {
   unsolved_path.status = PlanStatus::kExhausted;
   int id = 0;
   for (const PlanResult& result : {without_path, unsolved_path}) {
-    planner.OnRequest(
-        [&](const PlanRequest& request) { planner.SendResult(request.request_id, result); });
+    planner.OnRequest([&planner, result](const PlanRequest& request) {
+      planner.SendResult(request.request_id, result);
+    });
     const PlannerClient::Answer answer = Solve(std::to_string(++id));
     EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
     EXPECT_THAT(answer.message, HasSubstr("the result cannot be used: "));

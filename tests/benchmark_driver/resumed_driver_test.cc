@@ -49,6 +49,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
 }
 
 TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSession) {
+  std::atomic<bool> dead = false;
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
@@ -59,7 +60,6 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
   std::map<std::string, RunRecordMessage> before;
   {
     // It dies of problem 2.
-    std::atomic<bool> dead = false;
     planner.OnRequest([&](const PlanRequest& request) {
       if (request.request_id.find("/cans/2/") == std::string::npos) return planner.Solve(request);
       planner.FallSilent();

@@ -361,8 +361,8 @@ TEST_F(RunExecutorTest, AProblemThatTheServerNoLongerHasIsAnInvalidRequest) {
 }
 
 TEST_F(RunExecutorTest, RefereeThatHasForgottenTheSceneIsToldAgain) {
-  FakeSceneServer server(&bus_);
   std::atomic<int> num_checks = 0;
+  FakeSceneServer server(&bus_);
   server.OnPathCheck([&](const PathCheckRequestMessage&) {
     if (++num_checks == 1) throw InputError("unknown scene");
     return FakeSceneServer::Verdict(true);
