@@ -16,10 +16,4 @@ inline bool IsFolder(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, ignored);
 }
 
-/// A symbolic link to what does not exist.
-inline bool IsDanglingLink(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::is_symlink(path, ignored) && !std::filesystem::exists(path, ignored);
-}
-
 }  // namespace planbench

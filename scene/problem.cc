@@ -49,23 +49,29 @@ std::string ProblemSetNameOf(const fs::path& folder) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
-void RefuseDanglingLink(const fs::path& path) {
-  if (!IsDanglingLink(path)) return;
-  std::error_code ignored;
-  throw InputError(path.string() + ": is a link to '" + fs::read_symlink(path, ignored).string() +
-                   "', which leads nowhere");
+void RefuseUnreachable(const fs::path& path) {
+  std::error_code error;
+  const bool is_missing = fs::status(path, error).type() == fs::file_type::not_found;
+  if (!error) return;
+  std::error_code no_link;
+  const fs::path target = fs::read_symlink(path, no_link);
+  if (!no_link) {
+    throw InputError(path.string() + ": is a link to '" + target.string() +
+                     "', which cannot be followed: " + error.message());
+  }
+  if (!is_missing) throw InputError(path.string() + ": " + error.message());
 }
 
 void RequireProblemFolder(const fs::path& folder) {
   if (IsFolder(folder)) return;
-  RefuseDanglingLink(folder);
+  RefuseUnreachable(folder);
   throw InputError(folder.string() + ": there is no such folder of problems");
 }
 
 void RequireProblemFiles(const fs::path& scene, const fs::path& request) {
   for (const fs::path& file : {scene, request}) {
     if (IsFile(file)) continue;
-    RefuseDanglingLink(file);
+    RefuseUnreachable(file);
     std::error_code ignored;
     throw InputError(file.string() + (fs::exists(file, ignored)
                                           ? ": is no file"

@@ -66,8 +66,9 @@ struct ProblemSet {
   const ProblemFiles* Find(int index) const;
 };
 
-/// Throws InputError for a symbolic link that leads nowhere.
-void RefuseDanglingLink(const std::filesystem::path& path);
+/// Throws InputError, with the system's reason, for a symbolic link that cannot be followed and for
+/// what may not be looked at; not for what is not there.
+void RefuseUnreachable(const std::filesystem::path& path);
 
 /// Throws InputError if there is no such folder.
 void RequireProblemFolder(const std::filesystem::path& folder);

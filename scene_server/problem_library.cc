@@ -28,8 +28,8 @@ bool HoldsProblems(const fs::path& folder) {
 bool IsHidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
 /// Adds the folder itself if it holds problems, else the folders below it that do. `above`: the
-/// folders it is in, real paths, for links that lead back to one. Of a link that leads nowhere
-/// nobody knows whether it was to lead to a set: it is refused.
+/// folders it is in, real paths, for links that lead back to one. Of a link that cannot be
+/// followed nobody knows whether it was to lead to a set: it is refused.
 void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
                     std::vector<fs::path>* found) {
   if (HoldsProblems(folder)) {
@@ -40,7 +40,7 @@ void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
   if (std::find(above->begin(), above->end(), real) != above->end()) return;
   above->push_back(real);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!IsHidden(entry.path())) RefuseDanglingLink(entry.path());
+    if (!IsHidden(entry.path())) RefuseUnreachable(entry.path());
     if (entry.is_directory()) FindSetFolders(entry.path(), above, found);
   }
   above->pop_back();

@@ -64,8 +64,17 @@ TEST_F(ProblemSetFolder, MissingFolder) {
 
 TEST_F(ProblemSetFolder, LinkToNowhere) {
   fs::create_directory_symlink(parent_ / "gone", parent_ / "link");
-  ExpectInputError([&] { ListProblemSet(parent_ / "link"); },
-                   {"link: is a link to '", "gone', which leads nowhere"});
+  ExpectInputError(
+      [&] { ListProblemSet(parent_ / "link"); },
+      {"link: is a link to '", "gone', which cannot be followed: No such file or directory"});
+}
+
+TEST_F(ProblemSetFolder, WhatCannotBeLookedAtIsNotCalledMissing) {
+  const std::string unlikely(300, 'x');  // a name longer than any file's
+  ExpectInputError([&] { ListProblemSet(parent_ / unlikely); }, {"File name too long"});
+  Touch("scene1.yaml");
+  ExpectInputError([&] { RequireProblemFiles(folder_ / "scene1.yaml", folder_ / unlikely); },
+                   {"File name too long"});
 }
 
 TEST_F(ProblemSetFolder, EmptyFolder) {
@@ -87,8 +96,9 @@ TEST_F(ProblemSetFolder, OnlyFilesAreProblemFiles) {
   const fs::path request = folder_ / "request1.yaml";
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is missing"});
   fs::create_symlink(folder_ / "nowhere", request);
-  ExpectInputError([&] { RequireProblemFiles(scene, request); },
-                   {"request1.yaml: is a link to '", "nowhere', which leads nowhere"});
+  ExpectInputError(
+      [&] { RequireProblemFiles(scene, request); },
+      {"request1.yaml: is a link to '", "nowhere', which cannot be followed: No such file"});
   fs::remove(request);
   ASSERT_EQ(mkfifo(request.c_str(), 0600), 0);
   ExpectInputError([&] { RequireProblemFiles(scene, request); }, {"request1.yaml: is no file"});
