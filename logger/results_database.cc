@@ -64,8 +64,15 @@ std::string InsertRunSql() {
 }
 
 std::string FindEqualRunSql() {
-  std::string sql = "SELECT id FROM runs WHERE id = ?";
-  for (const RunColumn& column : RunColumns()) sql += fmt::format(" AND {} IS ?", column.name);
+  std::string sql = "SELECT id FROM runs WHERE id = ?1";
+  int parameter = 1;
+  for (const RunColumn& column : RunColumns()) {
+    sql += fmt::format(" AND ({} IS ?{}", column.name, ++parameter);
+    // Of planners that sample edges by a rule of their own (planning/told_edges.h), databases of
+    // before hold the request's.
+    if (column.name == "edge_resolution") sql += fmt::format(" OR ?{} IS NULL", parameter);
+    sql += ')';
+  }
   return sql;
 }
 

@@ -306,6 +306,23 @@ TEST_F(ResultsDatabaseTest, APlannerThatSamplesEdgesByItsOwnRuleHasNoResolutionO
             std::string::npos);
 }
 
+TEST_F(ResultsDatabaseTest, OnesWhoseResolutionAnOlderVersionStoredContradictsNothing) {
+  RunRecordMessage record = SampleRecord();
+  record.request.edge_check = EdgeCheck::kFixed;
+  record.settings["longest_valid_segment_fraction"] = "0.005";
+  database_.Store(record);
+  SqliteConnection(file_, SqliteConnection::Mode::kReadWriteCreate)
+      .Execute("UPDATE runs SET edge_resolution = 0.05");
+  EXPECT_EQ(database_.Store(record), Outcome::kAlreadyStored);
+  RunRecordMessage other = record;
+  other.roundtrip_time_s += 1;
+  EXPECT_EQ(database_.Store(other), Outcome::kContradicts);
+  other = record;
+  other.settings.erase("longest_valid_segment_fraction");
+  other.request.edge_resolution_m = 0.02;
+  EXPECT_EQ(database_.Store(other), Outcome::kContradicts);
+}
+
 TEST_F(ResultsDatabaseTest, SettingsThatAreOneNumberAreOnePlanners) {
   int number = 0;
   for (const char* epsilon : {"5", "5.0", "6"}) {
