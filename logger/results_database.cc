@@ -153,8 +153,11 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
           "SELECT id, settings FROM plannerConfigs WHERE name = ? ORDER BY id")),
       insert_planner_(
           connection_.Prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")),
-      find_run_(connection_.Prepare("SELECT id, status, scene_id, roundtrip_time FROM runs "
-                                    "WHERE run_id = ? AND request_id = ?")),
+      // The start as a number again, in us since the Unix epoch (IsoTime).
+      find_run_(connection_.Prepare(
+          "SELECT id, status, scene_id, roundtrip_time, "
+          "strftime('%s', substr(start_time, 1, 19)) * 1000000 + substr(start_time, 21, 6) "
+          "FROM runs WHERE run_id = ? AND request_id = ?")),
       find_equal_run_(connection_.Prepare(FindEqualRunSql())),
       delete_run_(connection_.Prepare("DELETE FROM runs WHERE id = ?")),
       insert_run_(connection_.Prepare(InsertRunSql())),
@@ -209,8 +212,10 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   };
   if (const auto known = FindRun(record)) {
     bind_columns(&find_equal_run_.BindAll(known->id), 1);
-    if (find_equal_run_.First() || !WasAsked(record)) return Outcome::kAlreadyStored;
-    if (!Replaces(record, known->standing)) return Outcome::kContradicts;
+    if (find_equal_run_.First()) return Outcome::kAlreadyStored;
+    if (!Replaces(record, known->standing)) {
+      return WasAsked(record) ? Outcome::kContradicts : Outcome::kAlreadyStored;
+    }
     delete_run_.BindAll(known->id).Run();
   }
   const std::int64_t experiment = ExperimentId(record);
@@ -237,6 +242,7 @@ std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecor
   known.standing.status = static_cast<PlanStatus>(find_run_.Int(1));
   known.standing.request.scene_id = find_run_.Text(2);
   known.standing.roundtrip_time_s = find_run_.Double(3);
+  known.standing.start_utime = find_run_.Int(4);
   find_run_.Reset();
   return known;
 }

@@ -36,9 +36,9 @@ class ResultsDatabase {
   void Store(const SessionMessage& session);
 
   enum class Outcome { kStored, kAlreadyStored, kContradicts };
-  /// Stores a run. Of records with the same run_id and request_id the first counts, or the first
-  /// that tells of a request (asked_runs.h); a later one repeats or contradicts it. Throws
-  /// InputError for a record that contradicts itself.
+  /// Stores a run. Of records with the same run_id and request_id the first that tells of a request
+  /// counts, or, if none does, the one of the last attempt (asked_runs.h); others repeat or
+  /// contradict it. Throws InputError for a record that contradicts itself.
   Outcome Store(const RunRecordMessage& record);
 
   /// SessionJson of every session, oldest first.

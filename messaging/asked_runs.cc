@@ -10,7 +10,7 @@ bool WasAsked(const RunRecordMessage& run) {
 }
 
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
-  return WasAsked(record) && !WasAsked(known);
+  return !WasAsked(known) && (WasAsked(record) || record.start_utime > known.start_utime);
 }
 
 }  // namespace planbench

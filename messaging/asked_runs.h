@@ -10,8 +10,8 @@ namespace planbench {
 bool WasAsked(const RunRecordMessage& run);
 
 /// A run has one record. Of two that differ the first stands, but for this: whether `record` stands
-/// in the place of `known`, which tells of no request. The other way round, and of two that tell of
-/// none, `record` is to be passed over.
+/// in the place of `known`, which tells of no request, since it tells of one or, of none either, of
+/// a later attempt. The other way round `record` is to be passed over.
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
 
 }  // namespace planbench

@@ -227,11 +227,11 @@ class Merge {
         continue;
       }
       Run& known = united[place->second];
-      if (known.record == record || !WasAsked(record)) continue;
       if (Replaces(record, known.record)) {
         known = std::move(run);
         continue;
       }
+      if (known.record == record || !WasAsked(record)) continue;
       throw InputError(fmt::format(
           "--merge: {} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
           "are not parts of one session",

@@ -124,10 +124,10 @@ std::string LiveSession::ContestantOf(const std::string& planner) const {
 void LiveSession::HearRecord(const RunRecordMessage& record) {
   // Recorded runs are repeated until they are acknowledged; a request's messages carry the process
   // of the driver behind the run's id.
-  const bool asked = WasAsked(record);
-  const auto [seen, is_new] = seen_.try_emplace(record.request_id, asked);
-  if (!is_new && (seen->second || !asked)) return;
-  seen->second = asked;
+  const std::pair standing(WasAsked(record), record.start_utime);
+  const auto [seen, is_new] = seen_.try_emplace(record.request_id, standing);
+  if (!is_new && (seen->second.first || standing <= seen->second)) return;  // as Replaces has it
+  seen->second = standing;
   std::erase_if(records_, [&](const auto& one) { return one.request_id == record.request_id; });
   auto& [num_runs, num_solved] = tallies_[record.contestant];
   num_runs += is_new;

@@ -65,7 +65,8 @@ class LiveSession {
   std::vector<PlanProgress> progress_;
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.
-  std::map<std::string, bool> seen_;  ///< Request ids of records: whether they were asked.
+  /// Of records, by request id: whether they were asked, and the start, us since the Unix epoch.
+  std::map<std::string, std::pair<bool, std::int64_t>> seen_;
   std::int64_t view_number_ = 0;
   std::int64_t num_undecodable_ = 0;
 };

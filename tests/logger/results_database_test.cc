@@ -231,9 +231,13 @@ TEST_F(ResultsDatabaseTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   not_asked.message = "given up: it died";
   database_.Store(not_asked);
   RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.start_utime += 1;
   not_asked_again.message = "given up: it died again";
-  EXPECT_EQ(database_.Store(not_asked_again), Outcome::kAlreadyStored);
-  EXPECT_EQ(Run("message"), SqliteValue(not_asked.message));
+  EXPECT_EQ(database_.Store(not_asked_again), Outcome::kStored) << "the session was resumed";
+  for (const RunRecordMessage& record : {not_asked, not_asked_again}) {
+    EXPECT_EQ(database_.Store(record), Outcome::kAlreadyStored) << "as when a log is read anew";
+    EXPECT_EQ(Run("message"), SqliteValue(not_asked_again.message));
+  }
   EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
   EXPECT_EQ(Count("runs"), Int(1));
   EXPECT_EQ(Run("solved"), Int(1));

@@ -79,11 +79,13 @@ TEST_F(RecordLogTest, RepeatedRecordsCountOnce) {
 TEST_F(RecordLogTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   const RunRecordMessage not_asked = Record("a", 0);
   RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.start_utime += 1;
   not_asked_again.message = "given up again";
   Add(channel::kRunRecord, Encode(not_asked));
   Add(channel::kRunRecord, Encode(Record("b", 1)));
   Add(channel::kRunRecord, Encode(not_asked_again));
-  EXPECT_EQ(Read().runs.front(), not_asked);
+  Add(channel::kRunRecord, Encode(not_asked));
+  EXPECT_EQ(Read().runs.front(), not_asked_again);
   log_.reset(lcm_eventlog_create(file_.c_str(), "a"));
   Add(channel::kRunRecord, Encode(Record("a", 2)));
   Add(channel::kRunRecord, Encode(not_asked_again));

@@ -90,7 +90,16 @@ TEST_F(LiveSessionTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   not_asked.status = PlanStatus::kNoAnswer;
   not_asked.roundtrip_time_s = 0;
   not_asked.result = {};
-  for (const RunRecordMessage& record : {not_asked, bus_.record, not_asked}) {
+  not_asked.message = "given up";
+  RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.start_utime += 1;
+  not_asked_again.message = "given up again";
+  for (const RunRecordMessage& record : {not_asked, not_asked_again, not_asked}) {
+    Hear(channel::kRunRecord, record);
+  }
+  ASSERT_EQ(State()["runs"].size(), 1u);
+  EXPECT_EQ(State()["runs"][0]["reason"], "given up again");
+  for (const RunRecordMessage& record : {bus_.record, not_asked_again}) {
     Hear(channel::kRunRecord, record);
   }
   const Json state = State();
