@@ -268,10 +268,10 @@ SessionMessage Driver::Session(bool finished) const {
 }
 
 const RunRow& Driver::Keep(const RunRecordMessage& record) {
+  const bool asked = WasAsked(record);
+  num_not_asked_ += asked ? 0 : 1;
   const auto attempt = suffices_.find(record.request_id);
-  if (attempt != suffices_.end()) {
-    attempt->second = record.result.result.Solves() || !WasAsked(record);
-  }
+  if (attempt != suffices_.end()) attempt->second = record.result.result.Solves() || !asked;
   return runs_.Add(record);
 }
 

@@ -45,6 +45,8 @@ class Driver {
   const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
+  /// Runs of which no request was sent (messaging/asked_runs.h): made when the session is resumed.
+  int num_not_asked() const { return num_not_asked_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Planners that were given up, and why.
@@ -94,6 +96,7 @@ class Driver {
   mutable std::mutex mutex_;
   std::map<std::string, std::string> given_up_;
   RunRows runs_;
+  int num_not_asked_ = 0;
   /// Of attempts that others depend on, by request id: whether these are not made, since the
   /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows
   /// yet whether they are needed.

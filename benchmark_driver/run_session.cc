@@ -226,6 +226,10 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   for (const auto& [planner, reason] : driver.given_up()) {
     spdlog::error("the planner '{}' was given up: {}", planner, reason);
   }
+  if (supervisor && driver.num_not_asked() > 0 && !interrupted()) {
+    spdlog::warn("{} runs were not asked for; go on with: {}", driver.num_not_asked(),
+                 ResumingCommand(flags, session_folder));
+  }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }
 

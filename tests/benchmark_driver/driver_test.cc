@@ -319,14 +319,17 @@ TEST_F(DriverTest, OneThatIsGivenUpLeavesTheOthersTheirRuns) {
   EXPECT_EQ(driver.given_up(), (std::map<std::string, std::string>{{"arm", "it died"}}));
   ASSERT_EQ(driver.runs().size(), 8u);
   int num_solved = 0;
+  std::set<std::string> not_asked;
   for (const RunRecordMessage& record : logger.records().messages()) {
     if (record.planner == "leg") {
       num_solved += record.status == PlanStatus::kSolved;
     } else if (record.message != "the process died or fell silent") {
       EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
       EXPECT_EQ(record.message, "given up: it died");
+      not_asked.insert(record.request_id);
     }
   }
+  EXPECT_EQ(driver.num_not_asked(), static_cast<int>(not_asked.size()));
   EXPECT_GE(num_solved, 4);
   EXPECT_TRUE(logger.sessions().messages().back().finished);
 }

@@ -72,6 +72,7 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
     }));
     // Whether problem 3 needs the backward search is not known.
     EXPECT_EQ(driver.num_runs(), 4);
+    EXPECT_EQ(driver.num_not_asked(), 2);
     for (const RunRecordMessage& record : logger.records().messages()) {
       if (before.emplace(record.request_id, record).second) earlier.runs.push_back(record);
     }
@@ -96,6 +97,7 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
   EXPECT_EQ(made, (std::set<std::string>{"run/cans/2/arm/backward/1", "run/cans/3/arm/forward/1"}));
   EXPECT_EQ(driver.runs().size(), 4u);
   EXPECT_EQ(driver.num_runs(), 4);
+  EXPECT_EQ(driver.num_not_asked(), 0);
 }
 
 }  // namespace
