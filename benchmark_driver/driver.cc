@@ -103,7 +103,9 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   std::set<std::string> scheduled;
   for (const ScheduledRun& run : schedule_) scheduled.insert(run.request_id);
   std::set<std::string> done;
+  std::set<ProblemKey> met;
   for (const RunRecordMessage& record : earlier_.runs) {
+    met.emplace(record.problem_set, record.problem_index);
     if (!WasAsked(record) && scheduled.contains(record.request_id)) continue;  // made anew
     done.insert(record.request_id);
     Keep(record);
@@ -111,23 +113,25 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   earlier_ = {};
   std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
-  CheckProblems(watch);
+  CheckProblems(met, watch);
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
   num_runs_ = static_cast<int>(runs_.size() + schedule_.size());
 }
 
-void Driver::CheckProblems(const std::function<void()>& watch) {
-  std::set<std::pair<std::string, int>> problems;
+void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch) {
+  std::set<ProblemKey> problems;
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
-  std::set<std::pair<std::string, int>> bad;
+  std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
   for (const auto& [set, index] : problems) {
     const std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
       watch();
       return false;
     });
-    if (!answer->ok) {
+    if (!answer->ok && !options_.skip_bad_problems && met.contains({set, index})) {
+      spdlog::error("{} {}: {}", set, index, answer->message);
+    } else if (!answer->ok) {
       bad.emplace(set, index);
       left_out_[fmt::format("{} {}", set, index)] = answer->message;
     } else if (!answer->message.empty()) {

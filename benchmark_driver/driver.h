@@ -4,7 +4,9 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmark_driver/driver_options.h"
@@ -58,8 +60,11 @@ class Driver {
 
  private:
   std::string Missing(bool need_logger) const;
+  using ProblemKey = std::pair<std::string, int>;  // set and index
   /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
-  void CheckProblems(const std::function<void()>& watch);
+  /// One that has gone bad since the resumed session had runs of it (`met`) ends it no more than it
+  /// would have ended that session: its runs tell, unless bad ones are to be left out.
+  void CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch);
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);

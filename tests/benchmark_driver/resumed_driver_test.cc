@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <set>
@@ -98,6 +99,47 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
   EXPECT_EQ(driver.runs().size(), 4u);
   EXPECT_EQ(driver.num_runs(), 4);
   EXPECT_EQ(driver.num_not_asked(), 0);
+}
+
+TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  EarlierSession earlier;
+  {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(true, Idle);
+    server.RefuseProblem(2, "scene0002.yaml: is missing");
+    EXPECT_TRUE(driver.Run(Never, Idle));
+    EXPECT_EQ(driver.num_not_asked(), 1);
+    earlier = {logger.sessions().messages(), logger.records().messages()};
+  }
+  options.problem_indices = {1, 2, 3};
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.runs().size(), 3u);
+  EXPECT_EQ(driver.num_not_asked(), 1);
+  std::set<std::string> made;
+  for (const RunRecordMessage& record : logger.records().messages()) {
+    if (std::find(earlier.runs.begin(), earlier.runs.end(), record) != earlier.runs.end()) continue;
+    made.insert(record.request_id);
+    if (record.problem_index != 2) continue;
+    EXPECT_EQ(record.status, PlanStatus::kInvalidRequest);
+    EXPECT_EQ(record.message, "no problem: scene0002.yaml: is missing");
+  }
+  EXPECT_EQ(made, (std::set<std::string>{"run/cans/2/arm/forward/1", "run/cans/3/arm/forward/1"}));
+
+  // One that the session did not have yet is another matter, and what is to be left out is.
+  server.RefuseProblem(3, "request0003.yaml: is missing");
+  Driver with_another(&bus_, options, LineUp({"arm"}), {}, earlier);
+  ExpectInputError([&] { with_another.Discover(true, Idle); }, {"1 of 2 problems are bad"});
+  options.skip_bad_problems = true;
+  Driver without(&bus_, options, LineUp({"arm"}), {}, earlier);
+  without.Discover(true, Idle);
+  EXPECT_EQ(without.left_out().size(), 2u);
 }
 
 }  // namespace
