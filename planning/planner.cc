@@ -24,6 +24,11 @@ namespace {
 /// Of shortcutting, on every path, whatever planner found it.
 constexpr int kShortcutRounds = 4;
 
+/// How long after the time limit a path may still be shortened. Of a path of thousands of waypoints
+/// all pairs of them may be tried; and one that is handed over when its request has been cancelled
+/// for being overdue (RequestExchange) counts as none, though it was found in time.
+constexpr double kSimplificationGrace = 5;  // s
+
 /// Ends of a path may differ from the asked ones by this much (rad or m), the rounding of
 /// interpolation.
 constexpr double kEndRounding = 1e-9;
@@ -346,9 +351,12 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   result->cost = found.cost;
   if (!request.simplify) return;
   const Stopwatch simplification;
-  edges->StopWhen([&query] { return query.Cancelled(); });
-  result->simplified_path = ShortcutPath(edges, result->path, request.seed, kShortcutRounds,
-                                         [&query] { return query.Cancelled(); });
+  const auto should_stop = [&query] {
+    return query.Cancelled() || query.RemainingSeconds() < -kSimplificationGrace;
+  };
+  edges->StopWhen(should_stop);
+  result->simplified_path =
+      ShortcutPath(edges, result->path, request.seed, kShortcutRounds, should_stop);
   result->phases.simplification_s = simplification.seconds();
 }
 

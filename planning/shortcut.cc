@@ -140,9 +140,9 @@ class Shortener {
 
   /// Across each corner, between the points that far from it, as fractions of the edges on either
   /// side.
-  void CutCorners(double fraction) {
+  void CutCorners(double fraction, const std::function<bool()>& should_stop) {
     double at = 0;  // of waypoint i
-    for (std::size_t i = 1; i + 1 < path_.waypoints().size(); ++i) {
+    for (std::size_t i = 1; i + 1 < path_.waypoints().size() && !should_stop(); ++i) {
       const double before = path_.EdgeLength(i - 1);
       const double after = path_.EdgeLength(i);
       at += before;
@@ -186,7 +186,7 @@ Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int 
       const double at_2 = UniformFraction(&generator) * total;
       shortener.Try(std::min(at_1, at_2), std::max(at_1, at_2));
     }
-    for (const double fraction : {0.5, 0.25}) shortener.CutCorners(fraction);
+    for (const double fraction : {0.5, 0.25}) shortener.CutCorners(fraction, should_stop);
   }
   return shortener.path().waypoints();
 }

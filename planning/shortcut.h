@@ -15,7 +15,7 @@ namespace planbench {
 /// shorten it by less than three thousandths is left out. Every edge of the result is one of the
 /// input's, was found valid by `edges`, or is part of one that `edges` has proven free (certified
 /// edges). Never longer than the input. Deterministic for a seed. Ends keep their exact values.
-/// `should_stop` ends it early.
+/// `should_stop`, asked before each shortcut, ends it early: then the path is as short as it is.
 Path ShortcutPath(EdgeChecker* edges, const Path& path, std::uint64_t seed, int rounds,
                   const std::function<bool()>& should_stop);
 

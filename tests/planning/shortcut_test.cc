@@ -110,6 +110,17 @@ TEST_F(ShortcutTest, StopsWhenTold) {
   EXPECT_EQ(Shortcut(around_post_, PostsScene(), 1, 4, [] { return true; }), around_post_);
 }
 
+TEST_F(ShortcutTest, ChecksNoMoreThanOneShortcutsEdgesBeforeItStops) {
+  checker_->SetScene(PostsScene(), robot_.model.DefaultPositions());
+  EdgeChecker unwatched(checker_.get(), kResolution, EdgeCheck::kFixed);
+  ShortcutPath(&unwatched, around_post_, 1, 2, Never);
+  for (std::int64_t most = 0; most <= unwatched.counters().edges; ++most) {
+    EdgeChecker edges(checker_.get(), kResolution, EdgeCheck::kFixed);
+    ShortcutPath(&edges, around_post_, 1, 2, [&] { return edges.counters().edges >= most; });
+    EXPECT_LE(edges.counters().edges, most + 2) << "of the three that a shortcut may need";
+  }
+}
+
 TEST_F(ShortcutTest, ShortPathsStayAsTheyAre) {
   EXPECT_EQ(Shortcut({}, EmptyPlanarScene()), Path{});
   EXPECT_EQ(Shortcut({{1, 0, 0}}, EmptyPlanarScene()), (Path{{1, 0, 0}}));
