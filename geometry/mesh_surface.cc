@@ -33,13 +33,20 @@ double SquaredDistanceToTriangle(const Vector3d& p, const std::array<Vector3d, 3
                    SquaredDistanceToSegment(p, c, a)});
 }
 
+std::vector<MeshSurface::Corners> TrianglesOf(const TriangleMesh& mesh) {
+  std::vector<MeshSurface::Corners> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  }
+  return triangles;
+}
+
 }  // namespace
 
-MeshSurface::MeshSurface(const TriangleMesh& mesh) {
-  triangles_.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    triangles_.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
-  }
+MeshSurface::MeshSurface(const TriangleMesh& mesh) : MeshSurface(TrianglesOf(mesh)) {}
+
+MeshSurface::MeshSurface(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   if (!triangles_.empty()) Build(0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
@@ -76,9 +83,9 @@ void MeshSurface::Build(std::uint32_t begin, std::uint32_t end) {
   Build(half, end);
 }
 
-double MeshSurface::Distance(const Vector3d& point) const {
-  double best2 = std::numeric_limits<double>::infinity();
-  if (nodes_.empty()) return best2;
+double MeshSurface::Distance(const Vector3d& point, double at_most) const {
+  double best2 = at_most * at_most;
+  if (nodes_.empty()) return at_most;
   const auto to_box = [&](std::uint32_t index) {
     const Node& node = nodes_[index];
     return (node.low - point).cwiseMax(point - node.high).cwiseMax(0).squaredNorm();

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/shapes.h"
@@ -12,14 +13,17 @@ namespace planbench {
 /// The triangles of a mesh, in a tree of boxes, for distances from points. Immutable.
 class MeshSurface {
  public:
-  explicit MeshSurface(const TriangleMesh& mesh);
+  using Corners = std::array<Eigen::Vector3d, 3>;
 
-  /// Distance from a point to the nearest point of the triangles, m, up to rounding; infinity
-  /// without triangles.
-  double Distance(const Eigen::Vector3d& point) const;
+  explicit MeshSurface(const TriangleMesh& mesh);
+  explicit MeshSurface(std::vector<Corners> triangles);
+
+  /// Distance from a point to the nearest point of the triangles, m, up to rounding, or `at_most`,
+  /// which is not negative, if that is less.
+  double Distance(const Eigen::Vector3d& point,
+                  double at_most = std::numeric_limits<double>::infinity()) const;
 
  private:
-  using Corners = std::array<Eigen::Vector3d, 3>;
   struct Node {
     Eigen::Vector3d low, high;
     std::uint32_t begin = 0;  // Triangles below it: those from begin to end.

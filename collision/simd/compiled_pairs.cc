@@ -21,6 +21,9 @@ constexpr int kMaxProofBoxes = 4000;
 constexpr std::size_t kMaxProofBalls = 64;  ///< Of a tree of meshes.
 constexpr int kNumSamples = 64;             ///< Configurations.
 
+/// What a gate has to save, in tests of pairs.
+constexpr double kGateGain = 1.5;
+
 /// `around_a` encloses the balls of A.
 double LeastDistance(const Ball& around_a, std::span<const Ball> balls_a, const Pose& X_AB,
                      std::span<const Ball> balls_b) {
@@ -169,7 +172,7 @@ void CompiledRobot::AddProven(const CompiledTree& a, const CompiledTree& b,
   const std::vector<float> weights(weights_at, weights_at + kernel.num_joints);
   if (ProvenApart(a, b, weights)) return;
   const CompiledTree* split = nullptr;
-  if (UsuallyTouch(a, b)) {
+  if (ShareTouching(a, b) > 0.5) {
     const Node& node_a = At(kernel.nodes, a.root);
     const Node& node_b = At(kernel.nodes, b.root);
     if (node_a.num_children > 0) split = &a;
@@ -211,16 +214,18 @@ bool CompiledRobot::RootsTouch(const CompiledTree& a, const CompiledTree& b,
          ball_a.radius + ball_b.radius;
 }
 
-bool CompiledRobot::UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const {
-  return std::count_if(samples_.begin(), samples_.end(), [&](const std::vector<Pose>& X_WG) {
-           return RootsTouch(a, b, X_WG);
-         }) > kNumSamples / 2;
+double CompiledRobot::ShareTouching(const CompiledTree& a, const CompiledTree& b) const {
+  const auto num =
+      std::count_if(samples_.begin(), samples_.end(),
+                    [&](const std::vector<Pose>& X_WG) { return RootsTouch(a, b, X_WG); });
+  return static_cast<double>(num) / kNumSamples;
 }
 
 void CompiledRobot::AddPairs(
     const CompiledTree& body_a, const CompiledTree& body_b,
     const std::function<bool(const CompiledTree&, const CompiledTree&)>& checks, double* distance) {
   const bool same = body_a.body == body_b.body;
+  const std::size_t first = kernel.pairs.size();
   std::vector<const CompiledTree*> links_b;
   for (const CompiledTree& link : links) {
     if (link.body == body_b.body) links_b.push_back(&link);
@@ -257,6 +262,21 @@ void CompiledRobot::AddPairs(
   } else {
     for (const auto& pair : pairs) AddLinkPairs(*pair.first, *pair.second, {pair});
   }
+  if (!same) AddGate(body_a, body_b, first);
+}
+
+void CompiledRobot::AddGate(const CompiledTree& a, const CompiledTree& b, std::size_t first) {
+  const std::size_t num = kernel.pairs.size() - first;
+  if (num == 0) return;
+  const std::optional<kernels::Reach> reach = AddReachOfPair(a, b);
+  if (!reach) return;
+  kernels::TreePair gate = PairOf(a, b, *reach);
+  gate.num_behind = static_cast<int>(num);
+  if (ShareTouching(a, b) * static_cast<double>(num) + kGateGain > static_cast<double>(num)) {
+    gate.table = TableOf(a, b, *reach);
+    if (gate.table < 0) return;
+  }
+  kernel.pairs.insert(kernel.pairs.begin() + static_cast<std::ptrdiff_t>(first), gate);
 }
 
 void CompiledRobot::AddLinkPairs(const CompiledTree& a, const CompiledTree& b,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -149,10 +150,20 @@ struct CompiledRobot {
   void SamplePoses();
   bool RootsTouch(const CompiledTree& a, const CompiledTree& b,
                   const std::vector<Pose>& X_WG) const;
-  /// True if the trees' root balls touch at most configurations.
-  bool UsuallyTouch(const CompiledTree& a, const CompiledTree& b) const;
+  /// Share of the configurations at which the trees' root balls touch.
+  double ShareTouching(const CompiledTree& a, const CompiledTree& b) const;
   kernels::TreePair PairOf(const CompiledTree& a, const CompiledTree& b,
                            const kernels::Reach& reach) const;
+  /// Puts a gate before the pairs of two bodies, those from `first` on, if that saves tests.
+  void AddGate(const CompiledTree& a, const CompiledTree& b, std::size_t first);
+  /// Index of a table of two bodies, which is made when first asked for and kept when pairs are
+  /// forgotten; negative if there is none that serves.
+  int TableOf(const CompiledTree& carrier, const CompiledTree& moving, const kernels::Reach& reach);
+  std::optional<kernels::JointTable> MakeTable(const CompiledTree& carrier,
+                                               const CompiledTree& moving,
+                                               const kernels::Reach& reach) const;
+  /// How far a ball (in the body's frame) is from a link at least, m, or `at_most` if that is less.
+  double Apart(const CompiledTree& link, const Ball& ball_G, double at_most) const;
   /// Adds what of a pair is not proven apart.
   void AddProven(const CompiledTree& a, const CompiledTree& b, const kernels::Reach& reach);
 
@@ -163,6 +174,7 @@ struct CompiledRobot {
   std::vector<std::vector<Pose>> samples_;  ///< X_WG at configurations all over the limits.
   std::vector<Eigen::Matrix3d> R_CG_;       ///< By body: from RigidBodies' frame to the kernel's.
   const RobotMeshes* meshes_;
+  std::map<std::pair<int, int>, int> tables_;  ///< By bodies: the first carries the second.
   std::vector<kernels::TriangleGroup> triangles_;
   std::vector<kernels::PointGroup> points_;
 };

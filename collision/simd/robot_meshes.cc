@@ -353,7 +353,8 @@ void RobotMeshes::Add(const LinkGeometry& link, const std::vector<Ball>& middles
     }
     return depth;
   });
-  links.push_back({link.link, std::move(tree), std::move(closed), std::move(points)});
+  links.push_back({link.link, std::move(tree), std::move(closed), std::move(points),
+                   MeshSurface(std::move(triangles))});
 }
 
 namespace kernels {

@@ -7,6 +7,7 @@
 #include "collision/link_geometry.h"
 #include "collision/simd/ball_tree.h"
 #include "collision/simd/mesh_tree.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/solid_mesh.h"
 
 namespace planbench {
@@ -26,6 +27,7 @@ struct LinkMeshes {
   };
   std::vector<Closed> closed;
   std::vector<Eigen::Vector3d> points;  ///< One of every connected part.
+  MeshSurface surface;                  ///< Of the triangles.
 };
 
 struct RobotMeshes {

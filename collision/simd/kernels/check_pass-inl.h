@@ -14,6 +14,7 @@
 #include "collision/simd/kernels/patches-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/solids-inl.h"
+#include "collision/simd/kernels/tables-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
@@ -435,12 +436,30 @@ class CheckPass {
   }
 
   HWY_INLINE bool TestPair(const TreePair& pair) {
+    if (pair.table >= 0) return MayMeet(pair) && TestBehind(&pair);
     placement_.PlaceRoot(pair.root_a, pair.body_a);
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    return !None(Within(squared, Grown(pair.radius, MotionAtMost(pair.reach)))) &&
-           VisitRoots(pair, squared);
+    if (None(Within(squared, Grown(pair.radius, MotionAtMost(pair.reach))))) return false;
+    return pair.num_behind > 0 ? TestBehind(&pair) : VisitRoots(pair, squared);
+  }
+
+  /// Whether a gate's table leaves open that its trees touch.
+  HWY_INLINE bool MayMeet(const TreePair& gate) {
+    reach_ = gate.reach;
+    const JointTable& table = robot_.tables[static_cast<std::size_t>(gate.table)];
+    const V apart = TableBound(table, query_.q + lane_);
+    return !None(hn::And(alive_, hn::Le(apart, Grown(0, Motion(reach_.first)))));
+  }
+
+  HWY_NOINLINE bool TestBehind(const TreePair* gate) {
+    bool found = false;
+    for (int i = 1; i <= gate->num_behind; ++i) {
+      found = TestPair(gate[i]) || found;
+      if (found && (query_.stop_at_first || None(alive_))) break;
+    }
+    return found;
   }
 
   HWY_NOINLINE bool VisitRoots(const TreePair& pair, V squared) {

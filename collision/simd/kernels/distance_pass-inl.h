@@ -31,10 +31,7 @@ class DistancePass {
         TestWorld(world.trees[static_cast<std::size_t>(test)]);
         continue;
       }
-      const TreePair& pair = robot.pairs[static_cast<std::size_t>(test - num_trees)];
-      placement_.PlaceRoot(pair.root_a, pair.body_a);
-      placement_.PlaceRoot(pair.root_b, pair.body_b);
-      VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b);
+      TestPair(&robot.pairs[static_cast<std::size_t>(test - num_trees)]);
     }
   }
   V best() const { return best_; }
@@ -114,6 +111,20 @@ class DistancePass {
     if (None(hn::Lt(distance - Fill(GridSlack(grid)), best_))) return;
     placement_.PlaceChildren(index, body);
     for (int i = 0; i < node.num_children; ++i) VisitGrid(node.first_child + i, body);
+  }
+
+  /// `pair`: followed by those behind it.
+  void TestPair(const TreePair* pair) {
+    placement_.PlaceRoot(pair->root_a, pair->body_a);
+    placement_.PlaceRoot(pair->root_b, pair->body_b);
+    if (pair->num_behind == 0) {
+      VisitPair(pair->root_a, pair->body_a, pair->root_b, pair->body_b);
+      return;
+    }
+    const V squared =
+        SquaredNorm(placement_.Position(pair->root_a) - placement_.Position(pair->root_b));
+    if (!Improves(squared, Fill(pair->radius))) return;
+    for (int i = 1; i <= pair->num_behind; ++i) TestPair(pair + i);
   }
 
   void VisitPair(int a, int body_a, int b, int body_b) {

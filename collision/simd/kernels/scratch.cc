@@ -26,8 +26,12 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
       hwy::AllocateAligned<float>(static_cast<std::size_t>(robot.num_joints + 1) * kBlock);
   b.placed.assign(2 * robot.nodes.size(), 0);
   b.placement = 0;
-  b.order.resize(world.trees.size() + robot.pairs.size());
+  b.order.resize(world.trees.size());
   std::iota(b.order.begin(), b.order.end(), 0);
+  for (std::size_t i = 0; i < robot.pairs.size(); ++i) {
+    b.order.push_back(static_cast<std::int32_t>(world.trees.size() + i));
+    i += static_cast<std::size_t>(robot.pairs[i].num_behind);
+  }
   b.all_solids.resize(world.solids.size());
   std::iota(b.all_solids.begin(), b.all_solids.end(), 0);
   b.lists.resize(world.solids.size() * static_cast<std::size_t>(kMaxDepth));

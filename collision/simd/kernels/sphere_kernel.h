@@ -125,6 +125,22 @@ struct TreePair {
   bool doubtful;  ///< Hits are passed on as doubts.
   float radius;   ///< Sum of the roots'.
   Reach reach;    ///< Of the centres of balls; weights of all points of patches stand behind them.
+  /// Of a gate: so many pairs after it are of parts of the bodies of these trees, and tested where
+  /// it does not tell them apart.
+  int num_behind = 0;
+  /// Of a gate: index into SphereRobot::tables, which tell in the place of the balls; negative:
+  /// none.
+  int table = -1;
+};
+
+/// Lower bounds of how far two bodies are apart, by the positions of two joints between them.
+struct JointTable {
+  int joints[2];
+  float low[2];                       ///< rad or m.
+  float cells_per[2];                 ///< Cells per rad or m.
+  float size[2];                      ///< Cells.
+  float step;                         ///< Of a bound by its number, m.
+  std::vector<std::uint32_t> values;  ///< Numbers, four a word; the first joint's position fastest.
 };
 
 /// What moves: kinematics, trees of balls, pairs of trees.
@@ -141,6 +157,7 @@ struct SphereRobot {
   const TriangleGroup* triangles = nullptr;
   std::vector<Inside> insides;
   std::vector<InsideTest> inside_tests;
+  std::vector<JointTable> tables;
   /// m/rad: how far the centres of balls move. A ball that turns about its centre stays where it
   /// is.
   std::vector<float> reaches;
@@ -234,7 +251,7 @@ class SphereScratch {
 using LaneMask = std::uint32_t;
 
 struct BlockQuery {
-  const float* q = nullptr;  ///< [joint][kBlock], rad or m; revolute |q| <= 2 pi.
+  const float* q = nullptr;  ///< [joint][kBlock], rad or m; revolute |q| <= pi.
   /// [joint][kBlock] or null. With them every lane stands for the box of configurations q +- width.
   const float* half_widths = nullptr;
   /// By lane or null, with half widths: what comes so near (m) counts as colliding.
