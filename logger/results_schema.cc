@@ -95,9 +95,11 @@ void KeepEveryProgressEntry(SqliteConnection* connection) {
   SqliteTransaction transaction(connection);
   connection->Execute("ALTER TABLE progress RENAME TO progress_by_time");
   connection->Execute(kProgressTable);
+  // Entries of runs that are gone, deleted by a program that minds no foreign keys, are no one's.
   connection->Execute(
       "INSERT INTO progress SELECT runid, time, epsilon, cost, expansions, best_cost "
-      "FROM progress_by_time ORDER BY runid, time; DROP TABLE progress_by_time");
+      "FROM progress_by_time WHERE runid IN (SELECT id FROM runs) ORDER BY runid, time; "
+      "DROP TABLE progress_by_time");
   transaction.Commit();
 }
 

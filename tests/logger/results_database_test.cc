@@ -154,7 +154,9 @@ TEST_F(ResultsDatabaseTest, ADatabaseThatHadRoomForOneImprovementATimeGetsRoomFo
           "best_cost REAL, PRIMARY KEY (runid, time), "
           "FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE); "
           "INSERT INTO old SELECT * FROM progress; DROP TABLE progress; "
-          "ALTER TABLE old RENAME TO progress");
+          "ALTER TABLE old RENAME TO progress; "
+          "PRAGMA foreign_keys = OFF; "  // as in the shell of SQLite: a run that was deleted
+          "INSERT INTO progress VALUES (99, 0.5, NULL, 1, 1, 1)");
   RunRecordMessage record = SampleRecord("b");
   record.result.result.progress = {{0.25, 5, 4000, 100}, {0.25, 0, 3000, 200}};
   { ResultsDatabase(file).Store(record); }
@@ -163,6 +165,7 @@ TEST_F(ResultsDatabaseTest, ADatabaseThatHadRoomForOneImprovementATimeGetsRoomFo
   EXPECT_EQ(runs[0].progress, SampleRecord().result.result.progress);
   EXPECT_EQ(runs[1].progress, record.result.result.progress);
   SqliteConnection connection(file, SqliteConnection::Mode::kReadOnly);
+  EXPECT_EQ(connection.QueryValue("SELECT count(*) FROM progress WHERE runid = 99"), Int(0));
   const SqliteValue schema_then = connection.QueryValue(kProgressSchema);
   EXPECT_EQ(schema_then, Query(kProgressSchema)) << "as of a new one";
 }
@@ -325,6 +328,8 @@ TEST_F(ResultsDatabaseTest, OnesWhoseResolutionAnOlderVersionStoredContradictsNo
   other.settings.erase("longest_valid_segment_fraction");
   other.request.edge_resolution_m = 0.02;
   EXPECT_EQ(database_.Store(other), Outcome::kContradicts);
+  other.request.edge_resolution_m.reset();
+  EXPECT_EQ(database_.Store(other), Outcome::kContradicts) << "no resolution is not any";
 }
 
 TEST_F(ResultsDatabaseTest, SettingsThatAreOneNumberAreOnePlanners) {
