@@ -63,14 +63,18 @@ std::string InsertRunSql() {
   return fmt::format("INSERT INTO runs ({}) VALUES ({})", names, values);
 }
 
+/// Its parameters: the id, the values of the columns, the request's edge resolution.
 std::string FindEqualRunSql() {
   std::string sql = "SELECT id FROM runs WHERE id = ?1";
+  const std::size_t request_step = RunColumns().size() + 2;
   int parameter = 1;
   for (const RunColumn& column : RunColumns()) {
     sql += fmt::format(" AND ({} IS ?{}", column.name, ++parameter);
     // Of planners that sample edges by a rule of their own (planning/told_edges.h), databases of
     // before hold the request's.
-    if (column.name == "edge_resolution") sql += fmt::format(" OR ?{} IS NULL", parameter);
+    if (column.name == "edge_resolution") {
+      sql += fmt::format(" OR {} IS ?{}", column.name, request_step);
+    }
     sql += ')';
   }
   return sql;
@@ -212,6 +216,9 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   };
   if (const auto known = FindRun(record)) {
     bind_columns(&find_equal_run_.BindAll(known->id), 1);
+    const auto& request_step_m = record.request.edge_resolution_m;
+    find_equal_run_.Bind(static_cast<int>(values.size()) + 2,
+                         request_step_m ? SqliteValue(*request_step_m) : SqliteValue());
     if (find_equal_run_.First()) return Outcome::kAlreadyStored;
     if (!Replaces(record, known->standing)) {
       return WasAsked(record) ? Outcome::kContradicts : Outcome::kAlreadyStored;
