@@ -40,6 +40,7 @@ void SessionRecorder::Restore() {
                  folder_.results().string(), tally_.runs);
   }
   tally_ = {};
+  counted_.clear();
   DescribeSessions();
 }
 
@@ -112,7 +113,8 @@ std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* 
       *id = record.request_id;
       switch (database_.Store(record)) {
         case ResultsDatabase::Outcome::kStored:
-          ++tally_.runs;
+          // A record that replaces another is no further run.
+          tally_.runs += counted_.emplace(record.run_id, record.request_id).second;
           break;
         case ResultsDatabase::Outcome::kAlreadyStored:
           ++tally_.repetitions;

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "logger/message_queue.h"
 #include "logger/results_database.h"
@@ -16,7 +18,7 @@ namespace planbench {
 /// What a logger has done.
 struct RecorderTally {
   std::int64_t events = 0;       ///< Written to the event log.
-  std::int64_t runs = 0;         ///< Stored in the database.
+  std::int64_t runs = 0;         ///< Of which records were stored in the database.
   std::int64_t repetitions = 0;  ///< Run records that were stored already.
   std::int64_t failures = 0;     ///< Run records and sessions that could not be stored.
 };
@@ -70,6 +72,7 @@ class SessionRecorder {
   EventLog event_log_;
   ResultsDatabase database_;
   RecorderTally tally_;
+  std::set<std::pair<std::string, std::string>> counted_;  ///< Runs: run id and request id.
   std::string bus_;  ///< BusJson's of the parts of the session before, and of this one at its end.
 };
 

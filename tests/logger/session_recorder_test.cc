@@ -170,6 +170,20 @@ TEST_F(SessionRecorderTest, RunJsonDescribesTheSessions) {
   EXPECT_FALSE(std::filesystem::exists(Folder() / "run.json.part"));
 }
 
+TEST_F(SessionRecorderTest, ARunWhoseRecordIsReplacedIsCountedOnce) {
+  const RunRecordMessage not_asked = UnansweredRecord("a");
+  RunRecordMessage not_asked_again = not_asked;
+  not_asked_again.start_utime += 1;
+  const auto recorder = Open();
+  for (const RunRecordMessage& record : {not_asked, not_asked_again, SampleRecord("a")}) {
+    recorder->Record(Received(channel::kRunRecord, record));
+  }
+  EXPECT_EQ(recorder->tally().runs, 1);
+  EXPECT_EQ(recorder->tally().repetitions, 0);
+  recorder->Record(Received(channel::kRunRecord, SampleRecord("b")));
+  EXPECT_EQ(recorder->tally().runs, 2);
+}
+
 TEST_F(SessionRecorderTest, ResumesWhereItWasLeft) {
   Open()->Record(Received(channel::kRunRecord, SampleRecord("a")));
   EXPECT_THROW(Open(), InputError);
