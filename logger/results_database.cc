@@ -86,24 +86,27 @@ std::string AsLines(const std::map<std::string, std::string>& settings) {
   return text;
 }
 
-/// What sets contestants of one name apart: `settings` of plannerConfigs.
-std::string PlannerSettings(const RunRecordMessage& record) {
-  // Parameters of the request hold over the planner's own settings.
-  std::map<std::string, std::string> settings = record.request.parameters;
-  settings.insert(record.settings.begin(), record.settings.end());
-  const PlanRequest& request = record.request;
-  const ToldSampling sampling =
-      SamplingOf(request.edge_check, request.edge_resolution_m, record.settings);
+/// What samples the edges: `edge_resolution` of plannerConfigs.settings.
+std::string EdgeSampling(const ToldSampling& sampling) {
   std::vector<std::string> edges;
   if (sampling.resolution_m) edges.push_back(fmt::format("{}", *sampling.resolution_m));
   if (!sampling.own.empty()) edges.push_back("own sampling: " + sampling.own);
   if (edges.empty()) edges.emplace_back("the robot's");
+  return fmt::format("{}", fmt::join(edges, ", "));
+}
+
+/// What sets contestants of one name apart: `settings` of plannerConfigs.
+std::string PlannerSettings(const RunRecordMessage& record, const ToldSampling& sampling) {
+  // Parameters of the request hold over the planner's own settings.
+  std::map<std::string, std::string> settings = record.request.parameters;
+  settings.insert(record.settings.begin(), record.settings.end());
+  const PlanRequest& request = record.request;
   return fmt::format(
              "algorithm = {}\nplanner_class = {}\ncollision_model = {}\nedge_check = {}\n"
              "edge_resolution = {}\n",
              record.algorithm, record.planner_class, EnumName(request.collision_model),
              request.edge_check ? EnumName(*request.edge_check) : "the robot's",
-             fmt::join(edges, ", ")) +
+             EdgeSampling(sampling)) +
          AsLines(settings);
 }
 
@@ -266,13 +269,18 @@ std::int64_t ResultsDatabase::ExperimentId(const RunRecordMessage& record) {
 }
 
 std::int64_t ResultsDatabase::PlannerId(const RunRecordMessage& record) {
-  const std::string settings = PlannerSettings(record);
+  const PlanRequest& request = record.request;
+  const std::string settings = PlannerSettings(
+      record, SamplingOf(request.edge_check, request.edge_resolution_m, record.settings));
   if (const auto id = find_planner_.BindAll(record.contestant, settings).First()) {
     return std::get<std::int64_t>(*id);
   }
+  // As databases of before have it, whatever samples its edges.
+  const std::string settings_then = PlannerSettings(record, {request.edge_resolution_m, ""});
   find_planners_.BindAll(record.contestant);
   while (find_planners_.Step()) {
-    if (!IsSamePlanner(find_planners_.Text(1), settings)) continue;
+    const std::string known = find_planners_.Text(1);
+    if (!IsSamePlanner(known, settings) && !IsSamePlanner(known, settings_then)) continue;
     const std::int64_t id = find_planners_.Int(0);
     find_planners_.Reset();
     return id;

@@ -332,6 +332,24 @@ TEST_F(ResultsDatabaseTest, OnesWhoseResolutionAnOlderVersionStoredContradictsNo
   EXPECT_EQ(database_.Store(other), Outcome::kContradicts) << "no resolution is not any";
 }
 
+TEST_F(ResultsDatabaseTest, OneOfWhichAnOlderVersionStoredTheRequestsResolutionIsOnePlanner) {
+  RunRecordMessage record = SampleRecord("a");
+  record.request.edge_check = EdgeCheck::kFixed;
+  record.settings["longest_valid_segment_fraction"] = "0.005";
+  database_.Store(record);
+  SqliteConnection(file_, SqliteConnection::Mode::kReadWriteCreate)
+      .Execute(
+          "UPDATE plannerConfigs SET settings = replace(settings, "
+          "'own sampling: longest_valid_segment_fraction 0.005', '0.05')");
+  record.request_id = "b";
+  database_.Store(record);
+  EXPECT_EQ(Count("plannerConfigs"), Int(1));
+  record.request_id = "c";
+  record.settings["longest_valid_segment_fraction"] = "0.01";
+  database_.Store(record);
+  EXPECT_EQ(Count("plannerConfigs"), Int(2));
+}
+
 TEST_F(ResultsDatabaseTest, SettingsThatAreOneNumberAreOnePlanners) {
   int number = 0;
   for (const char* epsilon : {"5", "5.0", "6"}) {
