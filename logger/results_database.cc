@@ -224,7 +224,7 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
                          request_step_m ? SqliteValue(*request_step_m) : SqliteValue());
     if (find_equal_run_.First()) return Outcome::kAlreadyStored;
     if (!Replaces(record, known->standing)) {
-      return WasAsked(record) ? Outcome::kContradicts : Outcome::kAlreadyStored;
+      return Contradicts(record, known->standing) ? Outcome::kContradicts : Outcome::kAlreadyStored;
     }
     delete_run_.BindAll(known->id).Run();
   }

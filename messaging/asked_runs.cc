@@ -9,8 +9,18 @@ bool WasAsked(const RunRecordMessage& run) {
   return took_time || (run.status != PlanStatus::kNoAnswer && !run.request.scene_id.empty());
 }
 
+RunStanding StandingOf(const RunRecordMessage& run) { return {WasAsked(run), run.start_utime}; }
+
+bool Replaces(const RunStanding& record, const RunStanding& known) {
+  return !known.was_asked && (record.was_asked || record.start_utime > known.start_utime);
+}
+
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
-  return !WasAsked(known) && (WasAsked(record) || record.start_utime > known.start_utime);
+  return Replaces(StandingOf(record), StandingOf(known));
+}
+
+bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known) {
+  return WasAsked(record) && WasAsked(known);
 }
 
 }  // namespace planbench

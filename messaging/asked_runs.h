@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "messaging/messages.h"
 
 namespace planbench {
@@ -9,9 +11,20 @@ namespace planbench {
 /// be made: --resume makes it.
 bool WasAsked(const RunRecordMessage& run);
 
+/// Of a run's record, what tells which of several stands.
+struct RunStanding {
+  bool was_asked = false;
+  std::int64_t start_utime = 0;  ///< us since the Unix epoch.
+};
+RunStanding StandingOf(const RunRecordMessage& run);
+
 /// A run has one record. Of two that differ the first stands, but for this: whether `record` stands
 /// in the place of `known`, which tells of no request, since it tells of one or, of none either, of
 /// a later attempt. The other way round `record` is to be passed over.
+bool Replaces(const RunStanding& record, const RunStanding& known);
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
+
+/// Whether two records of a run that differ cannot both be true: each tells of a request.
+bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known);
 
 }  // namespace planbench

@@ -231,7 +231,7 @@ class Merge {
         known = std::move(run);
         continue;
       }
-      if (known.record == record || !WasAsked(record)) continue;
+      if (known.record == record || !Contradicts(record, known.record)) continue;
       throw InputError(fmt::format(
           "--merge: {} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
           "are not parts of one session",

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "common/error.h"
-#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/node_registry.h"
@@ -124,9 +123,9 @@ std::string LiveSession::ContestantOf(const std::string& planner) const {
 void LiveSession::HearRecord(const RunRecordMessage& record) {
   // Recorded runs are repeated until they are acknowledged; a request's messages carry the process
   // of the driver behind the run's id.
-  const std::pair standing(WasAsked(record), record.start_utime);
+  const RunStanding standing = StandingOf(record);
   const auto [seen, is_new] = seen_.try_emplace(record.request_id, standing);
-  if (!is_new && (seen->second.first || standing <= seen->second)) return;  // as Replaces has it
+  if (!is_new && !Replaces(standing, seen->second)) return;
   seen->second = standing;
   std::erase_if(records_, [&](const auto& one) { return one.request_id == record.request_id; });
   auto& [num_runs, num_solved] = tallies_[record.contestant];

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "messaging/asked_runs.h"
 #include "messaging/bus.h"
 #include "messaging/messages.h"
 #include "report/table.h"
@@ -65,8 +66,7 @@ class LiveSession {
   std::vector<PlanProgress> progress_;
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.
-  /// Of records, by request id: whether they were asked, and the start, us since the Unix epoch.
-  std::map<std::string, std::pair<bool, std::int64_t>> seen_;
+  std::map<std::string, RunStanding> seen_;             ///< Of records, by request id.
   std::int64_t view_number_ = 0;
   std::int64_t num_undecodable_ = 0;
 };
