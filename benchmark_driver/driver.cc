@@ -129,7 +129,7 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
       watch();
       return false;
     });
-    if (!answer->ok && !options_.skip_bad_problems && met.contains({set, index})) {
+    if (!answer->ok && met.contains({set, index})) {
       spdlog::error("{} {}: {}", set, index, answer->message);
     } else if (!answer->ok) {
       bad.emplace(set, index);
@@ -272,10 +272,10 @@ SessionMessage Driver::Session(bool finished) const {
 }
 
 const RunRow& Driver::Keep(const RunRecordMessage& record) {
-  const bool asked = WasAsked(record);
-  num_not_asked_ += asked ? 0 : 1;
   const auto attempt = suffices_.find(record.request_id);
-  if (attempt != suffices_.end()) attempt->second = record.result.result.Solves() || !asked;
+  if (attempt != suffices_.end()) {
+    attempt->second = record.result.result.Solves() || !WasAsked(record);
+  }
   return runs_.Add(record);
 }
 
@@ -363,6 +363,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
       }
       recorder_.Record(*record);
       const std::scoped_lock lock(mutex_);
+      num_not_asked_ += WasAsked(*record) ? 0 : 1;
       progress_->Add(Keep(*record));
     }
     left = std::move(again);

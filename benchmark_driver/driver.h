@@ -47,7 +47,8 @@ class Driver {
   const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
-  /// Runs of which no request was sent (messaging/asked_runs.h): made when the session is resumed.
+  /// Runs that were to be made and of which no request was sent (messaging/asked_runs.h): made when
+  /// the session is resumed with the same flags. Others of the resumed session do not count.
   int num_not_asked() const { return num_not_asked_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
@@ -63,7 +64,7 @@ class Driver {
   using ProblemKey = std::pair<std::string, int>;  // set and index
   /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
   /// One that has gone bad since the resumed session had runs of it (`met`) ends it no more than it
-  /// would have ended that session: its runs tell, unless bad ones are to be left out.
+  /// would have ended that session, and is not left out either: the runs it has are recorded.
   void CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch);
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.

@@ -226,8 +226,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   for (const auto& [planner, reason] : driver.given_up()) {
     spdlog::error("the planner '{}' was given up: {}", planner, reason);
   }
-  if (supervisor && driver.num_not_asked() > 0 && !interrupted()) {
-    spdlog::warn("{} runs were not asked for; go on with: {}", driver.num_not_asked(),
+  if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
+    spdlog::warn("{} not asked for; go on with: {}",
+                 number == 1 ? "1 run was" : fmt::format("{} runs were", number),
                  ResumingCommand(flags, session_folder));
   }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;

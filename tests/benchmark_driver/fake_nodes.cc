@@ -109,6 +109,11 @@ void FakeSceneServer::RefuseProblem(int index, const std::string& reason) {
   refused_[index] = reason;
 }
 
+void FakeSceneServer::ServeProblem(int index) {
+  const std::scoped_lock lock(mutex_);
+  refused_.erase(index);
+}
+
 void FakeSceneServer::OnPathCheck(
     std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler) {
   const std::scoped_lock lock(mutex_);

@@ -64,6 +64,8 @@ class FakeSceneServer {
 
   /// Refuses a problem from now on.
   void RefuseProblem(int index, const std::string& reason);
+  /// Serves one that it refused from now on.
+  void ServeProblem(int index);
   /// What the referee says instead.
   void OnPathCheck(std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler);
   static PathCheckReplyMessage Verdict(bool valid, const std::string& reason = "");

@@ -132,14 +132,64 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   }
   EXPECT_EQ(made, (std::set<std::string>{"run/cans/2/arm/forward/1", "run/cans/3/arm/forward/1"}));
 
-  // One that the session did not have yet is another matter, and what is to be left out is.
+  // One that the session did not have yet is another matter.
   server.RefuseProblem(3, "request0003.yaml: is missing");
   Driver with_another(&bus_, options, LineUp({"arm"}), {}, earlier);
   ExpectInputError([&] { with_another.Discover(true, Idle); }, {"1 of 2 problems are bad"});
   options.skip_bad_problems = true;
   Driver without(&bus_, options, LineUp({"arm"}), {}, earlier);
   without.Discover(true, Idle);
-  EXPECT_EQ(without.left_out().size(), 2u);
+  EXPECT_TRUE(without.Run(Never, Idle));
+  ASSERT_EQ(without.left_out().size(), 1u);
+  EXPECT_EQ(without.left_out().begin()->first, "cans 3");
+  // As in the log, problem 2 is among the runs.
+  EXPECT_EQ(without.runs().size(), 2u);
+  EXPECT_EQ(without.num_runs(), 2);
+  EXPECT_EQ(without.num_not_asked(), 1);
+
+  options.problem_indices = {1};
+  Driver of_others(&bus_, options, LineUp({"arm"}), {}, earlier);
+  of_others.Discover(true, Idle);
+  EXPECT_TRUE(of_others.Run(Never, Idle));
+  EXPECT_EQ(of_others.runs().size(), 2u);
+  EXPECT_EQ(of_others.num_not_asked(), 0) << "the same flags would not make it";
+}
+
+TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedSession) {
+  FakePlanner planner(&bus_);
+  // Problem 2 is solved backward only.
+  planner.OnRequest([&](const PlanRequest& request) {
+    const bool solves = request.direction == Direction::kBackward ||
+                        request.request_id.find("/cans/1/") != std::string::npos;
+    PlanResult failed;
+    failed.status = PlanStatus::kTimedOut;
+    planner.SendResult(request.request_id, solves ? FakePlanner::SolvedResult() : failed);
+  });
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kAuto;
+  EarlierSession earlier;
+  {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(true, Idle);
+    server.RefuseProblem(2, "scene0002.yaml: is missing");
+    EXPECT_TRUE(driver.Run(Never, Idle));
+    EXPECT_EQ(driver.num_runs(), 2);
+    EXPECT_EQ(driver.num_not_asked(), 1);
+    earlier = {logger.sessions().messages(), logger.records().messages()};
+  }
+  EXPECT_FALSE(Ids(logger.records()).contains("run/cans/2/arm/backward/1"));
+
+  server.ServeProblem(2);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.num_runs(), 3);
+  EXPECT_EQ(driver.num_not_asked(), 0);
+  EXPECT_EQ(Ids(logger.records()),
+            (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/forward/1",
+                                   "run/cans/2/arm/backward/1"}));
 }
 
 }  // namespace
