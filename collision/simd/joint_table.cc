@@ -105,7 +105,7 @@ std::optional<kernels::JointTable> CompiledRobot::MakeTable(const CompiledTree& 
     motion += weight * (0.501 * cell[k] + JointSpace::kLimitTolerance);
     table.joints[k] = joint_index;
     table.low[k] = static_cast<float>(lower[k]);
-    table.cells_per[k] = static_cast<float>(1 / cell[k]);
+    table.cells_per[k] = size[k] > 1 ? static_cast<float>(1 / cell[k]) : 0.0f;
     table.size[k] = static_cast<float>(size[k]);
   }
 
