@@ -357,6 +357,8 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   edges->StopWhen(should_stop);
   result->simplified_path =
       ShortcutPath(edges, result->path, request.seed, kShortcutRounds, should_stop);
+  // Cut corners are waypoints more.
+  if (!WhyTooLong(result->simplified_path).empty()) result->simplified_path = result->path;
   result->phases.simplification_s = simplification.seconds();
 }
 

@@ -41,7 +41,7 @@ void FindSetFolders(const fs::path& folder, std::vector<fs::path>* above,
   above->push_back(real);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!IsHidden(entry.path())) RefuseUnreachable(entry.path());
-    if (entry.is_directory()) FindSetFolders(entry.path(), above, found);
+    if (IsFolder(entry.path())) FindSetFolders(entry.path(), above, found);
   }
   above->pop_back();
 }

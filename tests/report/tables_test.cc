@@ -317,7 +317,7 @@ TEST_F(ReportTest, WhoHasLearnedFromASetIsMarkedThere) {
     const Row texts = Texts(conditions, row);
     EXPECT_EQ(texts[2], texts[1] == kTagName ? "(trained on shelf)" : "");
   }
-  EXPECT_THAT(conditions.note, testing::HasSubstr("(trained on ...)"));
+  EXPECT_THAT(conditions.note, testing::HasSubstr("or of those named"));
   for (const Table& unmarked : AllTables(compared_, pairs_, 1)) {
     for (const Column& column : unmarked.columns) {
       EXPECT_EQ(column.name.find("trained"), std::string::npos) << unmarked.name << ": nobody is";

@@ -249,6 +249,7 @@ TEST(ProblemSets, LinksToNowhereAreRefusedAtAnyDepth) {
   WriteTinyProblem(TinyProblem(), problems / "cans", 1);
   fs::create_directories(problems / "far/away");
   fs::create_symlink("somebody@somewhere.1", problems / "far/.#notes");  // an editor's lock
+  fs::create_symlink(".loop", problems / "far/.loop");                   // leads to itself
   const Robot robot = LoadRobot(WriteTinyRobot(folder));
   EXPECT_EQ(SceneService(robot, std::nullopt, {problems}).ProblemSets("server").sets.size(), 1u);
   const std::string unlikely(300, 'x');  // a name longer than any file's

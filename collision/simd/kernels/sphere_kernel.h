@@ -251,7 +251,8 @@ class SphereScratch {
 using LaneMask = std::uint32_t;
 
 struct BlockQuery {
-  const float* q = nullptr;  ///< [joint][kBlock], rad or m; revolute |q| <= pi.
+  /// [joint][kBlock], rad or m; revolute |q| <= 2 pi, with tables pi.
+  const float* q = nullptr;
   /// [joint][kBlock] or null. With them every lane stands for the box of configurations q +- width.
   const float* half_widths = nullptr;
   /// By lane or null, with half widths: what comes so near (m) counts as colliding.
