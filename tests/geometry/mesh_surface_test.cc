@@ -30,6 +30,7 @@ TEST(MeshSurface, KnowsHowFarBoxesAre) {
     const Vector3d beyond = p.cwiseAbs() - half;
     const double truth = beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : -beyond.maxCoeff();
     EXPECT_NEAR(surface.Distance(p), truth, 1e-12) << p.transpose();
+    EXPECT_NEAR(surface.Distance(p, 0.3), std::min(truth, 0.3), 1e-12) << p.transpose();
   }
 }
 
@@ -50,7 +51,7 @@ TEST(MeshSurface, TakesTrianglesWithoutAreaAsLines) {
   const MeshSurface surface(line);
   EXPECT_DOUBLE_EQ(surface.Distance({1.5, 2, 0}), 2);
   EXPECT_DOUBLE_EQ(surface.Distance({-3, 4, 0}), 5);
-  EXPECT_EQ(MeshSurface({}).Distance({0, 0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(MeshSurface(TriangleMesh()).Distance({0, 0, 0}), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
