@@ -51,7 +51,8 @@ TEST(MeshSurface, TakesTrianglesWithoutAreaAsLines) {
   const MeshSurface surface(line);
   EXPECT_DOUBLE_EQ(surface.Distance({1.5, 2, 0}), 2);
   EXPECT_DOUBLE_EQ(surface.Distance({-3, 4, 0}), 5);
-  EXPECT_EQ(MeshSurface(TriangleMesh()).Distance({0, 0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(MeshSurface(TriangleMesh()).Distance({0, 0, 0}),
+            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -104,8 +104,8 @@ TEST(GatesTest, HideNothing) {
   ExpectGatesHideNothing("fetch", CollisionModel::kSpheres, 1);
   ExpectGatesHideNothing("fetch", CollisionModel::kEnclosing, 2);
   ExpectGatesHideNothing("panda", CollisionModel::kSpheres, 1);
-  ExpectGatesHideNothing("panda", CollisionModel::kMeshes, 0);
-  ExpectGatesHideNothing("ur5e", CollisionModel::kMeshes, 0);
+  ExpectGatesHideNothing("panda", CollisionModel::kMeshes, 1);
+  ExpectGatesHideNothing("ur5e", CollisionModel::kMeshes, 1);
 }
 
 }  // namespace
