@@ -34,13 +34,18 @@ Ball TurnedAboutZ(const Ball& ball) {
 }  // namespace
 
 double CompiledRobot::Apart(const CompiledTree& link, const Ball& ball_G, double at_most) const {
+  const Eigen::Vector3d center_C = At(R_CG_, link.body) * ball_G.center;
+  const auto apart_from = [&](const Node& node) {
+    const Eigen::Vector3d other_C = Eigen::Map<const Eigen::Vector3f>(node.center).cast<double>();
+    return (other_C - center_C).norm() - node.radius - ball_G.radius;
+  };
+  if (apart_from(At(kernel.nodes, link.root)) >= at_most) return at_most;
   bool is_near_patch = false;
   std::vector<int> open = {link.root};
   while (!open.empty()) {
     const Node& node = At(kernel.nodes, open.back());
     open.pop_back();
-    const Ball other = BallOf(node, link.body);
-    const double apart = (other.center - ball_G.center).norm() - other.radius - ball_G.radius;
+    const double apart = apart_from(node);
     if (apart >= at_most || (is_near_patch && node.patch >= 0)) continue;
     if (node.num_children == 0) {
       is_near_patch = is_near_patch || node.patch >= 0;
