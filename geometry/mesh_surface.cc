@@ -19,7 +19,7 @@ double SquaredDistanceToSegment(const Vector3d& p, const Vector3d& a, const Vect
   return (a + t * edge - p).squaredNorm();
 }
 
-double SquaredDistanceToTriangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+double SquaredDistanceToTriangle(const Vector3d& p, const Corners& corners) {
   const auto& [a, b, c] = corners;
   const Vector3d normal = (b - a).cross(c - a);
   const double normal2 = normal.squaredNorm();
@@ -33,8 +33,8 @@ double SquaredDistanceToTriangle(const Vector3d& p, const std::array<Vector3d, 3
                    SquaredDistanceToSegment(p, c, a)});
 }
 
-std::vector<MeshSurface::Corners> TrianglesOf(const TriangleMesh& mesh) {
-  std::vector<MeshSurface::Corners> triangles;
+std::vector<Corners> TrianglesOf(const TriangleMesh& mesh) {
+  std::vector<Corners> triangles;
   triangles.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});

@@ -10,11 +10,12 @@
 
 namespace planbench {
 
+/// Of a triangle, m, in the frame of a mesh or a body.
+using Corners = std::array<Eigen::Vector3d, 3>;
+
 /// The triangles of a mesh, in a tree of boxes, for distances from points. Immutable.
 class MeshSurface {
  public:
-  using Corners = std::array<Eigen::Vector3d, 3>;
-
   explicit MeshSurface(const TriangleMesh& mesh);
   explicit MeshSurface(std::vector<Corners> triangles);
 

@@ -2,18 +2,15 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "collision/simd/kernels/triangle_tree.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/shapes.h"
 #include "geometry/solid_mesh.h"
 
 namespace planbench {
-
-/// m, in the frame of a mesh or a body.
-using Corners = std::array<Eigen::Vector3d, 3>;
 
 /// Boxes that are far away, all of them.
 kernels::BoxGroup MakeBoxGroup();

@@ -29,6 +29,17 @@ inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners)
   return MakeLineUp(flags, std::nullopt);
 }
 
+/// Problem 2 is solved backward only, others in any direction.
+inline void SolveSecondBackwardOnly(FakePlanner* planner) {
+  planner->OnRequest([planner](const PlanRequest& request) {
+    const bool solves = request.direction == Direction::kBackward ||
+                        request.request_id.find("/cans/2/") == std::string::npos;
+    PlanResult failed;
+    failed.status = PlanStatus::kTimedOut;
+    planner->SendResult(request.request_id, solves ? FakePlanner::SolvedResult() : failed);
+  });
+}
+
 class DriverTest : public testing::Test {
  protected:
   DriverTest() { bus_.Start(); }
@@ -46,16 +57,9 @@ class DriverTest : public testing::Test {
     ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
   }
 
-  /// Has the planner announce itself as it now is, and waits until that is what is heard.
   void Reannounce(FakePlanner* planner) {
     NodeRegistry registry(&bus_);
-    planner->Restart();
-    ASSERT_TRUE(registry.WaitUntil(
-        [&] {
-          const auto heard = registry.Find("arm", NodeKind::kPlanner);
-          return heard && heard->instance == planner->status.instance;
-        },
-        kTestPatience));
+    planbench::Reannounce(&registry, planner);
   }
 
   Bus bus_{"memq://"};

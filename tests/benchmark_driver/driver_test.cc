@@ -67,14 +67,7 @@ TEST_F(DriverTest, AutoGoesBackwardWhereForwardFailed) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  // Problem 2 is solved backward only.
-  planner.OnRequest([&](const PlanRequest& request) {
-    const bool solves = request.direction == Direction::kBackward ||
-                        request.request_id.find("/cans/1/") != std::string::npos;
-    PlanResult failed;
-    failed.status = PlanStatus::kTimedOut;
-    planner.SendResult(request.request_id, solves ? FakePlanner::SolvedResult() : failed);
-  });
+  SolveSecondBackwardOnly(&planner);
   DriverOptions options = Options();
   options.directions = Directions::kAuto;
   Driver driver(&bus_, options, LineUp({"arm"}), {});

@@ -67,6 +67,16 @@ void FakePlanner::Restart() {
   announcer_ = std::make_unique<NodeAnnouncer>(bus_, [now = status] { return now; });
 }
 
+void Reannounce(NodeRegistry* registry, FakePlanner* planner) {
+  planner->Restart();
+  ASSERT_TRUE(registry->WaitUntil(
+      [&] {
+        const auto heard = registry->Find(planner->status.name, NodeKind::kPlanner);
+        return heard && heard->instance == planner->status.instance;
+      },
+      kTestPatience));
+}
+
 FakeSceneServer::FakeSceneServer(Bus* bus)
     : judge_([](const PathCheckRequestMessage&) { return Verdict(true); }),
       problem_requests_(bus, channel::kProblemRequest),

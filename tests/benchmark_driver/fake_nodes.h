@@ -10,6 +10,7 @@
 #include "messaging/bus.h"
 #include "messaging/channels.h"
 #include "messaging/node_announcer.h"
+#include "messaging/node_registry.h"
 #include "messaging/rpc.h"
 #include "tests/support/message_collector.h"
 
@@ -56,6 +57,9 @@ class FakePlanner {
   std::unique_ptr<NodeAnnouncer> announcer_;
   Subscription subscription_;  ///< Ends first: what a handler does to the announcer is done then.
 };
+
+/// Has the planner announce itself as it now is, and waits until that is what is heard.
+void Reannounce(NodeRegistry* registry, FakePlanner* planner);
 
 /// A scene server of one set, "cans", problems 1 to 3; finds every path valid.
 class FakeSceneServer {

@@ -34,16 +34,6 @@ class PlannerClientTest : public testing::Test {
   PlannerClient::Answer Solve(const std::string& id) {
     return client_.Solve(Request(id), [this] { return interrupted_.load(); });
   }
-  /// Has the planner announce itself as it now is, and waits until that is what is heard.
-  void Restart(FakePlanner* planner) {
-    planner->Restart();
-    ASSERT_TRUE(registry_.WaitUntil(
-        [&] {
-          const auto heard = registry_.Find("arm", NodeKind::kPlanner);
-          return heard && heard->instance == planner->status.instance;
-        },
-        kTestPatience));
-  }
   std::future<PlannerClient::Answer> BeginToSolve(const std::string& id) {
     return std::async(std::launch::async, [this, id] { return Solve(id); });
   }
@@ -213,7 +203,7 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
   }
   FakePlanner planner(&bus_);  // goes on to be announced, as if its end were to be noticed yet
   planner.status.pid = pid;
-  Restart(&planner);
+  Reannounce(&registry_, &planner);
   planner.OnRequest([&](const PlanRequest&) {
     kill(pid, SIGKILL);
     waitpid(pid, nullptr, 0);
@@ -224,7 +214,7 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
   // Nor is it asked again.
   auto next = BeginToSolve("b");
   planner.status.pid = getpid();
-  Restart(&planner);
+  Reannounce(&registry_, &planner);
   planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
   EXPECT_EQ(next.get().outcome, PlannerClient::Outcome::kResult);
 }
@@ -237,13 +227,13 @@ TEST_F(PlannerClientTest, APlannerThatComesBackAsAnotherIsNotAsked) {
   };
   EXPECT_EQ(solve("a").outcome, PlannerClient::Outcome::kResult);
   planner.status.settings["step"] = "6";
-  Restart(&planner);
+  Reannounce(&registry_, &planner);
   const PlannerClient::Answer answer = solve("b");
   EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("node[arm].setting[step].value is \"6\", was \"5\""));
   EXPECT_EQ(planner.requests().messages().size(), 1u);
   planner.status.settings["step"] = "5";
-  Restart(&planner);
+  Reannounce(&registry_, &planner);
   EXPECT_EQ(solve("c").outcome, PlannerClient::Outcome::kResult);
 }
 
@@ -265,7 +255,7 @@ TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {
     std::atomic<int> num_requests = 0;
     FakePlanner planner(&bus_);
     planner.status.request_id = announced ? "another" : "";
-    Restart(&planner);
+    Reannounce(&registry_, &planner);
     planner.OnRequest([&](const PlanRequest& request) {
       if (++num_requests < 3) return planner.Acknowledge(request, Verdict::kBusy);
       planner.Solve(request);

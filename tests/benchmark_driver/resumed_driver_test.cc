@@ -12,6 +12,18 @@
 namespace planbench {
 namespace {
 
+/// Of problems 1 and 2, of which the second goes bad before its first run.
+EarlierSession SessionWithoutProblem2(Bus* bus, const DriverOptions& options,
+                                      FakeSceneServer* server, FakeLogger* logger) {
+  Driver driver(bus, options, LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  server->RefuseProblem(2, "scene0002.yaml: is missing");
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.num_runs(), 2);
+  EXPECT_EQ(driver.num_not_asked(), 1);
+  return {logger->sessions().messages(), logger->records().messages()};
+}
+
 TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
@@ -107,15 +119,7 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kForward;
-  EarlierSession earlier;
-  {
-    Driver driver(&bus_, options, LineUp({"arm"}), {});
-    driver.Discover(true, Idle);
-    server.RefuseProblem(2, "scene0002.yaml: is missing");
-    EXPECT_TRUE(driver.Run(Never, Idle));
-    EXPECT_EQ(driver.num_not_asked(), 1);
-    earlier = {logger.sessions().messages(), logger.records().messages()};
-  }
+  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   options.problem_indices = {1, 2, 3};
   Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
   driver.Discover(true, Idle);
@@ -157,28 +161,12 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
 
 TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedSession) {
   FakePlanner planner(&bus_);
-  // Problem 2 is solved backward only.
-  planner.OnRequest([&](const PlanRequest& request) {
-    const bool solves = request.direction == Direction::kBackward ||
-                        request.request_id.find("/cans/1/") != std::string::npos;
-    PlanResult failed;
-    failed.status = PlanStatus::kTimedOut;
-    planner.SendResult(request.request_id, solves ? FakePlanner::SolvedResult() : failed);
-  });
+  SolveSecondBackwardOnly(&planner);
   FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kAuto;
-  EarlierSession earlier;
-  {
-    Driver driver(&bus_, options, LineUp({"arm"}), {});
-    driver.Discover(true, Idle);
-    server.RefuseProblem(2, "scene0002.yaml: is missing");
-    EXPECT_TRUE(driver.Run(Never, Idle));
-    EXPECT_EQ(driver.num_runs(), 2);
-    EXPECT_EQ(driver.num_not_asked(), 1);
-    earlier = {logger.sessions().messages(), logger.records().messages()};
-  }
+  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   EXPECT_FALSE(Ids(logger.records()).contains("run/cans/2/arm/backward/1"));
 
   server.ServeProblem(2);

@@ -20,8 +20,8 @@ struct SphereScratch::Buffers {
   std::uint32_t placement = 0;
   /// [joint][lane]: half widths of the joints before.
   hwy::AlignedFreeUniquePtr<float[]> width_sums;
-  std::vector<std::int32_t>
-      order;  ///< Tests: indices of world trees, then of pairs behind no gate.
+  /// Tests: indices of world trees, then of pairs behind no gate.
+  std::vector<std::int32_t> order;
   std::vector<std::int32_t> all_solids;  ///< 0, 1, 2, ...
   std::vector<std::int32_t> lists;
 };

@@ -28,7 +28,7 @@ HWY_INLINE V Numbers(const std::uint32_t* words, Indices index) {
   return hn::ConvertTo(Lanes(), hn::BitCast(di, hn::And(word >> bits, hn::Set(du, 255u))));
 }
 
-/// Lower bounds of how far a table's trees are apart, m; q: [joint][kBlock].
+/// Lower bounds of how far a table's bodies are apart, m; q: [joint][kBlock].
 HWY_INLINE V TableBound(const JointTable& table, const float* q) {
   const auto cell = [&](int k) {
     const V position = hn::LoadU(Lanes(), q + table.joints[k] * kBlock);
