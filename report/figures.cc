@@ -117,6 +117,37 @@ Json SurvivalJson(const Outcomes& outcomes) {
 
 Json Rounded(const std::optional<double>& value) { return value ? Rounded(*value) : Json(); }
 
+/// How a contestant improves on a set.
+struct Improvement {
+  AnytimeCurves curves;
+  /// Its costs are of a kind of its own, and are over its own lowest ones, not over anybody's.
+  bool has_own_costs = false;
+};
+
+/// By contestant's name.
+std::map<std::string, Improvement> ImprovementsOn(const ComparedSessions& compared,
+                                                  const std::string& set) {
+  std::map<std::string, std::vector<const StoredRun*>> runs;  // on the set
+  std::vector<const StoredRun*> with_lengths;
+  std::map<std::string, Improvement> improvements;
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    std::vector<const StoredRun*>& own = runs[contestant.name];
+    for (const StoredRun* run : contestant.runs) {
+      if (run->problem_set == set) own.push_back(run);
+    }
+    const bool are_lengths = CostsAreLengths(contestant.runs);
+    improvements[contestant.name].has_own_costs = !are_lengths;
+    if (are_lengths) with_lengths.insert(with_lengths.end(), own.begin(), own.end());
+  }
+  const LowestCosts shortest = FindLowestCosts(with_lengths);
+  for (auto& [name, improvement] : improvements) {
+    const std::vector<const StoredRun*>& own = runs.at(name);
+    improvement.curves =
+        ImprovementOverTime(own, improvement.has_own_costs ? FindLowestCosts(own) : shortest);
+  }
+  return improvements;
+}
+
 Json StepsJson(const std::vector<AnytimeStep>& steps) {
   Json time = Json::array(), median = Json::array(), lower = Json::array(), upper = Json::array();
   for (const AnytimeStep& step : steps) {
@@ -206,16 +237,17 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
                  {Rounded(mean.setup_s / total), Rounded(mean.collision_s / total),
                   Rounded(mean.guidance_s / total), Rounded(mean.search_s / total)}}};
       });
+  const std::map<std::string, Improvement> improvements = ImprovementsOn(compared, name);
   const auto improvement = [&](std::vector<AnytimeStep> AnytimeCurves::*steps) {
-    return ByContestant(compared, set,
-                        [&](const Outcomes&, const ComparedContestant& contestant) -> Json {
-                          std::vector<const StoredRun*> runs;
-                          for (const StoredRun* run : contestant.runs) {
-                            if (run->problem_set == name) runs.push_back(run);
-                          }
-                          const AnytimeCurves curves = ImprovementOverTime(runs);
-                          return (curves.*steps).empty() ? Json() : StepsJson(curves.*steps);
-                        });
+    return ByContestant(
+        compared, set, [&](const Outcomes& outcomes, const ComparedContestant& contestant) -> Json {
+          const Improvement& of = improvements.at(contestant.name);
+          if ((of.curves.*steps).empty()) return nullptr;
+          Json figure = StepsJson(of.curves.*steps);
+          figure["limit"] = kMsPerS * outcomes.time_limit_s;
+          figure["own_costs"] = of.has_own_costs;
+          return figure;
+        });
   };
   json["anytime_cost"] = improvement(&AnytimeCurves::cost);
   json["anytime_bound"] = improvement(&AnytimeCurves::bound);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "common/numbers.h"
+#include "planning/path_measures.h"
+#include "results/compared_sessions.h"
 #include "results/comparison.h"
 
 namespace planbench {
@@ -30,25 +32,70 @@ std::map<int, double> BestTimes(const std::map<std::string, Outcomes>& contestan
   return best;
 }
 
-/// The value of `improvement` that a run has at a time; infinite before there is one.
-double InHand(const std::vector<PlanProgress>& progress, double time_s,
-              double PlanProgress::*value) {
-  double found = kInfinity;
-  for (const PlanProgress& one : progress) {
-    if (one.elapsed_s > time_s) break;
-    if (one.*value > 0) found = one.*value;
+/// A contestant's trial at a problem.
+struct ImprovingTrial {
+  const StoredRun* run = nullptr;  ///< That of the confirmed path; null without one.
+  double delay_s = 0;              ///< What failed attempts before it took.
+
+  /// The value of an improvement that there is at a time; infinite before there is one.
+  double InHand(double time_s, double PlanProgress::*value) const {
+    double found = kInfinity;
+    if (run == nullptr) return found;
+    for (const PlanProgress& one : run->progress) {
+      if (delay_s + one.elapsed_s > time_s) break;
+      if (one.*value > 0) found = one.*value;
+    }
+    return found;
   }
-  return found;
+};
+
+/// Trials by problem index.
+std::map<int, std::vector<ImprovingTrial>> FoldRuns(const std::vector<const StoredRun*>& runs) {
+  std::map<std::pair<int, int>, std::pair<const StoredRun*, const StoredRun*>> attempts;
+  for (const StoredRun* run : runs) {
+    auto& [forward, backward] = attempts[{run->problem_index, run->trial}];
+    (run->direction == Direction::kForward ? forward : backward) = run;
+  }
+  std::map<int, std::vector<ImprovingTrial>> by_problem;
+  for (const auto& [problem_and_trial, directions] : attempts) {
+    const auto& [forward, backward] = directions;
+    Attempt first, second;
+    if (forward != nullptr) first = AttemptOf(*forward, "");
+    if (backward != nullptr) second = AttemptOf(*backward, "");
+    const Outcome outcome = FoldAttempts(forward != nullptr ? &first : nullptr,
+                                         backward != nullptr ? &second : nullptr);
+    ImprovingTrial& trial = by_problem[problem_and_trial.first].emplace_back();
+    if (!outcome.confirmed()) continue;
+    trial.run = outcome.kind == Outcome::Kind::kForward ? forward : backward;
+    trial.delay_s = outcome.time_s - outcome.solving_time_s;
+  }
+  return by_problem;
 }
 
-AnytimeStep StepOf(double time_s, std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+/// Of ascending values, some of which may be infinite.
+double QuantileInHand(const std::vector<double>& ascending, double q) {
+  // Interpolation next to an infinite value would not be a number.
+  const auto above =
+      static_cast<std::size_t>(std::ceil(q * static_cast<double>(ascending.size() - 1)));
+  return std::isfinite(ascending[above]) ? Quantile(ascending, q) : kInfinity;
+}
+
+/// `value`: of an improvement; of each problem over that of `units`, if there are any.
+AnytimeStep StepAt(double time_s, const std::map<int, std::vector<ImprovingTrial>>& by_problem,
+                   double PlanProgress::*value, const LowestCosts* units) {
+  std::vector<double> of_problems;
+  for (const auto& [problem, trials] : by_problem) {
+    std::vector<double> of_trials;
+    for (const ImprovingTrial& trial : trials) of_trials.push_back(trial.InHand(time_s, value));
+    std::sort(of_trials.begin(), of_trials.end());
+    double in_hand = QuantileInHand(of_trials, 0.5);
+    if (units != nullptr && std::isfinite(in_hand)) in_hand /= units->at(problem);
+    of_problems.push_back(in_hand);
+  }
+  std::sort(of_problems.begin(), of_problems.end());
   const auto quartile = [&](double q) -> std::optional<double> {
-    // Interpolation next to an infinite value would not be a number.
-    const auto above =
-        static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size() - 1)));
-    if (!std::isfinite(values[above])) return std::nullopt;
-    return Quantile(values, q);
+    const double found = QuantileInHand(of_problems, q);
+    return std::isfinite(found) ? std::optional(found) : std::nullopt;
   };
   return {time_s, quartile(0.25), quartile(0.5), quartile(0.75)};
 }
@@ -66,6 +113,7 @@ std::vector<SolvedBy> SolvedOverTime(const Outcomes& outcomes) {
   std::sort(solved.begin(), solved.end());
   const int num_problems = static_cast<int>(outcomes.by_problem.size());
   std::vector<SolvedBy> steps;
+  if (num_problems > 0) steps.push_back({0, 0, WilsonInterval(0, num_problems)});
   double sum = 0;
   for (std::size_t i = 0; i < solved.size(); ++i) {
     // Sums of thirds must not end above the number of problems.
@@ -96,19 +144,46 @@ std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
   return profiles;
 }
 
-AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs) {
+bool CostsAreLengths(const std::vector<const StoredRun*>& runs) {
+  constexpr double kRounding = 1e-6;
+  int known = 0, equal = 0;
+  for (const StoredRun* run : runs) {
+    const auto length = FindMeasure(run->measures, "path_length");
+    if (!run->confirmed() || run->progress.empty() || !length) continue;
+    ++known;
+    equal += std::abs(run->progress.back().cost - *length) <= kRounding * *length;
+  }
+  return 2 * equal > known;
+}
+
+LowestCosts FindLowestCosts(const std::vector<const StoredRun*>& runs) {
+  LowestCosts lowest;
+  for (const StoredRun* run : runs) {
+    if (!run->confirmed()) continue;
+    for (const PlanProgress& one : run->progress) {
+      if (!(one.cost > 0)) continue;
+      double& cost = lowest.try_emplace(run->problem_index, one.cost).first->second;
+      cost = std::min(cost, one.cost);
+    }
+  }
+  return lowest;
+}
+
+AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs,
+                                  const LowestCosts& lowest) {
+  const std::map<int, std::vector<ImprovingTrial>> by_problem = FoldRuns(runs);
   double first_s = kInfinity, last_s = 0;
   bool improved = false, bounded = false;
-  std::map<int, double> best;  // cost by problem
-  for (const StoredRun* run : runs) {
-    improved = improved || run->progress.size() > 1;
-    for (const PlanProgress& one : run->progress) {
-      if (one.elapsed_s > 0) first_s = std::min(first_s, one.elapsed_s);
-      last_s = std::max(last_s, one.elapsed_s);
-      bounded = bounded || one.epsilon > 0;
-      if (!(one.cost > 0)) continue;
-      double& lowest = best.try_emplace(run->problem_index, one.cost).first->second;
-      lowest = std::min(lowest, one.cost);
+  for (const auto& [problem, trials] : by_problem) {
+    for (const ImprovingTrial& trial : trials) {
+      if (trial.run == nullptr) continue;
+      improved = improved || trial.run->progress.size() > 1;
+      for (const PlanProgress& one : trial.run->progress) {
+        const double time_s = trial.delay_s + one.elapsed_s;
+        if (time_s > 0) first_s = std::min(first_s, time_s);
+        last_s = std::max(last_s, time_s);
+        bounded = bounded || one.epsilon > 0;
+      }
     }
   }
   AnytimeCurves curves;
@@ -119,15 +194,10 @@ AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs) {
         i + 1 == kAnytimeSteps
             ? last_s
             : first_s * std::pow(last_s / first_s, static_cast<double>(i) / (kAnytimeSteps - 1));
-    std::vector<double> costs, bounds;
-    for (const StoredRun* run : runs) {
-      const double cost = InHand(run->progress, time_s, &PlanProgress::cost);
-      const auto lowest = best.find(run->problem_index);
-      costs.push_back(lowest == best.end() ? kInfinity : cost / lowest->second);
-      bounds.push_back(InHand(run->progress, time_s, &PlanProgress::epsilon));
+    curves.cost.push_back(StepAt(time_s, by_problem, &PlanProgress::cost, &lowest));
+    if (bounded) {
+      curves.bound.push_back(StepAt(time_s, by_problem, &PlanProgress::epsilon, nullptr));
     }
-    curves.cost.push_back(StepOf(time_s, std::move(costs)));
-    if (bounded) curves.bound.push_back(StepOf(time_s, std::move(bounds)));
   }
   return curves;
 }

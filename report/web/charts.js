@@ -96,7 +96,8 @@ const charts = (() => {
                                                        shortNumber(value.upper))});
       }
     });
-    const limit = Math.max(...values.map(value => value.limit));
+    const limits = values.map(value => value.limit);
+    const limit = Math.max(...limits);
     const crowded = Math.max(...values.map(value => value.time.length)) > 150;
     const domain = logDomain([...runs.map(run => run.time).filter(time => time != null), limit]);
     const column = 86;
@@ -116,7 +117,8 @@ const charts = (() => {
         {type: "rule", encode: {update: {
           x: {scale: "x", value: limit}, y: {value: 0}, y2: {signal: "height"}, strokeDash: {value: [4, 3]}}}},
         {type: "text", encode: {update: {
-          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "center"}, text: {value: "limit"}}}},
+          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "center"},
+          text: {value: limits.every(one => one === limit) ? "limit" : "longest limit"}}}},
         {type: "text", encode: {update: {
           x: {signal: "width"}, y: {value: -4}, align: {value: "right"}, text: {value: "not solved"}}}},
         {type: "symbol", name: "solved-runs", from: {data: "solved"}, encode: {update: {
@@ -141,20 +143,22 @@ const charts = (() => {
   }
 
   const CURVES_HEIGHT = 260;
-  // Curves: [{place, name, x: [], share: [], lower: [], upper: []}] on a log axis that ends at `last`. Shares, which are 0 until
-  // the first step, unless `range` tells that of the values; null: none.
+  // Curves: [{place, name, x: [], share: [], lower: [], upper: [], end}] on a log axis from `first` to `last`, where what comes
+  // before it, as a time of 0, stands at its beginning. Nothing is known of a curve behind its `end`, by default `last`. Shares, which
+  // are 0 until the first step, unless `range` tells that of the values; null: none.
   function curves(list, {first, last, title, share, range}) {
     const band = list.length > 6 ? 0 : list.length > 3 ? 0.08 : 0.14;
     const values = [];
     for (const curve of list) {
       const point = (x, i) => ({
-        name: curve.name, place: curve.place, x, share: i < 0 ? 0 : curve.share[i],
+        name: curve.name, place: curve.place, x: Math.max(x, first), share: i < 0 ? 0 : curve.share[i],
         lower: !curve.lower || i < 0 ? 0 : curve.lower[i], upper: !curve.upper || i < 0 ? 0 : curve.upper[i],
         tip: curve.name,
       });
       if (!range && (curve.x.length === 0 || curve.x[0] > first)) values.push(point(first, -1));
       curve.x.forEach((x, i) => values.push(point(x, i)));
-      if (curve.x.length === 0 || curve.x[curve.x.length - 1] < last) values.push(point(last, curve.x.length - 1));
+      const end = Math.min(curve.end ?? last, last);
+      if (curve.x.length === 0 || curve.x[curve.x.length - 1] < end) values.push(point(end, curve.x.length - 1));
     }
     const places = list.map(curve => curve.place);
     const domain = [first, last], wide = range && range[1] > 20;

@@ -18,10 +18,11 @@ const figureKinds = {
     title: "Share solved by a time", height: curvesHeight,
     list: set => set.survival,
     make: (set, names, places, values) => {
-      const last = Math.max(...values.map(value => value.limit), ...values.flatMap(value => value.time.slice(-1)));
-      const first = charts.logDomain([last, ...values.flatMap(value => value.time.slice(0, 1))])[0];
-      return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time})),
-                           {first, last, title: "time, ms", share: "solved"});
+      const list = values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, end: endOf(value)}));
+      const last = Math.max(...list.map(curve => curve.end));
+      // Where the first of them rises, or ends.
+      const first = charts.logDomain([...list.map(curve => curve.end), ...values.flatMap(value => value.time.slice(0, 2))])[0];
+      return charts.curves(list, {first, last, title: "time, ms", share: "solved"});
     },
   },
   profile: {
@@ -36,7 +37,7 @@ const figureKinds = {
   cost: {
     title: "Cost over time", height: curvesHeight,
     list: set => set.anytime_cost,
-    make: (set, names, places, values) => improvement(names, places, values, "cost over the best found"),
+    make: (set, names, places, values) => improvement(names, places, values, "cost over the lowest found"),
   },
   bound: {
     title: "Proven bound over time", height: curvesHeight,
@@ -50,9 +51,16 @@ const figureKinds = {
   },
 };
 
+// Until when something is known of a contestant, ms: its time limit, or the last time there is, where attempts before it failed.
+const endOf = value => Math.max(value.limit, ...value.time.slice(-1));
+
+// Whether a contestant's costs on a set are of a kind of its own, and over its own lowest.
+const hasOwnCosts = (set, place) => (set.anytime_cost || []).some(one => one.contestant === place && one.own_costs);
+
 function improvement(names, places, values, title) {
   const numbers = values.flatMap(value => value.median.concat(value.upper)).filter(one => one !== null);
-  return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, share: value.median})), {
+  return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, share: value.median,
+                                                    end: endOf(value)})), {
     first: Math.min(...values.map(value => value.time[0])), last: Math.max(...values.map(value => value.time[value.time.length - 1])),
     title: "time, ms", share: title, range: [1, Math.max(1.1, ...numbers)],
   });

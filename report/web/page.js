@@ -173,7 +173,8 @@ const report = (() => {
       element("h3", {}, "Share solved by a time"),
       note("Mean over the problems of the share of their trials that have a confirmed path by then; bands are Wilson's 95 % " +
            "intervals of each time by itself, for as many cases as there are problems. With more than six contestants a band " +
-           "shows where its contestant is brought out. Curves end at the time limit, or where the last run succeeded."));
+           "shows where its contestant is brought out. A curve ends at its contestant's own time limit, or where its last run " +
+           "succeeded: nothing is known of it behind that."));
     const grid = figuresOfSets("survival");
     made.append(legend(() => grid), grid);
   }
@@ -272,12 +273,16 @@ const report = (() => {
   function anytime() {
     if (sets.every(set => set.anytime_cost.length === 0)) return;
     const grids = element("div");
+    const own = names.filter((name, place) => sets.some(set => hasOwnCosts(set, place)));
+    const ownCosts = own.length === 0 ? "" :
+      ` Costs of another unit are over the lowest that the same contestant found, and do not compare: ${own.join(", ")}.`;
     const part = (title, kind) => grids.append(element("h3", {}, title), figuresOfSets(kind));
     const made = section("anytime", "Getting better with time",
-      note("Of planners that go on improving: median and quartiles, over the attempts, of what they have in hand at a time. Cost: " +
-           "in the planner's own unit, over the lowest that the contestant found on the same problem. Bound: proven, of the " +
-           "cost over the optimum. A curve begins when half of the attempts have a path; a band reaches the top where a " +
-           "quarter has none."),
+      note("Of planners that go on improving: median and quartiles over the problems of what there is in hand at a time, of each " +
+           "problem the median of its trials. A trial whose path the referee did not confirm has nothing in hand; failed attempts " +
+           "before a path take their time. Cost: the path's length, over the shortest that anyone here found of the same problem." +
+           ownCosts + " Bound: proven, of the cost over the optimum. A curve begins when half of the problems have a path, and " +
+           "ends at its contestant's time limit at the latest; a band reaches the top where a quarter has none."),
       legend(() => grids), grids);
     part("Cost", "cost");
     if (sets.some(set => set.anytime_bound.length > 0)) part("Bound", "bound");

@@ -17,14 +17,15 @@ function write(name, spec) {
 
 // The page has its legends beside the figures.
 // `names`: of all contestants.
-function withLegend(kind, spec, names) {
+function withLegend(kind, set, spec, names) {
   const ofCurves = {stroke: "colour", strokeDash: "dash", symbolType: "stroke", symbolStrokeWidth: 2, symbolSize: 300};
   const legend = {
     survival: ofCurves, profile: ofCurves, cost: ofCurves, bound: ofCurves,
     phases: {fill: "colour", symbolType: "square"},
   }[kind];
   if (!legend) return spec;
-  const labels = kind === "phases" ? charts.PHASES : names;
+  const ofPlace = (name, place) => (kind === "cost" && hasOwnCosts(set, place) ? name + " (over its own lowest)" : name);
+  const labels = kind === "phases" ? charts.PHASES : names.map(ofPlace);
   return {
     ...spec, signals: [...spec.signals, {name: "labels", value: labels}],
     legends: [{...legend, orient: "bottom", columns: 2, encode: {labels: {update: {text: {signal: "labels[datum.value]"}}}}}],
@@ -49,7 +50,7 @@ for (const set of data.sets) {
     if (!values || values.length === 0) continue;
     const places = values.map(value => value.contestant);
     const spec = make(set, namesOf(data, set, places), places, values, () => {});
-    written.push(write(`${kind}-${own}`, withLegend(kind, spec, namesOf(data, set, [...data.contestants.keys()]))));
+    written.push(write(`${kind}-${own}`, withLegend(kind, set, spec, namesOf(data, set, [...data.contestants.keys()]))));
   }
   data.measures.forEach((measure, kind) => {
     if (set.all || set.quality[kind].raw.length === 0) return;

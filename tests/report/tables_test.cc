@@ -451,6 +451,22 @@ TEST_F(ReportTest, ImprovementsAreFiguresOfTheirOwn) {
   EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["median"].back(), 1);
   EXPECT_EQ(json["sets"][0]["anytime_bound"][0]["upper"].back(), 2);
   EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["time"].back(), 1000);
+  EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["limit"], 10'000);
+  EXPECT_EQ(json["sets"][0]["anytime_cost"][0]["own_costs"], true) << "no length of a path";
+}
+
+TEST_F(ReportTest, CostsThatAreLengthsAreOverTheShortestOfAnybody) {
+  const ComparedSessions compared = Read(
+      {{.contestant = "A", .length = 12, .progress = {{0.1, 0, 30, 1}, {1, 0, 12, 2}}},
+       {.contestant = "B", .time_s = 2, .length = 6, .progress = {{0.1, 0, 9, 1}, {2, 0, 6, 2}}},
+       {.contestant = "C", .time_s = 3, .progress = {{0.1, 0, 3, 1}, {3, 0, 1, 2}}}});
+  const Json json = FigureData(compared, {}, {})["sets"][0]["anytime_cost"];
+  ASSERT_EQ(json.size(), 3u);
+  EXPECT_EQ(json[0]["median"].back(), 2);
+  EXPECT_EQ(json[0]["own_costs"], false);
+  EXPECT_EQ(json[1]["median"].front(), 1.5);
+  EXPECT_EQ(json[2]["median"].front(), 3);
+  EXPECT_EQ(json[2]["own_costs"], true);
 }
 
 TEST_F(ReportTest, ChangesBetweenSessionsAreToldWithTheirUncertainty) {

@@ -43,7 +43,11 @@ TEST(SolvedOverTimeTest, IsTheShareOfTrialsSolvedByThenProblemByProblem) {
     const Outcomes outcomes = Drawn(&random, 7, 3);
     const std::vector<SolvedBy> steps = SolvedOverTime(outcomes);
     ASSERT_FALSE(steps.empty());
-    double before = 0;
+    // Nothing is solved in no time, and how sure that is is known from the beginning.
+    EXPECT_EQ(steps.front().time_s, 0);
+    EXPECT_EQ(steps.front().share, 0);
+    EXPECT_EQ(steps.front().interval.upper, WilsonInterval(0, 7).upper);
+    double before = -1;
     for (const SolvedBy& step : steps) {
       double sum = 0;
       for (const auto& [problem, trials] : outcomes.by_problem) {
@@ -63,8 +67,12 @@ TEST(SolvedOverTimeTest, IsTheShareOfTrialsSolvedByThenProblemByProblem) {
   }
 }
 
-TEST(SolvedOverTimeTest, NothingSolvedHasNoSteps) {
-  EXPECT_TRUE(SolvedOverTime(OutcomesOf({{kInfinity}})).empty());
+TEST(SolvedOverTimeTest, NothingSolvedHasTheFirstStepAlone) {
+  const std::vector<SolvedBy> steps = SolvedOverTime(OutcomesOf({{kInfinity}, {kInfinity}}));
+  ASSERT_EQ(steps.size(), 1u);
+  EXPECT_EQ(steps[0].share, 0);
+  EXPECT_EQ(steps[0].interval.lower, 0);
+  EXPECT_EQ(steps[0].interval.upper, WilsonInterval(0, 2).upper);
   EXPECT_TRUE(SolvedOverTime({}).empty());
 }
 
@@ -103,24 +111,32 @@ TEST(PerformanceProfilesTest, WhatNobodySolvedCountsAgainstAll) {
   EXPECT_TRUE(PerformanceProfiles({}).empty());
 }
 
-StoredRun AnytimeRun(int problem, std::vector<PlanProgress> progress) {
+StoredRun AnytimeRun(int problem, std::vector<PlanProgress> progress, int trial = 1) {
   StoredRun run;
   run.problem_index = problem;
+  run.trial = trial;
+  run.status = PlanStatus::kSolved;
   run.progress = std::move(progress);
   return run;
 }
 
-AnytimeCurves CurvesOf(const std::vector<StoredRun>& runs) {
+std::vector<const StoredRun*> PointersTo(const std::vector<StoredRun>& runs) {
   std::vector<const StoredRun*> pointers;
   for (const StoredRun& run : runs) pointers.push_back(&run);
-  return ImprovementOverTime(pointers);
+  return pointers;
 }
 
-TEST(ImprovementOverTimeTest, QuartilesOfWhatTheRunsHaveInHand) {
-  // Costs over the best of each problem: 4, 2, 1 and 3; a third run finds nothing.
+AnytimeCurves CurvesOf(const std::vector<StoredRun>& runs) {
+  return ImprovementOverTime(PointersTo(runs), FindLowestCosts(PointersTo(runs)));
+}
+
+TEST(ImprovementOverTimeTest, QuartilesOverTheProblemsOfWhatThereIsInHand) {
+  // Costs over the lowest of each problem: 4, 2, 1 and 3.
+  const std::vector<StoredRun> runs = {
+      AnytimeRun(1, {{0.1, 8, 40, 1}, {1, 4, 20, 2}, {10, 1, 10, 3}}),
+      AnytimeRun(2, {{0.5, 0, 6, 1}}), AnytimeRun(3, {{0.1, 5, 2, 1}})};
   const AnytimeCurves curves =
-      CurvesOf({AnytimeRun(1, {{0.1, 8, 40, 1}, {1, 4, 20, 2}, {10, 1, 10, 3}}),
-                AnytimeRun(2, {{0.5, 0, 6, 1}}), AnytimeRun(2, {{0.1, 5, 2, 1}})});
+      ImprovementOverTime(PointersTo(runs), LowestCosts{{1, 10}, {2, 2}, {3, 2}});
   ASSERT_EQ(curves.cost.size(), static_cast<std::size_t>(kAnytimeSteps));
   const AnytimeStep& first = curves.cost.front();
   EXPECT_EQ(first.time_s, 0.1);
@@ -143,10 +159,67 @@ TEST(ImprovementOverTimeTest, QuartilesOfWhatTheRunsHaveInHand) {
   EXPECT_EQ(curves.bound.back().lower, 3);  // between 1 and 5
 }
 
+TEST(ImprovementOverTimeTest, AProblemCountsOnceByTheMedianOfItsTrials) {
+  const std::vector<PlanProgress> good = {{1, 0, 20, 1}, {2, 0, 10, 1}};
+  std::vector<StoredRun> runs = {AnytimeRun(1, good, 1), AnytimeRun(1, good, 2),
+                                 AnytimeRun(1, {{1, 0, 40, 1}}, 3), AnytimeRun(2, {{1, 0, 7, 1}})};
+  const AnytimeStep last = CurvesOf(runs).cost.back();
+  EXPECT_EQ(last.lower, 1);
+  EXPECT_EQ(last.median, 1);
+  EXPECT_EQ(last.upper, 1);
+  // Of an even number without a path in hand in half of them there is none.
+  runs[2].trial = 4;
+  runs.push_back(AnytimeRun(1, {}, 3));
+  runs[1].status = PlanStatus::kTimedOut;
+  EXPECT_EQ(CurvesOf(runs).cost.back().upper, std::nullopt);
+}
+
+TEST(ImprovementOverTimeTest, WhatTheRefereeRejectedIsNotInHand) {
+  std::vector<StoredRun> runs = {AnytimeRun(1, {{1, 3, 20, 1}, {2, 2, 10, 1}}),
+                                 AnytimeRun(2, {{1, 3, 9, 1}, {4, 2, 3, 1}})};
+  EXPECT_EQ(CurvesOf(runs).cost.back().upper, 1);
+  runs[1].status = PlanStatus::kInvalidPath;
+  const AnytimeCurves curves = CurvesOf(runs);
+  EXPECT_EQ(curves.cost.back().time_s, 2) << "nothing improves after that";
+  EXPECT_EQ(curves.cost.back().lower, std::nullopt);  // between 1 and nothing
+  EXPECT_EQ(curves.bound.back().median, std::nullopt);
+  EXPECT_EQ(FindLowestCosts(PointersTo(runs)), (LowestCosts{{1, 10}}));
+}
+
+TEST(ImprovementOverTimeTest, AnAttemptThatFailedBeforeTakesItsTime) {
+  std::vector<StoredRun> runs = {AnytimeRun(1, {}), AnytimeRun(1, {{1, 0, 20, 1}, {2, 0, 10, 1}})};
+  runs[0].status = PlanStatus::kTimedOut;
+  runs[0].time_s = 5;
+  runs[1].direction = Direction::kBackward;
+  runs[1].time_s = 1;
+  EXPECT_EQ(CurvesOf(runs).cost.front().time_s, 6);
+  EXPECT_EQ(CurvesOf(runs).cost.front().median, 2);
+  EXPECT_EQ(CurvesOf(runs).cost.back().time_s, 7);
+  // One that solved it is the run.
+  runs[0].status = PlanStatus::kSolved;
+  runs[0].progress = {{3, 0, 30, 1}, {4, 0, 15, 1}};
+  EXPECT_EQ(CurvesOf(runs).cost.back().time_s, 4);
+  EXPECT_EQ(CurvesOf(runs).cost.back().median, 1.5) << "over the lowest of either direction";
+}
+
 TEST(ImprovementOverTimeTest, IsNothingWhereNothingImproved) {
   EXPECT_TRUE(CurvesOf({}).cost.empty());
   EXPECT_TRUE(CurvesOf({AnytimeRun(1, {}), AnytimeRun(2, {{1, 2, 3, 4}})}).cost.empty());
   EXPECT_TRUE(CurvesOf({AnytimeRun(1, {{1, 0, 3, 4}, {2, 0, 2, 4}})}).bound.empty());
+}
+
+TEST(CostsAreLengthsTest, WhereTheLastIsThatOfThePath) {
+  std::vector<StoredRun> runs = {AnytimeRun(1, {{1, 0, 20, 1}, {2, 0, 10, 1}}),
+                                 AnytimeRun(2, {{1, 0, 7, 1}}), AnytimeRun(3, {{1, 0, 9, 1}})};
+  EXPECT_FALSE(CostsAreLengths(PointersTo(runs))) << "nothing was measured";
+  runs[0].measures["path_length"] = 10;
+  runs[1].measures["path_length"] = 7 * (1 + 1e-12);
+  EXPECT_TRUE(CostsAreLengths(PointersTo(runs)));
+  runs[2].measures["path_length"] = 8;  // a better one that was not told
+  EXPECT_TRUE(CostsAreLengths(PointersTo(runs)));
+  runs[1].measures["path_length"] = 3;
+  EXPECT_FALSE(CostsAreLengths(PointersTo(runs)));
+  EXPECT_FALSE(CostsAreLengths({}));
 }
 
 }  // namespace
