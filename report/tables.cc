@@ -398,8 +398,10 @@ Table MeshTable(const ComparedSessions& compared) {
       "Attempts. Claimed: the planner says that it found a path. Confirmed: the referee agrees, "
       "with the "
       "planners' own collision model. Valid: so does the exact geometry of the meshes, of the "
-      "confirmed paths that it judged; share with Wilson's interval over the attempts. "
-      "Depth: median over the raw paths that the meshes do not allow, where they first touch. "
+      "confirmed paths that it judged; the share is the mean over the problems with such paths of "
+      "the share of them valid, with Wilson's 95 % interval for as many cases as there are "
+      "problems. Depth: median over the raw paths that the meshes do not allow, where they first "
+      "touch. "
       "Median: planning "
       "time of the paths judged. "
       "Commonest contact: of these paths, in parentheses how many.",
@@ -419,6 +421,7 @@ Table MeshTable(const ComparedSessions& compared) {
   ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
                         const Outcomes&) {
     int judged = 0, valid = 0, simple_judged = 0, simple_valid = 0;
+    std::map<int, std::vector<bool>> valid_by_problem;  // of those judged
     std::map<std::string, int> contacts;
     std::vector<double> depths_m;
     std::vector<double> times_s;
@@ -430,16 +433,24 @@ Table MeshTable(const ComparedSessions& compared) {
       ++judged;
       times_s.push_back(run->time_s.value_or(0));
       valid += *run->mesh_valid;
+      valid_by_problem[run->problem_index].push_back(*run->mesh_valid);
       if (!*run->mesh_valid) ++contacts[ContactOf(run->mesh_reason)];
       if (run->mesh_depth_m) depths_m.push_back(*run->mesh_depth_m);
     }
     if (judged == 0) return;
+    double sum_of_shares = 0;
+    for (const auto& [problem, of_problem] : valid_by_problem) {
+      sum_of_shares += static_cast<double>(std::count(of_problem.begin(), of_problem.end(), true)) /
+                       static_cast<double>(of_problem.size());
+    }
+    const int num_problems = static_cast<int>(valid_by_problem.size());
     const auto claimed = std::count_if(
         contestant.runs.begin(), contestant.runs.end(),
         [&](const StoredRun* run) { return run->claimed && run->problem_set == set; });
     table.rows.push_back(
         {set, contestant.name, static_cast<int>(claimed), static_cast<int>(confirmed.size()),
-         judged, valid, Percent(static_cast<double>(valid) / judged, WilsonInterval(valid, judged)),
+         judged, valid,
+         Percent(sum_of_shares / num_problems, WilsonInterval(sum_of_shares, num_problems)),
          simple_judged, simple_valid,
          depths_m.empty() ? Cell() : Cell(1e3 * Summarize(depths_m).median),
          kMsPerS * Summarize(times_s).median, Commonest(contacts)});

@@ -424,8 +424,11 @@ TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
                    .mesh_reason = reason,
                    .mesh_depth_m = depth_m};
   };
+  MadeRun again = run(1, true, "");  // no case of its own
+  again.trial = 2;
   const ComparedSessions compared =
       Read({run(1, true, ""),
+            again,
             run(2, false, "segment 1: 'arm' and 'shelf', 0.001 m deep", 0.001),
             run(3, false, "segment 7: 'arm' and 'shelf' in contact"),
             run(4, false, "segment 2: 'hand' and 'box', 0.002 m deep", 0.002),
@@ -437,7 +440,7 @@ TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
   ASSERT_EQ(table.rows.size(), 1u);
   const Row row = Texts(table, 0);
   const Interval wilson = WilsonInterval(1, 4);
-  EXPECT_EQ(row, (Row{"shelf", "A", "7", "6", "4", "1",
+  EXPECT_EQ(row, (Row{"shelf", "A", "8", "7", "5", "2",
                       fmt::format("25.0 [{:.1f}, {:.1f}]", 100 * wilson.lower, 100 * wilson.upper),
                       "2", "1", "1.50", "250", "'arm' and 'shelf' (2)"}));
 }
