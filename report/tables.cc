@@ -195,8 +195,9 @@ Table SuccessTable(const ComparedSessions& compared) {
       "Runs are problems times trials; both directions of one count as one. Claimed: the planner "
       "says that it found a path. Confirmed: the referee agrees. The share is the mean over the "
       "problems of the share of their trials confirmed, with Wilson's 95 % interval for as many "
-      "cases as there are problems. Failed: out of time, memory or search space. Blocked: start or "
-      "goal invalid. Rejected: the referee refused the path.",
+      "cases as there are problems. Forward: confirmed from start to goal. Backward: from goal to "
+      "start, and not from start to goal. Failed: out of time, memory or search space. Blocked: "
+      "start or goal invalid. Rejected: the referee refused the path.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"problems", "problems", Style::kCount},
@@ -254,6 +255,56 @@ Table TimeTable(const ComparedSessions& compared) {
   return table;
 }
 
+Table DirectionTable(const ComparedSessions& compared) {
+  Table table{
+      "directions",
+      "Planning time of confirmed attempts by direction, ms",
+      "Of the contestants that searched from goal to start, too. Attempts of either direction for "
+      "themselves, without what an attempt before them took; a problem counts once, by the median "
+      "of its confirmed ones. Of a trial with confirmed paths of both directions everything else "
+      "counts the one from start to goal.",
+      {{"set", "set"},
+       {"contestant", "contestant"},
+       {"direction", "direction"},
+       {"attempts", "attempts", Style::kCount},
+       {"confirmed", "confirmed", Style::kCount},
+       {"problems_solved", "problems solved", Style::kCount},
+       {"median_ms", "median", Style::kNumber},
+       {"mean_ms", "mean", Style::kNumber},
+       {"lower_quartile_ms", "25 %", Style::kNumber},
+       {"upper_quartile_ms", "75 %", Style::kNumber},
+       {"percentile_95_ms", "95 %", Style::kNumber}},
+      {}};
+  ForEach(compared,
+          [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
+            const auto of_direction = [&](Direction direction) {
+              std::vector<const StoredRun*> runs;
+              for (const StoredRun* run : contestant.runs) {
+                if (run->problem_set == set && run->direction == direction) runs.push_back(run);
+              }
+              return runs;
+            };
+            if (of_direction(Direction::kBackward).empty()) return;
+            for (const Direction direction : EnumValues<Direction>()) {
+              const std::vector<const StoredRun*> runs = of_direction(direction);
+              if (runs.empty()) continue;
+              int confirmed = 0;
+              ValuesByProblem times_ms;
+              for (const StoredRun* run : runs) {
+                if (!run->confirmed()) continue;
+                ++confirmed;
+                times_ms[run->problem_index].push_back(kMsPerS *
+                                                       run->time_s.value_or(run->roundtrip_time_s));
+              }
+              const Summary s = SummarizeByProblem(times_ms);
+              table.rows.push_back({set, contestant.name, std::string(EnumName(direction)),
+                                    static_cast<int>(runs.size()), confirmed, s.count, s.median,
+                                    s.mean, s.lower_quartile, s.upper_quartile, s.percentile_95});
+            }
+          });
+  return table;
+}
+
 Table PairTable(const std::vector<ComparedPair>& pairs) {
   Table table{
       "pairs",
@@ -292,9 +343,11 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
   Table table{"quality",
               "Path quality",
               "Measures are the referee's, of confirmed runs; a problem counts once, by the median "
-              "of its runs. Ratio: to the contestant that ranks first, geometric mean over the "
-              "problems that both solved, with a bootstrap 95 % interval; medians over different "
-              "problems do not compare.",
+              "of its runs. Ratio: to the reference, which is the contestant of highest rank that "
+              "has such values on the set; geometric mean over the common problems, those that "
+              "both have values of, with a bootstrap 95 % interval. Problems at which either's is "
+              "0, as the smoothness of a straight path, have no ratio and are none of them. "
+              "Medians over different problems do not compare.",
               {{"set", "set"},
                {"contestant", "contestant"},
                {"measure", "measure"},
@@ -304,12 +357,14 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
                {"lower_quartile", "25 %", Style::kNumber},
                {"median", "median", Style::kNumber},
                {"upper_quartile", "75 %", Style::kNumber},
-               {"ratio_to_first", "ratio to first [95 %]", Style::kNumber, true}},
+               {"reference", "reference"},
+               {"common_problems", "common problems", Style::kCount},
+               {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true}},
               {}};
   for (const auto& [set, by_contestant] : compared.outcomes()) {
     for (const PathMeasure& measure : PathMeasures()) {
       for (const bool raw : {true, false}) {
-        const ValuesByProblem* first = nullptr;
+        const std::string* reference = nullptr;
         std::map<std::string, ValuesByProblem> all;
         for (const ComparedContestant& contestant : compared.contestants()) {
           if (!by_contestant.contains(contestant.name)) continue;
@@ -317,15 +372,18 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
           values = MeasuredByProblem(contestant, set, measure.name, raw);
           const Summary s = SummarizeByProblem(values);
           if (s.count == 0) continue;
-          Cell ratio;
-          if (first == nullptr) {
-            first = &values;
-          } else if (const auto estimate = CompareByProblem(values, *first, seed)) {
-            ratio = Estimate{estimate->mean, estimate->interval};
+          Cell common_problems, ratio;
+          if (reference == nullptr) {
+            reference = &contestant.name;
+          } else {
+            const auto estimate = CompareByProblem(values, all.at(*reference), seed);
+            common_problems = estimate ? estimate->num_pairs : 0;
+            if (estimate) ratio = Estimate{estimate->mean, estimate->interval};
           }
           table.rows.push_back({set, contestant.name, std::string(measure.name),
                                 std::string(measure.unit), std::string(raw ? "raw" : "simplified"),
-                                s.count, s.lower_quartile, s.median, s.upper_quartile, ratio});
+                                s.count, s.lower_quartile, s.median, s.upper_quartile, *reference,
+                                common_problems, ratio});
         }
       }
     }
@@ -460,11 +518,11 @@ Table MeshTable(const ComparedSessions& compared) {
 
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs, std::uint64_t seed) {
-  std::vector<Table> tables = {SessionTable(compared, false), SuccessTable(compared),
-                               TimeTable(compared),           PairTable(pairs),
-                               QualityTable(compared, seed),  PhaseTable(compared),
-                               FailureTable(compared),        MeshTable(compared),
-                               ChangeTable(compared, seed),   ConditionTable(compared)};
+  std::vector<Table> tables = {
+      SessionTable(compared, false), SuccessTable(compared),  TimeTable(compared),
+      DirectionTable(compared),      PairTable(pairs),        QualityTable(compared, seed),
+      PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
+      ChangeTable(compared, seed),   ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   for (Table& table : tables) MarkTrained(compared, &table);
   return tables;

@@ -43,6 +43,9 @@ std::uint64_t BootstrapSeed(const ComparedSessions& compared);
 
 Table SuccessTable(const ComparedSessions& compared);
 Table TimeTable(const ComparedSessions& compared);
+/// Times of the attempts themselves, of contestants that searched backward, too; no rows if there
+/// are none.
+Table DirectionTable(const ComparedSessions& compared);
 Table PairTable(const std::vector<ComparedPair>& pairs);
 /// Medians of every path measure, raw and simplified.
 Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);

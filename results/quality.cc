@@ -27,9 +27,10 @@ std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
   for (const auto& [problem, values] : first) {
     const auto other = second.find(problem);
     if (other == second.end()) continue;
-    of_first.push_back(Median(values));
-    of_second.push_back(Median(other->second));
-    if (!(of_first.back() > 0 && of_second.back() > 0)) return std::nullopt;
+    const double a = Median(values), b = Median(other->second);
+    if (!(a > 0 && b > 0)) continue;
+    of_first.push_back(a);
+    of_second.push_back(b);
   }
   return EstimateRatio(of_first, of_second, seed);
 }

@@ -19,8 +19,8 @@ using ValuesByProblem = std::map<int, std::vector<double>>;
 /// Each problem counts once, by the median of its values.
 Summary SummarizeByProblem(const ValuesByProblem& values);
 
-/// Geometric mean of first / second over the problems that have values of both, of their medians;
-/// nothing if there are none, or if one is not positive.
+/// Geometric mean of first / second over the problems that have positive values of both, of their
+/// medians: 0 has no ratio. Nothing if there are none.
 std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
                                               const ValuesByProblem& second, std::uint64_t seed);
 

@@ -170,6 +170,7 @@ const report = (() => {
            "problems, with its 95 % interval. A point opens its problem."),
       figuresOfSets("times"),
       tableBlock("times", true),
+      ...(tables.directions ? [tableBlock("directions", false)] : []),
       element("h3", {}, "Share solved by a time"),
       note("Mean over the problems of the share of their trials that have a confirmed path by then; bands are Wilson's 95 % " +
            "intervals of each time by itself, for as many cases as there are problems. With more than six contestants a band " +

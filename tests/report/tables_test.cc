@@ -88,7 +88,50 @@ TEST_F(ReportTest, Quality) {
   ASSERT_EQ(table.rows.size(), 8u);  // two sets, raw and simplified, two contestants
   const Row raw = Texts(table, 5);
   EXPECT_EQ(raw, (Row{"shelf", kScriptName, "path_length", "rad, m", "raw", "10", "4.00", "4.00",
-                      "4.00", "2.00 [2.00, 2.00]"}));
+                      "4.00", kTagName, "10", "2.00 [2.00, 2.00]"}));
+  const Row reference = Texts(table, 4);
+  EXPECT_EQ(Row(reference.begin() + 9, reference.end()), (Row{kTagName, "-", "-"}));
+}
+
+TEST_F(ReportTest, QualityNamesWhatRatiosAreTo) {
+  // A ranks first, and has no path on the table.
+  std::vector<MadeRun> runs = {
+      {.contestant = "A", .set = "table", .status = PlanStatus::kTimedOut},
+      {.contestant = "B", .set = "table", .length = 2},
+      {.contestant = "C", .set = "table", .time_s = 2, .length = 6},
+  };
+  for (int problem = 1; problem <= 4; ++problem) {
+    runs.push_back({.contestant = "A", .problem = problem});
+    for (const char* name : {"B", "C"}) {
+      runs.push_back({.contestant = name, .problem = problem, .status = PlanStatus::kTimedOut});
+    }
+  }
+  const Table table = QualityTable(Read(runs), 1);
+  ASSERT_EQ(table.rows.size(), 6u);  // A on the shelf, B and C on the table; raw and simplified
+  EXPECT_EQ(Texts(table, 0)[9], "A");
+  const Row b = Texts(table, 2), c = Texts(table, 3);
+  EXPECT_EQ(Row(b.begin() + 9, b.end()), (Row{"B", "-", "-"}));
+  EXPECT_EQ(Row(c.begin() + 9, c.end()), (Row{"B", "1", "3.00"}));
+}
+
+TEST_F(ReportTest, DirectionsHaveTimesOfTheirOwn) {
+  EXPECT_TRUE(DirectionTable(compared_).rows.empty()) << "nobody searched backward";
+  const auto backward = Direction::kBackward;
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .time_s = 1},
+            {.contestant = "A", .time_s = 3, .direction = backward},
+            {.contestant = "A", .problem = 2, .status = PlanStatus::kTimedOut, .time_s = 10},
+            {.contestant = "A", .problem = 2, .time_s = 5, .direction = backward},
+            {.contestant = "A", .problem = 2, .trial = 2, .time_s = 2},
+            {.contestant = "A", .problem = 2, .trial = 2, .time_s = 6, .direction = backward},
+            {.contestant = "B"}});
+  const Table table = DirectionTable(compared);
+  ASSERT_EQ(table.rows.size(), 2u);
+  const Row forward_row = Texts(table, 0), backward_row = Texts(table, 1);
+  EXPECT_EQ(Row(forward_row.begin(), forward_row.begin() + 7),
+            (Row{"shelf", "A", "forward", "3", "2", "2", "1500"}));
+  EXPECT_EQ(Row(backward_row.begin(), backward_row.begin() + 7),  // 3, and 5 and 6 s
+            (Row{"shelf", "A", "backward", "3", "3", "2", FormatNumber(1000 * (3 + 5.5) / 2)}));
 }
 
 TEST_F(ReportTest, Phases) {

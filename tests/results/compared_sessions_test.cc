@@ -224,6 +224,10 @@ TEST(QualityTest, RatiosAreOfCommonProblems) {
   EXPECT_NEAR(CompareByProblem(first, second, 1)->mean, 4, 1e-12);  // sqrt(2 * 8)
   EXPECT_FALSE(CompareByProblem(first, {{9, {1}}}, 1));
   EXPECT_FALSE(CompareByProblem(first, {{1, {0}}}, 1));
+  // A straight path's smoothness is 0, which has no ratio: the others have.
+  const auto without_straight = CompareByProblem(first, {{1, {0}}, {2, {2}}, {3, {25}}}, 1);
+  EXPECT_NEAR(without_straight->mean, 4, 1e-12);
+  EXPECT_EQ(without_straight->num_pairs, 2);
 }
 
 TEST(QualityTest, MeasuresAreOfConfirmedRuns) {
