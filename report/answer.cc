@@ -206,9 +206,9 @@ std::string OnTheLimits(const std::string& set,
   }
   if (limits_s.size() < 2) return "";
   return fmt::format(
-      "{}: time limits differ ({} to {} s): who had longer could solve more. Penalised means count "
-      "every failure as ten times the longest.",
-      set, FormatNumber(*limits_s.begin()), FormatNumber(*limits_s.rbegin()));
+      "{}: time limits differ ({} to {} s): who had longer could solve more. {} Penalised means "
+      "count every failure as ten times the longest.",
+      set, FormatNumber(*limits_s.begin()), FormatNumber(*limits_s.rbegin()), kLimitsNote);
 }
 
 std::string LeftOut(const std::string& name, const std::map<std::string, std::string>& left_out) {

@@ -157,6 +157,19 @@ std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& c
   return TrainedMark(SetsLearnedFrom(compared, contestant), static_cast<std::size_t>(num_tried));
 }
 
+std::string LimitsNote(const ComparedSessions& compared) {
+  std::vector<std::string> sets;
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    std::set<double> limits_s;
+    for (const auto& [name, outcomes] : by_contestant) {
+      if (outcomes.time_limit_s > 0) limits_s.insert(outcomes.time_limit_s);
+    }
+    if (limits_s.size() > 1) sets.push_back(set);
+  }
+  if (sets.empty()) return "";
+  return fmt::format("Time limits differ on {}. {}", fmt::join(sets, ", "), kLimitsNote);
+}
+
 std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed) {
   std::vector<ComparedPair> pairs;
   const auto compare_all = [&](const std::string& set,
@@ -524,6 +537,13 @@ std::vector<Table> AllTables(const ComparedSessions& compared,
       PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
       ChangeTable(compared, seed),   ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  if (const std::string limits = LimitsNote(compared); !limits.empty()) {
+    for (Table& table : tables) {
+      const bool has_times =
+          table.name == "times" || table.name == "pairs" || table.name == "changes";
+      if (has_times) table.note += " " + limits;
+    }
+  }
   for (Table& table : tables) MarkTrained(compared, &table);
   return tables;
 }

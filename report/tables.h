@@ -25,6 +25,13 @@ std::vector<std::string> SetsLearnedFrom(const ComparedSessions& compared,
 /// (TrainedMark).
 std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& contestant);
 
+/// What is to be said where times are compared that were measured under different limits.
+inline constexpr char kLimitsNote[] =
+    "The time of a run contains its failed forward attempt, which lasts as long as the time limit "
+    "lets it: such times, and ratios of them, are in part of limits.";
+/// The same with the sets on which contestants had different limits; "" if there are none.
+std::string LimitsNote(const ComparedSessions& compared);
+
 /// One contestant against another on one set, or on all.
 struct ComparedPair {
   std::string set;

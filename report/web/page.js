@@ -84,6 +84,8 @@ const report = (() => {
   }
 
   const note = text => element("p", {class: "note"}, text);
+  // Beside every ratio of times, where time limits differ.
+  const limitsNote = () => (data.limits_note ? [note(data.limits_note)] : []);
 
   function select(label, options, chosen, onChange) {
     const made = element("select");
@@ -138,7 +140,7 @@ const report = (() => {
 
   // ---- Sections ---------------------------------------------------------------------------------
   function answer() {
-    section("answer", "The answer", ...data.answer.map(sentence => element("p", {}, sentence)));
+    section("answer", "The answer", ...data.answer.map(sentence => element("p", {}, sentence)), ...limitsNote());
   }
 
   function compared() {
@@ -223,11 +225,12 @@ const report = (() => {
     update();
     made.append(figure, element("figure", {class: "beside"}, chart, element("figcaption", {},
         "A point is a problem, at the medians of its trials; below the diagonal the second is faster. In the strips " +
-        "on the right and at the top one or both did not solve it. A point opens its problem.")));
+        "on the right and at the top one or both did not solve it. A point opens its problem.")), ...limitsNote());
     made.append(tableBlock("pairs", false));
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
-           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved."));
+           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved."),
+      ...limitsNote());
     const grid = figuresOfSets("profile");
     made.append(legend(() => grid), grid);
   }

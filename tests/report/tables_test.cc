@@ -239,6 +239,14 @@ TEST_F(ReportTest, WhatCannotBeComparedIsTold) {
   sessions[1].runs[0].time_limit_s = 2;
   EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
               testing::HasSubstr("shelf: time limits differ (2.00 to 10.0 s)"));
+  const ComparedSessions compared(sessions);
+  EXPECT_THAT(LimitsNote(compared), testing::StartsWith("Time limits differ on shelf."));
+  EXPECT_EQ(LimitsNote(compared_), "");
+  int num_noted = 0;
+  for (const Table& table : AllTables(compared, ComparePairs(compared, 1), 1)) {
+    num_noted += table.note.find(kLimitsNote) != std::string::npos;
+  }
+  EXPECT_EQ(num_noted, 2) << "times, and pairs; there is nothing to tell of changes";
   for (StoredSession& session : sessions) {
     session.runs[0].time_limit_s = 0;
     session.runs[0].status = PlanStatus::kTimedOut;
