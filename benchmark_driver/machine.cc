@@ -64,7 +64,7 @@ DisturbanceMeter::DisturbanceMeter(std::vector<pid_t> pids, KernelFolders kernel
   steal_s_ = Steal();
 }
 
-void DisturbanceMeter::Read(std::map<std::string, double>* counters) const {
+void DisturbanceMeter::Read(double run_s, std::map<std::string, double>* counters) const {
   for (const char* name : {"load_before", "waiting_time", "steal_time", "disturbed", "repeats"}) {
     counters->erase(name);
   }
@@ -74,7 +74,8 @@ void DisturbanceMeter::Read(std::map<std::string, double>* counters) const {
     double sum = 0;
     for (const auto& [thread, now] : waiting_s) {
       const auto before = waiting_s_.find(thread);
-      sum += now - (before == waiting_s_.end() ? 0 : before->second);
+      // The kernel books a wait when it ends: one that began long before the run ends in it.
+      sum += std::min(now - (before == waiting_s_.end() ? 0 : before->second), run_s);
     }
     (*counters)["waiting_time"] = sum;
   }

@@ -30,8 +30,9 @@ class DisturbanceMeter {
   /// Puts in the place of what a planner may have said of it, as far as the kernel tells:
   ///   load_before: load average of the minute before, this session's own included;
   ///   waiting_time: s in which threads of the processes could have run and had no processor,
-  ///   summed; steal_time: s that the hypervisor took, mean over the processors, in steps of 10 ms.
-  void Read(std::map<std::string, double>* counters) const;
+  ///   summed, of each no more than `run_s`, what the run took; steal_time: s that the hypervisor
+  ///   took, mean over the processors, in steps of 10 ms.
+  void Read(double run_s, std::map<std::string, double>* counters) const;
 
  private:
   std::map<std::string, double> WaitingByThread() const;

@@ -287,7 +287,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   }
   record.roundtrip_time_s = answer.roundtrip_time_s;
   record.result = answer.result;
-  meter.Read(&record.result.result.counters);
+  meter.Read(record.roundtrip_time_s, &record.result.result.counters);
   record.status = answer.result.result.status;
   record.message = answer.result.result.message;
   if (record.status != PlanStatus::kSolved) return record;

@@ -49,25 +49,34 @@ TEST_F(MachineTest, AMeterTellsWhatHappenedSinceItBegan) {
   // What a planner says of it counts for nothing.
   std::map<std::string, double> counters = {
       {"states", 3}, {"waiting_time", 9}, {"disturbed", 1}, {"repeats", 2}};
-  meter.Read(&counters);
+  meter.Read(1, &counters);
   EXPECT_EQ(counters,
             (std::map<std::string, double>{
                 {"load_before", 0.5}, {"states", 3}, {"steal_time", 1}, {"waiting_time", 0.875}}));
 }
 
+TEST_F(MachineTest, AWaitThatBeganBeforeTheRunIsNoLongerThanTheRun) {
+  Write(0, 0, 0);
+  const DisturbanceMeter meter({7}, Kernel());
+  Write(9'000'000'000, 250'000'000, 0);
+  std::map<std::string, double> counters;
+  meter.Read(0.5, &counters);
+  EXPECT_EQ(counters.at("waiting_time"), 0.75);
+}
+
 TEST_F(MachineTest, OfAnotherMachineNothingIsKnown) {
   Write(1, 2, 3);
   std::map<std::string, double> counters;
-  DisturbanceMeter({}, Kernel()).Read(&counters);
+  DisturbanceMeter({}, Kernel()).Read(1, &counters);
   EXPECT_EQ(counters, (std::map<std::string, double>{{"steal_time", 0}}));
   counters.clear();
-  DisturbanceMeter({7}, {folder_ / "none", folder_ / "none"}).Read(&counters);
+  DisturbanceMeter({7}, {folder_ / "none", folder_ / "none"}).Read(1, &counters);
   EXPECT_TRUE(counters.empty());
 }
 
 TEST_F(MachineTest, TheKernelTellsOfThisProcess) {
   std::map<std::string, double> counters;
-  DisturbanceMeter({getpid()}, {}).Read(&counters);
+  DisturbanceMeter({getpid()}, {}).Read(1, &counters);
   EXPECT_GE(counters.at("load_before"), 0);
   EXPECT_GE(counters.at("waiting_time"), 0);
   EXPECT_GE(counters.at("steal_time"), 0);
