@@ -99,6 +99,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   }
   for (const ScheduledRun& run : schedule_) {
     if (run.unless_solved) suffices_[*run.unless_solved] = false;
+    if (run.is_one_of_two) one_of_two_.insert(run.request_id);
   }
   std::set<std::string> scheduled;
   for (const ScheduledRun& run : schedule_) scheduled.insert(run.request_id);
@@ -273,10 +274,13 @@ SessionMessage Driver::Session(bool finished) const {
 
 const RunRow& Driver::Keep(const RunRecordMessage& record) {
   const auto attempt = suffices_.find(record.request_id);
+  bool needs_other =
+      one_of_two_.contains(record.request_id) && record.status != PlanStatus::kSolved;
   if (attempt != suffices_.end()) {
     attempt->second = record.result.result.Solves() || !WasAsked(record);
+    needs_other = !attempt->second;
   }
-  return runs_.Add(record);
+  return runs_.Add(record, needs_other);
 }
 
 void Driver::GiveUp(const std::string& planner, const std::string& reason) {

@@ -107,6 +107,7 @@ class Driver {
   /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows
   /// yet whether they are needed.
   std::map<std::string, bool> suffices_;
+  std::set<std::string> one_of_two_;  ///< Request ids (ScheduledRun::is_one_of_two).
   std::unique_ptr<ProgressBar> progress_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace planbench {
 
-const RunRow& RunRows::Add(const RunRecordMessage& record) {
+const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   const PlanResult& result = record.result.result;
   const auto counter = [&](const char* name) {
     const auto found = result.counters.find(name);
@@ -27,6 +27,7 @@ const RunRow& RunRows::Add(const RunRecordMessage& record) {
   row.direction = record.request.direction;
   row.status = record.status;
   row.claimed = result.Solves();
+  row.needs_other = needs_other;
   row.disturbed = counter("disturbed").value_or(0) > 0;
   row.repeated = counter("repeats").value_or(0) > 0;
   for (std::size_t i = 0; i < kNumOddTimes; ++i) {

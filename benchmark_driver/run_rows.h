@@ -27,6 +27,7 @@ struct RunRow {
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;                       ///< The planner says that it found a path.
   bool trained = false;                       ///< On this very problem (training.h).
+  bool needs_other = false;  ///< It failed, and the other direction is to be tried, too.
   bool disturbed = false;
   bool repeated = false;
   OddTimesFound odd_times_s = {};
@@ -47,7 +48,7 @@ class RunRows {
   RunRows(RunRows&&) = default;
   RunRows& operator=(RunRows&&) = default;
 
-  const RunRow& Add(const RunRecordMessage& record);
+  const RunRow& Add(const RunRecordMessage& record, bool needs_other = false);
 
   const std::deque<RunRow>& rows() const { return rows_; }
   std::size_t size() const { return rows_.size(); }

@@ -112,7 +112,8 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
              RunSeed(request.seed, set, index, direction, trial),
              fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set, index, entrant.planner,
                          EnumName(direction), trial),
-             other};
+             other,
+             entrant.directions == Directions::kBoth};
       if (entrant.directions == Directions::kAuto) other = run.request_id;
     }
   };

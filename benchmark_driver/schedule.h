@@ -22,6 +22,8 @@ struct ScheduledRun {
   /// Request id of the attempt in the other direction: with one, this run is made only if that one
   /// found no path.
   std::optional<std::string> unless_solved = {};
+  /// The attempt in the other direction is made, too, whatever becomes of this one.
+  bool is_one_of_two = false;
 };
 
 /// A contestant as the schedule sees it.

@@ -25,6 +25,17 @@ Attempt AttemptOf(const RunRow& run) {
   return attempt;
 }
 
+Direction OtherThan(Direction direction) {
+  return direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
+}
+
+/// Set, contestant, problem, trial and direction.
+using AttemptKey = std::tuple<std::string, std::string, int, int, Direction>;
+
+AttemptKey KeyOf(const RunRow& run, Direction direction) {
+  return {*run.problem_set, *run.contestant, run.problem_index, run.trial, direction};
+}
+
 }  // namespace
 
 std::string ContestantResults::label() const {
@@ -58,7 +69,13 @@ SessionResults::SessionResults(const SessionConditions& conditions, const RunRow
   std::vector<const RunRow*> ordered;
   std::vector<Attempt> attempts;
   std::set<std::pair<std::string, int>> problems;
+  std::set<AttemptKey> made;
+  for (const RunRow& run : runs.rows()) made.insert(KeyOf(run, run.direction));
   for (const RunRow& run : runs.rows()) {
+    if (run.needs_other && !made.contains(KeyOf(run, OtherThan(run.direction)))) {
+      ++num_awaiting_;
+      continue;
+    }
     ordered.push_back(&run);
     attempts.push_back(AttemptOf(run));
     problems.emplace(*run.problem_set, run.problem_index);

@@ -41,12 +41,16 @@ class SessionResults {
 
   const std::vector<Contestant>& contestants() const { return contestants_; }
   const std::vector<SetResults>& sets() const { return sets_; }
+  /// Attempts that failed and are in no set's results, since the one in the other direction, which
+  /// was to follow, is missing: what becomes of their trials is not known.
+  int num_awaiting() const { return num_awaiting_; }
   /// A contestant's name where all sets are shown together.
   std::string LabelOf(const Contestant& contestant) const;
 
  private:
   std::vector<Contestant> contestants_;
   std::vector<SetResults> sets_;
+  int num_awaiting_ = 0;
 };
 
 }  // namespace planbench

@@ -79,6 +79,21 @@ TEST_F(DriverTest, AutoGoesBackwardWhereForwardFailed) {
             (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/backward/1",
                                    "run/cans/2/arm/forward/1"}));
   EXPECT_EQ(logger.sessions().messages().back().num_runs, 3);
+  for (const RunRow& run : driver.runs().rows()) {
+    EXPECT_EQ(run.needs_other, run.problem_index == 2 && run.direction == Direction::kForward);
+  }
+}
+
+TEST_F(DriverTest, OfBothDirectionsAFailureNeedsTheOther) {
+  FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  const FakeLogger logger(&bus_);
+  SolveSecondBackwardOnly(&planner);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  ASSERT_EQ(driver.runs().size(), 4u);
+  for (const RunRow& run : driver.runs().rows()) EXPECT_EQ(run.needs_other, !run.confirmed());
 }
 
 /// A machine that keeps a planner from working at requests that begin with an id: how often.

@@ -64,13 +64,13 @@ TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {
     std::vector<std::string> made;
     for (const ScheduledRun& run : MakeSchedule(OneProblem(), {entrant}, Served())) {
       made.push_back(std::string(EnumName(run.direction)) +
-                     (run.unless_solved ? " if failed" : ""));
+                     (run.unless_solved ? " if failed" : "") + (run.is_one_of_two ? " too" : ""));
     }
     return made;
   };
   EXPECT_THAT(ids(Of("a", kForward)), ElementsAre("forward"));
   EXPECT_THAT(ids(Of("a", kBackward)), ElementsAre("backward"));
-  EXPECT_THAT(ids(Of("a", kBoth)), ElementsAre("forward", "backward"));
+  EXPECT_THAT(ids(Of("a", kBoth)), ElementsAre("forward too", "backward too"));
   EXPECT_THAT(ids(Of("a", kAuto)), ElementsAre("forward", "backward if failed"));
   Entrant bidirectional = Of("a", kAuto);
   bidirectional.bidirectional = true;
