@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -42,16 +43,30 @@ struct Field {
   std::function<void(StoredRun*, const SqliteValue&)> set;
 };
 
+/// A time in s; nothing for NULL, which is also how SQLite stores NaN. `run` has its id. Throws
+/// InputError for what is negative, infinite or no number.
+std::optional<double> Measured(const StoredRun& run, const char* column, const SqliteValue& value) {
+  const std::optional<double> real = Real(value);
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    throw InputError(fmt::format("run {}: {}: '{}' is no number", run.id, column, *text));
+  }
+  if (real && !(std::isfinite(*real) && *real >= 0)) {
+    throw InputError(
+        fmt::format("run {}: {}: {} is not finite, or less than 0", run.id, column, *real));
+  }
+  return real;
+}
+
 Field Time(const char* column, double PhaseTimes::*phase) {
-  return {column, [phase](StoredRun* run, const SqliteValue& value) {
-            run->phases.*phase = Real(value).value_or(0);
+  return {column, [=](StoredRun* run, const SqliteValue& value) {
+            run->phases.*phase = Measured(*run, column, value).value_or(0);
           }};
 }
 
 /// 0 where there is none.
-Field Number(const char* column, double StoredRun::*number) {
-  return {column, [number](StoredRun* run, const SqliteValue& value) {
-            run->*number = Real(value).value_or(0);
+Field Time(const char* column, double StoredRun::*time_s) {
+  return {column, [=](StoredRun* run, const SqliteValue& value) {
+            run->*time_s = Measured(*run, column, value).value_or(0);
           }};
 }
 
@@ -93,9 +108,10 @@ std::vector<Field> Fields() {
          run->claimed = Int(v).value_or(found ? 1 : 0) != 0;
        }},
       {"message", [](StoredRun* run, const SqliteValue& v) { run->message = Text(v); }},
-      {"time", [](StoredRun* run, const SqliteValue& v) { run->time_s = Real(v); }},
-      Number("roundtrip_time", &StoredRun::roundtrip_time_s),
-      Number("time_limit", &StoredRun::time_limit_s),
+      {"time",
+       [](StoredRun* run, const SqliteValue& v) { run->time_s = Measured(*run, "time", v); }},
+      Time("roundtrip_time", &StoredRun::roundtrip_time_s),
+      Time("time_limit", &StoredRun::time_limit_s),
       Time("setup_time", &PhaseTimes::setup_s),
       Time("collision_time", &PhaseTimes::collision_s),
       Time("guidance_time", &PhaseTimes::guidance_s),
@@ -111,7 +127,10 @@ std::vector<Field> Fields() {
        [](StoredRun* run, const SqliteValue& v) {
          if (const auto valid = Int(v)) run->mesh_valid_simple = *valid != 0;
        }},
-      Number("configurations_checked", &StoredRun::configurations_checked),
+      {"configurations_checked",  // by the planner's own word, whatever that is
+       [](StoredRun* run, const SqliteValue& v) {
+         run->configurations_checked = Real(v).value_or(0);
+       }},
       {"load_before", [](StoredRun* run, const SqliteValue& v) { run->load_before = Real(v); }},
       {"waiting_time", [](StoredRun* run, const SqliteValue& v) { run->waiting_s = Real(v); }},
       {"steal_time", [](StoredRun* run, const SqliteValue& v) { run->steal_s = Real(v); }},
@@ -232,6 +251,9 @@ class Reader {
       for (const auto& node : details.value("nodes", nlohmann::json::array())) {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);
+        }
+        if (node.value("backward", false) && !node.value("bidirectional", false)) {
+          session.backward_planners.insert(node.value("name", ""));
         }
       }
     }

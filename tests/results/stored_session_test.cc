@@ -1,5 +1,6 @@
 #include "results/stored_session.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/sqlite.h"
@@ -130,6 +131,34 @@ TEST_F(ReadSessionsTest, WhatIsNoResultsDatabaseIsRefusedInOneLine) {
   expect_refused("later version");
   Execute("PRAGMA user_version = 2; UPDATE runs SET status = 99");
   expect_refused("99 is no status");
+}
+
+TEST_F(ReadSessionsTest, TimesThatCannotBeAreRefused) {
+  WriteSession(folder_ / "one", {{.contestant = "A"}});
+  for (const char* column : {"time", "roundtrip_time", "time_limit", "collision_time"}) {
+    for (const char* value : {"-1.0", "9e999", "-9e999", "'NaN'"}) {
+      Execute(fmt::format("UPDATE runs SET {} = {}", column, value));
+      ExpectInputError([&] { ReadSessions(folder_ / "one"); },
+                       {"results.sqlite: run 1: ", std::string(column) + ": "});
+    }
+    Execute(fmt::format("UPDATE runs SET {} = 1.0", column));
+  }
+  EXPECT_NO_THROW(ReadSessions(folder_ / "one"));
+}
+
+TEST_F(ReadSessionsTest, KnowsWhoIsAskedBackward) {
+  SessionMessage message;
+  for (const char* name : {"one_way", "both_ends", "forward_only"}) {
+    NodeStatusMessage node;
+    node.name = name;
+    node.kind = NodeKind::kPlanner;
+    node.can_backward = node.name != "forward_only";
+    node.bidirectional = node.name == "both_ends";
+    message.nodes.push_back(node);
+  }
+  WriteSession(folder_ / "one", {{.contestant = "A"}}, message);
+  EXPECT_EQ(ReadSessions(folder_ / "one").sessions.front().backward_planners,
+            std::set<std::string>{"one_way"});
 }
 
 TEST_F(ReadSessionsTest, AFileThatWasCutShortIsRefused) {
