@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/numbers.h"
+#include "results/awaited_attempts.h"
 #include "results/comparison.h"
 #include "results/reason_count.h"
 #include "results/training.h"
@@ -92,6 +93,24 @@ std::vector<std::string> TellSetsApart(const std::vector<std::string>& session_n
   return others;
 }
 
+/// Attempts that await others; how many by session.
+std::vector<int> LeaveOutOfEach(std::vector<StoredSession>* sessions) {
+  std::vector<int> numbers;
+  for (StoredSession& session : *sessions) numbers.push_back(LeaveOutAwaiting(&session));
+  return numbers;
+}
+
+/// On problems that all contestants tried, `num_contestants` over all sets.
+OutcomesBySet CommonOutcomes(const OutcomesBySet& sets, std::size_t num_contestants) {
+  OutcomesBySet common;
+  for (const auto& [set, by_contestant] : sets) {
+    if (by_contestant.size() < num_contestants) continue;
+    std::map<std::string, Outcomes> of_all = OnCommonProblems(by_contestant);
+    if (!of_all.begin()->second.by_problem.empty()) common[set] = std::move(of_all);
+  }
+  return common;
+}
+
 }  // namespace
 
 bool ComparedContestant::IsTrainedOn(const std::string& problem_set) const {
@@ -117,19 +136,21 @@ Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
 
 ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
     : sessions_(std::move(sessions)),
+      num_awaiting_(LeaveOutOfEach(&sessions_)),
       session_names_(NameSessions(sessions_)),
       other_sets_(TellSetsApart(session_names_, &sessions_)) {
-  std::vector<std::string> names;
   for (std::size_t s = 0; s < sessions_.size(); ++s) {
     const std::size_t first = contestants_.size();
     for (const StoredContestant& one : sessions_[s].contestants) {
-      names.push_back(one.name);
       contestants_.push_back({"", one.name, one.settings, s, {}});
     }
     for (const StoredRun& run : sessions_[s].runs) {
       contestants_[first + run.contestant].runs.push_back(&run);
     }
   }
+  std::erase_if(contestants_, [](const auto& one) { return one.runs.empty(); });
+  std::vector<std::string> names;
+  for (const ComparedContestant& one : contestants_) names.push_back(one.own_name);
   if (sessions_.size() > 1) {
     ExtendRepeated(&names,
                    [&](std::size_t i) { return ", " + session_names_[contestants_[i].session]; });
@@ -142,8 +163,10 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
   }
   outcomes_ = GroupOutcomes(attempts);
   pooled_ = PoolSets(outcomes_);
+  common_ = CommonOutcomes(outcomes_, pooled_.size());
+  pooled_common_ = PoolSets(common_);
   std::map<std::string, std::pair<double, double>> ranks;  // The least first.
-  for (const auto& [name, outcomes] : pooled_) {
+  for (const auto& [name, outcomes] : common_.empty() ? pooled_ : pooled_common_) {
     const double penalised_mean_s = SummarizeTimes(outcomes).penalised_mean_s;
     ranks[name] = {std::isnan(penalised_mean_s) ? kInfinity : penalised_mean_s,
                    -SummarizeSuccess(outcomes).share};

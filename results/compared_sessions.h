@@ -39,21 +39,32 @@ class ComparedSessions {
   const std::vector<std::string>& session_names() const { return session_names_; }
   /// Sets that have the name of an earlier session's, and other scenes: what they stand as.
   const std::vector<std::string>& other_sets() const { return other_sets_; }
-  /// By penalised mean time over all runs, the best first; those of which it is not known last, by
-  /// the share of problems solved.
+  /// By penalised mean time over the problems that all of them tried, the best first; those of
+  /// which it is not known last, by the share of these that they solved. If there is no such
+  /// problem, by the same of what each tried, which ranks nobody.
   const std::vector<ComparedContestant>& contestants() const { return contestants_; }
   /// By set and the contestants' names.
   const OutcomesBySet& outcomes() const { return outcomes_; }
   /// Over all sets.
   const std::map<std::string, Outcomes>& pooled() const { return pooled_; }
+  /// What contestants rank by: outcomes() on the problems that all contestants tried, without sets
+  /// that have none; and over all sets.
+  const OutcomesBySet& common() const { return common_; }
+  const std::map<std::string, Outcomes>& pooled_common() const { return pooled_common_; }
+  /// Attempts of each session that are in no run here, the one in the other direction being missing
+  /// (awaited_attempts.h).
+  const std::vector<int>& num_awaiting() const { return num_awaiting_; }
 
  private:
   std::vector<StoredSession> sessions_;
+  std::vector<int> num_awaiting_;
   std::vector<std::string> session_names_;
   std::vector<std::string> other_sets_;
   std::vector<ComparedContestant> contestants_;
   OutcomesBySet outcomes_;
   std::map<std::string, Outcomes> pooled_;
+  OutcomesBySet common_;
+  std::map<std::string, Outcomes> pooled_common_;
 };
 
 /// Runs without a confirmed path that ended alike: their reasons are equal WithoutFigures.

@@ -73,6 +73,20 @@ int Outcomes::num_runs() const {
   return static_cast<int>(count);
 }
 
+std::map<std::string, Outcomes> OnCommonProblems(std::map<std::string, Outcomes> contestants) {
+  std::map<int, std::size_t> num_tried;
+  for (const auto& [name, outcomes] : contestants) {
+    for (const auto& [problem, trials] : outcomes.by_problem) ++num_tried[problem];
+  }
+  const std::size_t num_contestants = contestants.size();
+  for (auto& [name, outcomes] : contestants) {
+    std::erase_if(outcomes.by_problem, [&](const auto& problem) {
+      return num_tried.at(problem.first) < num_contestants;
+    });
+  }
+  return contestants;
+}
+
 OutcomesBySet GroupOutcomes(const std::vector<Attempt>& attempts) {
   struct Pair {
     const Attempt* forward = nullptr;

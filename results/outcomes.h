@@ -94,6 +94,9 @@ struct Outcomes {
   int num_runs() const;
 };
 
+/// Of each contestant what all of them tried; none has a problem if there is none in common.
+std::map<std::string, Outcomes> OnCommonProblems(std::map<std::string, Outcomes> contestants);
+
 /// By problem set, then by contestant.
 using OutcomesBySet = std::map<std::string, std::map<std::string, Outcomes>>;
 /// The attempts may come in any order.

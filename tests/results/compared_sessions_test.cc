@@ -50,6 +50,85 @@ TEST(ComparedSessionsTest, ContestantsRankByPenalisedMeanTime) {
   EXPECT_EQ(compared.session_names(), std::vector<std::string>{"one"});
 }
 
+TEST(ComparedSessionsTest, ContestantsRankByTheProblemsThatAllTried) {
+  // "easy" is slower on the problem that both tried; the one that it alone tried is easy.
+  const ComparedSessions compared(
+      {Session("one", {{"easy", ""}, {"fair", ""}, {"absent", ""}},
+               {MakeRun(0, 1, 2), MakeRun(0, 2, 0.001), MakeRun(0, 4, 1), MakeRun(1, 1, 1),
+                MakeRun(1, 3, 9), MakeRun(1, 4, 1)})});
+  EXPECT_EQ(Names(compared), (std::vector<std::string>{"fair", "easy"})) << "who has runs";
+  ASSERT_EQ(compared.common().size(), 1u);
+  for (const char* name : {"easy", "fair"}) {
+    EXPECT_EQ(compared.common().at("shelf").at(name).by_problem.size(), 2u);
+    EXPECT_EQ(compared.pooled_common().at(name).by_problem.size(), 2u);
+    EXPECT_EQ(compared.pooled().at(name).by_problem.size(), 3u);
+  }
+}
+
+TEST(ComparedSessionsTest, WithoutACommonProblemNothingIsCommon) {
+  const ComparedSessions compared(
+      {Session("one", {{"A", ""}, {"B", ""}}, {MakeRun(0, 1, 1), MakeRun(1, 2, 2)})});
+  EXPECT_TRUE(compared.common().empty());
+  EXPECT_TRUE(compared.pooled_common().empty());
+  EXPECT_EQ(compared.contestants().size(), 2u);
+}
+
+/// A failed attempt with the answer of a planner of that name on the bus.
+StoredRun FailedAttempt(std::size_t contestant, int problem, const std::string& planner,
+                        Direction direction = Direction::kForward) {
+  StoredRun run = MakeRun(contestant, problem, 10, PlanStatus::kTimedOut);
+  run.roundtrip_time_s = 10;
+  run.direction = direction;
+  run.request_id = "id/a/shelf/1/" + planner + "/forward/1";
+  return run;
+}
+
+TEST(AwaitedAttemptsTest, AFailureWhoseOtherDirectionIsMissingIsMissing) {
+  const auto backward = [](std::size_t contestant, int problem) {
+    return FailedAttempt(contestant, problem, "one_way", Direction::kBackward);
+  };
+  StoredSession session =
+      Session("one", {{"one way", ""}, {"both ends", ""}},
+              {FailedAttempt(0, 1, "one_way"), backward(0, 1), FailedAttempt(1, 1, "both_ends"),
+               MakeRun(0, 2, 1), MakeRun(0, 3, 1, PlanStatus::kInvalidPath),
+               FailedAttempt(0, 4, "one_way")});
+  session.runs[4].claimed = true;  // a claimed path is not followed by the other direction
+  session.flags["directions"] = "auto";
+  session.described = true;
+  session.num_runs = 9;
+  const ComparedSessions compared({session});
+  EXPECT_EQ(compared.num_awaiting(), std::vector<int>{1});
+  const auto& tried = compared.outcomes().at("shelf").at("one way").by_problem;
+  EXPECT_EQ(tried.size(), 3u);
+  EXPECT_FALSE(tried.contains(4));
+  EXPECT_EQ(compared.outcomes().at("shelf").at("both ends").by_problem.size(), 1u);
+  EXPECT_EQ(compared.sessions()[0].runs.size(), 5u);
+
+  session.finished = true;
+  session.num_runs = static_cast<int>(session.runs.size());
+  EXPECT_EQ(ComparedSessions({session}).num_awaiting(), std::vector<int>{0}) << "complete";
+}
+
+TEST(AwaitedAttemptsTest, WhoNeverTriedBackwardIsKnownByTheSession) {
+  StoredSession session =
+      Session("one", {{"A", ""}}, {MakeRun(0, 1, 1), FailedAttempt(0, 2, "one_way")});
+  session.num_runs = 4;
+  const auto num_awaiting = [&] { return ComparedSessions({session}).num_awaiting().front(); };
+  EXPECT_EQ(num_awaiting(), 0) << "nothing is known";
+  session.flags["directions"] = "auto";
+  EXPECT_EQ(num_awaiting(), 0) << "the planner searches from both ends";
+  session.backward_planners = {"one_way"};
+  EXPECT_EQ(num_awaiting(), 1);
+  session.runs.push_back(MakeRun(0, 3, 1));
+  EXPECT_EQ(num_awaiting(), 0) << "it went on without";
+  session.flags["directions"] = "both";
+  session.runs.pop_back();
+  session.backward_planners.clear();
+  EXPECT_EQ(num_awaiting(), 1);
+  session.imported = true;
+  EXPECT_EQ(num_awaiting(), 0);
+}
+
 TEST(ComparedSessionsTest, FailuresCountAsTheLongestLimitThatAnybodyHadOnTheProblem) {
   StoredRun short_limit = MakeRun(0, 1, 0.2, PlanStatus::kTimedOut);
   short_limit.time_limit_s = 0.2;
@@ -66,9 +145,12 @@ TEST(ComparedSessionsTest, FailuresCountAsTheLongestLimitThatAnybodyHadOnTheProb
 }
 
 TEST(ComparedSessionsTest, WithoutLimitsWhoSolvesMoreRanksFirst) {
-  std::vector<StoredRun> runs = {MakeRun(0, 1, 0.1), MakeRun(0, 2, 1, PlanStatus::kTimedOut),
-                                 MakeRun(1, 1, 9), MakeRun(1, 2, 9),
-                                 MakeRun(2, 1, 1, PlanStatus::kTimedOut)};
+  std::vector<StoredRun> runs = {MakeRun(0, 1, 0.1),
+                                 MakeRun(0, 2, 1, PlanStatus::kTimedOut),
+                                 MakeRun(1, 1, 9),
+                                 MakeRun(1, 2, 9),
+                                 MakeRun(2, 1, 1, PlanStatus::kTimedOut),
+                                 MakeRun(2, 2, 1, PlanStatus::kTimedOut)};
   for (StoredRun& run : runs) run.time_limit_s = 0;
   const ComparedSessions compared(
       {Session("one", {{"half", ""}, {"all", ""}, {"none", ""}}, runs)});
