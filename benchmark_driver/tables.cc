@@ -141,37 +141,48 @@ std::string TimeTable(const SessionResults& results) {
   return table.Format(notes) + "\n";
 }
 
-/// Pairs of contestants: with the first one, or all.
-std::string PairTable(const SessionResults& results, std::uint64_t seed, bool all) {
-  TextTable table(
-      "Problem by problem",
-      {"contestant", "against", "problems", "won %", "time ratio [95 %]", "p (Wilcoxon)"}, 2);
-  bool any = false;
+/// Pairs of contestants that tried a problem in common: with the first one, or all. p-values are
+/// adjusted for all of them in either table, as in the report's.
+std::string PairTable(const SessionResults& results, bool all) {
+  TextTable table("Problem by problem",
+                  {"contestant", "against", "problems", "won %", "time ratio [95 %]", "p (Holm)"},
+                  2);
+  std::vector<PairedComparison> shown;
   for (const SetResults& set : results.sets()) {
     table.AddHeading(set.name);
     const auto& contestants = set.contestants;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  // against whom, and who
+    std::vector<PairedComparison> of_set;
     for (std::size_t a = 0; a < contestants.size(); ++a) {
       for (std::size_t b = a + 1; b < contestants.size(); ++b) {
-        if (a > 0 && !all) continue;
-        any = true;
-        const ContestantResults& one = contestants[b];
-        const PairedComparison pair = Compare(one.outcomes, contestants[a].outcomes, seed);
-        const auto format = [](double value) { return fmt::format("{:.3g}", value); };
-        table.Add({one.label(), contestants[a].label(), Count(pair.num_problems),
-                   Number(100 * pair.wins.Share(), 1),
-                   pair.ratio ? WithInterval(format(pair.ratio->mean), pair.ratio->interval, format)
-                              : "-",
-                   pair.test.p_value < 1e-4 ? "< 0.0001" : Number(pair.test.p_value, 4)});
+        const PairedComparison pair = Compare(contestants[b].outcomes, contestants[a].outcomes);
+        if (pair.num_problems == 0) continue;
+        pairs.emplace_back(a, b);
+        of_set.push_back(pair);
       }
     }
+    const std::vector<double> adjusted = AdjustedPValues(of_set);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (pairs[i].first > 0 && !all) continue;
+      const PairedComparison& pair = of_set[i];
+      shown.push_back(pair);
+      const auto format = [](double value) { return fmt::format("{:.3g}", value); };
+      table.Add(
+          {contestants[pairs[i].second].label(), contestants[pairs[i].first].label(),
+           Count(pair.num_problems), Number(100 * pair.wins.Share(), 1),
+           pair.ratio ? WithInterval(format(pair.ratio->mean), pair.ratio->interval, format) : "-",
+           adjusted[i] < 1e-4 ? "< 0.0001" : Number(adjusted[i], 4)});
+    }
   }
-  if (!any) return "";
+  if (shown.empty()) return "";
   return table.Format(
              "won: share of the problems that the first solved faster, or alone; a tie is half. "
              "time ratio: geometric mean of first / second over the problems that both solved, "
-             "with a bootstrap interval, of six at least; below 1 the first is faster. p: of the "
-             "signed-rank test "
-             "that neither is faster, two-sided, problems that only one solved included.\n") +
+             "with Student's interval of the logarithms' mean, of six at least; below 1 the first "
+             "is faster. p: of Wilcoxon's signed-rank test that neither is faster, two-sided, "
+             "problems that only one solved included, adjusted for all pairs of the set (Holm), "
+             "those that only tables.txt shows too." +
+             ZeroTimesNote(shown) + "\n") +
          "\n";
 }
 
@@ -291,6 +302,23 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   return text + OddTimesTold(results) + Disturbances(results) + "\n";
 }
 
+/// What is in no table since it was not made, or awaits what was not; "" if nothing.
+std::string Missing(int num_made, int num_missing, int num_awaiting) {
+  std::string text;
+  if (num_missing > 0) {
+    text = fmt::format("{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.",
+                       num_missing, num_made + num_missing);
+  }
+  if (num_awaiting > 0) {
+    text += fmt::format(
+        "{}{} more found nothing in one direction while the other is missing: what comes of {} is "
+        "not known, and no figure counts {} either.",
+        text.empty() ? "" : " ", num_awaiting, num_awaiting == 1 ? "it" : "them",
+        num_awaiting == 1 ? "it" : "them");
+  }
+  return text.empty() ? "" : BreakLines(text + "\n", 0) + "\n";
+}
+
 /// Which problems are in no table, and why; "" if none.
 std::string LeftOut(const std::map<std::string, std::string>& left_out) {
   if (left_out.empty()) return "";
@@ -309,21 +337,16 @@ std::string LeftOut(const std::map<std::string, std::string>& left_out) {
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing,
                          const std::map<std::string, std::string>& left_out) {
-  std::string missing =
-      num_missing == 0
-          ? ""
-          : fmt::format(
-                "{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.\n\n",
-                num_missing, static_cast<int>(runs.size()) + num_missing);
-  missing += LeftOut(left_out);
-  if (runs.empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const SessionResults results(conditions, runs, references);
-  const std::uint64_t seed = conditions.request.seed;
+  const std::string missing =
+      Missing(static_cast<int>(runs.size()), num_missing, results.num_awaiting()) +
+      LeftOut(left_out);
+  if (results.sets().empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const std::string begin =
       missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results);
-  return {begin + PairTable(results, seed, false) + meshes + FailureSummary(results),
-          begin + DirectionTable(results) + PairTable(results, seed, true) + EffortTable(results) +
+  return {begin + PairTable(results, false) + meshes + FailureSummary(results),
+          begin + DirectionTable(results) + PairTable(results, true) + EffortTable(results) +
               meshes + FailureList(results)};
 }
 

@@ -12,8 +12,6 @@
 namespace planbench {
 namespace {
 
-constexpr double kLevel = 0.05;
-
 std::string Count(int count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -65,12 +63,24 @@ bool NobodySolvedAny(const ComparedSessions& compared) {
                      [](const auto& one) { return SummarizeSuccess(one.second).confirmed == 0; });
 }
 
+/// Whether contestants tried other problems than those that all of them tried.
+bool TriedDifferentProblems(const ComparedSessions& compared) {
+  return std::any_of(compared.pooled().begin(), compared.pooled().end(), [&](const auto& one) {
+    const auto common = compared.pooled_common().find(one.first);
+    return common == compared.pooled_common().end() ||
+           common->second.by_problem.size() < one.second.by_problem.size();
+  });
+}
+
+int NumCommonProblems(const ComparedSessions& compared) {
+  const auto& common = compared.pooled_common();
+  return common.empty() ? 0 : static_cast<int>(common.begin()->second.by_problem.size());
+}
+
 std::string WhoIsBest(const ComparedSessions& compared) {
   const std::string& leader = compared.contestants().front().name;
-  const Outcomes& outcomes = compared.pooled().at(leader);
+  const Outcomes& outcomes = compared.pooled_common().at(leader);
   const auto num_contestants = compared.contestants().size();
-  const auto num_sets = std::count_if(compared.outcomes().begin(), compared.outcomes().end(),
-                                      [&](const auto& set) { return set.second.contains(leader); });
   const char* rule = std::isnan(SummarizeTimes(outcomes).penalised_mean_s)
                          ? "the share solved, as time limits are not known"
                          : "penalised mean time";
@@ -79,17 +89,16 @@ std::string WhoIsBest(const ComparedSessions& compared) {
                                 ? called
                                 : fmt::format("Of {} contestants {} ranks first by {}: it",
                                               num_contestants, called, rule);
-  return fmt::format("{} solved {}{}, over {} of {}.", begin, SolvedShare(outcomes),
-                     MedianTime(outcomes),
-                     Count(static_cast<int>(outcomes.by_problem.size()), "problem"),
-                     Count(static_cast<int>(num_sets), "set"));
+  return fmt::format("{} solved {}{}, over {}{} of {}.", begin, SolvedShare(outcomes),
+                     MedianTime(outcomes), TriedDifferentProblems(compared) ? "the " : "",
+                     Count(NumCommonProblems(compared), "problem"),
+                     Count(static_cast<int>(compared.common().size()), "set") +
+                         (TriedDifferentProblems(compared) ? " that all of them tried" : ""));
 }
 
 std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next) {
-  const bool is_second = next.second == compared.contestants()[1].name;
-  std::string text =
-      fmt::format("The next{}, {}, solved {}", is_second ? "" : " that tried a problem of its",
-                  Called(compared, next.second), SolvedShare(compared.pooled().at(next.second)));
+  std::string text = fmt::format("The next, {}, solved {}", Called(compared, next.second),
+                                 SolvedShare(compared.pooled_common().at(next.second)));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
     text += fmt::format(" and took {} times as long on the {} that both solved (geometric mean",
@@ -103,48 +112,69 @@ std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next
     } else {
       text += "), too few to tell which of the two is faster";
     }
+    if (next.result.num_zero > 0) {
+      text += fmt::format("; {} with a time of 0 left out", next.result.num_zero);
+    }
   }
   return text + ".";
 }
 
+/// "A, B and 3 more"
+std::string Named(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostNamed = 4;
+  const std::size_t num_named = std::min(names.size(), kMostNamed);
+  return fmt::format(
+      "{}{}",
+      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(num_named), ", "),
+      names.size() > num_named ? fmt::format(" and {} more", names.size() - num_named) : "");
+}
+
+/// `num_tests`: those that the p-values are adjusted for.
 std::string HowSure(const ComparedSessions& compared,
-                    const std::vector<const ComparedPair*>& of_leader) {
-  std::vector<std::string> open;
+                    const std::vector<const ComparedPair*>& of_leader, std::size_t num_tests) {
+  // Of too few problems the test cannot show anything, whatever the times.
+  const int fewest = FewestDifferences(kTestLevel, num_tests);
+  std::vector<std::string> open, untested;
   for (const ComparedPair* pair : of_leader) {
-    if (pair->adjusted_p > kLevel || pair->result.test.RankBiserial() >= 0) {
-      open.push_back(Called(compared, pair->second));
-    }
+    const SignedRankTest& test = pair->result.test;
+    if (pair->adjusted_p <= kTestLevel && test.negative > test.positive) continue;
+    const bool too_few = pair->adjusted_p > kTestLevel && pair->result.num_problems < fewest;
+    (too_few ? untested : open).push_back(Called(compared, pair->second));
   }
   const std::string& leader = of_leader.front()->first;
   const std::string called = Called(compared, leader);
   std::string text;
-  if (of_leader.size() == 1) {
+  if (of_leader.size() == 1 && !untested.empty()) {
+    text = fmt::format("Too few problems to test whether {} is faster than {}: {}, {} would do",
+                       called, untested.front(), of_leader.front()->result.num_problems, fewest);
+  } else if (of_leader.size() == 1) {
     text = fmt::format("Problem by problem {} {} {} beyond chance (signed-rank test, 5 % level)",
                        called, open.empty() ? "is faster than" : "is not shown to be faster than",
                        Called(compared, of_leader.front()->second));
+  } else if (untested.size() == of_leader.size()) {
+    text = fmt::format(
+        "Too few problems to test whether {} is faster than any of the {} others: {} would do "
+        "(signed-rank tests, 5 % level after Holm's correction)",
+        called, of_leader.size(), fewest);
   } else {
+    const std::size_t num_shown = of_leader.size() - open.size() - untested.size();
     text = fmt::format(
         "Problem by problem {} is faster than {} others beyond chance (signed-rank tests, 5 % "
-        "level "
-        "after Holm's correction)",
+        "level after Holm's correction)",
         called,
-        open.empty()
-            ? fmt::format("each of the {}", of_leader.size())
-            : fmt::format("{} of the {}", of_leader.size() - open.size(), of_leader.size()));
-    constexpr std::size_t kMostNamed = 4;
-    const std::size_t num_named = std::min(open.size(), kMostNamed);
-    if (!open.empty()) {
-      text += fmt::format(
-          "; not than {}{}",
-          fmt::join(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(num_named), ", "),
-          open.size() > num_named ? fmt::format(" and {} more", open.size() - num_named) : "");
+        num_shown == of_leader.size() ? fmt::format("each of the {}", num_shown)
+                                      : fmt::format("{} of the {}", num_shown, of_leader.size()));
+    if (!open.empty()) text += "; not than " + Named(open);
+    if (!untested.empty()) {
+      text += fmt::format("; too few problems for the test with {} ({} would do)", Named(untested),
+                          fewest);
     }
   }
   if (compared.outcomes().size() > 1) {
     const auto leads = [&](const auto& set) {
-      const auto& [name, by_contestant] = set;
+      const std::map<std::string, Outcomes> by_contestant = OnCommonProblems(set.second);
       const auto own = by_contestant.find(leader);
-      return own != by_contestant.end() &&
+      return own != by_contestant.end() && !own->second.by_problem.empty() &&
              std::none_of(by_contestant.begin(), by_contestant.end(), [&](const auto& other) {
                return SummarizeTimes(other.second).penalised_mean_s <
                       SummarizeTimes(own->second).penalised_mean_s;
@@ -211,6 +241,20 @@ std::string OnTheLimits(const std::string& set,
       set, FormatNumber(*limits_s.begin()), FormatNumber(*limits_s.rbegin()), kLimitsNote);
 }
 
+/// What contestants that tried different problems are ranked by.
+std::string OnDifferentProblems(const ComparedSessions& compared) {
+  std::vector<std::string> numbers;
+  for (const ComparedContestant& one : compared.contestants()) {
+    numbers.push_back(
+        fmt::format("{} {}", one.name, compared.pooled().at(one.name).by_problem.size()));
+  }
+  const int num_common = NumCommonProblems(compared);
+  return fmt::format("The contestants tried different problems ({}): {}.", Named(numbers),
+                     num_common == 0
+                         ? "none that all of them tried, so that none ranks first"
+                         : fmt::format("they rank by the {} that all of them tried", num_common));
+}
+
 std::string LeftOut(const std::string& name, const std::map<std::string, std::string>& left_out) {
   std::vector<std::string> problems;
   for (const auto& [problem, reason] : left_out) problems.push_back(problem);
@@ -247,18 +291,27 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
       sentences.push_back(std::move(trained));
     }
   };
+  if (compared.common().empty()) {
+    return {fmt::format("None of {} contestants ranks first: there is no problem that all of them "
+                        "tried.",
+                        compared.contestants().size()),
+            (pairs.empty() ? "Nobody tried a problem that another tried; "
+                           : "Those who tried some in common are compared problem by problem; ") +
+                Rejections(compared) + "."};
+  }
   sentences.push_back(WhoIsBest(compared));
   add_training(compared.contestants().front());
   const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
   if (of_leader.empty()) {
-    const char* nothing = compared.contestants().size() == 1
-                              ? "There is nothing to compare it with; "
-                              : "Nobody else tried a problem that it tried; ";
-    sentences.push_back(nothing + Rejections(compared) + ".");
+    sentences.push_back("There is nothing to compare it with; " + Rejections(compared) + ".");
   } else {
     sentences.push_back(ByHowMuch(compared, *of_leader.front()));
     add_training(ContestantCalled(compared, of_leader.front()->second));
-    sentences.push_back(HowSure(compared, of_leader) + "; " + Rejections(compared) + ".");
+    const std::string& set = of_leader.front()->set;
+    const auto num_tests = static_cast<std::size_t>(std::count_if(
+        pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.set == set; }));
+    sentences.push_back(HowSure(compared, of_leader, num_tests) + "; " + Rejections(compared) +
+                        ".");
   }
   return sentences;
 }
@@ -271,6 +324,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
                     "compared with them.",
                     set));
   }
+  if (TriedDifferentProblems(compared)) cautions.push_back(OnDifferentProblems(compared));
   for (const auto& [set, by_contestant] : compared.outcomes()) {
     if (const std::string limits = OnTheLimits(set, by_contestant); !limits.empty()) {
       cautions.push_back(limits);
@@ -280,6 +334,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     const StoredSession& session = compared.sessions()[i];
     const std::string& name = compared.session_names()[i];
     const int num_runs = static_cast<int>(session.runs.size());
+    const int num_awaiting = compared.num_awaiting()[i];
     if (session.imported) {
       cautions.push_back(fmt::format(
           "{}: {} runs from elsewhere, on another machine or under other conditions; no referee "
@@ -297,6 +352,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     } else {
       cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
                                      FormatNumber(session.total_time_s)));
+    }
+    if (num_awaiting > 0) {
+      cautions.push_back(fmt::format(
+          "{}: {} found nothing in one direction while the other is missing: counted as missing, "
+          "too, not as failed.",
+          name, Count(num_awaiting, "more run")));
     }
     if (!session.left_out.empty()) {
       cautions.push_back(LeftOut(name, session.left_out));

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -80,13 +81,23 @@ std::vector<StoredSession> ReadImports(const Flags& flags,
 
 std::vector<StoredSession> ReadAll(const Flags& flags) {
   std::vector<StoredSession> sessions;
+  std::map<std::string, std::string> places;  // by run id
   for (const std::string& name : flags.sessions) {
     StoredSessions stored = ReadSessions(name);
     if (stored.num_foreign_runs > 0) {
       std::cerr << fmt::format("report: {}: {} runs of other programs are left out (--import)\n",
                                name, stored.num_foreign_runs);
     }
-    std::move(stored.sessions.begin(), stored.sessions.end(), std::back_inserter(sessions));
+    for (StoredSession& session : stored.sessions) {
+      const auto [place, is_new] = places.emplace(session.run_id, name);
+      if (!is_new) {
+        throw InputError(fmt::format(
+            "{} and {} hold the same session, {}, which cannot be compared with itself: name one "
+            "of them, or make one of both with --merge",
+            place->second, name, session.run_id));
+      }
+      sessions.push_back(std::move(session));
+    }
   }
   std::vector<StoredSession> imported = ReadImports(flags, sessions);
   std::move(imported.begin(), imported.end(), std::back_inserter(sessions));
@@ -129,9 +140,8 @@ int Run(Flags flags) {
   std::vector<StoredSession> sessions = ReadAll(flags);
   if (!flags.ompl_log.empty()) WriteOmplLogs(flags.ompl_log, sessions);
   const ComparedSessions compared(std::move(sessions));
-  const std::uint64_t seed = BootstrapSeed(compared);
-  const std::vector<ComparedPair> pairs = ComparePairs(compared, seed);
-  const std::vector<Table> tables = AllTables(compared, pairs, seed);
+  const std::vector<ComparedPair> pairs = ComparePairs(compared);
+  const std::vector<Table> tables = AllTables(compared, pairs);
   WriteTables(flags.csv, ".csv", tables, TableCsv);
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);

@@ -134,15 +134,15 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   return table;
 }
 
-Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
+Table ChangeTable(const ComparedSessions& compared) {
   Table table{
       "changes",
       "What changed from session to session",
       "Contestants of one name, on the problems that both sessions have, against the session that "
-      "was "
-      "begun first. Time ratio: geometric mean of after / before over the problems solved in both, "
-      "with a bootstrap 95 % interval. p: signed-rank test of problem by problem, adjusted for all "
-      "rows (Holm). Faster or slower: beyond chance at the 5 % level.",
+      "was begun first. Time ratio: geometric mean of after / before over the problems solved in "
+      "both, with Student's 95 % interval. p: signed-rank test of problem by problem, adjusted for "
+      "all rows (Holm). Faster or slower: beyond chance at the 5 % level; too few problems: that "
+      "could not be shown of so few.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"before", "before"},
@@ -175,7 +175,7 @@ Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
       if (before == nullptr || !by_contestant.contains(after.name)) continue;
       const Outcomes& old_outcomes = by_contestant.at(before->name);
       const Outcomes& new_outcomes = by_contestant.at(after.name);
-      const PairedComparison result = Compare(new_outcomes, old_outcomes, seed);
+      const PairedComparison result = Compare(new_outcomes, old_outcomes);
       if (result.num_problems == 0) continue;
       table.rows.push_back(
           {set, after.own_name, compared.session_names()[before->session],
@@ -185,15 +185,18 @@ Table ChangeTable(const ComparedSessions& compared, std::uint64_t seed) {
       results.push_back(result);
     }
   }
-  std::vector<double> p_values;
-  for (const PairedComparison& result : results) p_values.push_back(result.test.p_value);
-  const std::vector<double> adjusted = AdjustPValues(p_values);
+  const std::vector<double> adjusted = AdjustedPValues(results);
+  const int fewest = FewestDifferences(kTestLevel, results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const double effect = results[i].test.RankBiserial();
-    const bool sure = adjusted[i] <= 0.05;
+    const SignedRankTest& test = results[i].test;
+    const char* change = adjusted[i] <= kTestLevel
+                             ? (test.negative > test.positive ? "faster" : "slower")
+                         : results[i].num_problems < fewest ? "too few problems"
+                                                            : "not shown";
     table.rows[i].emplace_back(adjusted[i]);
-    table.rows[i].emplace_back(std::string(!sure ? "not shown" : effect < 0 ? "faster" : "slower"));
+    table.rows[i].emplace_back(std::string(change));
   }
+  table.note += ZeroTimesNote(results);
   return table;
 }
 
@@ -206,8 +209,10 @@ Table ConditionTable(const ComparedSessions& compared) {
               "which luck counts little. Both need several trials of a problem, which a "
               "contestant whose path does not depend on the seed has none of. Load before: of the "
               "machine over the minute before a run, the session's own included; median. Waited: "
-              "for a processor, or while a hypervisor had it, of all the time from request to "
-              "answer. Disturbed: runs that lost more than --max-disturbance so; repeated: had "
+              "what threads of the planner waited for a processor, summed over them, and what a "
+              "hypervisor took, in per cent of the time from request to answer, summed over the "
+              "runs; several threads that wait at once can make it more than 100. Disturbed: runs "
+              "that lost more than --max-disturbance so; repeated: had "
               "been, and were made again.",
               {{"session", "session"},
                {"contestant", "contestant"},

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <set>
@@ -120,15 +119,6 @@ std::string Commonest(const std::map<std::string, int>& counts) {
   return most == counts.end() ? "" : fmt::format("{} ({})", most->first, most->second);
 }
 
-void AdjustSet(std::vector<ComparedPair>::iterator first,
-               std::vector<ComparedPair>::iterator last) {
-  std::vector<double> p_values;
-  for (auto pair = first; pair != last; ++pair) p_values.push_back(pair->result.test.p_value);
-  const std::vector<double> adjusted = AdjustPValues(p_values);
-  for (std::size_t i = 0; i < adjusted.size(); ++i)
-    (first + static_cast<std::ptrdiff_t>(i))->adjusted_p = adjusted[i];
-}
-
 }  // namespace
 
 bool IsTrained(const ComparedSessions& compared, const std::string& set,
@@ -170,35 +160,34 @@ std::string LimitsNote(const ComparedSessions& compared) {
   return fmt::format("Time limits differ on {}. {}", fmt::join(sets, ", "), kLimitsNote);
 }
 
-std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed) {
+std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared) {
   std::vector<ComparedPair> pairs;
   const auto compare_all = [&](const std::string& set,
                                const std::map<std::string, Outcomes>& by_contestant) {
-    const auto num_before = static_cast<std::ptrdiff_t>(pairs.size());
+    const std::size_t num_before = pairs.size();
+    std::vector<PairedComparison> of_set;
     const auto& contestants = compared.contestants();
     for (std::size_t a = 0; a < contestants.size(); ++a) {
       for (std::size_t b = a + 1; b < contestants.size(); ++b) {
         const auto first = by_contestant.find(contestants[a].name);
         const auto second = by_contestant.find(contestants[b].name);
         if (first == by_contestant.end() || second == by_contestant.end()) continue;
-        PairedComparison result = Compare(first->second, second->second, seed);
-        if (result.num_problems == 0) continue;
-        pairs.push_back({set, first->first, second->first, result});
+        of_set.push_back(Compare(first->second, second->second));
+        if (of_set.back().num_problems == 0) {
+          of_set.pop_back();
+          continue;
+        }
+        pairs.push_back({set, first->first, second->first, of_set.back()});
       }
     }
-    AdjustSet(pairs.begin() + num_before, pairs.end());
+    const std::vector<double> adjusted = AdjustedPValues(of_set);
+    for (std::size_t i = 0; i < adjusted.size(); ++i) {
+      pairs[num_before + i].adjusted_p = adjusted[i];
+    }
   };
   for (const auto& [set, by_contestant] : compared.outcomes()) compare_all(set, by_contestant);
   if (compared.outcomes().size() > 1) compare_all(kAllSets, compared.pooled());
   return pairs;
-}
-
-std::uint64_t BootstrapSeed(const ComparedSessions& compared) {
-  std::uint64_t seed = 1;
-  if (compared.sessions().empty()) return seed;
-  const std::string& text = compared.sessions().front().seed;
-  std::from_chars(text.data(), text.data() + text.size(), seed);
-  return seed;
 }
 
 Table SuccessTable(const ComparedSessions& compared) {
@@ -245,7 +234,8 @@ Table TimeTable(const ComparedSessions& compared) {
       "From request and scene at hand to the first confirmed path, failed attempts before it "
       "included. Every solved problem counts once, by the median of its trials; the median's 95 % "
       "interval lies between order statistics. Penalised mean (PAR-10): over all runs, one without "
-      "a confirmed path as ten times the longest limit that anybody had on its problem.",
+      "a confirmed path as ten times the longest limit that anybody had on its problem. It has no "
+      "interval: it hangs on a few failures, on the tail of what any resampling would go by.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"problems_solved", "problems solved", Style::kCount},
@@ -324,12 +314,11 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
       "Problem by problem",
       "A problem's time is the median of its trials, those that failed being longer than any. "
       "Faster, slower: problems that the first solved faster, or alone, and the other way round. "
-      "Time ratio: geometric mean of first / second over the problems that both solved, with a "
-      "bootstrap 95 % interval (10,000 resamples of the problems, six at least). p: Wilcoxon's "
-      "signed-rank test "
-      "of the logarithms, two-sided, problems that only one solved included; beside it adjusted "
-      "for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the first is "
-      "always faster, 1 if always slower.",
+      "Time ratio: geometric mean of first / second over the problems that both solved, with "
+      "Student's 95 % interval of the logarithms' mean (six problems at least). p: Wilcoxon's "
+      "signed-rank test of the logarithms, two-sided, problems that only one solved included; "
+      "beside it adjusted for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 "
+      "if the first is always faster, 1 if always slower; ties have the lowest ranks and no side.",
       {{"set", "set"},
        {"first", "first"},
        {"second", "second"},
@@ -342,23 +331,26 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
        {"p_holm", "p (Holm)", Style::kPValue},
        {"effect", "effect", Style::kNumber}},
       {}};
+  std::vector<PairedComparison> rows;
   for (const ComparedPair& pair : pairs) {
     const PairedComparison& r = pair.result;
+    rows.push_back(r);
     table.rows.push_back({pair.set, pair.first, pair.second, r.num_problems, r.wins.won,
                           r.wins.lost, r.wins.tied,
                           r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
-                          r.test.p_value, pair.adjusted_p, r.test.RankBiserial()});
+                          r.test.p_value, pair.adjusted_p, r.test.rank_biserial});
   }
+  table.note += ZeroTimesNote(rows);
   return table;
 }
 
-Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
+Table QualityTable(const ComparedSessions& compared) {
   Table table{"quality",
               "Path quality",
               "Measures are the referee's, of confirmed runs; a problem counts once, by the median "
               "of its runs. Ratio: to the reference, which is the contestant of highest rank that "
               "has such values on the set; geometric mean over the common problems, those that "
-              "both have values of, with a bootstrap 95 % interval. Problems at which either's is "
+              "both have values of, with Student's 95 % interval. Problems at which either's is "
               "0, as the smoothness of a straight path, have no ratio and are none of them. "
               "Medians over different problems do not compare.",
               {{"set", "set"},
@@ -389,7 +381,7 @@ Table QualityTable(const ComparedSessions& compared, std::uint64_t seed) {
           if (reference == nullptr) {
             reference = &contestant.name;
           } else {
-            const auto estimate = CompareByProblem(values, all.at(*reference), seed);
+            const auto estimate = CompareByProblem(values, all.at(*reference));
             common_problems = estimate ? estimate->num_pairs : 0;
             if (estimate) ratio = Estimate{estimate->mean, estimate->interval};
           }
@@ -530,12 +522,12 @@ Table MeshTable(const ComparedSessions& compared) {
 }
 
 std::vector<Table> AllTables(const ComparedSessions& compared,
-                             const std::vector<ComparedPair>& pairs, std::uint64_t seed) {
+                             const std::vector<ComparedPair>& pairs) {
   std::vector<Table> tables = {
       SessionTable(compared, false), SuccessTable(compared),  TimeTable(compared),
-      DirectionTable(compared),      PairTable(pairs),        QualityTable(compared, seed),
+      DirectionTable(compared),      PairTable(pairs),        QualityTable(compared),
       PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
-      ChangeTable(compared, seed),   ConditionTable(compared)};
+      ChangeTable(compared),   ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   if (const std::string limits = LimitsNote(compared); !limits.empty()) {
     for (Table& table : tables) {

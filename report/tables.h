@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -40,13 +39,8 @@ struct ComparedPair {
   PairedComparison result;
   double adjusted_p = 1;  ///< Holm's, over the pairs of the set.
 };
-/// All pairs that tried a problem in common, those that rank higher first; `seed` is that of the
-/// bootstrap.
-std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared, std::uint64_t seed);
-
-/// Seed of the bootstrap: that of the first session, so that its printed tables have the same
-/// intervals.
-std::uint64_t BootstrapSeed(const ComparedSessions& compared);
+/// All pairs that tried a problem in common, those that rank higher first.
+std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared);
 
 Table SuccessTable(const ComparedSessions& compared);
 Table TimeTable(const ComparedSessions& compared);
@@ -55,7 +49,7 @@ Table TimeTable(const ComparedSessions& compared);
 Table DirectionTable(const ComparedSessions& compared);
 Table PairTable(const std::vector<ComparedPair>& pairs);
 /// Medians of every path measure, raw and simplified.
-Table QualityTable(const ComparedSessions& compared, std::uint64_t seed);
+Table QualityTable(const ComparedSessions& compared);
 Table PhaseTable(const ComparedSessions& compared);
 Table FailureTable(const ComparedSessions& compared);
 /// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
@@ -64,6 +58,6 @@ Table MeshTable(const ComparedSessions& compared);
 /// All of them and those of the sessions (session_tables.h) that have rows. Columns of their own
 /// mark who has learned from the set of a row, or from any if rows are of none (training.h).
 std::vector<Table> AllTables(const ComparedSessions& compared,
-                             const std::vector<ComparedPair>& pairs, std::uint64_t seed);
+                             const std::vector<ComparedPair>& pairs);
 
 }  // namespace planbench

@@ -1,5 +1,7 @@
 #include "results/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,14 +29,17 @@ std::vector<double> SolvedTimes(const Outcomes& outcomes, double Outcome::*time)
   return times;
 }
 
+double MedianTime(const std::vector<Outcome>& trials) {
+  return Quantile(SortedTimes(trials, &Outcome::time_s, false), 0.5);
+}
+
 /// log(a / b) for positive a and b, either or both infinite.
 double LogRatio(double a, double b) { return a == b ? 0 : std::log(a) - std::log(b); }
 
 }  // namespace
 
 double ProblemTime(const std::vector<Outcome>& trials) {
-  // A clock may have read the same twice.
-  return std::max(Quantile(SortedTimes(trials, &Outcome::time_s, false), 0.5), 1e-9);
+  return std::max(MedianTime(trials), 1e-9);
 }
 
 SuccessSummary SummarizeSuccess(const Outcomes& outcomes) {
@@ -85,21 +90,47 @@ std::optional<double> TrialSpread(const Outcomes& outcomes) {
   return Summarize(std::move(spreads)).median;
 }
 
-PairedComparison Compare(const Outcomes& first, const Outcomes& second, std::uint64_t seed) {
+PairedComparison Compare(const Outcomes& first, const Outcomes& second) {
+  PairedComparison comparison;
   std::vector<double> times_first, times_second, differences;
+  std::vector<double> divided_first, divided_second;
   for (const auto& [problem, trials] : first.by_problem) {
     const auto other = second.by_problem.find(problem);
     if (other == second.by_problem.end()) continue;
     times_first.push_back(ProblemTime(trials));
     times_second.push_back(ProblemTime(other->second));
     differences.push_back(LogRatio(times_first.back(), times_second.back()));
+    if (!std::isfinite(times_first.back()) || !std::isfinite(times_second.back())) continue;
+    if (MedianTime(trials) == 0 || MedianTime(other->second) == 0) {
+      ++comparison.num_zero;
+      continue;
+    }
+    divided_first.push_back(times_first.back());
+    divided_second.push_back(times_second.back());
   }
-  PairedComparison comparison;
   comparison.num_problems = static_cast<int>(times_first.size());
   comparison.wins = CountWins(times_first, times_second);
-  comparison.ratio = EstimateRatio(times_first, times_second, seed);
+  comparison.ratio = EstimateRatio(divided_first, divided_second);
   comparison.test = TestSignedRanks(differences);
   return comparison;
+}
+
+std::vector<double> AdjustedPValues(const std::vector<PairedComparison>& family) {
+  std::vector<double> p_values;
+  for (const PairedComparison& one : family) p_values.push_back(one.test.p_value);
+  return AdjustPValues(p_values);
+}
+
+std::string ZeroTimesNote(const std::vector<PairedComparison>& rows) {
+  int num_zero = 0, num_rows = 0;
+  for (const PairedComparison& row : rows) {
+    num_zero += row.num_zero;
+    num_rows += row.num_zero > 0;
+  }
+  if (num_zero == 0) return "";
+  return fmt::format(
+      " Left out of the ratios of {} row{}, since a time is 0: {} problem{} that both solved.",
+      num_rows, num_rows == 1 ? "" : "s", num_zero, num_zero == 1 ? "" : "s");
 }
 
 }  // namespace planbench

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "results/outcomes.h"
 #include "results/paired.h"
@@ -40,7 +42,8 @@ TimeSummary SummarizeTimes(const Outcomes& outcomes);
 std::optional<double> TrialSpread(const Outcomes& outcomes);
 
 /// A problem's time: the median over its trials, those without a confirmed path being longer than
-/// any; positive, or infinite.
+/// any; positive, or infinite. 1 ns is what stands for a time of 0, as of a clock that read the
+/// same twice: shorter than any other, and no time to divide by.
 double ProblemTime(const std::vector<Outcome>& trials);
 
 /// Two contestants on the problems of a set that both tried.
@@ -48,8 +51,16 @@ struct PairedComparison {
   int num_problems = 0;
   Wins wins;                           ///< Of the first.
   std::optional<RatioEstimate> ratio;  ///< First / second, of problems with both times finite.
-  SignedRankTest test;                 ///< Of the logarithms' differences.
+  int num_zero = 0;     ///< Problems that both solved, left out of the ratio: a time is 0.
+  SignedRankTest test;  ///< Of the logarithms' differences.
 };
-PairedComparison Compare(const Outcomes& first, const Outcomes& second, std::uint64_t seed);
+PairedComparison Compare(const Outcomes& first, const Outcomes& second);
+
+/// The comparisons' p-values adjusted for all of them (AdjustPValues), in their order.
+std::vector<double> AdjustedPValues(const std::vector<PairedComparison>& family);
+
+/// What stands below a table of ratios of which some problems are left out since a time is 0, a
+/// blank before it; "" if none are.
+std::string ZeroTimesNote(const std::vector<PairedComparison>& rows);
 
 }  // namespace planbench

@@ -1,9 +1,7 @@
 #include "results/paired.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -16,22 +14,6 @@ void RequirePairs(const std::vector<double>& first, const std::vector<double>& s
     throw std::invalid_argument("paired values: not as many of both");
   }
 }
-
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014). Resampling takes billions of numbers of a large
-/// comparison, most of the time of which a Mersenne Twister would take.
-class RandomBits {
- public:
-  explicit RandomBits(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t operator()() {
-    std::uint64_t bits = state_ += 0x9e3779b97f4a7c15U;
-    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
-    return bits ^ (bits >> 31U);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 double Mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -55,8 +37,7 @@ Wins CountWins(const std::vector<double>& first, const std::vector<double>& seco
 }
 
 std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
-                                           const std::vector<double>& second, std::uint64_t seed,
-                                           int num_resamples) {
+                                           const std::vector<double>& second) {
   RequirePairs(first, second);
   std::vector<double> logs;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -68,29 +49,16 @@ std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
     }
   }
   if (logs.empty()) return std::nullopt;
-  RatioEstimate estimate{std::exp(Mean(logs)), {}, static_cast<int>(logs.size())};
+  const double mean = Mean(logs);
+  RatioEstimate estimate{std::exp(mean), {}, static_cast<int>(logs.size())};
   constexpr std::size_t kFewestPairs = 6;
   if (logs.size() < kFewestPairs) return estimate;
-
-  // Half of a random number's bits are enough for an index: two values are drawn at once, and
-  // summed apart, since an addition that waits for the last one is what would take the time.
-  RandomBits random(seed);
-  const std::size_t n = logs.size();
-  const auto value = [&](std::uint64_t bits) { return logs[(bits * n) >> 32U]; };
-  std::vector<double> means(static_cast<std::size_t>(num_resamples));
-  for (double& mean : means) {
-    double first_sum = 0, second_sum = 0;
-    for (std::size_t i = 0; i + 1 < n; i += 2) {
-      const std::uint64_t bits = random();
-      first_sum += value(bits >> 32U);
-      second_sum += value(bits & 0xffffffffU);
-    }
-    if (n % 2 == 1) first_sum += value(random() >> 32U);
-    mean = (first_sum + second_sum) / static_cast<double>(n);
-  }
-  std::sort(means.begin(), means.end());
-  constexpr double kTail = (1 - kConfidence) / 2;
-  estimate.interval = {std::exp(Quantile(means, kTail)), std::exp(Quantile(means, 1 - kTail))};
+  double sum_of_squares = 0;
+  for (const double log : logs) sum_of_squares += (log - mean) * (log - mean);
+  const int degrees = estimate.num_pairs - 1;
+  const double half =
+      StudentQuantile(degrees) * std::sqrt(sum_of_squares / degrees / estimate.num_pairs);
+  estimate.interval = {std::exp(mean - half), std::exp(mean + half)};
   return estimate;
 }
 

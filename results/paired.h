@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,12 +25,11 @@ struct RatioEstimate {
   std::optional<Interval> interval;  ///< Nothing of fewer than six pairs.
   int num_pairs = 0;
 };
-/// By the percentile bootstrap over the pairs (Efron), drawn with `seed`: equal seeds give equal
-/// intervals. Of the pairs in which both are finite; nothing if there are none. Resamples of a few
-/// pairs tell nothing of those that were not drawn: as MedianInterval it wants six. Throws
-/// std::invalid_argument for values that are not positive or numbers that differ.
+/// The mean of the logarithms with Student's t interval, of the pairs in which both are finite;
+/// nothing if there are none. Of fewer than six pairs, which no test could tell apart either
+/// (FewestDifferences), it would keep its level only if the logarithms were normally distributed.
+/// Throws std::invalid_argument for values that are not positive or numbers that differ.
 std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
-                                           const std::vector<double>& second, std::uint64_t seed,
-                                           int num_resamples = 10'000);
+                                           const std::vector<double>& second);
 
 }  // namespace planbench

@@ -22,7 +22,7 @@ Summary SummarizeByProblem(const ValuesByProblem& values) {
 }
 
 std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
-                                              const ValuesByProblem& second, std::uint64_t seed) {
+                                              const ValuesByProblem& second) {
   std::vector<double> of_first, of_second;
   for (const auto& [problem, values] : first) {
     const auto other = second.find(problem);
@@ -32,7 +32,7 @@ std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
     of_first.push_back(a);
     of_second.push_back(b);
   }
-  return EstimateRatio(of_first, of_second, seed);
+  return EstimateRatio(of_first, of_second);
 }
 
 std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,7 +21,7 @@ Summary SummarizeByProblem(const ValuesByProblem& values);
 /// Geometric mean of first / second over the problems that have positive values of both, of their
 /// medians: 0 has no ratio. Nothing if there are none.
 std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
-                                              const ValuesByProblem& second, std::uint64_t seed);
+                                              const ValuesByProblem& second);
 
 /// Attempts of a contestant on a set whose path the referee confirmed.
 std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,

@@ -42,6 +42,8 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
   SignedRankTest test;
   test.num_differences = static_cast<int>(sorted.size());
   const double n = test.num_differences;
+  const auto num_zero = static_cast<double>(differences.size()) - n;
+  double signed_ranks = 0, all_ranks = num_zero * (num_zero + 1) / 2;  // Pratt's
   std::vector<int> doubled_ranks;
   double variance = n * (n + 1) * (2 * n + 1) / 24;
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
@@ -51,10 +53,14 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
     variance -= (ties * ties * ties - ties) / 48;
     for (std::size_t i = begin; i < end; ++i) {
       (sorted[i] > 0 ? test.positive : test.negative) += doubled_rank / 2.0;
+      const double rank = num_zero + doubled_rank / 2.0;
+      signed_ranks += std::copysign(rank, sorted[i]);
+      all_ranks += rank;
       doubled_ranks.push_back(doubled_rank);
     }
   }
   if (test.num_differences == 0) return test;
+  test.rank_biserial = signed_ranks / all_ranks;
 
   const double smaller = std::min(test.positive, test.negative);
   if (test.num_differences <= kExactDifferences) {
@@ -66,9 +72,10 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
   return test;
 }
 
-double SignedRankTest::RankBiserial() const {
-  const double sum = positive + negative;
-  return sum == 0 ? 0 : (positive - negative) / sum;
+int FewestDifferences(double level, std::size_t num_tests) {
+  int n = 1;
+  while (static_cast<double>(num_tests) * std::ldexp(1.0, 1 - n) > level) ++n;
+  return n;
 }
 
 std::vector<double> AdjustPValues(const std::vector<double>& p_values) {

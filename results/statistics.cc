@@ -11,6 +11,19 @@ namespace {
 
 constexpr double kZ = 1.959963984540054;  // 97.5 % quantile of the standard normal distribution
 
+/// Probability that Student's t lies between -t and t, t = sqrt(degrees) tan(angle): its closed
+/// form for whole degrees (Abramowitz and Stegun, 26.7.3 and 26.7.4).
+double StudentWithin(int degrees, double angle) {
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const bool odd = degrees % 2 == 1;
+  double term = odd ? cosine : 1, sum = 0;
+  for (int k = odd ? 3 : 2; k <= degrees; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k - 1) / k;
+  }
+  return odd ? 2 / std::numbers::pi * (angle + sine * sum) : sine * sum;
+}
+
 }  // namespace
 
 double Quantile(const std::vector<double>& ascending, double q) {
@@ -67,6 +80,15 @@ std::optional<Interval> MedianInterval(std::vector<double> values) {
   if (k == 0) return std::nullopt;
   const auto index = static_cast<std::size_t>(k - 1);
   return Interval{values[index], values[values.size() - 1 - index]};
+}
+
+double StudentQuantile(int degrees) {
+  double below = 0, above = std::numbers::pi / 2;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = (below + above) / 2;
+    (StudentWithin(degrees, angle) < kConfidence ? below : above) = angle;
+  }
+  return std::sqrt(degrees) * std::tan(below);
 }
 
 double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s,

@@ -40,6 +40,10 @@ Interval WilsonInterval(double successes, int trials);
 /// (fewer than six values). Values may be infinite.
 std::optional<Interval> MedianInterval(std::vector<double> values);
 
+/// How far, in standard errors, Student's t interval of kConfidence reaches to either side: the
+/// 97.5 % quantile of the distribution with `degrees` (of freedom, at least 1).
+double StudentQuantile(int degrees);
+
 /// Mean time of solved and failed runs, each failed one counted as `factor` times its limit (PAR-10
 /// of the algorithm-selection literature with the factor 10); NaN if there are none, or if a limit
 /// is not known (0).

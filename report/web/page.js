@@ -150,7 +150,7 @@ const report = (() => {
       made.append(element("h3", {}, "Where the sessions differ"), tableElement(data.differences));
     }
     if (tables.changes) made.append(element("h3", {}, tables.changes.title), tableBlock("changes", true));
-    made.append(note("Contestants, in the order of their penalised mean time over all runs; each opens to its settings."));
+    made.append(note("Contestants, in the order of their penalised mean time over the problems that all of them tried, or, if there are none, over what each tried; each opens to its settings."));
     data.contestants.forEach((contestant, place) => {
       made.append(element("details", {}, element("summary", {}, contestantSwatch(place), " " + names[place]),
                           element("pre", {tabindex: "0"}, contestant.settings)));

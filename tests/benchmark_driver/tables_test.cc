@@ -173,6 +173,44 @@ TEST(TablesTest, PairsAreComparedProblemByProblem) {
   EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "2 50.0 19.5 1.0000");
 }
 
+TEST(TablesTest, PValuesAreAdjustedForAllPairsOfTheSet) {
+  std::vector<RunRecordMessage> records;
+  for (int problem = 1; problem <= 8; ++problem) {
+    const double time_s = 1 + problem / 10.0;
+    records.push_back(OfProblem(problem, OfRrtConnect(AttemptOf(PlanStatus::kSolved, time_s))));
+    records.push_back(OfProblem(problem, AttemptOf(PlanStatus::kSolved, 2 * time_s)));
+    records.push_back(OfProblem(problem, AttemptOf(PlanStatus::kSolved, 3 * time_s)));
+    records.back().contestant = "third";
+  }
+  // 2 / 2^8 each, of three pairs, though the brief table shows two.
+  for (const std::string& text : {Brief(records), Full(records)}) {
+    EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "8 0.0 2 [2, 2] 0.0234");
+    EXPECT_EQ(Row(text, kPairs, "third RRT-Connect"), "8 0.0 3 [3, 3] 0.0234");
+  }
+}
+
+TEST(TablesTest, ContestantsWithoutACommonProblemAreNoPair) {
+  const std::vector<RunRecordMessage> records = {
+      OfProblem(1, AttemptOf(PlanStatus::kSolved, 1)),
+      OfProblem(2, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 1)))};
+  EXPECT_TRUE(Table(Full(records), kPairs).empty());
+}
+
+TEST(TablesTest, AFailureWhoseOtherDirectionIsMissingIsMissing) {
+  RunRows rows;
+  rows.Add(OfProblem(1, AttemptOf(PlanStatus::kTimedOut, 60)), true);
+  rows.Add(OfProblem(1, Backward(PlanStatus::kSolved, 1)));
+  rows.Add(OfProblem(2, AttemptOf(PlanStatus::kTimedOut, 60)), true);
+  rows.Add(OfProblem(3, AttemptOf(PlanStatus::kTimedOut, 60)));
+  const std::string text = MakeTables(Conditions(), rows, {}, 1).brief;
+  EXPECT_THAT(Row(text, kSuccess, "ARA*"), StartsWith("2 1 1 50.0 ["));
+  EXPECT_THAT(text, StartsWith("1 OF 5 RUNS ARE MISSING"));
+  EXPECT_THAT(text, HasSubstr("1 more found nothing in one direction"));
+  RunRows alone;
+  alone.Add(AttemptOf(PlanStatus::kTimedOut, 60), true);
+  EXPECT_THAT(MakeTables(Conditions(), alone, {}, 1).brief, EndsWith("No runs.\n"));
+}
+
 TEST(TablesTest, AllPairsAreInTheFullTables) {
   auto records = FourProblems();
   auto more = OfProblem(1, AttemptOf(PlanStatus::kSolved, 1));

@@ -66,6 +66,16 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
 }
 
+TEST_F(ReportProgramTest, ASessionIsNotComparedWithItself) {
+  WriteSession(folder_ / "example", {{.contestant = "A"}});
+  std::filesystem::copy(folder_ / "example", folder_ / "copy");
+  for (const char* again : {"example", "copy"}) {
+    EXPECT_EQ(Run({Path("example"), Path(again), "--out", Path("page.html")}), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(Path(again) + " hold the same session, example, which"));
+    EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+  }
+}
+
 TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
   WriteSession(folder_ / "example", {{.contestant = "A"}, {.contestant = "A", .problem = 2}});
   folder_.Write("other.csv", "problem_set,problem_index,solved,time_s\nshelf,1,1,4\nshelf,9,1,4\n");

@@ -303,11 +303,11 @@ TEST(QualityTest, EveryProblemCountsOnceByItsMedian) {
 TEST(QualityTest, RatiosAreOfCommonProblems) {
   const ValuesByProblem first = {{1, {2}}, {2, {8}}, {3, {100}}};
   const ValuesByProblem second = {{1, {1}}, {2, {1}}, {4, {1}}};
-  EXPECT_NEAR(CompareByProblem(first, second, 1)->mean, 4, 1e-12);  // sqrt(2 * 8)
-  EXPECT_FALSE(CompareByProblem(first, {{9, {1}}}, 1));
-  EXPECT_FALSE(CompareByProblem(first, {{1, {0}}}, 1));
+  EXPECT_NEAR(CompareByProblem(first, second)->mean, 4, 1e-12);  // sqrt(2 * 8)
+  EXPECT_FALSE(CompareByProblem(first, {{9, {1}}}));
+  EXPECT_FALSE(CompareByProblem(first, {{1, {0}}}));
   // A straight path's smoothness is 0, which has no ratio: the others have.
-  const auto without_straight = CompareByProblem(first, {{1, {0}}, {2, {2}}, {3, {25}}}, 1);
+  const auto without_straight = CompareByProblem(first, {{1, {0}}, {2, {2}}, {3, {25}}});
   EXPECT_NEAR(without_straight->mean, 4, 1e-12);
   EXPECT_EQ(without_straight->num_pairs, 2);
 }

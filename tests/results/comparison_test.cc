@@ -84,7 +84,7 @@ TEST(CompareTest, PairsProblemsThatBothTried) {
   // tried by the second.
   const Outcomes first = Of({{Solved(2)}, {Solved(8)}, {Solved(1)}, {Failed()}, {Solved(1)}});
   const Outcomes second = Of({{Solved(1)}, {Solved(2)}, {Failed()}, {Failed()}});
-  const PairedComparison pair = Compare(first, second, 1);
+  const PairedComparison pair = Compare(first, second);
   EXPECT_EQ(pair.num_problems, 4);
   EXPECT_EQ(pair.wins.won, 1);
   EXPECT_EQ(pair.wins.lost, 2);
@@ -99,14 +99,28 @@ TEST(CompareTest, PairsProblemsThatBothTried) {
 TEST(CompareTest, AProblemIsUnsolvedIfMostOfItsTrialsAre) {
   const Outcomes mostly = Of({{Solved(1), Failed(), Failed()}, {Solved(1), Solved(3), Failed()}});
   const Outcomes always = Of({{Solved(9)}, {Solved(9)}});
-  const PairedComparison pair = Compare(mostly, always, 1);
+  const PairedComparison pair = Compare(mostly, always);
   EXPECT_EQ(pair.wins.won, 1);
   EXPECT_EQ(pair.wins.lost, 1);
   EXPECT_NEAR(pair.ratio->mean, 3.0 / 9, 1e-12);
 }
 
-TEST(CompareTest, TimesThatAClockReadAsNothingArePositive) {
-  EXPECT_NO_THROW(Compare(Of({{Solved(0)}}), Of({{Solved(0)}}), 1));
+TEST(CompareTest, TimesOfNothingAreInNoRatio) {
+  const Outcomes first = Of({{Solved(0)}, {Solved(2)}, {Solved(0)}, {Solved(0)}});
+  const Outcomes second = Of({{Solved(1)}, {Solved(1)}, {Solved(0)}, {Failed()}});
+  const PairedComparison pair = Compare(first, second);
+  EXPECT_EQ(pair.num_zero, 2);
+  ASSERT_TRUE(pair.ratio);
+  EXPECT_EQ(pair.ratio->num_pairs, 1);
+  EXPECT_DOUBLE_EQ(pair.ratio->mean, 2);
+  // They are the shortest all the same.
+  EXPECT_EQ(pair.num_problems, 4);
+  EXPECT_EQ(pair.wins.won, 2);
+  EXPECT_EQ(pair.wins.tied, 1);
+  EXPECT_EQ(pair.test.negative, 2 + 3);
+  EXPECT_EQ(ZeroTimesNote({pair, pair}),
+            " Left out of the ratios of 2 rows, since a time is 0: 4 problems that both solved.");
+  EXPECT_EQ(ZeroTimesNote({Compare(Of({{Solved(1)}}), Of({{Solved(2)}}))}), "");
 }
 
 TEST(TrialSpreadTest, IsTheMedianOfWhatLiesBetweenTrialsThatAllSucceeded) {

@@ -140,10 +140,30 @@ TEST(SignedRankTestTest, NothingToTellApart) {
 }
 
 TEST(SignedRankTestTest, RankBiserialIsTheDifferenceOfTheShares) {
-  EXPECT_EQ(TestSignedRanks({1, 2, 3}).RankBiserial(), 1);
-  EXPECT_EQ(TestSignedRanks({-1, -2}).RankBiserial(), -1);
-  EXPECT_NEAR(TestSignedRanks({1, -2, 3, 4}).RankBiserial(), (8 - 2) / 10.0, 1e-12);
-  EXPECT_EQ(TestSignedRanks({0}).RankBiserial(), 0);
+  EXPECT_EQ(TestSignedRanks({1, 2, 3}).rank_biserial, 1);
+  EXPECT_EQ(TestSignedRanks({-1, -2}).rank_biserial, -1);
+  EXPECT_NEAR(TestSignedRanks({1, -2, 3, 4}).rank_biserial, (8 - 2) / 10.0, 1e-12);
+  EXPECT_EQ(TestSignedRanks({0}).rank_biserial, 0);
+}
+
+TEST(SignedRankTestTest, TiesHaveTheLowestRanksAndNoSide) {
+  std::vector<double> differences(13, 0.0);
+  differences.push_back(-1);
+  EXPECT_NEAR(TestSignedRanks(differences).rank_biserial, -14 / 105.0, 1e-12);
+  // Of ranks 1 to 5 the ties have 1 and 2.
+  EXPECT_NEAR(TestSignedRanks({0, 0, -1, 2, -3}).rank_biserial, (4 - 3 - 5) / 15.0, 1e-12);
+}
+
+TEST(FewestDifferencesTest, AreThoseThatCanBeRejected) {
+  for (const std::size_t num_tests : {1u, 2u, 10u, 45u}) {
+    const int fewest = FewestDifferences(kTestLevel, num_tests);
+    for (const int n : {fewest - 1, fewest}) {
+      const double p = TestSignedRanks(std::vector<double>(static_cast<std::size_t>(n), 1)).p_value;
+      const double adjusted = AdjustPValues(std::vector<double>(num_tests, p)).front();
+      EXPECT_EQ(adjusted <= kTestLevel, n == fewest) << num_tests;
+    }
+  }
+  EXPECT_EQ(FewestDifferences(0.05, 1), 6);
 }
 
 TEST(AdjustPValuesTest, IsHolmsStepDown) {

@@ -160,5 +160,14 @@ TEST(PenalisedMeanTest, CountsFailuresAsManyTimesTheLimit) {
   EXPECT_TRUE(std::isnan(PenalisedMean({1, 2}, {60, 0}))) << "a limit is not known";
 }
 
+TEST(StudentQuantileTest, IsTheTables) {
+  const std::vector<std::pair<int, double>> table = {
+      {1, 12.706205}, {2, 4.302653}, {5, 2.570582}, {9, 2.262157}, {30, 2.042272}, {99, 1.984217}};
+  for (const auto& [degrees, quantile] : table) {
+    EXPECT_NEAR(StudentQuantile(degrees), quantile, 1e-6) << degrees;
+  }
+  EXPECT_NEAR(StudentQuantile(100'000), 1.959963984540054, 1e-4);
+}
+
 }  // namespace
 }  // namespace planbench
