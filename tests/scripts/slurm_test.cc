@@ -78,6 +78,7 @@ class SlurmTest : public testing::Test {
 };
 
 TEST_F(SlurmTest, RunsEveryShardAndMergesThem) {
+  fs::create_directories(out_ + "/shards/2");  // a task was killed when it had made its folder
   ASSERT_EQ(Submit({"--tasks", "3", "--out", out_, "--sbatch", "--partition=cpu --exclusive",
                     "--robot", "fetch", "--problems", "a folder"}),
             0)
@@ -102,12 +103,17 @@ TEST_F(SlurmTest, WhatDiedIsResumedAndWhatIsFinishedIsLeft) {
   fs::remove(folder_ / "driver");
   ASSERT_EQ(Submit(command), 0) << errors_;
   EXPECT_THAT(output_, HasSubstr("1 of 3 shards"));
-  EXPECT_THAT(Lines(folder_ / "driver"),
-              ElementsAre("--launch --seed 7 --shard 2/3 --resume " + out_ + "/shards/2"));
+  const auto resumed = ElementsAre("--launch --seed 7 --shard 2/3 --resume " + out_ + "/shards/2");
+  EXPECT_THAT(Lines(folder_ / "driver"), resumed);
+  fs::remove(folder_ / "driver");
+  // Killed before the logger had been told of the session.
+  fs::rename(out_ + "/shards/2/run.json", out_ + "/shards/2/results.sqlite");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_THAT(Lines(folder_ / "driver"), resumed);
   fs::remove(folder_ / "driver");
   ASSERT_EQ(Submit(command), 0) << errors_;
   EXPECT_FALSE(fs::exists(folder_ / "driver"));
-  EXPECT_EQ(Lines(folder_ / "report").size(), 3u);
+  EXPECT_EQ(Lines(folder_ / "report").size(), 4u);
 }
 
 TEST_F(SlurmTest, RefusesBadUseInOneLine) {
