@@ -3,16 +3,37 @@
 #include <spdlog/spdlog.h>
 #include <sqlite3.h>
 
+#include <cstring>
+
 namespace planbench {
 namespace {
+
+/// What the system said when the database's file or its journal could not be read or written; 0 if
+/// that is not known. (sqlite3_system_errno does not know of what fails in a commit.)
+int SystemError(sqlite3* connection) {
+  int error = 0;
+  sqlite3_file* journal = nullptr;
+  sqlite3_file_control(connection, "main", SQLITE_FCNTL_LAST_ERRNO, &error);
+  if (error != 0) return error;
+  sqlite3_file_control(connection, "main", SQLITE_FCNTL_JOURNAL_POINTER, &journal);
+  if (journal == nullptr || journal->pMethods == nullptr ||
+      journal->pMethods->xFileControl == nullptr) {
+    return 0;
+  }
+  journal->pMethods->xFileControl(journal, SQLITE_FCNTL_LAST_ERRNO, &error);
+  return error;
+}
 
 [[noreturn]] void Fail(sqlite3* connection, int code) {
   SqliteError::Kind kind = SqliteError::Kind::kStorage;
   if ((code & 0xff) == SQLITE_CONSTRAINT) kind = SqliteError::Kind::kConstraint;
   if ((code & 0xff) == SQLITE_BUSY) kind = SqliteError::Kind::kBusy;
   const char* file = sqlite3_db_filename(connection, "main");
-  throw SqliteError(kind,
-                    std::string(file == nullptr ? "" : file) + ": " + sqlite3_errmsg(connection));
+  std::string message =
+      std::string(file == nullptr ? "" : file) + ": " + sqlite3_errmsg(connection);
+  const int why = (code & 0xff) == SQLITE_IOERR ? SystemError(connection) : 0;
+  if (why != 0) message += std::string(" (") + std::strerror(why) + ")";
+  throw SqliteError(kind, message);
 }
 
 void Check(sqlite3* connection, int code) {

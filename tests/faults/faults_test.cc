@@ -271,6 +271,7 @@ TEST_F(FaultsTest, ADiskThatIsFullForAWhileCostsNoRun) {
     return driver->Errors().find("NOBODY RECORDS") != std::string::npos || !driver->Running();
   })) << driver->Errors();
   EXPECT_THAT(driver->Errors(), HasSubstr("the logger 'logger' cannot: "));
+  EXPECT_THAT(driver->Errors(), HasSubstr("File too large"));
   prlimit(*logger, RLIMIT_FSIZE, &before, nullptr);
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   EXPECT_THAT(driver->Errors(), HasSubstr("records again"));
