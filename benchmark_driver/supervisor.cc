@@ -184,6 +184,8 @@ void Supervisor::Spawn(Child* child) {
     if (input >= 0) dup2(input, STDIN_FILENO);
     if (!child->spec.processors.empty()) UseProcessors(child->spec.processors);
     execve(arguments[0], arguments.data(), environment.data());
+    // What is to outlive its terminal (nohup) is to do so with its children.
+    if (signal(SIGHUP, SIG_DFL) == SIG_IGN) signal(SIGHUP, SIG_IGN);
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(2);
   }

@@ -55,8 +55,9 @@ void ProgressLine::Print(bool last) {
   }
   if (!text_.empty()) line += "  " + text_;
   if (on_terminal_) line = FirstCharacters(line, TerminalWidth() - 1);
-  fmt::print(stderr, "{}{}{}", on_terminal_ ? "\r\033[K" : "", line,
-             last || !on_terminal_ ? "\n" : "");
+  line = (on_terminal_ ? "\r\033[K" : "") + line + (last || !on_terminal_ ? "\n" : "");
+  // Not fmt::print, which throws: that a terminal has been closed is no failure of the work.
+  std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -30,8 +30,8 @@ class Program {
   std::string lcm_url_flag_;
 };
 
-/// SIGINT and SIGTERM end a process at once, whatever it prepares; from this call on they only ask
-/// it to stop. Returns whether one of them has come.
+/// SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP end a process at once, whatever it
+/// prepares; from this call on they only ask it to stop. Returns whether one of them has come.
 std::function<bool()> AwaitStopSignals();
 
 }  // namespace planbench

@@ -25,6 +25,15 @@ std::string Shown(int total, int earlier, int done) {
   return testing::internal::GetCapturedStderr();
 }
 
+TEST(ProgressLineTest, AClosedTerminalIsNoFailure) {
+  const auto show = [] {
+    close(STDERR_FILENO);
+    ProgressLine(8, 0).Show(4, "shelf");
+    _exit(0);
+  };
+  EXPECT_EXIT(show(), testing::ExitedWithCode(0), "");
+}
+
 TEST(ProgressLineTest, ShowsBarCountAndText) {
   EXPECT_THAT(Shown(8, 0, 4),
               HasSubstr("[##########..........] 4/8  0:00 (about 0:00 left)  shelf"));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <stdexcept>
 
@@ -122,6 +123,22 @@ TEST_F(ProgramTest, TerminationIsARequestToStop) {
     EXPECT_TRUE(stop());
     return 0;
   });
+}
+
+TEST_F(ProgramTest, AClosedTerminalIsARequestToStopUnlessThatIsIgnored) {
+  const auto hang_up = [] {
+    signal(SIGHUP, SIG_DFL);
+    const auto stop = AwaitStopSignals();
+    raise(SIGHUP);
+    _exit(stop() ? 0 : 1);
+  };
+  EXPECT_EXIT(hang_up(), testing::ExitedWithCode(0), "");
+  const auto ignore = [] {
+    signal(SIGHUP, SIG_IGN);
+    AwaitStopSignals();
+    _exit(signal(SIGHUP, SIG_IGN) == SIG_IGN ? 0 : 1);
+  };
+  EXPECT_EXIT(ignore(), testing::ExitedWithCode(0), "");
 }
 
 TEST_F(ProgramTest, TerminationEndsWhatIsNotYetReady) {
