@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "benchmark_driver/driver.h"
@@ -201,12 +202,24 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();
   if (options.launch) spdlog::info("session folder {}, bus {}", session_folder.string(), url);
-  const bool complete = driver.Run(interrupted, [&] {
-    announcer.ThrowIfDisplaced();
-    if (!supervisor) return;
-    supervisor->ThrowIfHopeless(planners);
-    for (const auto& [name, reason] : supervisor->Hopeless()) driver.GiveUp(name, reason);
-  });
+  // A folder that was removed or moved is not gone on with there.
+  const auto tell_how_to_go_on = [&] {
+    std::error_code ignored;
+    if (!supervisor || !std::filesystem::exists(session_folder, ignored)) return;
+    fmt::print("Go on with: {}\n", ResumingCommand(flags, session_folder));
+  };
+  bool complete = false;
+  try {
+    complete = driver.Run(interrupted, [&] {
+      announcer.ThrowIfDisplaced();
+      if (!supervisor) return;
+      supervisor->ThrowIfHopeless(planners);
+      for (const auto& [name, reason] : supervisor->Hopeless()) driver.GiveUp(name, reason);
+    });
+  } catch (...) {
+    tell_how_to_go_on();
+    throw;
+  }
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
   const SessionTables tables = MakeTables(driver.conditions(), driver.runs(), reference_attempts,
@@ -216,10 +229,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     WriteTables(session_folder / "tables.txt", tables.full);
     fmt::print("Session folder: {}\n", session_folder.string());
   }
-  if (interrupted()) {
-    fmt::print("Interrupted: what follows is incomplete.\n");
-    if (supervisor) fmt::print("Go on with: {}\n", ResumingCommand(flags, session_folder));
-  }
+  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
+  if (!complete || driver.num_not_asked() > 0) tell_how_to_go_on();
   fmt::print("\n{}", tables.brief);
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
@@ -227,9 +238,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     spdlog::error("the planner '{}' was given up: {}", planner, reason);
   }
   if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
-    spdlog::warn("{} not asked for; go on with: {}",
-                 number == 1 ? "1 run was" : fmt::format("{} runs were", number),
-                 ResumingCommand(flags, session_folder));
+    spdlog::warn("{} not asked for: a session that is resumed makes them",
+                 number == 1 ? "1 run was" : fmt::format("{} runs were", number));
   }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }

@@ -278,6 +278,27 @@ TEST_F(FaultsTest, ADiskThatIsFullForAWhileCostsNoRun) {
   ExpectOneRecordOfEach(120);
 }
 
+TEST_F(FaultsTest, ADiskThatStaysFullEndsWithTheCommandThatGoesOn) {
+  ChildProcess* driver =
+      StartSession({"--planners", "rrtc", "--problems-range", "1", "--trials", "120"});
+  ASSERT_TRUE(WaitUntil([&] { return NumRuns() >= 2 || !driver->Running(); })) << driver->Errors();
+  const std::optional<int> logger = PidOf(driver, "logger");
+  ASSERT_TRUE(logger);
+  const rlimit full = {4096, RLIM_INFINITY};
+  ASSERT_EQ(prlimit(*logger, RLIMIT_FSIZE, &full, nullptr), 0);
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  EXPECT_THAT(driver->Errors(), HasSubstr("of 120 runs are not recorded by the logger"));
+  const std::string output = driver->Output();
+  const std::string begin = "Go on with: benchmark_driver ";
+  const std::size_t at = output.find(begin);
+  ASSERT_NE(at, std::string::npos) << output;
+  const std::size_t first = at + begin.size();
+  const std::string rest = output.substr(first, output.find('\n', at) - first);
+  ChildProcess* resumed = Start({"/bin/sh", "-c", Program("benchmark_driver") + " " + rest});
+  ASSERT_EQ(resumed->Wait(), 0) << resumed->Errors();
+  ExpectOneRecordOfEach(120);
+}
+
 TEST_F(FaultsTest, ASessionWhoseFolderIsRemovedSaysSoInItsLastLine) {
   ChildProcess* driver =
       StartSession({"--planners", "rrtc", "--problems-range", "1", "--trials", "60"});
@@ -287,6 +308,7 @@ TEST_F(FaultsTest, ASessionWhoseFolderIsRemovedSaysSoInItsLastLine) {
   const std::string errors = driver->Errors();
   EXPECT_THAT(errors.substr(errors.find_last_of('\n', errors.size() - 2) + 1),
               HasSubstr("was removed or moved"));
+  EXPECT_THAT(driver->Output(), testing::Not(HasSubstr("Go on with"))) << "not there";
   // What was written is whole.
   EXPECT_GE(Query(folder() / "elsewhere", "SELECT count(*) FROM runs"), 1);
 }

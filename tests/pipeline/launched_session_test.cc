@@ -105,6 +105,9 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
   EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
   const long long before = Query(session, "SELECT count(*) FROM runs");
   EXPECT_GE(before, 3);
+  EXPECT_EQ(driver->Output().find("Go on with: benchmark_driver ") != std::string::npos, code == 1)
+      << driver->Output();
+  std::filesystem::remove_all(session / "logs");  // as in merged sessions
 
   std::vector<std::string> resume = {Program("benchmark_driver"),
                                      "--launch",
