@@ -1,13 +1,14 @@
 #include "benchmark_driver/new_session_folder.h"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <optional>
+#include <string>
 #include <system_error>
-#include <vector>
 
+#include "benchmark_driver/log_folder.h"
+#include "benchmark_driver/logger_lock.h"
 #include "common/error.h"
 
 namespace planbench {
@@ -15,66 +16,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws InputError unless a little can be written there: what a full disk does to the processes
-/// that write there could not be told from their logs.
-void RequireWritable(const fs::path& folder) {
-  const fs::path file = folder / "probe";
-  std::ofstream stream(file);
-  stream << std::string(65536, ' ');
-  stream.close();
-  const int why = errno;
-  std::error_code ignored;
-  fs::remove(file, ignored);
-  if (!stream) {
-    throw InputError("session folder " + folder.parent_path().string() +
-                     " cannot be written: " + std::strerror(why));
+std::set<fs::path> EntriesOf(const fs::path& folder, std::error_code* error) {
+  std::set<fs::path> entries;
+  fs::directory_iterator entry(folder, *error);
+  for (; !*error && entry != fs::directory_iterator(); entry.increment(*error)) {
+    entries.insert(entry->path());
   }
+  return entries;
+}
+
+InputError HoldsSession(const fs::path& folder, const std::string& what) {
+  return InputError("session folder " + folder.string() + " holds " + what +
+                    " already; choose another folder (--out), or go on with that session "
+                    "(--resume)");
+}
+
+void RemoveAll(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) spdlog::warn("{}: cannot be removed: {}", path.string(), error.message());
 }
 
 }  // namespace
 
 NewSessionFolder::NewSessionFolder(const fs::path& folder) : folder_(folder) {
-  if (fs::is_directory(folder)) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      before_.insert(entry.path());
-      if (entry.path().extension() == ".lcmlog" || entry.path().filename() == "results.sqlite") {
-        throw InputError("session folder " + folder.string() + " holds " +
-                         entry.path().filename().string() +
-                         " already; choose another folder (--out), or go on with that session "
-                         "(--resume)");
-      }
-    }
+  std::error_code error;
+  for (fs::path part = folder; part.has_relative_path() && !fs::exists(part, error);
+       part = part.parent_path()) {
+    made_.push_back(part);
   }
-  for (fs::path part = folder; !fs::exists(part); part = part.parent_path()) made_ = part;
   try {
-    std::error_code error;
-    fs::create_directories(folder / "logs", error);
-    if (error) {
-      throw InputError("session folder " + folder.string() + " cannot be made: " + error.message());
-    }
-    RequireWritable(folder / "logs");
+    Claim();
   } catch (...) {
-    Remove();
+    RemoveFolders();
     throw;
   }
 }
 
 NewSessionFolder::~NewSessionFolder() {
-  if (!keep_) Remove();
+  if (keep_) return;
+  if (const std::optional<std::string> pid = LoggerWritingTo(folder_)) {
+    spdlog::warn("{} is left as it is: the logger with pid {} writes to it", folder_.string(),
+                 *pid);
+    return;
+  }
+  std::error_code ignored;  // a folder that has gone need not be removed
+  for (const fs::path& entry : EntriesOf(folder_, &ignored)) {
+    if (!before_.contains(entry)) RemoveAll(entry);
+  }
+  RemoveFolders();
 }
 
-void NewSessionFolder::Remove() {
+void NewSessionFolder::Claim() {
+  claimed_ = MakeLogFolder(folder_);
+  if (!claimed_) throw HoldsSession(folder_, "logs");
   std::error_code error;
-  if (!made_.empty()) {
-    fs::remove_all(made_, error);
-  } else {
-    std::vector<fs::path> entries;
-    for (const auto& entry : fs::directory_iterator(folder_, error)) entries.push_back(entry);
-    for (const fs::path& entry : entries) {
-      if (!before_.contains(entry)) fs::remove_all(entry, error);
+  before_ = EntriesOf(folder_, &error);
+  if (error) {
+    throw InputError("session folder " + folder_.string() + " cannot be read: " + error.message());
+  }
+  for (const fs::path& entry : before_) {
+    if (entry.extension() == ".lcmlog" || entry.filename() == "results.sqlite") {
+      throw HoldsSession(folder_, entry.filename().string());
     }
   }
-  if (error) spdlog::warn("{}: cannot be removed: {}", folder_.string(), error.message());
+  RequireWritableLogs(folder_);
+}
+
+void NewSessionFolder::RemoveFolders() {
+  // Last of what the folder holds: from then on it is another driver's who makes it.
+  if (claimed_) RemoveAll(folder_ / "logs");
+  for (const fs::path& folder : made_) rmdir(folder.c_str());  // not those that others use
 }
 
 }  // namespace planbench

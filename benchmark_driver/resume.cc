@@ -1,14 +1,12 @@
 #include "benchmark_driver/resume.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "benchmark_driver/logger_lock.h"
 #include "common/error.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
@@ -33,21 +31,15 @@ bool HoldsNoLogYet(const std::filesystem::path& folder) {
 
 void AwaitLoggersEnd(const std::filesystem::path& session_folder,
                      std::chrono::milliseconds patience) {
-  const std::string file = (session_folder / "logger.lock").string();
-  const int lock = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (lock < 0) return;
   const auto deadline = std::chrono::steady_clock::now() + patience;
-  bool free = flock(lock, LOCK_EX | LOCK_NB) == 0;
-  while (!free && std::chrono::steady_clock::now() < deadline) {
+  std::optional<std::string> pid = LoggerWritingTo(session_folder);
+  while (pid && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    free = flock(lock, LOCK_EX | LOCK_NB) == 0;
+    pid = LoggerWritingTo(session_folder);
   }
-  close(lock);
-  if (free) return;
-  std::string pid = "unknown";
-  std::ifstream(file) >> pid;
+  if (!pid) return;
   throw InputError("--resume: " + session_folder.string() + " is in use by the logger with pid " +
-                   pid);
+                   *pid);
 }
 
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {

@@ -24,13 +24,25 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kExitPoll{20};
 constexpr std::chrono::milliseconds kRestartDelay{200};
 
-std::string LastLine(const std::filesystem::path& log) {
+/// Of what a log holds from byte `begin` on: before it are others' words.
+std::string LastLine(const std::filesystem::path& log, off_t begin) {
   std::ifstream file(log);
+  file.seekg(begin);
   std::string last;
   for (std::string line; std::getline(file, line);) {
     if (!line.empty()) last = line;
   }
   return last.empty() ? "(it said nothing)" : last;
+}
+
+/// The log, to be appended to; where that cannot be, what takes anything: a child's words are not
+/// for our terminal.
+int OpenLog(const ChildSpec& spec) {
+  const int log = open(spec.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (log >= 0) return log;
+  spdlog::error("{} cannot be written, what {} says is lost: {}", spec.log.string(), spec.name,
+                std::strerror(errno));
+  return open("/dev/null", O_WRONLY | O_CLOEXEC);
 }
 
 std::string DescribeEnd(int status) {
@@ -120,7 +132,7 @@ void Supervisor::Reap(Child* child) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;
-    child->hopeless = LastLine(child->spec.log);
+    child->hopeless = LastLine(child->spec.log, child->log_begin);
     return;
   }
   const auto now = Clock::now();
@@ -129,7 +141,7 @@ void Supervisor::Reap(Child* child) {
     child->wanted = false;
     child->hopeless = child->spec.name + " ended " + DescribeEnd(status) +
                       " again and again; its last words in " + child->spec.log.string() + ": " +
-                      LastLine(child->spec.log);
+                      LastLine(child->spec.log, child->log_begin);
     return;
   }
   spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
@@ -158,7 +170,8 @@ void Supervisor::Spawn(Child* child) {
   std::vector<char*> environment;
   for (std::string& entry : environment_text) environment.push_back(entry.data());
   environment.push_back(nullptr);
-  const std::string log = child->spec.log.string();
+  const int output = OpenLog(child->spec);
+  child->log_begin = std::max<off_t>(0, lseek(output, 0, SEEK_END));
   const pid_t parent = getpid();
 
   // Until the child has put its signal handling in order it must not take a signal: it would run
@@ -171,26 +184,24 @@ void Supervisor::Spawn(Child* child) {
   if (pid == 0) {
     setpgid(0, 0);
     for (const int handled : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) signal(handled, SIG_DFL);
+    // What is to outlive its terminal (nohup) is to do so with its children.
+    if (signal(SIGHUP, SIG_DFL) == SIG_IGN) signal(SIGHUP, SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     sigprocmask(SIG_SETMASK, &before, nullptr);
     if (getppid() != parent) _exit(1);  // the parent died before the death signal was set
-    close_range(3, ~0U, 0);             // our connection to the bus among others
-    const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    close_range(3, ~0U, 0);  // our connection to the bus among others
     const int input = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    if (output >= 0) {
-      dup2(output, STDOUT_FILENO);
-      dup2(output, STDERR_FILENO);
-    }
     if (input >= 0) dup2(input, STDIN_FILENO);
     if (!child->spec.processors.empty()) UseProcessors(child->spec.processors);
     execve(arguments[0], arguments.data(), environment.data());
-    // What is to outlive its terminal (nohup) is to do so with its children.
-    if (signal(SIGHUP, SIG_DFL) == SIG_IGN) signal(SIGHUP, SIG_IGN);
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", arguments[0], strerror(errno));
     _exit(2);
   }
   const int fork_error = errno;
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  close(output);
   if (pid < 0) {
     spdlog::error("cannot start {}: {}", child->spec.name, strerror(fork_error));
     child->restart_at = Clock::now() + std::chrono::seconds(1);

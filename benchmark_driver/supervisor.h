@@ -63,6 +63,7 @@ class Supervisor {
     int quick_deaths = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
+    off_t log_begin = 0;   // of the log, where this process began to write
     std::chrono::steady_clock::time_point started;
     std::chrono::steady_clock::time_point restart_at;
   };

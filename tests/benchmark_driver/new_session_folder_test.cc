@@ -1,6 +1,11 @@
 #include "benchmark_driver/new_session_folder.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <optional>
 
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -46,6 +51,41 @@ TEST(NewSessionFolderTest, AnotherSessionsIsRefusedAndLeftAlone) {
                      {file.parent_path().string(), file.filename().string(), "--out", "--resume"});
     EXPECT_TRUE(std::filesystem::exists(file));
   }
+}
+
+TEST(NewSessionFolderTest, OfTwoDriversOneGetsItAndTheOtherLeavesItAlone) {
+  const TemporaryFolder temporary;
+  const auto s = temporary / "outer" / "s";
+  std::optional<NewSessionFolder> first(s);
+  const auto log = temporary.Write("outer/s/logs/logger.log", "x");
+  ExpectInputError([&] { NewSessionFolder second(s); }, {s.string(), "logs", "--out", "--resume"});
+  EXPECT_TRUE(std::filesystem::exists(log));
+  first.reset();
+  EXPECT_FALSE(std::filesystem::exists(temporary / "outer"));
+  EXPECT_NO_THROW(NewSessionFolder second(s));
+}
+
+TEST(NewSessionFolderTest, ParentsStayForTheSessionsOfOthers) {
+  const TemporaryFolder temporary;
+  const auto outer = temporary / "outer";
+  std::optional<NewSessionFolder> failing(outer / "inner" / "a");
+  NewSessionFolder other(outer / "b");
+  const auto log = temporary.Write("outer/b/b.lcmlog", "x");
+  other.Keep();
+  failing.reset();
+  EXPECT_FALSE(std::filesystem::exists(outer / "inner"));
+  EXPECT_TRUE(std::filesystem::exists(log));
+}
+
+TEST(NewSessionFolderTest, StaysWhileALoggerWritesToIt) {
+  const TemporaryFolder temporary;
+  std::optional<NewSessionFolder> folder(temporary / "s");
+  const auto results = temporary.Write("s/results.sqlite", "x");
+  const int lock = open(temporary.Write("s/logger.lock", "4711").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
+  folder.reset();
+  EXPECT_TRUE(std::filesystem::exists(results));
+  close(lock);
 }
 
 TEST(NewSessionFolderTest, WhereNoneCanBeIsTheCause) {

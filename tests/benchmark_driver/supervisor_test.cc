@@ -149,6 +149,22 @@ TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
   EXPECT_EQ(Lines(out_).size(), 1u);
 }
 
+TEST_F(SupervisorTest, WordsOfAnEarlierTimeAreNoReason) {
+  folder_.Write("child.log", "recorded 326 messages\n");
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "exit 2"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  ExpectInputError([&] { supervisor.ThrowIfHopeless(); }, {"(it said nothing)"});
+}
+
+TEST_F(SupervisorTest, WithoutALogItRunsAllTheSameAndSaysNothingHere) {
+  ChildSpec child = Script("child", "readlink /proc/$$/fd/2 >> $OUT; exec sleep 1000");
+  child.log = folder_ / "no/such/folder/child.log";
+  Supervisor supervisor;
+  supervisor.Start(child);
+  EXPECT_EQ(AwaitOutput(1).at(0), "/dev/null");
+}
+
 TEST_F(SupervisorTest, ProgramThatCannotBeStartedIsBadInput) {
   Supervisor supervisor;
   supervisor.Start({"child", {"/no/such/program"}, {}, Log("child")});
