@@ -28,7 +28,8 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
 void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
                        const std::string& lcm_url, Supervisor* supervisor);
 
-/// The same for scene server, planners and logger, with their output in <session>/logs/.
+/// The same for scene server, planners and logger, with their output in <session>/logs/, which
+/// exists.
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor);

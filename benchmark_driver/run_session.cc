@@ -18,6 +18,7 @@
 
 #include "benchmark_driver/driver.h"
 #include "benchmark_driver/launcher.h"
+#include "benchmark_driver/log_folder.h"
 #include "benchmark_driver/new_session_folder.h"
 #include "benchmark_driver/replay_session.h"
 #include "benchmark_driver/resume.h"
@@ -173,6 +174,10 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   // Goes, if it has to, when nobody writes there any more.
   std::optional<NewSessionFolder> new_folder;
   if (options.launch && !options.resume) new_folder.emplace(session_folder);
+  if (options.launch && options.resume) {
+    MakeLogFolder(session_folder);  // merged sessions have none, nor those of a logger by itself
+    RequireWritableLogs(session_folder);
+  }
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::unique_ptr<Supervisor> supervisor;
   bus.Start();

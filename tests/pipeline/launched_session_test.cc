@@ -120,6 +120,7 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
   resume.insert(resume.end(), flags.begin(), flags.end());
   ChildProcess* resumed = Start(resume);
   ASSERT_EQ(resumed->Wait(), 0) << resumed->Errors();
+  EXPECT_TRUE(std::filesystem::exists(session / "logs" / "logger.log"));
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 24);
   EXPECT_EQ(Query(session, "SELECT count(DISTINCT request_id) FROM runs"), 24);
   EXPECT_EQ(Query(session, "SELECT count(DISTINCT run_id) FROM runs"), 1);
