@@ -50,7 +50,8 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
       },
       [this](const MessageError& error, const Origin&) { OnBadRequest(error); });
   scene_messages_ = bus->Subscribe<SceneMessage>(
-      channel::kScene, [this](SceneMessage&& message) { OnScene(std::move(message)); });
+      channel::kScene, [this](SceneMessage&& message) { OnScene(std::move(message)); },
+      [this](const MessageError& error) { OnBadScene(error); });
   cancels_ = bus->SubscribeFrom<PlanCancelMessage>(
       channels_.cancel, [this](const PlanCancelMessage& message, const Origin& origin) {
         OnCancel(message, origin.sender);
@@ -168,6 +169,7 @@ void PlannerNode::OnScene(SceneMessage message) {
   if (!message.ok) {
     if (job_ && !job_->scene && job_->request.scene_id == message.scene_id) {
       spdlog::warn("scene {}: {}", message.scene_id, message.message);
+      job_->scene_fault = message.message;
     }
     return;
   }
@@ -182,6 +184,14 @@ void PlannerNode::OnScene(SceneMessage message) {
     job_->scene = scene;
     changed_.notify_all();
   }
+}
+
+void PlannerNode::OnBadScene(const MessageError& error) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (job_ && error.request_id() == SceneRequestId()) job_->scene_fault = error.what();
+  }
+  throw error;
 }
 
 void PlannerNode::OnCancel(const PlanCancelMessage& message, const PacketSender& sender) {
@@ -206,10 +216,7 @@ void PlannerNode::Solve() {
         lock, [this] { return stopping_ || (job_ && (job_->scene || job_->control.cancelled)); });
     if (!job_) return;  // stopping
     if (!job_->scene) {
-      PlanResult result;
-      result.status = PlanStatus::kCancelled;
-      result.message = "cancelled while waiting for the scene";
-      Finish(std::move(result));
+      FinishWithoutScene(PlanStatus::kCancelled, "cancelled while waiting for the scene");
       continue;
     }
     // Only this thread takes the job away, so it may be used without the lock.
@@ -247,19 +254,25 @@ void PlannerNode::Finish(PlanResult result) {
   bus_->PublishBytes(channels_.result, results_.Add(message.request_id, Encode(message)));
 }
 
+std::string PlannerNode::SceneRequestId() const { return name_ + "/" + job_->request.request_id; }
+
+void PlannerNode::FinishWithoutScene(PlanStatus status, std::string message) {
+  if (!job_->scene_fault.empty()) message += ": " + job_->scene_fault;
+  PlanResult result;
+  result.status = status;
+  result.message = std::move(message);
+  Finish(std::move(result));
+}
+
 void PlannerNode::AskForScene() {
   const Clock::time_point now = Clock::now();
   if (!job_ || job_->scene || job_->control.cancelled) return;
   if (now - job_->accepted > kSceneTimeout) {
-    PlanResult result;
-    result.status = PlanStatus::kInvalidRequest;
-    result.message =
-        "the scene " + job_->request.scene_id + " was not to be had on " + channel::kScene;
-    Finish(std::move(result));
+    FinishWithoutScene(PlanStatus::kInvalidRequest, "the scene " + job_->request.scene_id +
+                                                        " was not to be had on " + channel::kScene);
   } else if (now >= job_->next_scene_request) {
-    bus_->Publish(
-        channel::kSceneRequest,
-        SceneRequestMessage{name_ + "/" + job_->request.request_id, job_->request.scene_id});
+    bus_->Publish(channel::kSceneRequest,
+                  SceneRequestMessage{SceneRequestId(), job_->request.scene_id});
     job_->next_scene_request = now + kSceneRequestPeriod;
   }
 }

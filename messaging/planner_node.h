@@ -46,6 +46,7 @@ class PlannerNode {
     PlanRequest request;
     PacketSender sender;                 // of the request
     std::shared_ptr<const Scene> scene;  // null until it has arrived
+    std::string scene_fault;             // Why what came in its place cannot be used.
     std::chrono::steady_clock::time_point accepted;
     std::chrono::steady_clock::time_point next_scene_request;
     PlanControl control;
@@ -53,11 +54,16 @@ class PlannerNode {
   void OnRequest(const PlanRequest& request, const PacketSender& sender);
   void OnBadRequest(const MessageError& error);
   void OnScene(SceneMessage message);
+  void OnBadScene(const MessageError& error);
   void OnCancel(const PlanCancelMessage& message, const PacketSender& sender);
   NodeStatusMessage Status() const;
   std::string ReasonToRefuse(const PlanRequest& request) const;
   void Solve();
   void AskForScene();
+  /// By which this node asks for the job's scene.
+  std::string SceneRequestId() const;
+  /// Ends the job, which lacks its scene, and says why it does if that is known.
+  void FinishWithoutScene(PlanStatus status, std::string message);
   /// Publishes the result of a request again; false if there is none.
   bool SendResultOf(const std::string& request_id);
   void Finish(PlanResult result);

@@ -348,6 +348,30 @@ TEST_F(PlannerNodeTest, CancelEndsTheWaitForTheScene) {
   EXPECT_EQ(num_searches_, 0);
 }
 
+TEST_F(PlannerNodeTest, SaysWhyItLacksTheScene) {
+  StartNode();
+  const auto lack = [&](const std::string& id, const SceneMessage& answer) {
+    Send(Request(id));
+    EXPECT_TRUE(scene_requests_.WaitForOne(
+        [&](const SceneRequestMessage& request) { return request.request_id == "arm/" + id; }));
+    bus_.Publish(channel::kScene, answer);
+    Cancel(id);
+    return ResultOf(id, PlanStatus::kCancelled).result.message;
+  };
+  Scene bad = scene_;
+  AttachedObject& tool = bad.attached.emplace_back();
+  tool.link = "hand";
+  tool.object.id = "tool";
+  tool.touch_links = {"finger", "finger"};
+  const std::string scene_id = Request("").scene_id;
+  EXPECT_THAT(lack("a", {"arm/a", scene_id, true, "", bad}),
+              HasSubstr("scene: SCENE: attached[0].touch_link[1]: 'finger' occurs twice"));
+  EXPECT_THAT(lack("b", {"arm/b", scene_id, false, "it was eaten", {}}),
+              HasSubstr("scene: it was eaten"));
+  // What others are sent is nothing to this one.
+  EXPECT_THAT(lack("c", {"leg/c", scene_id, true, "", bad}), testing::EndsWith("the scene"));
+}
+
 TEST_F(PlannerNodeTest, CancelledRequestStaysCancelled) {
   hold_ = true;
   StartNode();
