@@ -9,6 +9,8 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/read_text.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -66,6 +68,17 @@ std::string Summary(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return "";
   if (warnings.size() == 1) return warnings.front();
   return fmt::format("{} (and {} more)", warnings.front(), warnings.size() - 1);
+}
+
+/// Throws InputError for what others would not take off the bus: they would wait for it in vain.
+template <typename Message>
+void RequireDeliverable(Message message, const std::string& channel, const fs::path& file) {
+  message.request_id = file.filename().string();
+  try {
+    Decode<Message>(Encode(message), channel);
+  } catch (const MessageError& error) {
+    throw InputError(fmt::format("{}: cannot be sent: {}", file.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -175,10 +188,17 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   served.message.start = problem.start;
   served.message.goal = problem.goal;
   served.message.time_limit_s = problem.time_limit_s;
+  RequireDeliverable(served.message, channel::kProblem, files.request);
   // Problems that differ only in their query share the scene.
-  std::shared_ptr<const Scene>& scene = scenes_[served.message.scene_id];
-  if (!scene) scene = std::make_shared<const Scene>(std::move(problem.scene));
-  served.scene = scene;
+  const std::string& scene_id = served.message.scene_id;
+  auto scene = scenes_.find(scene_id);
+  if (scene == scenes_.end()) {
+    RequireDeliverable(SceneMessage{"", scene_id, true, "", problem.scene}, channel::kScene,
+                       files.scene);
+    scene =
+        scenes_.emplace(scene_id, std::make_shared<const Scene>(std::move(problem.scene))).first;
+  }
+  served.scene = scene->second;
   return problems_.emplace(key, std::move(served)).first->second;
 }
 

@@ -38,7 +38,7 @@ class ProblemLibrary {
   std::string ContentId(const ProblemSet& set);
 
   /// Throws InputError: no such set or index (with what there is), a file that cannot be read, a
-  /// problem that does not fit the robot.
+  /// problem that does not fit the robot, or that others could not take off the bus.
   ServedProblem Find(const std::string& set, int index);
 
   /// The scene of that content id, null if no problem has it. Problems that nobody has asked for

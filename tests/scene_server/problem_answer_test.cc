@@ -124,6 +124,24 @@ TEST(ProblemAnswer, MalformedFileIsRefusedWithFileAndLine) {
   EXPECT_THAT(answer.problem.message, HasSubstr("request0002.yaml:2"));
 }
 
+// On the bus the two frames have one name: control characters are escaped there.
+TEST(ProblemAnswer, WhatPlannersCouldNotTakeOffTheBusIsRefused) {
+  TinyWorld world;
+  world.folder().Write("problems/cans/scene0002.yaml", R"(robot_model_name: tiny
+fixed_frame_transforms:
+  - {header: {frame_id: "a\x09b"}, child_frame_id: base_link,
+     transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}
+  - {header: {frame_id: "a	b"}, child_frame_id: base_link,
+     transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}
+)");
+  const ProblemAnswer answer = world.service().AnswerProblem({"id", "cans", 2});
+  EXPECT_FALSE(answer.problem.ok);
+  EXPECT_FALSE(answer.scene);
+  EXPECT_THAT(answer.problem.message,
+              AllOf(HasSubstr("scene0002.yaml: cannot be sent: SCENE: frame[1]"),
+                    HasSubstr("occurs twice")));
+}
+
 TEST(ProblemAnswer, ProblemsAreReadOnceAndKept) {
   TinyWorld world;
   ASSERT_TRUE(world.service().AnswerProblem({"id", "cans", 5}).problem.ok);
