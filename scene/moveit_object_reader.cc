@@ -17,9 +17,6 @@
 namespace planbench {
 namespace {
 
-// MoveIt's name for the octomap as a body, in the allowed-collision matrix for one.
-constexpr const char* kOctomapId = "<octomap>";
-
 // shape_msgs/SolidPrimitive's numbers are the places here, counted from 1.
 constexpr const char* kPrimitiveTypes[] = {"box", "sphere", "cylinder", "cone"};
 
@@ -253,6 +250,17 @@ SceneObject FindNamed(const YamlNode& node, const std::string& id, const Attache
   return object;
 }
 
+// In file order, each once: in MoveIt they are a set.
+std::vector<std::string> ReadTouchLinks(const YamlNode& attached) {
+  std::vector<std::string> links;
+  for (const YamlNode& node : OptionalElements(attached, "touch_links")) {
+    const std::string link = WithoutSlash(ReadName(node));
+    if (link.empty()) node.Fail("must not be empty");
+    if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
+  }
+  return links;
+}
+
 AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* known,
                                   const ResourceResolver& resources, const Robot& robot,
                                   const Scene& scene, FrameTree* frames) {
@@ -262,9 +270,7 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
   if (robot.model.FindLink(attached.link) < 0) {
     link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
   }
-  for (const YamlNode& touch_link : OptionalElements(node, "touch_links")) {
-    attached.touch_links.push_back(WithoutSlash(ReadName(touch_link)));
-  }
+  attached.touch_links = ReadTouchLinks(node);
   const YamlNode object = node.At("object");
   const Eigen::Isometry3d X_BL = frames->At(attached.link, link);
   if (HasShapes(object)) {
@@ -288,6 +294,7 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
 
 std::string ReadObjectId(const YamlNode& node, const Robot& robot) {
   const std::string id = ReadName(node);
+  if (id == kOctomapId) node.Fail("the name '" + id + "' is that of world.octomap alone");
   const int link = robot.model.FindLink(id);
   if (link >= 0 && HasBody(robot, link)) {
     node.Fail("the object has the name of a link, '" + id +

@@ -12,8 +12,8 @@ namespace planbench {
 
 inline constexpr double kLargestShape = 1e9;  ///< What a length of a shape may be, m.
 
-/// Reads the id of an object: one line, and not the name of a link with a body, since names tell
-/// bodies apart in the allowed-collision matrix. Throws InputError.
+/// Reads the id of an object: one line, and not the name of a link with a body or of the octomap,
+/// since names tell bodies apart in the allowed-collision matrix. Throws InputError.
 std::string ReadObjectId(const YamlNode& node, const Robot& robot);
 
 /// Reads a shape_msgs/SolidPrimitive: type box [x, y, z], sphere [radius], cylinder [height,
@@ -57,7 +57,7 @@ void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& res
 void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTree* frames,
                    Scene* scene);
 
-/// Adds world.octomap, if it has data, as an object "<octomap>" of boxes.
+/// Adds world.octomap, if it has data, as an object kOctomapId of boxes.
 void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene);
 
 }  // namespace planbench

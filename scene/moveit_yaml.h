@@ -39,7 +39,8 @@ Problem ParseProblem(const YamlNode& planning_scene, const YamlNode& motion_plan
 
 /// Writes the pair; reading it again gives an equal problem (equal content id, start, goal,
 /// limits), and equal problems give equal bytes. Orientations as xyzw, numbers in the shortest form
-/// that reads back exactly.
+/// that reads back exactly. Throws InputError for capsules and octomaps, which files have no form
+/// for here.
 void WriteProblem(const Problem& problem, const std::filesystem::path& scene_file,
                   const std::filesystem::path& request_file);
 std::string SceneToYaml(const Problem& problem);

@@ -107,6 +107,9 @@ std::string ShapeList(const std::vector<const PlacedShape*>& shapes, const std::
 // The fields of a moveit_msgs/CollisionObject, each line at `indent`.
 std::string ObjectFields(const SceneObject& object, const std::string& frame,
                          const std::string& indent) {
+  if (object.id == kOctomapId) {
+    throw InputError(fmt::format("'{}': octomaps cannot be written", object.id));
+  }
   std::string yaml = fmt::format("{}id: {}\n", indent, YamlText(object.id)) + Header(frame, indent);
   if (object.X_WO.matrix() != Eigen::Isometry3d::Identity().matrix()) {
     yaml += indent + "pose:\n" + indent + "  " + PoseFields(object.X_WO, indent + "  ");

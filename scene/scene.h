@@ -12,6 +12,9 @@
 
 namespace planbench {
 
+/// MoveIt's name for what sensors see, an octomap, as a body: no other object has it.
+inline constexpr const char* kOctomapId = "<octomap>";
+
 /// An object of the world: shapes rigidly joined. W is the robot's base frame, that of its root
 /// link (every frame of a file is resolved into it by the reader).
 struct SceneObject {
@@ -27,7 +30,8 @@ struct SceneObject {
 struct AttachedObject {
   std::string link;
   SceneObject object;
-  std::vector<std::string> touch_links;  ///< Links the object may touch, besides `link` itself.
+  /// Links the object may touch, besides `link` itself; each once.
+  std::vector<std::string> touch_links;
   bool operator==(const AttachedObject&) const = default;
 };
 

@@ -232,6 +232,20 @@ TEST(AttachedObjects, CarryTheirFramesToTheStart) {
       {"unknown frame 'tool'"});
 }
 
+TEST(AttachedObjects, HaveASetOfTouchLinks) {
+  const auto touch_links = [](const std::string& links) {
+    const std::string scene = Replaced(Attaching(kWorld, kTool), "[/l_finger]", "[" + links + "]");
+    return ParseProblem(scene, kToolRequest).scene.attached.at(0).touch_links;
+  };
+  EXPECT_THAT(touch_links("r_finger, l_finger, r_finger, /l_finger"),
+              ElementsAre("r_finger", "l_finger"));
+  for (const char* empty : {"''", "/"}) {
+    ExpectInputError([&] { touch_links(std::string("l_finger, ") + empty); },
+                     {"scene.yaml:3: robot_state.attached_collision_objects[0].touch_links[1]: "
+                      "must not be empty"});
+  }
+}
+
 TEST(AttachedObjects, WithoutAFrameAreInTheirLinksWithAWarning) {
   const Problem problem = ParseProblem(
       Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kToolRequest);
@@ -254,6 +268,23 @@ TEST(AttachedObjects, NeedAShapeAndALink) {
                "planes: [{coef: [0, 0, 1, 0]}]\n      plane_poses: [{position: [0, 0, 0.5]");
   ExpectInputError([&] { ParseProblem(Attaching(plane, "id: tool"), kToolRequest); },
                    {"a plane cannot be attached"});
+}
+
+TEST(Names, OfTheOctomapIsForNoObject) {
+  const auto refuse = [](const std::string& scene, const std::string& request,
+                         const std::string& where) {
+    ExpectInputError([&] { ParseProblem(scene, request); },
+                     {where, "the name '<octomap>' is that of world.octomap alone"});
+  };
+  refuse(Replaced(kWorld, "id: wall", "id: <octomap>"), kToolRequest,
+         "scene.yaml:11: world.collision_objects[1].id");
+  for (const std::string& object :
+       {std::string("id: <octomap>"), Replaced(kTool, "tool", "<octomap>")}) {
+    refuse(Attaching(kWorld, object), kToolRequest,
+           "scene.yaml:3: robot_state.attached_collision_objects[0].object.id");
+    refuse(kWorld, Attaching(kToolRequest, object),
+           "request.yaml:4: start_state.attached_collision_objects[0].object.id");
+  }
 }
 
 // The link `mast` has a body, by spheres; `gripper_link` has none.

@@ -147,6 +147,12 @@ TEST_F(RoundTrip, CapsulesCannotBeWritten) {
   ExpectInputError([&] { SceneToYaml(problem); }, {problem.scene.objects[2].id, "no capsules"});
 }
 
+TEST_F(RoundTrip, OctomapsCannotBeWritten) {
+  Problem problem = ParseProblem(kFullScene);
+  problem.scene.objects[2].id = kOctomapId;
+  ExpectInputError([&] { SceneToYaml(problem); }, {"'<octomap>': octomaps cannot be written"});
+}
+
 TEST_F(RoundTrip, PosesOfJoints) {
   constexpr const char* kUrdf = R"(<robot name="fetch">
   <link name="base_link"/><link name="cart"/><link name="gripper_link"/>
