@@ -17,15 +17,30 @@ bool Agree(const Isometry3d& a, const Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff() <= kAgreement;
 }
 
+// MoveIt goes by the robot's state alone, which has the planning frame at a virtual joint.
+void WarnOfPlacedRobot(const std::vector<FixedTransform>& transforms,
+                       const PlanningFrame& planning_frame, const RobotModel& model) {
+  const std::string& frame = planning_frame.name;
+  if (planning_frame.is_guessed || model.FindLink(frame) >= 0) return;
+  for (const FixedTransform& transform : transforms) {
+    if (transform.header != frame && transform.child != frame) continue;
+    const std::string& link = transform.header == frame ? transform.child : transform.header;
+    if (model.FindLink(link) < 0 || Agree(transform.X, Isometry3d::Identity())) continue;
+    transform.node.Warn("taken as the pose of the robot's link '" + link +
+                        "' in the planning frame '" + frame +
+                        "'; MoveIt passes it over, and goes by the robot's state");
+  }
+}
+
 }  // namespace
 
 std::string WithoutSlash(const std::string& frame) {
   return frame.starts_with('/') ? frame.substr(1) : frame;
 }
 
-FrameTree::FrameTree(const Robot& robot, const Stance& stance, const std::string& planning_frame,
+FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFrame& planning_frame,
                      const std::vector<FixedTransform>& transforms)
-    : not_of_objects_{planning_frame} {
+    : not_of_objects_{planning_frame.name} {
   const std::vector<Isometry3d> X_BL = ComputeLinkPoses(robot.model, stance.positions);
   for (int link = 0; link < robot.model.num_links(); ++link) {
     const auto l = static_cast<std::size_t>(link);
@@ -34,21 +49,22 @@ FrameTree::FrameTree(const Robot& robot, const Stance& stance, const std::string
   }
   std::vector<FixedTransform> named = transforms;  // With the planning frame by its name.
   for (FixedTransform& transform : named) {
-    if (transform.header.empty()) transform.header = planning_frame;
+    if (transform.header.empty()) transform.header = planning_frame.name;
   }
   // What the file says comes before what the robot's description says, and that before what is
   // taken where neither says anything.
-  Follow(named);
+  Follow(named, planning_frame);
   for (const PlacedLink& placed : stance.placed_links) {
-    Place(placed, placed.frame.empty() ? planning_frame : placed.frame, robot.model);
+    Place(placed, placed.frame.empty() ? planning_frame.name : placed.frame, robot.model);
   }
-  Follow(named);
+  Follow(named, planning_frame);
   PlaceSurroundings(robot);
-  Follow(named);
-  X_BF_.try_emplace(planning_frame, Isometry3d::Identity());
-  X_BF_[""] = X_BF_.at(planning_frame);
-  Follow(named);
+  Follow(named, planning_frame);
+  X_BF_.try_emplace(planning_frame.name, Isometry3d::Identity());
+  X_BF_[""] = X_BF_.at(planning_frame.name);
+  Follow(named, planning_frame);
   CheckAgreement(named);
+  if (stance.placed_links.empty()) WarnOfPlacedRobot(named, planning_frame, robot.model);
 }
 
 void FrameTree::Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model) {
@@ -80,7 +96,8 @@ void FrameTree::MoveToBaseOf(const FrameTree& other, const std::string& still) {
   for (auto& [name, X] : X_BF_) X = X_OB * X;
 }
 
-void FrameTree::Follow(const std::vector<FixedTransform>& transforms) {
+void FrameTree::Follow(const std::vector<FixedTransform>& transforms,
+                       const PlanningFrame& planning_frame) {
   for (bool progress = true; progress;) {
     progress = false;
     for (const FixedTransform& transform : transforms) {
@@ -88,7 +105,9 @@ void FrameTree::Follow(const std::vector<FixedTransform>& transforms) {
       const Isometry3d* child = Find(transform.child);
       if ((header == nullptr) == (child == nullptr)) continue;
       const std::string& unknown = header == nullptr ? transform.header : transform.child;
-      const Isometry3d X_BF = (header == nullptr ? *child : *header) * transform.X;
+      const bool is_of_the_known = unknown == planning_frame.name && !planning_frame.is_guessed;
+      const Isometry3d X = is_of_the_known ? transform.X.inverse(Eigen::Isometry) : transform.X;
+      const Isometry3d X_BF = (header == nullptr ? *child : *header) * X;
       X_BF_[unknown] = X_BF;
       progress = true;
     }
@@ -113,48 +132,81 @@ void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) co
 }
 
 void FrameTree::SetObject(const std::string& id, const std::string& link,
-                          const std::map<std::string, Isometry3d>& X_LF) {
+                          const std::vector<ObjectFrame>& frames) {
   RemoveObject(id);
   ObjectFrames& object = objects_[id];
   object.link = link;
-  for (const auto& [name, X] : X_LF) {
-    if (not_of_objects_.contains(name)) continue;
-    object.X_LF[name] = X;
-    X_BF_[name] = PoseOf(link) * X;
+  for (const ObjectFrame& frame : frames) {
+    if (not_of_objects_.contains(frame.name)) continue;
+    const auto [known, is_new] = object_frames_.try_emplace(
+        frame.name, PlacedObjectFrame{id, PoseOf(link) * frame.X_LF, frame.disputed_pose});
+    if (!is_new) {
+      frame.node.Fail("the object '" + known->second.id + "' has a frame '" + frame.name +
+                      "' already");
+    }
+    object.frames.push_back(frame);
   }
 }
 
 void FrameTree::AttachObject(const std::string& id, const std::string& link) {
   ObjectFrames& object = objects_[id];
   const Isometry3d X_NO = PoseOf(link).inverse(Eigen::Isometry) * PoseOf(object.link);
-  for (auto& [name, X] : object.X_LF) X = X_NO * X;
+  for (ObjectFrame& frame : object.frames) frame.X_LF = X_NO * frame.X_LF;
   object.link = link;
 }
 
 void FrameTree::RemoveObject(const std::string& id) {
   const auto object = objects_.find(id);
   if (object == objects_.end()) return;
-  for (const auto& [name, X] : object->second.X_LF) X_BF_.erase(name);
+  for (const ObjectFrame& frame : object->second.frames) object_frames_.erase(frame.name);
   objects_.erase(object);
 }
 
 void FrameTree::SetObjectsOf(const FrameTree& other) {
-  for (const auto& [id, object] : other.objects_) SetObject(id, object.link, object.X_LF);
+  for (const auto& [id, object] : other.objects_) SetObject(id, object.link, object.frames);
 }
 
 Isometry3d FrameTree::PoseOf(const std::string& link) const {
   return link.empty() ? Isometry3d::Identity() : X_BF_.at(link);
 }
 
+const FrameTree::PlacedObjectFrame* FrameTree::FindOfObject(const std::string& name) const {
+  const auto found = object_frames_.find(WithoutSlash(name));
+  return found == object_frames_.end() ? nullptr : &found->second;
+}
+
 const Isometry3d* FrameTree::Find(const std::string& name) const {
+  if (const PlacedObjectFrame* frame = FindOfObject(name)) return &frame->X_BF;
   const auto found = X_BF_.find(WithoutSlash(name));
   return found == X_BF_.end() ? nullptr : &found->second;
 }
 
+const FrameTree::PlacedObjectFrame* FrameTree::UseOfObject(const std::string& name,
+                                                           const YamlNode& node) const {
+  const PlacedObjectFrame* frame = FindOfObject(name);
+  if (frame != nullptr && frame->disputed_pose) {
+    node.Warn("is a frame of the object '" + frame->id +
+              "', taken where its pose puts it; MoveIt " +
+              "takes a pose of nothing but w: 1 for none, and the pose of the one shape for it (" +
+              frame->disputed_pose->Where() + ")");
+  }
+  return frame;
+}
+
+std::optional<FrameTree::InLink> FrameTree::OfObject(const std::string& name,
+                                                     const YamlNode& node) const {
+  const PlacedObjectFrame* frame = UseOfObject(name, node);
+  if (frame == nullptr) return std::nullopt;
+  const std::string& link = objects_.at(frame->id).link;
+  return InLink{link, PoseOf(link).inverse(Eigen::Isometry) * frame->X_BF};
+}
+
 const Isometry3d& FrameTree::At(const std::string& name, const YamlNode& node) const {
+  if (const PlacedObjectFrame* frame = UseOfObject(name, node)) return frame->X_BF;
   if (const Isometry3d* X_BF = Find(name)) return *X_BF;
   std::vector<std::string_view> known;
   for (const auto& [frame, X_BF] : X_BF_) known.push_back(frame);
+  for (const auto& [frame, placed] : object_frames_) known.push_back(frame);
   const std::string nearest = NearestName(name, known);
   node.Fail("unknown frame '" + name +
             "': no link of the robot, no object, and no chain of "

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,21 +35,40 @@ struct Stance {
   std::vector<PlacedLink> placed_links;
 };
 
+/// The frame that a file is in.
+struct PlanningFrame {
+  std::string name;         ///< Without a leading slash; "" if nothing names it.
+  bool is_guessed = false;  ///< From what the transforms have in common; the file may mean another.
+};
+
+/// A frame of an object: its own or a subframe.
+struct ObjectFrame {
+  std::string name;
+  Eigen::Isometry3d X_LF;  ///< In the frame of the link that it moves with, or the base frame.
+  YamlNode node;           ///< Where it is named.
+  /// The object's pose, if MoveIt would pass it over and have the frame elsewhere.
+  std::optional<YamlNode> disputed_pose;
+};
+
 /// Poses of named frames in the robot's base frame B (that of its root link), with the robot in one
 /// stance: the robot's links, its surroundings, the planning frame (also named ""), fixed frames,
 /// objects and their subframes.
 ///
-/// Of a fixed transform between a frame that is known and one that is not, the numbers are the pose
-/// of the latter in the former, whichever of the two the header names. That is what MoveIt means,
-/// which writes the planning frame as the child, and what tf means, where it is the header. Chains
-/// are followed. The parent frame of a virtual joint is where the stance has its child link in it,
-/// by default at the child link. The planning frame, if all that does not lead to it, is at the
-/// root link.
+/// Of a fixed transform between the planning frame and another, the numbers are the pose of the
+/// other in the planning frame, whichever of the two the header names. That is what MoveIt means,
+/// which writes the planning frame as the child, and what tf means, where it is the header. So one
+/// with a link of the robot says where the robot stands; MoveIt passes such over, hence a warning.
+/// Of any other between a frame that is known and one that is not, the numbers are the pose of the
+/// latter in the former. Chains are followed. The parent frame of a virtual joint is where the
+/// stance has its child link in it, by default at the child link. The planning frame, if all that
+/// does not lead to it, is at the root link.
+///
+/// An object's frame comes before a fixed one of that name, as in MoveIt.
 class FrameTree {
  public:
   /// Throws InputError, at its node, for a transform that contradicts others (by more than 1e-6),
   /// and for a link placed in a frame that has another pose already.
-  FrameTree(const Robot& robot, const Stance& stance, const std::string& planning_frame,
+  FrameTree(const Robot& robot, const Stance& stance, const PlanningFrame& planning_frame,
             const std::vector<FixedTransform>& transforms);
 
   /// Before objects are set: has all poses in the base frame of `other`, a stance of the same
@@ -56,11 +76,12 @@ class FrameTree {
   /// Both must know it.
   void MoveToBaseOf(const FrameTree& other, const std::string& still);
 
-  /// Makes an object's frames known, by their names, instead of those that it had: in the frame of
-  /// a link, which they move with, or in the base frame (`link` ""). Those of the robot's links and
-  /// surroundings and the planning frame keep their meaning.
+  /// Makes an object's frames known instead of those that it had: in the frame of a link, which
+  /// they move with, or in the base frame (`link` ""). Those of the robot's links and surroundings
+  /// and the planning frame keep their meaning. Throws InputError, at its node, for a frame of a
+  /// name that a frame of this or another object has already.
   void SetObject(const std::string& id, const std::string& link,
-                 const std::map<std::string, Eigen::Isometry3d>& X_LF);
+                 const std::vector<ObjectFrame>& frames);
   /// Has an object's frames move with a link from where they are.
   void AttachObject(const std::string& id, const std::string& link);
   void RemoveObject(const std::string& id);
@@ -70,13 +91,27 @@ class FrameTree {
 
   /// X_BF of a frame, null if it is unknown. A leading slash in `name` does not count.
   const Eigen::Isometry3d* Find(const std::string& name) const;
-  /// The same; throws InputError at `node` for an unknown one.
+  /// The same for who uses it, at `node`: throws InputError there for an unknown one, and warns of
+  /// one that MoveIt would have elsewhere.
   const Eigen::Isometry3d& At(const std::string& name, const YamlNode& node) const;
+
+  /// A frame of an object, in that of the link it moves with ("" for the base frame).
+  struct InLink {
+    std::string link;
+    Eigen::Isometry3d X_LF;
+  };
+  /// Nothing if no object has a frame of that name. Warns as At does.
+  std::optional<InLink> OfObject(const std::string& name, const YamlNode& node) const;
 
  private:
   struct ObjectFrames {
     std::string link;  // "" for the base frame.
-    std::map<std::string, Eigen::Isometry3d> X_LF;
+    std::vector<ObjectFrame> frames;
+  };
+  struct PlacedObjectFrame {
+    std::string id;  // Of the object.
+    Eigen::Isometry3d X_BF;
+    std::optional<YamlNode> disputed_pose;
   };
 
   // Places the frame that a state gives the pose of a link in.
@@ -84,13 +119,18 @@ class FrameTree {
   // Places the parent frames of virtual joints that are not known by now.
   void PlaceSurroundings(const Robot& robot);
   // Follows the transforms from known frames to unknown ones, as far as they go.
-  void Follow(const std::vector<FixedTransform>& transforms);
+  void Follow(const std::vector<FixedTransform>& transforms, const PlanningFrame& planning_frame);
   void CheckAgreement(const std::vector<FixedTransform>& transforms) const;
   Eigen::Isometry3d PoseOf(const std::string& link) const;  // X_BL; "" is the base frame.
+  // Null if no object has a frame of that name.
+  const PlacedObjectFrame* FindOfObject(const std::string& name) const;
+  // The same for who uses it, at `node`.
+  const PlacedObjectFrame* UseOfObject(const std::string& name, const YamlNode& node) const;
 
-  std::set<std::string> not_of_objects_;  // Names that no object takes.
-  std::map<std::string, Eigen::Isometry3d> X_BF_;
-  std::map<std::string, ObjectFrames> objects_;  // By id.
+  std::set<std::string> not_of_objects_;           // Names that no object takes.
+  std::map<std::string, Eigen::Isometry3d> X_BF_;  // But for those of objects.
+  std::map<std::string, ObjectFrames> objects_;    // By id.
+  std::map<std::string, PlacedObjectFrame> object_frames_;
 };
 
 /// A name of tf without its leading slash.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -154,6 +153,13 @@ bool IsUnsetPose(const YamlNode& pose) {
   return true;
 }
 
+// How MoveIt tells a pose that is not set. Here it is one: who writes it means it.
+bool MoveItPassesOver(const YamlNode& pose) {
+  const YamlNode orientation = pose.At("orientation");
+  const double w = orientation.IsMap() ? orientation.At("w").Double() : orientation.Doubles(4)[3];
+  return w == 1 && ReadPose(pose).matrix().isIdentity(0);
+}
+
 bool HasPose(const YamlNode& object) {
   const std::optional<YamlNode> pose = object.Find("pose");
   return pose && !IsUnsetPose(*pose);
@@ -187,12 +193,19 @@ bool HasBody(const Robot& robot, int link) {
          has_one(robot.spheres) || has_one(robot.enclosing_spheres);
 }
 
-// The frames of an object by their names, in the frame that its pose is in.
-std::map<std::string, Eigen::Isometry3d> ReadFrames(const YamlNode& node,
-                                                    const SceneObject& object) {
-  const bool of_shape = !HasPose(node) && object.shapes.size() == 1;
-  const Eigen::Isometry3d X_WF = of_shape ? object.X_WO * object.shapes.front().X_FS : object.X_WO;
-  std::map<std::string, Eigen::Isometry3d> frames = {{object.id, X_WF}};
+// The frames of an object, in the frame that its pose is in.
+std::vector<ObjectFrame> ReadFrames(const YamlNode& node, const SceneObject& object) {
+  Eigen::Isometry3d X_WF = object.X_WO;
+  std::optional<YamlNode> disputed_pose;
+  if (object.shapes.size() == 1) {
+    const Eigen::Isometry3d& X_OS = object.shapes.front().X_FS;
+    if (!HasPose(node)) {
+      X_WF = object.X_WO * X_OS;
+    } else if (MoveItPassesOver(node.At("pose")) && !X_OS.matrix().isIdentity()) {
+      disputed_pose = node.At("pose");
+    }
+  }
+  std::vector<ObjectFrame> frames = {{object.id, X_WF, node.At("id"), disputed_pose}};
   const std::vector<YamlNode> names = OptionalElements(node, "subframe_names");
   const std::vector<YamlNode> poses = OptionalElements(node, "subframe_poses");
   if (names.size() != poses.size()) {
@@ -200,7 +213,8 @@ std::map<std::string, Eigen::Isometry3d> ReadFrames(const YamlNode& node,
               std::to_string(poses.size()) + " subframe_poses");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    frames[object.id + "/" + names[i].String()] = X_WF * ReadPose(poses[i]);
+    frames.push_back(
+        {object.id + "/" + ReadName(names[i]), X_WF * ReadPose(poses[i]), names[i], disputed_pose});
   }
   return frames;
 }
@@ -290,6 +304,77 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
   return attached;
 }
 
+// Attaches objects one after the other.
+class Attacher {
+ public:
+  Attacher(const ResourceResolver& resources, const Robot& robot, FrameTree* frames, Scene* scene)
+      : resources_(resources), robot_(robot), frames_(frames), scene_(scene) {}
+
+  void Attach(const YamlNode& node) {
+    const YamlNode id_node = node.At("object").At("id");
+    const std::string id = ReadObjectId(id_node, robot_);
+    if (!ids_.insert(id).second) {
+      id_node.Warn("'" + id + "' is attached twice; the last one counts");
+    }
+    AttachedObject* known = FindAttached(id, scene_);
+    AttachedObject attached = ReadAttachedObject(node, known, resources_, robot_, *scene_, frames_);
+    std::erase_if(scene_->objects, [&](const SceneObject& other) { return other.id == id; });
+    if (known == nullptr) {
+      scene_->attached.push_back(std::move(attached));
+    } else {
+      *known = std::move(attached);
+    }
+  }
+
+ private:
+  const ResourceResolver& resources_;
+  const Robot& robot_;
+  FrameTree* frames_;
+  Scene* scene_;
+  std::set<std::string> ids_;
+};
+
+// Adds the objects of world.collision_objects in the base frame, and their frames. One may be given
+// in the frame of one above it.
+void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
+                     FrameTree* frames, Scene* scene) {
+  std::set<std::string> ids;
+  for (const YamlNode& node : OptionalElements(world, "collision_objects")) {
+    const std::string id = ReadObjectId(node.At("id"), robot);
+    if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
+    SceneObject object = ReadCollisionObject(node, resources);
+    object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
+    if (FindAttached(id, scene) != nullptr) continue;  // It has left the world.
+    frames->SetObject(id, "", ReadFrames(node, object));
+    scene->objects.push_back(std::move(object));
+  }
+}
+
+// Adds world.octomap, if it has data, as an object kOctomapId of boxes.
+void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {
+  const std::optional<YamlNode> with_pose = world.Find("octomap");
+  const std::optional<YamlNode> octomap = with_pose ? with_pose->Find("octomap") : std::nullopt;
+  const std::optional<YamlNode> data = octomap ? octomap->Find("data") : std::nullopt;
+  if (!data) return;
+  const std::vector<std::uint8_t> bytes = data->Bytes();
+  if (bytes.empty()) return;
+  SceneObject object;
+  object.id = kOctomapId;
+  const std::optional<YamlNode> origin = with_pose->Find("origin");
+  object.X_WO = frames.At(ReadFrame(*with_pose), FrameNode(*with_pose));
+  if (origin && !IsUnsetPose(*origin)) object.X_WO = object.X_WO * ReadPose(*origin);
+  object.X_WO = CanonicalPose(object.X_WO);
+  const std::string id = octomap->At("id").String();
+  const bool binary = ReadFlag(octomap->At("binary"));
+  const double resolution = octomap->At("resolution").PositiveDouble();
+  try {
+    object.shapes = OctomapBoxes(bytes, binary, id, resolution);
+  } catch (const InputError& error) {
+    data->Fail(error.what());
+  }
+  if (!object.shapes.empty()) scene->objects.push_back(std::move(object));
+}
+
 }  // namespace
 
 std::string ReadObjectId(const YamlNode& node, const Robot& robot) {
@@ -354,34 +439,39 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   return object;
 }
 
-void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
-                     FrameTree* frames, Scene* scene) {
-  std::set<std::string> ids;
-  for (const YamlNode& node : OptionalElements(world, "collision_objects")) {
-    const std::string id = ReadObjectId(node.At("id"), robot);
-    if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
-    SceneObject object = ReadCollisionObject(node, resources);
-    object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
-    frames->SetObject(id, "", ReadFrames(node, object));
-    scene->objects.push_back(std::move(object));
+void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& resources,
+                     const Robot& robot, FrameTree* frames, Scene* scene) {
+  const std::optional<YamlNode> state = planning_scene.Find("robot_state");
+  const std::optional<YamlNode> world = planning_scene.Find("world");
+  Attacher attacher(resources, robot, frames, scene);
+  std::vector<YamlNode> after_world;
+  std::set<std::string> ids_after_world;
+  if (state) {
+    for (const YamlNode& node : OptionalElements(*state, "attached_collision_objects")) {
+      const YamlNode object = node.At("object");
+      const std::string id = object.At("id").String();
+      const std::string frame = ReadFrame(object);
+      const bool needs_world = !HasShapes(object) || frames->Find(frame) == nullptr;
+      if (needs_world || ids_after_world.contains(id)) {
+        after_world.push_back(node);
+        ids_after_world.insert(id);
+      } else {
+        attacher.Attach(node);
+      }
+    }
   }
+  if (world) {
+    AddWorldObjects(*world, resources, robot, frames, scene);
+    AddOctomap(*world, *frames, scene);
+  }
+  for (const YamlNode& node : after_world) attacher.Attach(node);
 }
 
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene) {
-  std::set<std::string> ids;
+  Attacher attacher(resources, robot, frames, scene);
   for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
-    const YamlNode id_node = node.At("object").At("id");
-    const std::string id = ReadObjectId(id_node, robot);
-    if (!ids.insert(id).second) id_node.Warn("'" + id + "' is attached twice; the last one counts");
-    AttachedObject* known = FindAttached(id, scene);
-    AttachedObject attached = ReadAttachedObject(node, known, resources, robot, *scene, frames);
-    std::erase_if(scene->objects, [&](const SceneObject& other) { return other.id == id; });
-    if (known == nullptr) {
-      scene->attached.push_back(std::move(attached));
-    } else {
-      *known = std::move(attached);
-    }
+    attacher.Attach(node);
   }
 }
 
@@ -399,30 +489,6 @@ void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTr
                  "', which the scene attaches and this state does not, is left out; true keeps it");
     return true;
   });
-}
-
-void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {
-  const std::optional<YamlNode> with_pose = world.Find("octomap");
-  const std::optional<YamlNode> octomap = with_pose ? with_pose->Find("octomap") : std::nullopt;
-  const std::optional<YamlNode> data = octomap ? octomap->Find("data") : std::nullopt;
-  if (!data) return;
-  const std::vector<std::uint8_t> bytes = data->Bytes();
-  if (bytes.empty()) return;
-  SceneObject object;
-  object.id = kOctomapId;
-  const std::optional<YamlNode> origin = with_pose->Find("origin");
-  object.X_WO = frames.At(ReadFrame(*with_pose), FrameNode(*with_pose));
-  if (origin && !IsUnsetPose(*origin)) object.X_WO = object.X_WO * ReadPose(*origin);
-  object.X_WO = CanonicalPose(object.X_WO);
-  const std::string id = octomap->At("id").String();
-  const bool binary = ReadFlag(octomap->At("binary"));
-  const double resolution = octomap->At("resolution").PositiveDouble();
-  try {
-    object.shapes = OctomapBoxes(bytes, binary, id, resolution);
-  } catch (const InputError& error) {
-    data->Fail(error.what());
-  }
-  if (!object.shapes.empty()) scene->objects.push_back(std::move(object));
 }
 
 }  // namespace planbench

@@ -22,9 +22,10 @@ Shape ReadPrimitive(const YamlNode& node);
 
 /// Reads a moveit_msgs/CollisionObject: id, `pose`, and one or more shapes, which are `primitives`
 /// with `primitive_poses`, `meshes` (or `mesh`) with `mesh_poses` and `planes` with `plane_poses`.
-/// The object's pose comes out in the frame that its header names (see AddWorldObjects). Poses of
+/// The object's pose comes out in the frame that its header names (see AddSceneObjects). Poses of
 /// shapes may be left out if the object has a `pose`. A `pose` whose seven numbers are all zero
-/// counts as absent: that is how messages leave it unset.
+/// counts as absent: that is how messages leave it unset. (In MoveIt 2 it is the identity that
+/// does.)
 ///
 /// Meshes: {resource: URI, dimensions: [sx, sy, sz]} (a scale per axis, also called `scale`) or
 /// {vertices: [[x, y, z], ..], triangles: [[a, b, c], ..]} with triangles also as {vertex_indices:
@@ -35,12 +36,16 @@ Shape ReadPrimitive(const YamlNode& node);
 /// of attached objects.
 SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& resources);
 
-/// Adds the objects of world.collision_objects to `scene`, in the base frame, and their frames (an
-/// object's is that of its pose, or of its one shape if it has no pose) and subframes to `frames`.
-/// An object may be given in the frame of one above it. Throws InputError, also for an id that
-/// occurs twice.
-void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
-                     FrameTree* frames, Scene* scene);
+/// Adds the objects of a moveit_msgs/PlanningScene to `scene`: what its robot_state attaches (see
+/// AddAttachedObjects), the world's collision_objects, in the base frame, and world.octomap, if it
+/// has data, as an object kOctomapId of boxes. Their frames (an object's is that of its pose, or of
+/// its one shape if it has no pose) and subframes go to `frames`, which have the robot in the
+/// scene's state. As in MoveIt what is attached comes first, so that the world's objects may be
+/// given in frames of it; beyond MoveIt, what needs the world, attached by id or in the frame of an
+/// object of it, comes last. An object may be given in the frame of one before it. Throws
+/// InputError, also for an id of the world that occurs twice.
+void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& resources,
+                     const Robot& robot, FrameTree* frames, Scene* scene);
 
 /// Adds the attached_collision_objects of a moveit_msgs/RobotState to `scene`, with their poses in
 /// their links. As in MoveIt, an object with shapes takes the place of one that is attached by that
@@ -56,8 +61,5 @@ void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& res
 /// `is_diff`, and their frames.
 void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTree* frames,
                    Scene* scene);
-
-/// Adds world.octomap, if it has data, as an object kOctomapId of boxes.
-void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene);
 
 }  // namespace planbench

@@ -140,28 +140,48 @@ struct PoseSet {
   }
 };
 
-// The link that a constraint is of, and the tip that it moves as one with.
+// The link L that a constraint is of, and the tip that it moves as one with. What is constrained is
+// the frame F, that of L or of an object that is attached to L.
 struct ConstrainedLink {
   int tip_link;
   Eigen::Isometry3d X_TL;
+  Eigen::Isometry3d X_LF;
 };
 
-ConstrainedLink ReadLink(const YamlNode& constraint, const RobotModel& model,
-                         const PlanningGroup& group, const std::vector<double>& start) {
-  const YamlNode node = constraint.At("link_name");
+// The link of a frame that a constraint names, and the frame in it.
+FrameTree::InLink ReadConstrainedFrame(const YamlNode& node, const RobotModel& model,
+                                       const FrameTree& frames) {
   const std::string name = WithoutSlash(node.String());
-  const int link = model.FindLink(name);
-  if (link < 0) node.Fail("the robot has no link '" + name + "'");
+  if (model.FindLink(name) >= 0) return {name, Eigen::Isometry3d::Identity()};
+  const std::optional<FrameTree::InLink> of_object = frames.OfObject(name, node);
+  if (!of_object) {
+    node.Fail("the robot has no link '" + name +
+              "', nor is an object of that frame attached to it");
+  }
+  if (of_object->link.empty()) {
+    node.Fail("'" + name + "' is a frame of an object that is not attached to the robot");
+  }
+  return *of_object;
+}
+
+ConstrainedLink ReadLink(const YamlNode& constraint, const RobotModel& model,
+                         const PlanningGroup& group, const std::vector<double>& start,
+                         const FrameTree& frames) {
+  const YamlNode node = constraint.At("link_name");
+  const FrameTree::InLink frame = ReadConstrainedFrame(node, model, frames);
+  const int link = model.FindLink(frame.link);
   const GroupKinematics kinematics(model, group, start);
   std::vector<std::string> tips;
   for (const int tip : group.tips()) {
     if (!kinematics.MoveRelatively(link, tip)) {
-      return {tip, kinematics.X_BL(tip).inverse(Eigen::Isometry) * kinematics.X_BL(link)};
+      return {tip, kinematics.X_BL(tip).inverse(Eigen::Isometry) * kinematics.X_BL(link),
+              frame.X_LF};
     }
     tips.push_back("'" + model.links()[static_cast<std::size_t>(tip)].name + "'");
   }
-  node.Fail(fmt::format("the link '{}' does not move as one with {}, the tip{} of group '{}'", name,
-                        fmt::join(tips, " or "), tips.size() > 1 ? "s" : "", group.name));
+  node.Fail(fmt::format("the link '{}' does not move as one with {}, the tip{} of group '{}'",
+                        frame.link, fmt::join(tips, " or "), tips.size() > 1 ? "s" : "",
+                        group.name));
 }
 
 std::vector<Region> ReadRegions(const YamlNode& constraint, const FrameTree& frames) {
@@ -230,20 +250,24 @@ std::vector<PoseSet> ReadPoseSets(const YamlNode& constraints, const RobotModel&
   constexpr const char* kTwice = "is the second of this kind for the same tip; one is supported";
   std::vector<PoseSet> all;
   for (const YamlNode& position : OptionalElements(constraints, "position_constraints")) {
-    const ConstrainedLink link = ReadLink(position, model, group, start);
+    const ConstrainedLink link = ReadLink(position, model, group, start, frames);
     PoseSet* poses = PosesOfTip(link, &all);
     if (!poses->regions.empty()) position.Fail(kTwice);
     const auto offset = position.Find("target_point_offset");
     poses->X_TP.translation() =
-        link.X_TL * (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+        link.X_TL * link.X_LF *
+        (offset ? ReadVector3(*offset) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
     poses->regions = ReadRegions(position, frames);
   }
   for (const YamlNode& orientation : OptionalElements(constraints, "orientation_constraints")) {
-    const ConstrainedLink link = ReadLink(orientation, model, group, start);
+    const ConstrainedLink link = ReadLink(orientation, model, group, start, frames);
     PoseSet* poses = PosesOfTip(link, &all);
     if (poses->orientation) orientation.Fail(kTwice);
+    // As in MoveIt, what is wanted of an object is made what is wanted of its link, about whose
+    // axes the tolerances then are.
     poses->X_TP.linear() = link.X_TL.linear();
     poses->orientation = ReadOrientation(orientation, frames);
+    poses->orientation->R_BD *= link.X_LF.linear().transpose();
   }
   return all;
 }

@@ -30,7 +30,8 @@ bool HasPoseConstraints(const YamlNode& constraints);
 /// primitives, boxes and spheres. Orientation: that of the link, R_L = R_D * d for the wanted R_D,
 /// has a deviation d whose angles are within absolute_{x,y,z}_axis_tolerance: with parameterization
 /// 0 those of rotations about x, the new y and the new z, with 1 the components of the rotation
-/// vector. `frames` have the robot at the start. Either is met to 1e-6 (m, rad); what is
+/// vector. For the link there may stand an object attached to it, or a subframe of such. `frames`
+/// have the robot at the start. Either is met to 1e-6 (m, rad); what is
 /// not constrained is free.
 ///
 /// Throws InputError naming file, line and field for what cannot be read, more than one constraint

@@ -100,20 +100,20 @@ Stance ReadStart(const YamlNode& request, const RobotModel& model, const Plannin
 
 // The frame that the file is in: that which fixed_frame_transforms relate to themselves, else what
 // the robot's state is in, else, of a transform between frames that the robot does not have, the
-// child, which is where MoveIt writes it, else what the robot's virtual joint joins it to. "" if
-// nothing names it.
-std::string FindPlanningFrame(const Robot& robot, const RobotStateFields& start,
-                              const RobotStateFields& scene_state,
-                              const std::vector<FixedTransform>& transforms) {
+// child, which is where MoveIt writes it (a guess: tf has chains of such), else what the robot's
+// virtual joint joins it to. "" if nothing names it.
+PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& start,
+                                const RobotStateFields& scene_state,
+                                const std::vector<FixedTransform>& transforms) {
   for (const FixedTransform& transform : transforms) {
-    if (transform.header == transform.child) return transform.child;
+    if (transform.header == transform.child) return {transform.child};
   }
-  if (!start.placed_frame.empty()) return start.placed_frame;
+  if (!start.placed_frame.empty()) return {start.placed_frame};
   for (const PlacedLink& placed : start.placed_links) {
-    if (!placed.frame.empty()) return placed.frame;
+    if (!placed.frame.empty()) return {placed.frame};
   }
   for (const std::string& name : {scene_state.frame, start.frame}) {
-    if (!name.empty()) return name;
+    if (!name.empty()) return {name};
   }
   const auto is_of_robot = [&](const std::string& name) {
     return robot.model.FindLink(name) >= 0 ||
@@ -125,10 +125,10 @@ std::string FindPlanningFrame(const Robot& robot, const RobotStateFields& start,
     if (transform.header.empty() || is_of_robot(transform.header) || is_of_robot(transform.child)) {
       continue;
     }
-    return transform.child;
+    return {.name = transform.child, .is_guessed = true};
   }
-  return robot.virtual_joints.empty() ? ""
-                                      : WithoutSlash(robot.virtual_joints.front().parent_frame);
+  if (robot.virtual_joints.empty()) return {};
+  return {WithoutSlash(robot.virtual_joints.front().parent_frame)};
 }
 
 // The frame that stands still while the robot goes from the scene's state to the start: the
@@ -161,19 +161,15 @@ void RequireNamesOfOne(const YamlNode& matrix, const Robot& robot, const Scene& 
   for (const AttachedObject& attached : scene.attached) require(attached.object.id);
 }
 
-// Fixed frames in the base frame, those that are known.
-std::vector<FrameTransform> PlacedFrames(const std::vector<FixedTransform>& transforms,
-                                         const FrameTree& frames, const RobotModel& model) {
-  std::vector<FrameTransform> placed;
-  std::set<std::string> seen;
-  for (const FixedTransform& transform : transforms) {
-    for (const std::string& name : {transform.header, transform.child}) {
-      const Eigen::Isometry3d* X_BF = frames.Find(name);
-      if (X_BF == nullptr || name.empty() || model.FindLink(name) >= 0) continue;
-      if (seen.insert(name).second) placed.push_back({name, *X_BF});
-    }
+// Adds a frame, if it is known and no link, where it is in the base frame.
+void AddFixedFrame(const std::string& name, const FrameTree& frames, const RobotModel& model,
+                   std::vector<FrameTransform>* fixed) {
+  const Eigen::Isometry3d* X_BF = frames.Find(name);
+  if (X_BF == nullptr || name.empty() || model.FindLink(name) >= 0) return;
+  if (std::none_of(fixed->begin(), fixed->end(),
+                   [&](const FrameTransform& known) { return known.frame == name; })) {
+    fixed->push_back({name, *X_BF});
   }
-  return placed;
 }
 
 }  // namespace
@@ -201,22 +197,21 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   in_scene.placed_links = Overlaid(start, scene_state).placed_links;
 
   const std::vector<FixedTransform> transforms = ReadFixedTransforms(planning_scene);
-  const std::string planning_frame = FindPlanningFrame(robot, start, scene_state, transforms);
+  const PlanningFrame planning_frame = FindPlanningFrame(robot, start, scene_state, transforms);
   FrameTree frames(robot, at_start, planning_frame, transforms);
   FrameTree scene_frames(robot, in_scene, planning_frame, transforms);
-  scene_frames.MoveToBaseOf(frames, StillFrame(robot.model, start.placed_links, planning_frame));
+  scene_frames.MoveToBaseOf(frames,
+                            StillFrame(robot.model, start.placed_links, planning_frame.name));
   Scene& scene = problem.scene;
   scene.name = planning_scene.StringOr("name", "");
   scene.robot_name = planning_scene.StringOr("robot_model_name", "");
   scene.world_frame = robot.model.links().front().name;
-  scene.fixed_frames = PlacedFrames(transforms, frames, robot.model);
-  if (const auto world = planning_scene.Find("world")) {
-    AddWorldObjects(*world, resources, robot, &scene_frames, &scene);
-    AddOctomap(*world, scene_frames, &scene);
+  for (const FixedTransform& transform : transforms) {
+    for (const std::string& name : {transform.header, transform.child}) {
+      AddFixedFrame(name, frames, robot.model, &scene.fixed_frames);
+    }
   }
-  if (const auto state = planning_scene.Find("robot_state")) {
-    AddAttachedObjects(*state, resources, robot, &scene_frames, &scene);
-  }
+  AddSceneObjects(planning_scene, resources, robot, &scene_frames, &scene);
   frames.SetObjectsOf(scene_frames);
   if (const auto state = request.Find("start_state")) {
     AddAttachedObjects(*state, resources, robot, &frames, &scene);

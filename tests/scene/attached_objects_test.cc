@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "common/error.h"
 #include "tests/scene/problem_texts.h"
 #include "tests/support/expect_input_error.h"
@@ -149,6 +151,33 @@ TEST(AttachedObjects, GivenTwiceAreWhatTheLastSays) {
   EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("'tool' is attached twice")));
 }
 
+TEST(AttachedObjects, GivenTwiceAreWhatTheLastSaysWhateverNeedsTheWorld) {
+  const std::string one = "{link_name: gripper_link, object: {" + std::string(kTool) + "}}";
+  const std::string on_wall = Replaced(one, "frame_id: gripper_link", "frame_id: wall");
+  const Problem problem = ParseProblem(Replaced(kWorld, "attached_collision_objects: []",
+                                                "attached_collision_objects: [" + on_wall + ", " +
+                                                    Replaced(one, "[0.2]", "[0.3]") + "]"),
+                                       kToolRequest);
+  ASSERT_EQ(problem.scene.attached.size(), 1u);
+  EXPECT_EQ(std::get<Sphere>(problem.scene.attached[0].object.shapes.at(0).shape).radius, 0.3);
+}
+
+// As in MoveIt, whose robot state comes before the world.
+TEST(AttachedObjects, HaveFramesForObjectsOfTheWorld) {
+  const std::string in_tool = Replaced(kWorld, "id: wall\n      header: {frame_id: base_link}",
+                                       "id: wall\n      header: {frame_id: tool}");
+  const auto wall = [](const std::string& scene) -> Vector3d {
+    const SceneObject object = ParseProblem(scene, kToolRequest).scene.objects.back();
+    EXPECT_EQ(object.id, "wall");
+    return object.X_WO * object.shapes.front().X_FS.translation();
+  };
+  EXPECT_TRUE(wall(Attaching(in_tool, kTool)).isApprox(Vector3d(1.25, 5, 2.5), 1e-12));
+  EXPECT_TRUE(wall(Attaching(in_tool, "id: tool")).isApprox(Vector3d(1.25, 5, 2), 1e-12));
+  const std::string pen = Replaced(kTool, "id: tool", "id: pen");
+  const std::string in_pen = Replaced(in_tool, "frame_id: tool", "frame_id: pen");
+  EXPECT_TRUE(wall(Attaching(in_pen, pen)).isApprox(Vector3d(1.25, 5, 2.5), 1e-12));
+}
+
 TEST(AttachedObjects, ByIdStayWhereTheyAreWhateverPoseIsGiven) {
   const Problem problem = ParseProblem(
       Attaching(kWorld, "id: tool, pose: {position: [1, 1, 1], orientation: [0, 0, 0, 1]}"),
@@ -230,6 +259,36 @@ TEST(AttachedObjects, CarryTheirFramesToTheStart) {
                Replaced(kToolRequest, "start_state:", "start_state:\n  is_diff: false"), "tool");
       },
       {"unknown frame 'tool'"});
+}
+
+TEST(AttachedObjects, MayBeWhatAGoalIsOf) {
+  const std::string scene = Attaching(
+      kWorld,
+      "id: pen, header: {frame_id: gripper_link}, pose: {position: [0, 0, 1], orientation: [0, 0, "
+      "0, 1]}, primitives: [{type: sphere, dimensions: [0.2]}], subframe_names: [end], "
+      "subframe_poses: [{position: [0, 0, 2], orientation: [0, 0, 0.7071067811865476, "
+      "0.7071067811865476]}]");
+  const std::string start =
+      std::string(kToolRequest).substr(0, std::string(kToolRequest).find("goal_constraints")) +
+      "goal_constraints:\n  - ";
+  const auto goal = [&](const std::string& link, const std::string& constraint) {
+    return ParseProblem(scene, start + "{" + Replaced(constraint, "LINK", link) + "}\n").goal;
+  };
+  const std::string at_five =
+      "position_constraints: [{link_name: LINK, constraint_region: {primitives: [{type: sphere, "
+      "dimensions: [1e-6]}], primitive_poses: [{position: [1, 0, 5], orientation: [0, 0, 0, "
+      "1]}]}}]";
+  EXPECT_NEAR(goal("gripper_link", at_five).at(1).position, 5, 1e-4);
+  EXPECT_NEAR(goal("pen", at_five).at(1).position, 4, 1e-4);
+  EXPECT_NEAR(goal("/pen/end", at_five).at(1).position, 2, 1e-4);
+  const std::string level =
+      "orientation_constraints: [{link_name: LINK, orientation: [0, 0, 0, 1]}]";
+  EXPECT_NEAR(goal("pen", level).at(0).position, 0, 1e-4);
+  EXPECT_NEAR(goal("pen/end", level).at(0).position, -std::numbers::pi / 2, 1e-4);
+  ExpectInputError([&] { goal("wall", at_five); },
+                   {"request.yaml:6: goal_constraints[0].position_constraints[0].link_name: 'wall' "
+                    "is a frame of an object that is not attached"});
+  ExpectInputError([&] { goal("pen/tip", at_five); }, {"no link 'pen/tip', nor is an object"});
 }
 
 TEST(AttachedObjects, HaveASetOfTouchLinks) {

@@ -11,6 +11,7 @@ namespace planbench {
 namespace {
 
 using Eigen::Vector3d;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -146,8 +147,8 @@ TEST(Frames, ThePlanningFrameIsTheRootsUnlessItIsPlaced) {
   // Transforms join it to the robot.
   const std::string placed =
       kTransforms + Transform("map", "map", "0, 0, 0") + Transform("map", "base_link", "0, 7, 0");
-  ExpectAt(Ball(BallIn("", placed)), 1, 7, 0);
-  ExpectAt(Ball(BallIn("map", placed)), 1, 7, 0);
+  ExpectAt(Ball(BallIn("", placed)), 1, -7, 0);
+  ExpectAt(Ball(BallIn("map", placed)), 1, -7, 0);
 }
 
 std::string RootAt(const std::string& frame, const std::string& translation,
@@ -155,6 +156,31 @@ std::string RootAt(const std::string& frame, const std::string& translation,
   return "  multi_dof_joint_state:\n    header: {frame_id: '" + frame +
          "'}\n    joint_names: [world_joint]\n    transforms: [{translation: [" + translation +
          "], rotation: [" + rotation + "]}]\n    twist: []\n    wrench: []\n";
+}
+
+// As of any other frame the numbers are its pose in the planning frame, whichever the header names.
+TEST(Frames, ATransformOfALinkSaysWhereTheRobotStandsInThePlanningFrame) {
+  const std::string map = kTransforms + Transform("map", "map", "0, 0, 0");
+  for (const std::string& robot :
+       {Transform("base_link", "map", "0, 7, 0"), Transform("map", "base_link", "0, 7, 0")}) {
+    ExpectAt(Ball(BallIn("map", map + robot)), 1, -7, 0);
+    ExpectAt(Ball(BallIn("base_link", map + robot)), 1, 0, 0);
+    ExpectAt(Ball(BallIn("camera", map + robot + Transform("camera", "map", "0, 7, 3"))), 1, 0, 3);
+    // MoveIt does not.
+    EXPECT_THAT(ParseProblem(BallIn("map", map + robot), kBallRequest).warnings,
+                ElementsAre(HasSubstr(
+                    "scene.yaml:4: fixed_frame_transforms[1]: taken as the pose of the robot's "
+                    "link 'base_link' in the planning frame 'map'; MoveIt passes it over")));
+  }
+  ExpectAt(Ball(BallIn("", kTransforms + Transform("", "base_link", "0, 7, 0"))), 1, -7, 0);
+  ExpectAt(Ball(BallIn("map", map + Transform("gripper_link", "map", "0, 0, 5"))), 0, 2, -5);
+  // Where the robot's state says the same, or nothing is said, there is nothing to warn of.
+  const std::string joint = "robot_state:\n" + RootAt("map", "0, 7, 0");
+  for (const std::string& scene :
+       {BallIn("map", joint + kTransforms + Transform("base_link", "map", "0, 7, 0")),
+        BallIn("map", map + Transform("base_link", "map", "0, 0, 0"))}) {
+    EXPECT_THAT(ParseProblem(scene, kBallRequest).warnings, IsEmpty());
+  }
 }
 
 TEST(Frames, AVirtualJointPlacesTheRobot) {
@@ -204,8 +230,8 @@ TEST(Frames, TheWorldStandsStillWhereTheRequestPlacesTheRobotElsewhere) {
 
 TEST(Frames, AVirtualJointAndATransformMustAgree) {
   const std::string joint = "robot_state:\n" + RootAt("odom", "0, 0, -2");
-  ExpectAt(Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, 2"))), 1,
-           0, 2);
+  ExpectAt(Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, -2"))),
+           1, 0, 2);
   ExpectInputError(
       [&] {
         Ball(BallIn("odom", joint + kTransforms + Transform("odom", "base_link", "0, 0, 1")));
@@ -217,17 +243,20 @@ TEST(Frames, AVirtualJointAndATransformMustAgree) {
   }
 }
 
+// A table above the ball.
+std::string WithTable(const std::string& scene) {
+  return Replaced(scene, "    - id: ball",
+                  "    - id: table\n      header: {frame_id: base_link}\n"
+                  "      pose: {position: [0, 0, 1], orientation: [0, 0, 0, 1]}\n"
+                  "      primitives: [{type: box, dimensions: [1, 1, 1]}]\n"
+                  "      primitive_poses: [{position: [0, 0, 9], orientation: [0, 0, 0, 1]}]\n"
+                  "      subframe_names: [edge]\n"
+                  "      subframe_poses: [{position: [0, 2, 0], orientation: [0, 0, 0, 1]}]\n"
+                  "    - id: ball");
+}
+
 TEST(Frames, OfObjectsAndTheirSubframes) {
-  const std::string table =
-      "    - id: table\n      header: {frame_id: base_link}\n"
-      "      pose: {position: [0, 0, 1], orientation: [0, 0, 0, 1]}\n"
-      "      primitives: [{type: box, dimensions: [1, 1, 1]}]\n"
-      "      primitive_poses: [{position: [0, 0, 9], orientation: [0, 0, 0, 1]}]\n"
-      "      subframe_names: [edge]\n"
-      "      subframe_poses: [{position: [0, 2, 0], orientation: [0, 0, 0, 1]}]\n";
-  const auto with_table = [&](const std::string& frame) {
-    return Replaced(BallIn(frame), "    - id: ball", table + "    - id: ball");
-  };
+  const auto with_table = [&](const std::string& frame) { return WithTable(BallIn(frame)); };
   const auto place = [&](const std::string& scene) {
     return PlaceOf(ParseProblem(scene, kBallRequest).scene.objects.at(1));
   };
@@ -239,6 +268,56 @@ TEST(Frames, OfObjectsAndTheirSubframes) {
                           "      pose: {position: [0, 0, 1], orientation: [0, 0, 0, 1]}\n", "")),
            1, 0, 9);
   ExpectInputError([&] { place(with_table("table/leg")); }, {"unknown frame 'table/leg'"});
+}
+
+TEST(Frames, OfObjectsHaveNamesOfTheirOwn) {
+  const std::string scene = WithTable(BallIn("base_link"));
+  const auto refuse = [&](const std::string& from, const std::string& to, const std::string& field,
+                          const std::string& says) {
+    ExpectInputError([&] { Ball(Replaced(scene, from, to)); },
+                     {"scene.yaml:", ": world.collision_objects" + field + ": ", says});
+  };
+  const std::string one_pose = "subframe_poses: [{position: [0, 2, 0], ";
+  const std::string two_poses =
+      std::string("subframe_poses: [{position: [0, 3, 0], orientation: [0, 0, 0, 1]}, ") +
+      "{position: [0, 2, 0], ";
+  const std::string between = "\n      ";
+  refuse("[edge]" + between + one_pose, "[edge, edge]" + between + two_poses,
+         "[0].subframe_names[1]", "the object 'table' has a frame 'table/edge' already");
+  refuse("[edge]", "['']", "[0].subframe_names[0]", "must not be empty");
+  refuse("id: ball", "id: table/edge", "[1].id",
+         "the object 'table' has a frame 'table/edge' already");
+  refuse("    - id: table\n",
+         "    - {id: table/edge, primitives: [{type: sphere, dimensions: [1]}], primitive_poses: "
+         "[{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}\n    - id: table\n",
+         "[1].subframe_names[0]", "the object 'table/edge' has a frame 'table/edge' already");
+}
+
+TEST(Frames, OfObjectsComeBeforeFixedOnesOfTheirName) {
+  const std::string fixed = kTransforms + Transform("table", "base_link", "0, 0, 5");
+  const std::string scene = Replaced(WithTable(BallIn("table", fixed)),
+                                     "header: {frame_id: base_link}", "header: {frame_id: table}");
+  ExpectAt(PlaceOf(ParseProblem(scene, kBallRequest).scene.objects.at(1)), 1, 0, 6);
+}
+
+TEST(Frames, ThatMoveItHasElsewhereAreNamedWhereTheyAreUsed) {
+  const auto with_pose = [](const std::string& frame, const std::string& orientation) {
+    return ParseProblem(
+        Replaced(WithTable(BallIn(frame)), "{position: [0, 0, 1], orientation: [0, 0, 0, 1]}",
+                 "{position: [0, 0, 0], orientation: " + orientation + "}"),
+        kBallRequest);
+  };
+  for (const char* frame : {"table", "table/edge"}) {
+    EXPECT_THAT(
+        with_pose(frame, "{x: 0, y: 0, z: 0, w: 1}").warnings,
+        ElementsAre(AllOf(HasSubstr("scene.yaml:12: world.collision_objects[1].header.frame_id: "
+                                    "is a frame of the object 'table'"),
+                          HasSubstr("(scene.yaml:6: world.collision_objects[0].pose)"))));
+    EXPECT_THAT(with_pose(frame, "[0, 0, 0, 0]").warnings, IsEmpty()) << "none for MoveIt, too";
+    EXPECT_THAT(with_pose(frame, "[0, 0, 0.6, 0.8]").warnings, IsEmpty());
+  }
+  EXPECT_THAT(with_pose("base_link", "[0, 0, 0, 1]").warnings, IsEmpty());
+  ExpectAt(PlaceOf(with_pose("table", "[0, 0, 0, 1]").scene.objects.at(1)), 1, 0, 0);
 }
 
 TEST(Frames, UnknownOnesAreRefusedWithTheirFileAndLine) {
@@ -316,7 +395,7 @@ TEST(Frames, OfAFixedVirtualJoint) {
   ExpectAt(ball(BallIn("world", camera)), 1, 0, 0);
   ExpectAt(ball(BallIn("", camera)), 1, 0, 0);
   // The file may say otherwise.
-  ExpectAt(ball(BallIn("world", kTransforms + Transform("base_link", "world", "0, 5, 0"))), 1, 5,
+  ExpectAt(ball(BallIn("world", kTransforms + Transform("base_link", "world", "0, 5, 0"))), 1, -5,
            0);
   // An object of that name does not.
   ExpectAt(ball(Replaced(BallIn("world"), "world:\n  collision_objects:\n",
