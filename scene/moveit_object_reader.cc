@@ -334,6 +334,21 @@ class Attacher {
   std::set<std::string> ids_;
 };
 
+// A plane is solid on one side here, and nothing but a surface in MoveIt: who has the robot in it
+// means a ceiling, or a wall seen from its other side. `object` is in the base frame.
+void WarnOfPlanesAround(const SceneObject& object, const YamlNode& node) {
+  constexpr double kDepth = 1e-3;  // m; less is a floor that the robot stands on.
+  const std::vector<YamlNode> planes = OptionalElements(node, "planes");
+  const std::size_t first = object.shapes.size() - planes.size();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Eigen::Isometry3d X_BF = object.X_WO * object.shapes[first + i].X_FS;
+    if (X_BF.inverse(Eigen::Isometry).translation().z() >= -kDepth) continue;
+    planes[i].At("coef").Warn(
+        "the robot's base is in it: planes are solid on the side that (a, b, c) points away from; "
+        "negate all four numbers for a ceiling");
+  }
+}
+
 // Adds the objects of world.collision_objects in the base frame, and their frames. One may be given
 // in the frame of one above it.
 void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
@@ -345,6 +360,7 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
     SceneObject object = ReadCollisionObject(node, resources);
     object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
     if (FindAttached(id, scene) != nullptr) continue;  // It has left the world.
+    WarnOfPlanesAround(object, node);
     frames->SetObject(id, "", ReadFrames(node, object));
     scene->objects.push_back(std::move(object));
   }

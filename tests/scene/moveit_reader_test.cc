@@ -37,6 +37,21 @@ TEST(MoveItReader, PlanesAreHalfSpacesBelowThem) {
   EXPECT_TRUE(walls.shapes[2].X_FS.translation().isApprox(Eigen::Vector3d(0, 0, 0.5), 1e-12));
 }
 
+TEST(MoveItReader, PlanesThatTheRobotIsInAreNamed) {
+  const auto warnings = [](const std::string& ceiling) {
+    const std::string pose = "{position: [0, 0, 0], orientation: [0, 0, 0, 1]}";
+    return ParseProblem(
+               "world: {collision_objects: [{id: room, planes: [{coef: [0, 0, 1, 0]}, "
+               "{coef: " +
+               ceiling + "}], plane_poses: [" + pose + ", " + pose + "]}]}")
+        .warnings;
+  };
+  EXPECT_THAT(warnings("[0, 0, 1, -0.5]"),
+              ElementsAre(HasSubstr("scene.yaml:1: world.collision_objects[0].planes[1].coef: the "
+                                    "robot's base is in it")));
+  EXPECT_THAT(warnings("[0, 0, -1, 0.5]"), ElementsAre());
+}
+
 TEST(MoveItReader, ScalesMeshesThatAreWrittenOut) {
   const auto top = [](const std::string& text) {
     const Scene scene = ParseScene(text);
