@@ -229,7 +229,11 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   }
 
   problem.goal = ReadGoal(request, robot.model, group, at_start.positions, frames);
-  problem.workspace = ReadWorkspace(request);
+  problem.workspace = ReadWorkspace(request, frames);
+  // Nothing else tells of its frame, once all that is given in one is in the base frame.
+  if (problem.workspace) {
+    AddFixedFrame(problem.workspace->frame, frames, robot.model, &scene.fixed_frames);
+  }
   problem.time_limit_s = ReadTimeLimit(request);
   problem.warnings = scene_file.warnings();
   problem.warnings.insert(problem.warnings.end(), request_file.warnings().begin(),

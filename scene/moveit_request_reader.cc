@@ -164,6 +164,10 @@ void RequireRequest(const YamlNode& motion_plan_request) {
   }
   RequireKnownFields(motion_plan_request, "moveit_msgs/MotionPlanRequest");
   RefusePathConstraints(motion_plan_request);
+  const auto references = motion_plan_request.Find("reference_trajectories");
+  if (references && !(references->IsSequence() && references->Size() == 0)) {
+    references->Warn("are not read: planners are given the start and the goal alone");
+  }
 }
 
 const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) {
@@ -196,10 +200,13 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
   return goal;
 }
 
-std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request) {
+std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request,
+                                       const FrameTree& frames) {
   const std::optional<YamlNode> node = motion_plan_request.Find("workspace_parameters");
   if (!node) return std::nullopt;
-  return ReadCorners(*node, ReadFrame(*node));
+  const std::optional<Workspace> workspace = ReadCorners(*node, ReadFrame(*node));
+  if (workspace) frames.At(workspace->frame, FrameNode(*node));  // It must be known.
+  return workspace;
 }
 
 std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& frame) {

@@ -14,6 +14,7 @@ namespace planbench {
 // Parts of a moveit_msgs/MotionPlanRequest. All throw InputError naming file, line and field.
 
 /// Refuses what is no map, fields that the message does not have, and constraints on the path.
+/// Warns of trajectories to start from.
 void RequireRequest(const YamlNode& motion_plan_request);
 
 /// The planning group that group_name names.
@@ -30,7 +31,10 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
                                 const PlanningGroup& group, const std::vector<double>& start,
                                 const FrameTree& frames);
 
-std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request);
+/// workspace_parameters, if they are set. `frames` have the robot at the start; they must have the
+/// header's.
+std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request,
+                                       const FrameTree& frames);
 /// min_corner and max_corner of `node`, in a frame; nothing if all are zero, which is unset.
 std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& frame);
 

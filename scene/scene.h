@@ -66,7 +66,7 @@ class AllowedCollisionMatrix {
   std::map<std::string, bool> default_entries_;
 };
 
-/// Pose of a named frame in W, as `fixed_frame_transforms` give it.
+/// Pose of a named frame in W, of `fixed_frame_transforms` or that a workspace is in.
 struct FrameTransform {
   std::string frame;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();

@@ -148,6 +148,15 @@ TEST(KnownFields, ThatDoNotBearOnThePlanAreLeftAlone) {
   EXPECT_TRUE(problem.warnings.empty());
 }
 
+TEST(KnownFields, TrajectoriesToStartFromAreNotReadAndSaidSo) {
+  const Problem problem = ParseProblem(kFullScene,
+                                       "reference_trajectories: [{joint_trajectory: {joint_names: "
+                                       "[a_joint], points: []}}]\n" +
+                                           std::string(kFullRequest));
+  EXPECT_THAT(problem.warnings,
+              ElementsAre(HasSubstr("request.yaml:1: reference_trajectories: are not read")));
+}
+
 TEST(KnownFields, AServicesAnswerIsReadAsItsMessage) {
   const auto indented = [](const std::string& key, const std::string& text) {
     std::string result = key + ":\n  ";

@@ -141,6 +141,10 @@ TEST_F(RoundTrip, Planes) {
   Check(problem);
 }
 
+TEST_F(RoundTrip, WorkspacesInAnyFrame) {
+  Check(ParseProblem(kFullScene, Replaced(kFullRequest, "frame_id: base_link", "frame_id: shelf")));
+}
+
 TEST_F(RoundTrip, CapsulesCannotBeWritten) {
   Problem problem = ParseProblem(kFullScene);
   problem.scene.objects[2].shapes.push_back({Capsule{0.1, 0.2}});
