@@ -1,6 +1,7 @@
 #include "common/yaml.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -17,6 +18,9 @@
 
 namespace planbench {
 namespace {
+
+// The last element of a list that `ros2 topic echo` has not printed to its end.
+constexpr std::string_view kCut = "...";
 
 // The tag of a node in its short form, "" for none. yaml-cpp gives "?" to what is plain and "!" to
 // what is quoted.
@@ -40,6 +44,39 @@ bool IsMergeKey(const YAML::Node& key) {
   // In quotes it is a key like any other.
   return key.IsScalar() && key.Scalar() == "<<" && key.Tag() != "!";
 }
+
+// A map and all that it merges, at any depth, in the order of their word on a key. Each is told
+// once, however often it is merged: there may be exponentially many ways to it.
+class MergeOrder {
+ public:
+  explicit MergeOrder(const YAML::Node& map) : open_{map} {}
+
+  /// Nothing after the last.
+  std::optional<YAML::Node> Next() {
+    while (!open_.empty()) {
+      const YAML::Node map = open_.back();
+      open_.pop_back();
+      // No two maps of a document begin at the same place, but for one that is a key.
+      if (!told_.insert(map.Mark().pos).second) continue;
+      std::vector<YAML::Node> merged;
+      for (const auto& entry : map) {
+        if (!IsMergeKey(entry.first)) continue;
+        if (entry.second.IsMap()) {
+          merged.push_back(entry.second);
+        } else {
+          for (const auto& element : entry.second) merged.push_back(element);
+        }
+      }
+      for (auto other = merged.rbegin(); other != merged.rend(); ++other) open_.push_back(*other);
+      return map;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<YAML::Node> open_;  // What comes next is last.
+  std::set<int> told_;            // By their positions in the text.
+};
 
 std::string KindOf(const YAML::Node& node) {
   constexpr std::size_t kLongest = 60;
@@ -174,7 +211,10 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
-    throw InputError(origin + line + ": no valid YAML: " + error.msg);
+    // Its own text for this is "bad file".
+    const bool is_deep = dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr;
+    throw InputError(origin + line +
+                     (is_deep ? ": is nested too deep" : ": no valid YAML: " + error.msg));
   }
   std::erase_if(documents, [](const YAML::Node& document) { return document.IsNull(); });
   if (documents.size() > 1) {
@@ -270,24 +310,19 @@ void YamlNode::Warn(const std::string& what) const {
 }
 
 std::optional<YAML::Node> YamlNode::FindIn(const YAML::Node& map, const std::string& key) const {
-  std::optional<YAML::Node> value;
-  std::optional<YAML::Node> merged;
-  // By hand and not by map[key], which keeps silent about a key that occurs twice.
-  for (const auto& entry : map) {
-    if (!entry.first.IsScalar()) continue;
-    if (IsMergeKey(entry.first)) {
-      merged = entry.second;
-    } else if (entry.first.Scalar() == key) {
+  MergeOrder maps(map);
+  while (const std::optional<YAML::Node> next = maps.Next()) {
+    std::optional<YAML::Node> value;
+    // By hand and not by map[key], which keeps silent about a key that occurs twice.
+    for (const auto& entry : *next) {
+      if (!entry.first.IsScalar() || IsMergeKey(entry.first)) continue;
+      if (entry.first.Scalar() != key) continue;
       if (value) Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
-      value = entry.second;
+      value.emplace(entry.second);
     }
+    if (value) return value;
   }
-  if (value || !merged) return value;
-  if (merged->IsMap()) return FindIn(*merged, key);
-  for (const auto& element : *merged) {
-    if ((value = FindIn(element, key))) break;
-  }
-  return value;
+  return std::nullopt;
 }
 
 std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
@@ -311,26 +346,19 @@ YamlNode YamlNode::At(const std::string& key) const {
 
 std::vector<YamlNode::Entry> YamlNode::Entries(const YAML::Node& map) const {
   std::vector<Entry> entries;
-  std::set<std::string> seen;
-  std::vector<YAML::Node> merged;
-  for (const auto& entry : map) {
-    if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
-    const std::string& key = entry.first.Scalar();
-    if (HasControl(key)) Child(entry.first, path_).Fail("a control character is in a key");
-    if (!seen.insert(key).second) {
-      Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
-    }
-    if (!IsMergeKey(entry.first)) {
+  std::set<std::string> said;  // By this map and those before.
+  MergeOrder maps(map);
+  while (const std::optional<YAML::Node> next = maps.Next()) {
+    std::set<std::string> own;
+    for (const auto& entry : *next) {
+      if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
+      const std::string& key = entry.first.Scalar();
+      if (HasControl(key)) Child(entry.first, path_).Fail("a control character is in a key");
+      if (!own.insert(key).second) {
+        Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
+      }
+      if (IsMergeKey(entry.first) || !said.insert(key).second) continue;
       entries.emplace_back(entry.first, entry.second);
-    } else if (entry.second.IsMap()) {
-      merged.push_back(entry.second);
-    } else {
-      for (const auto& element : entry.second) merged.push_back(element);
-    }
-  }
-  for (const YAML::Node& other : merged) {
-    for (Entry& entry : Entries(other)) {
-      if (seen.insert(entry.first.Scalar()).second) entries.push_back(std::move(entry));
     }
   }
   return entries;
@@ -393,6 +421,9 @@ std::vector<YamlNode> YamlNode::Elements() const {
   int index = 0;
   for (const auto& element : node_) {
     elements.push_back(Child(element, path_ + "[" + std::to_string(index++) + "]"));
+    if (element.IsScalar() && element.Scalar() == kCut) {
+      elements.back().Fail("the list was cut here by 'ros2 topic echo'; use --full-length");
+    }
   }
   return elements;
 }
@@ -459,10 +490,14 @@ std::vector<double> YamlNode::Doubles() const {
 }
 
 std::vector<double> YamlNode::Doubles(int expected_size) const {
-  if (Size() != expected_size) {
-    Fail("expected " + std::to_string(expected_size) + " numbers, found " + std::to_string(Size()));
+  std::vector<double> values;
+  const std::vector<YamlNode> elements = Elements();
+  if (elements.size() != static_cast<std::size_t>(expected_size)) {
+    Fail("expected " + std::to_string(expected_size) + " numbers, found " +
+         std::to_string(elements.size()));
   }
-  return Doubles();
+  for (const YamlNode& element : elements) values.push_back(element.Double());
+  return values;
 }
 
 std::vector<std::string> YamlNode::Strings() const {

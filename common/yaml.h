@@ -54,7 +54,8 @@ class YamlNode {
   /// Number of elements; throws if this is no sequence.
   int Size() const;
   YamlNode At(int index) const;
-  /// All elements of a sequence; throws if this is no sequence.
+  /// All elements of a sequence; throws if this is no sequence, or has one of `...`, which is where
+  /// `ros2 topic echo` cuts a list.
   std::vector<YamlNode> Elements() const;
 
   /// A finite decimal number, exactly rounded; NaN and infinities throw. `!degrees 90` and

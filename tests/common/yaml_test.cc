@@ -100,7 +100,8 @@ TEST(YamlNode, SyntaxErrorsNameTheLine) {
   EXPECT_THAT(ErrorOf([] { Parse("a: 1\nb: c: d\n"); }), StartsWith("file.yaml:2: "));
   EXPECT_THAT(ErrorOf([] { Parse("a: 1\n---\nb: 2\n"); }),
               StartsWith("file.yaml:3: a second YAML document"));
-  EXPECT_THROW(Parse(std::string(100000, '[')), InputError);
+  EXPECT_EQ(ErrorOf([] { Parse("\n" + std::string(100000, '[')); }),
+            "file.yaml:2: is nested too deep");
 }
 
 // yaml-cpp would read documents until the memory is full.
@@ -264,6 +265,49 @@ TEST(YamlNode, AliasesAreFollowedOnce) {
   }
   EXPECT_EQ(Parse(text).At("a59").Size(), 2) << "and not 2^60 elements looked at";
   EXPECT_TRUE(Parse("a: &a {b: *a}\n").At("a").At("b").At("b").IsMap());
+}
+
+// Ten ways from each level to the next: 10^30 to the last, and as many keys.
+TEST(YamlNode, MapsThatAreMergedOverAndOverAreFollowedOnce) {
+  std::string text = "l0: &l0 {name: s, <<: {deep: 1}}\n";
+  for (int i = 1; i <= 30; ++i) {
+    const std::string last = "*l" + std::to_string(i - 1);
+    text += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " {k" + std::to_string(i) +
+            ": " + std::to_string(i) + ", <<: [" + last;
+    for (int k = 1; k < 10; ++k) text += ", " + last;
+    text += "]}\n";
+  }
+  const YamlNode top = Parse(text).At("l30");
+  EXPECT_EQ(top.Keys().size(), 32u);
+  EXPECT_EQ(top.Keys().back(), "deep");
+  EXPECT_EQ(top.At("name").String(), "s");
+  EXPECT_EQ(top.At("k1").Int(), 1);
+  EXPECT_FALSE(top.Find("k0"));
+}
+
+TEST(YamlNode, MergesMayBeChainedAtAnyLength) {
+  std::string text = "l0: &l0 {name: s}\n";
+  for (int i = 1; i <= 20000; ++i) {
+    text += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " {<<: *l" +
+            std::to_string(i - 1) + "}\n";
+  }
+  const YamlNode top = Parse(text).At("l20000");
+  EXPECT_EQ(top.At("name").String(), "s");
+  EXPECT_THAT(top.Keys(), ElementsAre("name"));
+}
+
+TEST(YamlNode, ListsThatWereCutAreRefused) {
+  for (const char* text : {"[1, 2, '...']", "[1, 2, ...]"}) {
+    const YamlNode list = Parse("a: 1\nlist: " + std::string(text)).At("list");
+    for (const std::string& error :
+         {ErrorOf([&] { list.Doubles(); }), ErrorOf([&] { list.Doubles(3); }),
+          ErrorOf([&] { list.Strings(); }), ErrorOf([&] { list.Bytes(); })}) {
+      EXPECT_EQ(error,
+                "file.yaml:2: list[2]: the list was cut here by 'ros2 topic echo'; use "
+                "--full-length");
+    }
+  }
+  EXPECT_EQ(Parse("a: '...'").At("a").String(), "...");
 }
 
 TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
