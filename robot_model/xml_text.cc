@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "common/error.h"
@@ -12,7 +13,13 @@
 namespace planbench {
 namespace {
 
-bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool NamesXacro(std::string_view uri) { return uri.ends_with("/xacro"); }
+
+// Before the colon, "" without one.
+std::string_view PrefixOf(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? "" : name.substr(0, colon);
+}
 
 class TagChecker {
  public:
@@ -49,15 +56,38 @@ class TagChecker {
     if (!tag.empty) open_.push_back(tag);
   }
 
-  void RefuseXacro(const XmlTag& tag) const {
-    // The last four are xacro of before it had a namespace.
-    const bool is_xacro =
-        tag.element.starts_with("xacro:") ||
-        (open_.size() == 1 && (tag.element == "include" || tag.element == "macro" ||
-                               tag.element == "property" || tag.element == "insert_block"));
+  // Prefixes hold to the end of the text: what they are bound to elsewhere is xacro too.
+  void NotePrefixes(const std::vector<XmlAttribute>& attributes) {
+    for (const XmlAttribute& attribute : attributes) {
+      if (!attribute.name.starts_with("xmlns:") || !NamesXacro(attribute.value)) continue;
+      xacro_prefixes_.insert(attribute.name.substr(std::string_view("xmlns:").size()));
+    }
+  }
+
+  bool IsXacro(const XmlTag& tag, const std::vector<XmlAttribute>& attributes) const {
+    if (xacro_prefixes_.contains(PrefixOf(tag.element))) return true;
+    if (open_.empty()) return false;
+    // Without a prefix. All of the outermost element would be in its namespace.
+    for (const XmlAttribute& attribute : attributes) {
+      if (attribute.name == "xmlns" && NamesXacro(attribute.value)) return true;
+    }
+    // Xacro of before it had a namespace.
+    return open_.size() == 1 && (tag.element == "include" || tag.element == "macro" ||
+                                 tag.element == "property" || tag.element == "insert_block");
+  }
+
+  void RefuseXacro(const XmlTag& tag) {
+    const std::vector<XmlAttribute> attributes = tag.Attributes();
+    NotePrefixes(attributes);
+    const auto attribute = std::ranges::find_if(attributes, [&](const XmlAttribute& a) {
+      return xacro_prefixes_.contains(PrefixOf(a.name));
+    });
     std::string what;
-    if (is_xacro) {
+    if (IsXacro(tag, attributes)) {
       what = fmt::format("<{}> is xacro and not expanded", tag.element);
+    } else if (attribute != attributes.end()) {
+      what = fmt::format("{}<{}>: the attribute {} is xacro and not expanded", Place(), tag.element,
+                         attribute->name);
     } else if (Within("link") || Within("joint") || tag.element == "link" ||
                tag.element == "joint") {
       for (const std::string_view begin : {"${", "$("}) {
@@ -94,23 +124,36 @@ class TagChecker {
 
   const std::string& origin_;
   std::vector<XmlTag> open_;
+  std::set<std::string_view> xacro_prefixes_ = {"xacro"};
 };
 
 }  // namespace
 
+std::vector<XmlAttribute> XmlTag::Attributes() const {
+  constexpr std::string_view kSpace = " \t\r\n";
+  std::vector<XmlAttribute> attributes;
+  std::string_view rest = text;
+  const auto skip = [&](std::size_t end) { rest.remove_prefix(std::min(end, rest.size())); };
+  skip(rest.find_first_of(kSpace));
+  while (true) {
+    skip(rest.find_first_not_of(kSpace));
+    const std::string_view name = rest.substr(0, rest.find_first_of(" \t\r\n=\"'/"));
+    skip(name.size());
+    skip(rest.find_first_not_of(kSpace));
+    if (name.empty() || !rest.starts_with('=')) return attributes;
+    skip(1);
+    skip(rest.find_first_not_of(kSpace));
+    if (!rest.starts_with('"') && !rest.starts_with('\'')) return attributes;
+    const std::size_t end = rest.find(rest.front(), 1);
+    if (end == std::string_view::npos) return attributes;
+    attributes.push_back({name, rest.substr(1, end - 1)});
+    skip(end + 1);
+  }
+}
+
 std::optional<std::string> XmlTag::Attribute(std::string_view name) const {
-  const std::string_view tag = text;
-  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
-    if (at == 0 || !IsSpace(tag[at - 1])) continue;
-    std::size_t i = at + name.size();
-    while (i < tag.size() && IsSpace(tag[i])) ++i;
-    if (i >= tag.size() || tag[i] != '=') continue;
-    ++i;
-    while (i < tag.size() && IsSpace(tag[i])) ++i;
-    if (i >= tag.size() || (tag[i] != '"' && tag[i] != '\'')) continue;
-    const std::size_t end = tag.find(tag[i], i + 1);
-    if (end == std::string_view::npos) return std::nullopt;
-    return std::string(tag.substr(i + 1, end - i - 1));
+  for (const XmlAttribute& attribute : Attributes()) {
+    if (attribute.name == name) return std::string(attribute.value);
   }
   return std::nullopt;
 }

@@ -4,8 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace planbench {
+
+/// An attribute of a tag, as written.
+struct XmlAttribute {
+  std::string_view name;
+  std::string_view value;  ///< Between the quotes.
+};
 
 /// A tag of XML text.
 struct XmlTag {
@@ -15,6 +22,8 @@ struct XmlTag {
   bool closing = false;      ///< </element>
   bool empty = false;        ///< <element/>
 
+  /// In order, up to what is no attribute.
+  std::vector<XmlAttribute> Attributes() const;
   /// The value of an attribute, nothing if the tag has none of that name.
   std::optional<std::string> Attribute(std::string_view name) const;
 };
