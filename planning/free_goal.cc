@@ -53,8 +53,8 @@ std::string FindFault(EdgeChecker* edges, const Configuration& q, const std::str
   const int j = space.FirstOutsideLimits(q);
   if (j >= 0) {
     const JointSpace::Joint& joint = space.joint(j);
-    return fmt::format("{}: joint '{}' at {} is outside its limits [{}, {}]", what, joint.name,
-                       q[static_cast<std::size_t>(j)], joint.lower, joint.upper);
+    return fmt::format("{}: joint '{}' at {} is outside its limits {}", what, joint.name,
+                       q[static_cast<std::size_t>(j)], space.DescribeLimits(j));
   }
   const std::optional<Contact> contact = edges->checker().FindContact(q);
   if (!contact) return fmt::format("{} is in collision", what);

@@ -51,8 +51,8 @@ bool JudgeWaypoints(const JointSpace& space, const Path& path, PathVerdict* verd
       const double position = q[static_cast<std::size_t>(j)];
       RejectWaypoint(verdict,
                      std::isfinite(position)
-                         ? fmt::format("waypoint {}: joint '{}' at {} is outside [{}, {}]", i,
-                                       joint.name, position, joint.lower, joint.upper)
+                         ? fmt::format("waypoint {}: joint '{}' at {} is outside {}", i, joint.name,
+                                       position, space.DescribeLimits(j))
                          : fmt::format("waypoint {}: joint '{}' is {}, not a finite number", i,
                                        joint.name, position),
                      i);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "common/error.h"
+#include "common/numbers.h"
 
 namespace planbench {
 namespace {
@@ -29,15 +31,26 @@ int PositionIndex(const RobotModel& model, const std::string& name, const Joint*
   return found == known.end() ? -1 : static_cast<int>(found - known.begin());
 }
 
-// A description that fixes a joint away from its zero has moved its origin there: along or about
-// the axis, which fixed joints do not keep.
+bool AreEqual(double a, double b) { return std::abs(a - b) <= JointSpace::kLimitTolerance; }
+
+// Whether a fixed joint is at that position by its description: one that fixes a joint away from
+// its zero has moved its origin there, along or about the axis.
 bool IsFixedAt(const Joint& joint, double position) {
-  const auto equal = [&](double value) {
-    return std::abs(std::abs(value) - std::abs(position)) <= JointSpace::kLimitTolerance;
-  };
+  if (AreEqual(position, 0)) return true;
+  const Eigen::Matrix3d R_PJ = joint.X_PJ.linear();
+  const Eigen::AngleAxisd turn(R_PJ);
+  return AreEqual(position, joint.X_PJ.translation().dot(R_PJ * joint.axis_J)) ||
+         AreEqual(position, turn.angle() * turn.axis().dot(joint.axis_J));
+}
+
+// Whether it may be, by a description that tells no axis, or another one.
+bool MayBeFixedAt(const Joint& joint, double position) {
   const Eigen::Vector3d& p = joint.X_PJ.translation();
-  return equal(0) || equal(p.x()) || equal(p.y()) || equal(p.z()) ||
-         equal(Eigen::AngleAxisd(Eigen::Matrix3d(joint.X_PJ.linear())).angle());
+  const double angle = Eigen::AngleAxisd(Eigen::Matrix3d(joint.X_PJ.linear())).angle();
+  return IsFixedAt(joint, position) ||
+         std::ranges::any_of(std::array{p.x(), p.y(), p.z(), angle}, [&](double value) {
+           return AreEqual(std::abs(value), std::abs(position));
+         });
 }
 
 // Why a position that is a part of a joint's pose cannot have that value.
@@ -83,8 +96,24 @@ std::optional<std::string> FindPositionFault(const RobotModel& model, const std:
     return fmt::format("is unknown; robot '{}' has none of that name", model.name());
   }
   if (NumPositions(joint->type) > 1) return "takes a pose (multi_dof_joint_state), not a position";
-  if (joint->type == JointType::kFixed && !IsFixedAt(*joint, position)) {
+  if (joint->type == JointType::kFixed && !MayBeFixedAt(*joint, position)) {
     return fmt::format("is fixed and cannot be at {}", position);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std::string& name,
+                                             double position) {
+  const int index = model.FindJoint(name);
+  if (index < 0) return std::nullopt;
+  const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+  if (joint.type == JointType::kFixed && !IsFixedAt(joint, position)) {
+    return fmt::format(
+        "is fixed; {} is a number of its origin, taken for where it was fixed, and does not count",
+        position);
+  }
+  if (joint.type == JointType::kContinuous && std::abs(position) > 2 * kPi) {
+    return fmt::format("is at {} rad, {:.1f} turns; degrees?", position, position / (2 * kPi));
   }
   return std::nullopt;
 }

@@ -11,9 +11,15 @@ namespace planbench {
 
 /// Why a joint of that name cannot be at that position ("is unknown"), nothing if it can be named
 /// so. Names are those of joints, and RobotModel::position_names. A fixed joint may be named at 0,
-/// and where its origin shows that the description has fixed it; what would lift or tilt a planar
-/// joint, at 0.
+/// and where the description may have fixed it: at a coordinate or the angle of its origin, of
+/// either sign; what would lift or tilt a planar joint, at 0.
 std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
+                                             double position);
+
+/// What is odd about a position that is taken all the same ("is at 90 rad, 14.3 turns; degrees?"),
+/// nothing if nothing is: a fixed joint's that its origin does not show along or about the axis of
+/// its description, and a continuous joint's that is more than one turn away from 0.
+std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std::string& name,
                                              double position);
 
 /// Why a joint of that type cannot have its child link at pose X_JC in its own frame ("is planar

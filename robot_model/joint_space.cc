@@ -1,5 +1,7 @@
 #include "robot_model/joint_space.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,8 +32,6 @@ double WrapAngle(double angle) {
 JointSpace::JointSpace(std::vector<Joint> joints) : joints_(std::move(joints)) {
   for (const Joint& joint : joints_) {
     constexpr double kLargest = std::numeric_limits<double>::max();  // that is finite
-    // Turned further, an angle is rounded by more than paths may be off their ends.
-    constexpr double kFarthestTurned = 1e6;  // rad
     const bool bounded = !joint.continuous;
     lowest_.push_back(bounded ? std::max(-kLargest, joint.lower - kLimitTolerance)
                               : -kFarthestTurned);
@@ -83,6 +83,12 @@ void JointSpace::Wrap(std::span<double> q) const {
   }
 }
 
+double JointSpace::WithoutTurns(int j, double position) const {
+  const double turned = std::abs(position);
+  const bool has_turns = joint(j).continuous && turned > kPi && turned <= kFarthestTurned;
+  return has_turns ? WrapAngle(position) : position;
+}
+
 void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) const {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int j = 0; j < size(); ++j) {
@@ -93,6 +99,12 @@ void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) 
     if (least > most) continue;
     q[i] += kTurn * std::clamp(std::round((to[i] - q[i]) / kTurn), least, most);
   }
+}
+
+std::string JointSpace::DescribeLimits(int j) const {
+  const bool bounded = !joint(j).continuous;
+  return fmt::format("[{}, {}]", bounded ? joint(j).lower : -kFarthestTurned,
+                     bounded ? joint(j).upper : kFarthestTurned);
 }
 
 int JointSpace::FirstOutsideLimits(std::span<const double> q) const {

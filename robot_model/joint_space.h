@@ -23,6 +23,9 @@ class JointSpace {
   /// Bounds of limits are inclusive; a position may exceed them by this much (rad or m), the
   /// rounding of positions that were written as text.
   static constexpr double kLimitTolerance = 1e-6;
+  /// rad, the bound of continuous joints, of either sign. Turned further, an angle is rounded by
+  /// more than paths may be off their ends.
+  static constexpr double kFarthestTurned = 1e6;
 
   JointSpace() = default;
   explicit JointSpace(std::vector<Joint> joints);
@@ -43,9 +46,14 @@ class JointSpace {
                    std::span<double> out) const;
   /// Brings continuous joints into [-pi, pi).
   void Wrap(std::span<double> q) const;
+  /// `position` of joint j; of a continuous joint that is beyond half a turn, as far as turns can
+  /// be told, in [-pi, pi) instead.
+  double WithoutTurns(int j, double position) const;
   /// Brings joints that may turn more than once round to the turn, within their limits, that is
   /// nearest to where they are at `to`.
   void ToNearestTurn(std::span<const double> to, std::span<double> q) const;
+  /// "[-1.5, 2]": what positions of joint j may be.
+  std::string DescribeLimits(int j) const;
   /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1
   /// if none.
   int FirstOutsideLimits(std::span<const double> q) const;

@@ -34,7 +34,8 @@ struct Joint {
   int parent_link = -1;
   int child_link = -1;
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
-  /// Unit vector; used by revolute, continuous and prismatic joints.
+  /// Unit vector; used by revolute, continuous and prismatic joints. Of a fixed one the axis that
+  /// its description still names, zero without.
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();
   /// rad or m; infinite for continuous joints. A soft limit (safety_controller) counts; a joint
   /// that others follow keeps them within theirs, and theirs are here what is left of them.

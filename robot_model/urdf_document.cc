@@ -82,6 +82,9 @@ class ElementFinder {
     if (Within({"joint"}) && !joints_.empty()) {
       if (tag.element == "parent") joints_.back().parent = tag.Attribute("link").value_or("");
       if (tag.element == "child") joints_.back().child = tag.Attribute("link").value_or("");
+      if (tag.element == "axis") {
+        document_.joint_axes.try_emplace(joints_.back().name, tag.Attribute("xyz").value_or(""));
+      }
     }
     const std::optional<std::string> name = tag.Attribute("name");
     if (!name || open_.size() != 1) return;

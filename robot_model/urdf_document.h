@@ -16,6 +16,8 @@ struct UrdfDocument {
   std::map<std::string, int> link_lines;   ///< Line of each <link name="...">, from 1.
   std::map<std::string, int> joint_lines;  ///< Line of each <joint name="..." type="...">, from 1.
   std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
+  /// xyz of each joint's <axis>, as written: urdfdom reads none of fixed joints.
+  std::map<std::string, std::string> joint_axes;
 };
 
 /// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed),

@@ -94,6 +94,7 @@ class UrdfConverter {
     if (const std::string what = FaultOf(result.X_PJ); !what.empty()) {
       FailJoint(joint.name, "origin: " + what);
     }
+    if (result.type == JointType::kFixed) result.axis_J = AxisOfFixed(joint.name);
     if (NumPositions(result.type) != 1) return result;
 
     const Vector3d axis = ToEigen(joint.axis);
@@ -132,6 +133,20 @@ class UrdfConverter {
   const std::vector<std::string>& soft_limits() const { return soft_limits_; }
 
  private:
+  // What it turned about or moved along before it was fixed; zero if its description does not tell.
+  Vector3d AxisOfFixed(const std::string& joint) const {
+    const auto text = document_.joint_axes.find(joint);
+    if (text == document_.joint_axes.end()) return Vector3d::Zero();
+    urdf::Vector3 axis;
+    try {
+      axis.init(text->second);
+    } catch (const urdf::ParseError&) {
+      return Vector3d::Zero();
+    }
+    const Vector3d direction = ToEigen(axis).normalized();
+    return direction.allFinite() ? direction : Vector3d(Vector3d::Zero());
+  }
+
   std::string Where(const std::map<std::string, int>& lines, const char* kind,
                     const std::string& name) const {
     const auto line = lines.find(name);

@@ -33,10 +33,14 @@ Eigen::Vector3d ReadVector3(const YamlNode& node) {
           ? std::vector{node.At("x").Double(), node.At("y").Double(), node.At("z").Double()}
           : node.Doubles(3);
   const Eigen::Vector3d vector(xyz[0], xyz[1], xyz[2]);
-  if (vector.cwiseAbs().maxCoeff() > kFarthestAway) {
+  RequireNear(vector, node);
+  return vector;
+}
+
+void RequireNear(const Eigen::Vector3d& position, const YamlNode& node) {
+  if (position.cwiseAbs().maxCoeff() > kFarthestAway) {
     node.Fail(fmt::format("is beyond {} m", kFarthestAway));
   }
-  return vector;
 }
 
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
@@ -48,17 +52,22 @@ Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
     const std::vector<double> xyzw = node.Doubles(4);
     q = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   }
+  return Normalised(q, node);
+}
+
+Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
+                              const std::string& subject) {
   const std::string length = std::to_string(q.norm());
   if (q.vec().isZero(0)) {
-    if (q.w() == 0) node.Warn("is all zero; taken as no rotation");
+    if (q.w() == 0) node.Warn(subject + "is all zero; taken as no rotation");
     if (q.w() != 0 && std::abs(std::abs(q.w()) - 1) > kRounding) {
-      node.Warn("has length " + length + "; taken as no rotation");
+      node.Warn(subject + "has length " + length + "; taken as no rotation");
     }
     return Eigen::Quaterniond::Identity();
   }
   const double off = std::abs(q.norm() - 1);
-  if (!(off <= kFarthest)) node.Fail("is no unit quaternion (length " + length + ")");
-  if (off > kRounding) node.Warn("has length " + length + "; normalised");
+  if (!(off <= kFarthest)) node.Fail(subject + "is no unit quaternion (length " + length + ")");
+  if (off > kRounding) node.Warn(subject + "has length " + length + "; normalised");
   return q.normalized();
 }
 

@@ -21,11 +21,18 @@ std::string ReadName(const YamlNode& node);
 /// geometry_msgs/Point or Vector3: [x, y, z] or {x: .., y: .., z: ..}.
 Eigen::Vector3d ReadVector3(const YamlNode& node);
 
+/// Throws, at `node`, for a position (m) that is too far away to be reckoned with.
+void RequireNear(const Eigen::Vector3d& position, const YamlNode& node);
+
 /// geometry_msgs/Quaternion: [x, y, z, w] or a map of the four. Normalised; its length must be 1
 /// within 5 %. As in MoveIt, one of nothing but zeros is the identity, and so is one that has a w
 /// alone. Warns of these, and of a length that is off by more than rounding to a few digits makes
 /// it.
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node);
+/// The same for one whose numbers stand elsewhere; what is wrong with it is said at `node`, of
+/// `subject` ("the rotation ").
+Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
+                              const std::string& subject = "");
 
 /// geometry_msgs/Pose: {position: .., orientation: ..}. Canonical (scene/pose.h).
 Eigen::Isometry3d ReadPose(const YamlNode& node);

@@ -83,16 +83,25 @@ void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
   }
 }
 
-// The start: its joints, with followers where they are, go to `joints`.
+// The start: its joints, with followers where they are and without the whole turns of the group's,
+// go to `joints`.
 Stance ReadStart(const YamlNode& request, const RobotModel& model, const PlanningGroup& group,
                  const RobotStateFields& start, JointState* joints) {
   RequireStartOfGroup(request, group, start.joints);
   const YamlNode node = request.Find("start_state").value_or(request);
   std::vector<std::string> warnings;
-  const std::vector<double> full =
+  std::vector<double> full =
       FullPositions(model, start.joints.names, start.joints.positions, "start", &warnings);
   for (const std::string& warning : warnings) node.Warn(warning);
   *joints = start.joints;
+  for (std::size_t i = 0; i < joints->names.size(); ++i) {
+    const int j = group.space.Find(joints->names[i]);
+    if (j < 0) continue;
+    const int joint = group.joints[static_cast<std::size_t>(j)];
+    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
+    joints->positions[i] = group.space.WithoutTurns(j, joints->positions[i]);
+    full[static_cast<std::size_t>(index)] = joints->positions[i];
+  }
   PlaceFollowers(model, full, joints);
   WarnOfHeldJoints(node, model, group, full);
   return {.positions = full, .placed_links = start.placed_links};

@@ -75,6 +75,8 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
     if (joint.position_index >= 0) position = joint.multiplier * position + joint.offset;
   }
   if (Meets(goal, position)) return;
+  const double nearest_turn = goal.position + WrapAngle(position - goal.position);
+  if (joint.type == JointType::kContinuous && Meets(goal, nearest_turn)) return;
   node.Fail("the joint '" + goal.joint + "' is not in group '" + group.name + "' and stays at " +
             std::to_string(position));
 }
@@ -122,7 +124,11 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
     if (!seen.insert(goal.joint).second) {
       name.Fail("the joint '" + goal.joint + "' is named twice");
     }
-    goal.position = node.At("position").Double();
+    const YamlNode position = node.At("position");
+    goal.position = position.Double();
+    if (const auto doubt = FindPositionDoubt(model, goal.joint, goal.position)) {
+      position.Warn("the joint '" + goal.joint + "' " + *doubt);
+    }
     goal.tolerance_above = ReadTolerance(node, "tolerance_above");
     goal.tolerance_below = ReadTolerance(node, "tolerance_below");
     if (group.space.Find(goal.joint) >= 0) {
@@ -132,6 +138,9 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
     }
   }
   for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, start);
+  for (JointGoal& goal : goals) {
+    goal.position = group.space.WithoutTurns(group.space.Find(goal.joint), goal.position);
+  }
   if (of_pose) {
     const JointSpace limits =
         Narrowed(group.space, goals, constraints.Find("joint_constraints").value_or(constraints));

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -14,6 +16,55 @@
 
 namespace planbench {
 namespace {
+
+// Where the names of a planar or floating joint's positions begin: x, y, z, and a quaternion's.
+const std::string* PartsOf(const Joint& joint, const RobotModel& model) {
+  return &model.position_names()[static_cast<std::size_t>(joint.position_index)];
+}
+
+// Holds the parts of a pose that a joint_state gives, one by one, to what a pose is held to: a
+// rotation is taken whole, what is not named of it as of none. `names` are those of `joints`.
+void ReadParts(const Joint& joint, const RobotModel& model, const std::vector<YamlNode>& names,
+               JointState* joints) {
+  constexpr int kRotation = 3;
+  constexpr double kSameNumber = 1e-12;
+  const std::string* const parts = PartsOf(joint, model);
+  std::array<double, 7> pose = {0, 0, 0, 0, 0, 0, 1};
+  std::array<const YamlNode*, 7> named = {};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto k =
+        static_cast<std::size_t>(std::find(parts, parts + pose.size(), joints->names[i]) - parts);
+    if (k == pose.size()) continue;
+    pose[k] = joints->positions[i];
+    named[k] = &names[i];
+  }
+  const auto is_named = [](const YamlNode* node) { return node != nullptr; };
+  const auto first = std::find_if(named.begin(), named.end(), is_named);
+  if (first == named.end()) return;
+  const Eigen::Vector3d position(pose[0], pose[1], pose[2]);
+  RequireNear(position, **first);
+  const auto of_rotation = std::find_if(named.begin() + kRotation, named.end(), is_named);
+  if (of_rotation == named.end()) return;
+  const Eigen::Quaterniond q =
+      Normalised(Eigen::Quaterniond(pose[6], pose[3], pose[4], pose[5]), **of_rotation,
+                 "the rotation of joint '" + joint.name + "' ");
+  if (const auto fault = FindPoseFault(joint.type, PoseFromPositionOrientation(position, q))) {
+    (*of_rotation)->Fail("the joint '" + joint.name + "' " + *fault);
+  }
+  for (int k = 0; k < 4; ++k) {
+    const std::string& part = parts[kRotation + k];
+    const auto at = std::find(joints->names.begin(), joints->names.end(), part);
+    const auto i = static_cast<std::size_t>(at - joints->names.begin());
+    if (at == joints->names.end()) {
+      joints->names.push_back(part);
+      joints->positions.push_back(0);
+    }
+    // What is of unit length stays as it is written.
+    if (std::abs(joints->positions[i] - q.coeffs()[k]) > kSameNumber) {
+      joints->positions[i] = q.coeffs()[k];
+    }
+  }
+}
 
 void ReadJointState(const YamlNode& node, const RobotModel& model, RobotStateFields* fields) {
   fields->frame = ReadFrame(node);
@@ -31,8 +82,14 @@ void ReadJointState(const YamlNode& node, const RobotModel& model, RobotStateFie
     if (const auto fault = FindPositionFault(model, name, position)) {
       names[i].Fail("the joint '" + name + "' " + *fault);
     }
+    if (const auto doubt = FindPositionDoubt(model, name, position)) {
+      names[i].Warn("the joint '" + name + "' " + *doubt);
+    }
     fields->joints.names.push_back(name);
     fields->joints.positions.push_back(position);
+  }
+  for (const Joint& joint : model.joints()) {
+    if (NumPositions(joint.type) > 1) ReadParts(joint, model, names, &fields->joints);
   }
 }
 
@@ -60,18 +117,43 @@ void AddPlacedLink(const PlacedLink& placed, const YamlNode& name, RobotStateFie
 // Gives a planar or floating joint its pose.
 void AddPose(const Joint& joint, const RobotModel& model, const Eigen::Isometry3d& X_JC,
              const YamlNode& node, JointState* joints) {
-  const std::string& first = model.position_names()[static_cast<std::size_t>(joint.position_index)];
-  for (const std::string& name : joints->names) {
-    if (name == first) node.Fail("the joint '" + joint.name + "' is named twice");
-  }
   const Eigen::Quaterniond q = OrientationOf(X_JC);
   const Eigen::Vector3d& p = X_JC.translation();
   const std::vector<double> pose = {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
-  for (std::size_t k = 0; k < pose.size(); ++k) {
-    joints->names.push_back(
-        model.position_names()[static_cast<std::size_t>(joint.position_index) + k]);
-    joints->positions.push_back(pose[k]);
+  const std::string* const parts = PartsOf(joint, model);
+  for (const std::string& name : joints->names) {
+    if (std::find(parts, parts + pose.size(), name) != parts + pose.size()) {
+      node.Fail("the joint '" + joint.name + "' is named twice, here and as '" + name + "'");
+    }
   }
+  joints->names.insert(joints->names.end(), parts, parts + pose.size());
+  joints->positions.insert(joints->positions.end(), pose.begin(), pose.end());
+}
+
+// Refuses the pose of a joint of the URDF, which is one in the joint's own frame, in a header of
+// another. MoveIt has the frame of the whole robot there, as in the joint_state's; what joins a
+// robot to its surroundings that has no virtual joints may bring any.
+void RequireOwnFrame(const Joint& joint, const Eigen::Isometry3d& pose,
+                     const YamlNode& multi_dof_state, const Robot& robot,
+                     const std::string& frame_of_joints) {
+  const std::vector<Link>& links = robot.model.links();
+  const std::string& parent = links[static_cast<std::size_t>(joint.parent_link)].name;
+  std::vector<std::string> known = {"", links.front().name, parent, frame_of_joints};
+  for (const VirtualJoint& other : robot.virtual_joints) {
+    known.push_back(WithoutSlash(other.parent_frame));
+  }
+  const std::string header = ReadFrame(multi_dof_state);
+  const auto is_of_robot = [&](const YamlNode& name) {
+    return robot.model.FindJoint(name.String()) >= 0;
+  };
+  if (robot.virtual_joints.empty() &&
+      !std::ranges::all_of(OptionalElements(multi_dof_state, "joint_names"), is_of_robot)) {
+    return;
+  }
+  if (std::ranges::find(known, header) != known.end() || pose.matrix().isIdentity()) return;
+  FrameNode(multi_dof_state)
+      .Fail("the pose of the joint '" + joint.name + "' is one in its own frame on '" + parent +
+            "', not in '" + header + "'; name that link here, or none");
 }
 
 const VirtualJoint* FindVirtualJoint(const std::string& name, const Robot& robot) {
@@ -137,7 +219,9 @@ void ReadJointPose(const YamlNode& name, const YamlNode& transform, const YamlNo
     at_fault.Fail("the joint '" + name.String() + "' " + *fault);
   }
   if (joint != nullptr) {
-    if (NumPositions(type) > 1) AddPose(*joint, robot.model, pose, name, &fields->joints);
+    if (NumPositions(type) == 0) return;
+    RequireOwnFrame(*joint, pose, multi_dof_state, robot, fields->frame);
+    AddPose(*joint, robot.model, pose, name, &fields->joints);
     return;
   }
   AddPlacedLink(virtual_joint != nullptr

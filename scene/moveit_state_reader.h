@@ -13,7 +13,7 @@ namespace planbench {
 /// What a moveit_msgs/RobotState says of the robot, but for attached objects.
 struct RobotStateFields {
   /// joint_state, and the poses that multi_dof_joint_state gives to planar and floating joints of
-  /// the robot, as positions (RobotModel::position_names).
+  /// the robot, as positions (RobotModel::position_names). A rotation is there whole or not at all.
   JointState joints;
   std::string frame;  ///< Of joint_state, "" if it names none.
   /// The poses that multi_dof_joint_state gives to virtual joints: those of their child links in
@@ -25,8 +25,8 @@ struct RobotStateFields {
 
 /// Throws InputError naming the line: names with another number of positions or transforms, joints
 /// that occur twice or that the robot does not have, positions and poses that a joint's type rules
-/// out (FindPositionFault, FindPoseFault), those of virtual joints too, and poses of these in a
-/// frame that is not theirs.
+/// out (FindPositionFault, FindPoseFault), those of virtual joints too, rotations that are none,
+/// and poses in a frame that is not the joint's. Warns of positions in doubt (FindPositionDoubt).
 RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot);
 
 /// `below` overlaid by `above`, which has the last word on the joints that it names. Throws

@@ -70,6 +70,56 @@ TEST_F(FullPositionsTest, AFixedJointMayBeNamedWhereItIs) {
   ExpectInputError([&] { Full({"still"}, {0.1}); }, {"start: joint 'still' is fixed", "0.1"});
 }
 
+TEST_F(FullPositionsTest, AFixedJointThatTellsNoAxisIsInDoubtAwayFromZero) {
+  EXPECT_FALSE(FindPositionDoubt(model_, "still", 0));
+  for (const double position : {0.065, -0.9}) {
+    EXPECT_THAT(FindPositionDoubt(model_, "still", position).value_or(""),
+                HasSubstr("is fixed; " + std::string(position > 0 ? "0.065" : "-0.9")));
+  }
+}
+
+TEST(FullPositions, TheAxisOfAFixedJointTellsWhereItWasFixed) {
+  const std::string ends = "<parent link='base'/><child link='";
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='base'/><link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='finger' type='fixed'>" +
+          ends +
+          "a'/><origin xyz='0 -0.065 0.0584'/><axis xyz='0 -1 0'/></joint>"
+          "<joint name='knuckle' type='fixed'>" +
+          ends +
+          "b'/><origin xyz='0.3 0 0' rpy='0 0 0.9'/><axis xyz='0 0 2'/></joint>"
+          "<joint name='odd' type='fixed'>" +
+          ends + "c'/><origin xyz='0.3 0 0'/><axis xyz='x'/></joint></robot>",
+      "r.urdf");
+  const auto is_taken = [&](const std::string& name, double position) {
+    return !FindPositionFault(model, name, position);
+  };
+  const auto is_sure = [&](const std::string& name, double position) {
+    return is_taken(name, position) && !FindPositionDoubt(model, name, position);
+  };
+  EXPECT_TRUE(is_sure("finger", 0.065));
+  EXPECT_TRUE(is_sure("knuckle", 0.9));
+  for (const auto& [name, position] :
+       std::vector<std::pair<std::string, double>>{{"finger", -0.065},
+                                                   {"finger", 0.0584},
+                                                   {"knuckle", -0.9},
+                                                   {"knuckle", 0.3},
+                                                   {"odd", 0.3}}) {
+    EXPECT_TRUE(is_taken(name, position)) << name << " " << position;
+    EXPECT_FALSE(is_sure(name, position)) << name << " " << position;
+  }
+  EXPECT_FALSE(is_taken("finger", 0.04));
+}
+
+TEST(FullPositions, AContinuousJointTurnedMoreThanOnceIsInDoubt) {
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='base'/><link name='l'/><joint name='roll' type='continuous'>"
+      "<parent link='base'/><child link='l'/></joint></robot>",
+      "r.urdf");
+  EXPECT_FALSE(FindPositionDoubt(model, "roll", -6.28));
+  EXPECT_EQ(FindPositionDoubt(model, "roll", 90), "is at 90 rad, 14.3 turns; degrees?");
+}
+
 TEST(FullPositions, APlanarJointStaysInItsPlane) {
   const RobotModel model = RobotModel::FromUrdf(
       "<robot name='r'><link name='base'/><link name='l'/><joint name='cart' type='planar'>"

@@ -135,6 +135,24 @@ TEST(JointSpace, WrapTouchesOnlyContinuousJoints) {
   EXPECT_NEAR(q[2], 7 - 2 * kPi, 1e-15);
 }
 
+TEST(JointSpace, WholeTurnsOfContinuousJointsAreTakenOut) {
+  const JointSpace space = Space();
+  for (const double within : {0.0, 3.0, -kPi, kPi})
+    EXPECT_EQ(space.WithoutTurns(2, within), within);
+  EXPECT_NEAR(space.WithoutTurns(2, 3.5), 3.5 - 2 * kPi, 1e-15);
+  EXPECT_NEAR(space.WithoutTurns(2, 180), 180 - 58 * kPi, 1e-12);
+  EXPECT_EQ(space.WithoutTurns(2, 1e9), 1e9) << "turns cannot be told, and limits are exceeded";
+  EXPECT_EQ(space.WithoutTurns(1, 7), 7);
+}
+
+TEST(JointSpace, TellsTheLimitsThatHold) {
+  const JointSpace space = Space();
+  EXPECT_EQ(space.DescribeLimits(0), "[0, 0.4]");
+  EXPECT_EQ(space.DescribeLimits(2), "[-1000000, 1000000]");
+  EXPECT_TRUE(space.WithinLimits(std::vector<double>{0, 0, 999999.0}));
+  EXPECT_FALSE(space.WithinLimits(std::vector<double>{0, 0, 1000001.0}));
+}
+
 TEST(JointSpace, LimitsAreInclusiveWithATolerance) {
   const JointSpace space = Space();
   const auto first_outside = [&space](std::vector<double> q) {

@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/error.h"
+#include "common/numbers.h"
 #include "tests/scene/problem_texts.h"
 #include "tests/support/expect_input_error.h"
 
@@ -168,6 +172,71 @@ TEST(StartState, PlanarAndFixedJointsTakeNoPoseThatTheyCannotHave) {
       {"request.yaml:2: start_state.joint_state.name[1]", "planar"});
 }
 
+TEST(StartState, PartsOfAPoseAreHeldToWhatAPoseIsHeldTo) {
+  const auto state = [](const std::string& names, const std::string& positions,
+                        const std::string& more = "") {
+    return Parse(
+        "", "joint_state: {name: [wrist, " + names + "], position: [0, " + positions + "]}" + more);
+  };
+  const auto position = [](const Problem& problem, const std::string& name) {
+    const auto at = std::find(problem.start.names.begin(), problem.start.names.end(), name);
+    if (at == problem.start.names.end()) return -1e3;
+    return problem.start.positions[static_cast<std::size_t>(at - problem.start.names.begin())];
+  };
+  const Problem turned = state("drive/rot_w, drive/rot_z", "0, 1");
+  EXPECT_THAT(turned.warnings, IsEmpty());
+  EXPECT_EQ(position(turned, "drive/rot_z"), 1);
+  EXPECT_EQ(position(turned, "drive/rot_w"), 0);
+  EXPECT_EQ(position(turned, "drive/rot_x"), 0) << "a rotation is told whole";
+
+  const Problem zero = state("drive/rot_w", "0");
+  EXPECT_THAT(zero.warnings,
+              ElementsAre("request.yaml:2: start_state.joint_state.name[1]: the rotation of joint "
+                          "'drive' is all zero; taken as no rotation"));
+  EXPECT_EQ(position(zero, "drive/rot_w"), 1);
+  const Problem rounded = state("drive/rot_z, drive/rot_w", "0.72, 0.72");
+  EXPECT_THAT(rounded.warnings, ElementsAre(HasSubstr("length 1.018234; normalised")));
+  EXPECT_NEAR(position(rounded, "drive/rot_w"), std::sqrt(0.5), 1e-12);
+
+  ExpectInputError([&] { state("drive/rot_w, drive/rot_z", "2, 2"); },
+                   {"joint_state.name[1]: the rotation of joint 'drive' is no unit quaternion "
+                    "(length 2.828427)"});
+  ExpectInputError([&] { state("drive/trans_x", "1e300"); },
+                   {"joint_state.name[1]: is beyond 1000000000 m"});
+  for (const char* part : {"trans_x", "trans_y", "rot_w"}) {
+    ExpectInputError(
+        [&] {
+          state("drive/" + std::string(part), "1",
+                ", multi_dof_joint_state: {joint_names: [drive], transforms: [{translation: [1, "
+                "0, 0], rotation: [0, 0, 0, 1]}]}");
+        },
+        {"joint_names[0]: the joint 'drive' is named twice, here and as 'drive/", part});
+  }
+}
+
+TEST(StartState, APoseInAnotherFrameThanTheJointsIsRefused) {
+  const auto in = [](const std::string& header, const std::string& translation = "1, 2, 0",
+                     const std::string& more = "", const std::string& more_poses = "",
+                     const std::string& header_of_joints = "") {
+    Parse("", "joint_state: {header: {frame_id: '" + header_of_joints +
+                  "'}, name: [wrist], position: [0]}, multi_dof_joint_state: {header: {frame_id: " +
+                  header + "}, joint_names: [drive" + more + "], transforms: [{translation: [" +
+                  translation + "], rotation: [0, 0, 0, 1]}" + more_poses + "]}");
+  };
+  EXPECT_NO_THROW(in("''"));
+  EXPECT_NO_THROW(in("/floor"));
+  EXPECT_NO_THROW(in("nowhere", "0, 0, 0")) << "it makes no difference";
+  EXPECT_NO_THROW(in("map", "1, 2, 0", "", "", "map")) << "the frame of the whole state";
+  EXPECT_NO_THROW(
+      in("odom", "1, 2, 0", ", world_joint", ", {translation: [1, 0, 0], rotation: [0, 0, 0, 1]}"));
+  for (const char* frame : {"nowhere", "hand"}) {
+    ExpectInputError([&] { in(frame); },
+                     {"request.yaml:2: start_state.multi_dof_joint_state.header.frame_id: the pose "
+                      "of the joint 'drive' is one in its own frame on 'floor', not in '" +
+                      std::string(frame) + "'"});
+  }
+}
+
 TEST(StartState, WarnsOfHeldJointsOutsideTheirLimits) {
   const auto warnings = [](const std::string& f1, const std::string& group) {
     return Parse("joint_state: {name: [f1, wrist], position: [" + f1 + ", 0.2]}", "",
@@ -205,6 +274,44 @@ TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
   refuse("{joint_name: drive, position: 0}", "'drive' has a pose");
   refuse("{joint_name: f2, position: 0.04}", "'f2' follows 'f1'; give a goal for that", "grip");
   refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}", "'f2'", "grip");
+}
+
+TEST(ContinuousJoints, AreReadWithoutWholeTurns) {
+  const auto read = [](const std::string& start, const std::string& goal) {
+    return ParseProblem(kFullScene, Replaced(Replaced(kFullRequest, "position: [0.5, 1]",
+                                                      "position: [" + start + ", 1]"),
+                                             "position: 1.5,", "position: " + goal + ","));
+  };
+  Problem problem = read("3.5", "-6");
+  EXPECT_NEAR(problem.start.positions[0], 3.5 - 2 * kPi, 1e-12);
+  EXPECT_NEAR(problem.goal[0].position, 2 * kPi - 6, 1e-12);
+  EXPECT_THAT(problem.warnings, IsEmpty());
+  problem = read("3.141592653589793", "-3.141592653589793");
+  EXPECT_EQ(problem.start.positions[0], kPi) << "as it is written";
+  EXPECT_EQ(problem.goal[0].position, -kPi);
+  problem = read("180", "90");
+  EXPECT_NEAR(problem.start.positions[0], 180 - 58 * kPi, 1e-12);
+  EXPECT_NEAR(problem.goal[0].position, 90 - 28 * kPi, 1e-12);
+  EXPECT_THAT(problem.warnings,
+              ElementsAre("request.yaml:9: start_state.joint_state.name[0]: the joint 'a_joint' is "
+                          "at 180 rad, 28.6 turns; degrees?",
+                          "request.yaml:13: goal_constraints[0].joint_constraints[0].position: the "
+                          "joint 'a_joint' is at 90 rad, 14.3 turns; degrees?"));
+}
+
+TEST(ContinuousJoints, OutsideTheGroupAreWhereTheyAreAtAnyTurn) {
+  Robot robot = TextRobot();
+  robot.groups = {robot.model.MakeGroup("arm", {"b_joint"}, "gripper_link")};
+  const auto read = [&](const std::string& goal) {
+    return ParseProblem(
+        YamlNode::Parse(kFullScene, "scene.yaml"),
+        YamlNode::Parse(Replaced(kFullRequest, "position: 1.5,", "position: " + goal + ","),
+                        "request.yaml"),
+        robot, {});
+  };
+  EXPECT_NO_THROW(read("0.5"));
+  EXPECT_NO_THROW(read("6.783185307179586"));
+  ExpectInputError([&] { read("3.5"); }, {"'a_joint' is not in group 'arm' and stays at 0.5"});
 }
 
 TEST(Octomap, IsAnObjectOfBoxes) {
