@@ -10,9 +10,9 @@
 namespace planbench {
 namespace {
 
-constexpr std::size_t kLongestWord = 200;
 constexpr std::size_t kWordKept = 60;
-constexpr std::size_t kLongestText = 1000;
+
+bool IsControl(unsigned char byte) { return byte < 0x20 || byte == 0x7f; }
 
 bool IsContinuation(unsigned char byte) { return (byte & 0xc0) == 0x80; }
 
@@ -127,7 +127,7 @@ std::string Printable(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = CharacterLength(text.substr(at));
     const auto byte = static_cast<unsigned char>(text[at]);
-    if (length == 0 || byte < 0x20 || byte == 0x7f) {
+    if (length == 0 || IsControl(byte)) {
       line += Escaped(byte);
       ++at;
     } else {
@@ -137,6 +137,14 @@ std::string Printable(std::string_view text) {
   }
   line = WithoutLongWords(line);
   return line.size() <= kLongestText ? line : std::string(Beginning(line, kLongestText)) + "...";
+}
+
+std::optional<std::string> FindNameFault(std::string_view name) {
+  if (FindInvalidUtf8(name)) return "is no UTF-8 text";
+  if (std::any_of(name.begin(), name.end(), IsControl)) {
+    return "must be one line without tabs and other control characters";
+  }
+  return std::nullopt;
 }
 
 std::string NearestName(std::string_view name, std::span<const std::string_view> known) {

@@ -21,8 +21,12 @@ constexpr double kFarthest = 0.05;
 std::string ReadName(const YamlNode& node) {
   const std::string name = node.String();
   if (name.empty()) node.Fail("must not be empty");
-  if (const std::string printable = Printable(name); printable != name) {
-    node.Fail("a name must be one line without tabs, found '" + printable + "'");
+  if (const auto fault = FindNameFault(name)) node.Fail("the name '" + name + "' " + *fault);
+  if (Printable(name) != name) {
+    node.Fail(
+        fmt::format("the name '{}' has {} bytes, which is too long; at most {}, and {} without "
+                    "a space",
+                    Printable(name), name.size(), kLongestText, kLongestWord));
   }
   return name;
 }

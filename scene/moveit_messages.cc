@@ -235,8 +235,13 @@ std::string Complaint(const std::string& key, std::string_view type, std::string
   std::vector<std::string_view> names;
   for (const Field& field : AllMessages().at(type)) names.push_back(field.name);
   const std::string unknown = "unknown field '" + key + "' of " + std::string(type);
-  if (const std::string place = PlaceOf(key, root); !place.empty()) {
-    return unknown + "; its place is " + place;
+  // A letter is a coordinate's, of which there are many.
+  if (key.size() > 1) {
+    const std::string near = type == root ? "" : PlaceOf(key, type);
+    if (!near.empty()) return unknown + "; its place there is " + near;
+    if (const std::string place = PlaceOf(key, root); !place.empty()) {
+      return unknown + "; its place is " + place;
+    }
   }
   if (const std::string nearest = NearestName(key, names); !nearest.empty()) {
     return unknown + "; did you mean '" + nearest + "'?";

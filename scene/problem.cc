@@ -102,7 +102,9 @@ ProblemSet ListProblemSet(const fs::path& folder) {
   }
   ProblemSet set;
   set.name = ProblemSetNameOf(folder);
-  if (FindInvalidUtf8(set.name)) throw InputError(folder.string() + ": its name is no UTF-8 text");
+  if (const auto fault = FindNameFault(set.name)) {
+    throw InputError(folder.string() + ": its name " + *fault);
+  }
   set.folder = folder;
   for (auto& [index, files] : by_index) {
     if (files.request.empty()) files.request = PartnerOf(files.scene, "request");

@@ -35,6 +35,15 @@ TEST(Text, PrintableIsOneLine) {
   EXPECT_STREQ(InputError("a\nb").what(), "a\\nb");
 }
 
+TEST(Text, NamesThatMessagesCannotCarry) {
+  for (const char* good : {"", "a b", "caf\xc3\xa9", "-x%s"})
+    EXPECT_FALSE(FindNameFault(good)) << good;
+  EXPECT_EQ(FindNameFault("caf\xe9"), "is no UTF-8 text");
+  for (const char* bad : {"a\tb", "a\nb", "\x7f", "a\x1b"}) {
+    EXPECT_EQ(FindNameFault(bad), "must be one line without tabs and other control characters");
+  }
+}
+
 TEST(Text, NearestName) {
   constexpr std::array<std::string_view, 4> kKnown = {"collision_objects", "octomap", "pose",
                                                       "primitive_poses"};

@@ -356,6 +356,12 @@ TEST(MalformedFiles, OtherFilesThanScenesAreRefused) {
   EXPECT_THROW(ParseProblem(kFullScene, kFullScene), InputError);
 }
 
+TEST(MalformedFiles, ANameThatIsTooLongIsCalledThat) {
+  const std::string scene = Replaced(kFullScene, "- id: can", "- id: " + std::string(5000, 'c'));
+  ExpectInputError([&] { ParseProblem(scene); }, {"world.collision_objects[1].id",
+                                                  "5000 bytes, which is too long; at most 1000"});
+}
+
 TEST(MalformedFiles, AStartIsNeeded) {
   const std::string scene = "robot_model_name: fetch\n";
   const std::string request = Replaced(kFullRequest, "start_state:", "x-state:");

@@ -77,6 +77,16 @@ TEST_F(ProblemSetFolder, WhatCannotBeLookedAtIsNotCalledMissing) {
                    {"File name too long"});
 }
 
+TEST_F(ProblemSetFolder, ItsNameIsOneLineOfText) {
+  Touch("scene1.yaml");
+  for (const char* name : {"a\tb", "a\nb"}) {
+    fs::remove_all(parent_ / name);
+    fs::copy(folder_, parent_ / name);
+    ExpectInputError([&] { ListProblemSet(parent_ / name); },
+                     {": its name must be one line without tabs"});
+  }
+}
+
 TEST_F(ProblemSetFolder, EmptyFolder) {
   EXPECT_THAT(Error(), testing::HasSubstr("holds no problems"));
 }
