@@ -100,8 +100,11 @@ std::vector<VirtualJoint> ReadVirtualJoints(const YamlNode& node, const RobotMod
       type.Fail(fmt::format("expected fixed, planar or floating, found '{}'", type.String()));
     }
     const YamlNode child = element.At("child_link");
-    joints.push_back({element.At("name").String(), *parsed, element.At("parent_frame").String(),
-                      LinkAt(child, child.String(), model)});
+    VirtualJoint joint{element.At("name").String(), *parsed, element.At("parent_frame").String(),
+                       LinkAt(child, child.String(), model)};
+    const std::string fault = FaultOfName(joint, model, joints);
+    if (!fault.empty()) element.At("name").Fail(fault);
+    joints.push_back(std::move(joint));
   }
   return joints;
 }

@@ -162,6 +162,17 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
 
 std::vector<Isometry3d> ComputeLinkPoses(const RobotModel& model,
                                          std::span<const double> positions) {
+std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
+                        const std::vector<VirtualJoint>& others) {
+  if (model.FindJoint(joint.name) >= 0) {
+    return fmt::format("'{}' is the name of a joint of the URDF", joint.name);
+  }
+  if (std::ranges::find(others, joint.name, &VirtualJoint::name) != others.end()) {
+    return fmt::format("the virtual joint '{}' occurs twice", joint.name);
+  }
+  return "";
+}
+
   std::vector<Isometry3d> X_BL(static_cast<std::size_t>(model.num_links()), Isometry3d::Identity());
   // Joints come in the order of their child links, parents first.
   for (const Joint& joint : model.joints()) {

@@ -149,6 +149,11 @@ class RobotModel {
 
 /// Poses X_BL of every link at the given full positions (num_positions() values).
 std::vector<Eigen::Isometry3d> ComputeLinkPoses(const RobotModel& model,
+/// For messages: why a virtual joint cannot have its name, "" if it can. Problems give poses by
+/// name, so that it must not be that of a joint of the robot, or of one of `others`.
+std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
+                        const std::vector<VirtualJoint>& others);
+
                                                 std::span<const double> positions);
 
 }  // namespace planbench

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "robot_model/srdf_vocabulary.h"
 #include "robot_model/xml_text.h"
 
 namespace planbench {
@@ -20,12 +21,6 @@ namespace {
 using Element = tinyxml2::XMLElement;
 
 constexpr int kLeastJointsOfAnArm = 3;
-
-// Elements of a robot that say nothing of how it plans.
-const std::set<std::string>& IgnoredElements() {
-  static const std::set<std::string> names = {"passive_joint", "joint_property"};
-  return names;
-}
 
 class SrdfReader {
  public:
@@ -45,9 +40,13 @@ class SrdfReader {
   }
 
   Srdf Read() {
-    WarnOfUnknownElements();
-    FindPassiveJoints(*root_);
+    if (robot_name_ != model_.name()) {
+      srdf_.warnings.push_back(fmt::format("{}: the SRDF of robot '{}' beside the URDF of '{}'",
+                                           Where(*root_), robot_name_, model_.name()));
+    }
+    std::ranges::move(UnknownParts(*root_, origin_), std::back_inserter(srdf_.warnings));
     for (const Element* e : Children(*root_, "virtual_joint")) ReadVirtualJoint(*e);
+    FindPassiveJoints(*root_);
     ReadGroups();
     for (const Element* e : Children(*root_, "end_effector")) ReadEndEffector(*e);
     for (const Element* e : Children(*root_, "group_state")) ReadState(*e);
@@ -112,6 +111,18 @@ class SrdfReader {
     if (link < 0) FailUnknown(element, "link", name);
     return link;
   }
+  // Of a joint that the URDF or the file itself has.
+  std::string JointNameAt(const Element& element) const {
+    const std::string name = Attribute(element, "name");
+    if (model_.FindJoint(name) < 0 && FindVirtualJoint(name) == nullptr) {
+      FailUnknown(element, "joint", name);
+    }
+    return name;
+  }
+  const VirtualJoint* FindVirtualJoint(const std::string& name) const {
+    const auto joint = std::ranges::find(srdf_.virtual_joints, name, &VirtualJoint::name);
+    return joint == srdf_.virtual_joints.end() ? nullptr : &*joint;
+  }
   const std::string& LinkName(int link) const {
     return model_.links()[static_cast<std::size_t>(link)].name;
   }
@@ -120,26 +131,9 @@ class SrdfReader {
     return model_.links()[static_cast<std::size_t>(link)].parent_joint;
   }
 
-  void WarnOfUnknownElements() {
-    static const std::set<std::string> read = {"group",
-                                               "group_state",
-                                               "end_effector",
-                                               "virtual_joint",
-                                               "disable_collisions",
-                                               "link_sphere_approximation",
-                                               "enable_collisions",
-                                               "disable_default_collisions"};
-    for (const Element* e = root_->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-      if (read.contains(e->Name()) || IgnoredElements().contains(e->Name())) continue;
-      srdf_.warnings.push_back(
-          fmt::format("{}: <{}> is not known and does not count", Where(*e), e->Name()));
-    }
-  }
-
   // They stand beside groups, and in some files in them.
   void FindPassiveJoints(const Element& parent) {
-    for (const Element* e : Children(parent, "passive_joint"))
-      passive_.insert(Attribute(*e, "name"));
+    for (const Element* e : Children(parent, "passive_joint")) passive_.insert(JointNameAt(*e));
     for (const Element* group : Children(parent, "group")) FindPassiveJoints(*group);
   }
 
@@ -149,9 +143,11 @@ class SrdfReader {
     if (!parsed) {
       Fail(element, fmt::format("type: expected fixed, planar or floating, found '{}'", type));
     }
-    srdf_.virtual_joints.push_back({Attribute(element, "name"), *parsed,
-                                    Attribute(element, "parent_frame"),
-                                    LinkAt(element, "child_link")});
+    VirtualJoint joint{Attribute(element, "name"), *parsed, Attribute(element, "parent_frame"),
+                       LinkAt(element, "child_link")};
+    const std::string fault = FaultOfName(joint, model_, srdf_.virtual_joints);
+    if (!fault.empty()) Fail(element, fault);
+    srdf_.virtual_joints.push_back(std::move(joint));
   }
 
   void ReadGroups() {
@@ -175,11 +171,14 @@ class SrdfReader {
     const Members members = MembersOf(element, {});
     std::set<int> joints;
     std::vector<std::string> passive;
+    std::vector<std::string> following;
     std::vector<std::string> with_pose = members.virtual_joints;
     for (const int index : members.joints) {
       const Joint& joint = JointAt(index);
-      if (joint.type == JointType::kFixed || joint.leader >= 0) continue;
-      if (NumPositions(joint.type) > 1) {
+      if (joint.type == JointType::kFixed) continue;
+      if (joint.leader >= 0) {
+        following.push_back(fmt::format("{} follows {}", joint.name, JointAt(joint.leader).name));
+      } else if (NumPositions(joint.type) > 1) {
         with_pose.push_back(joint.name);
       } else if (passive_.contains(joint.name)) {
         passive.push_back(joint.name);
@@ -214,6 +213,7 @@ class SrdfReader {
     if (!with_pose.empty()) {
       why += fmt::format("; held where problems say: {}", fmt::join(with_pose, ", "));
     }
+    if (!following.empty()) why += fmt::format("; {}", fmt::join(following, ", "));
     lines.push_back(why);
   }
 
@@ -242,17 +242,13 @@ class SrdfReader {
     path.push_back(name);
     Members members;
     for (const Element* e : Children(group, "joint")) {
-      const std::string joint_name = Attribute(*e, "name");
+      const std::string joint_name = JointNameAt(*e);
       const int joint = model_.FindJoint(joint_name);
       if (joint >= 0) {
         members.joints.insert(joint);
-        continue;
+      } else if (FindVirtualJoint(joint_name)->type != JointType::kFixed) {
+        AddNew(joint_name, &members.virtual_joints);
       }
-      const auto virtual_joint =
-          std::find_if(srdf_.virtual_joints.begin(), srdf_.virtual_joints.end(),
-                       [&](const VirtualJoint& v) { return v.name == joint_name; });
-      if (virtual_joint == srdf_.virtual_joints.end()) FailUnknown(*e, "joint", joint_name);
-      if (virtual_joint->type != JointType::kFixed) AddNew(joint_name, &members.virtual_joints);
     }
     for (const Element* e : Children(group, "link")) {
       const int joint = ParentJoint(LinkAt(*e, "name"));
@@ -386,29 +382,45 @@ class SrdfReader {
     if (!groups_.contains(group_name)) {
       Fail(element, fmt::format("there is no group '{}'", group_name));
     }
+    if (!states_.insert({group_name, name}).second) {
+      Fail(element, fmt::format("the state '{}' of group '{}' occurs twice", name, group_name));
+    }
+    std::map<std::string, const Element*> values;  // By joint.
+    for (const Element* e : Children(element, "joint")) {
+      const std::string joint_name = JointNameAt(*e);
+      if (!values.emplace(joint_name, e).second) {
+        Fail(*e, fmt::format("the state '{}' names the joint '{}' twice", name, joint_name));
+      }
+    }
     const auto group = std::find_if(srdf_.groups.begin(), srdf_.groups.end(),
                                     [&](const PlanningGroup& g) { return g.name == group_name; });
     if (group == srdf_.groups.end()) return;  // It was left out.
     const std::vector<double> defaults = model_.DefaultPositions();
     std::vector<double> q;
-    for (const int joint : group->joints) {
-      q.push_back(defaults[static_cast<std::size_t>(JointAt(joint).position_index)]);
-    }
-    std::vector<std::string> ignored;
-    for (const Element* e : Children(element, "joint")) {
-      const std::string joint_name = Attribute(*e, "name");
-      const auto joint =
-          std::find(group->joints.begin(), group->joints.end(), model_.FindJoint(joint_name));
-      if (joint == group->joints.end()) {
-        ignored.push_back(joint_name);
-        continue;
+    std::vector<std::string> filled;
+    for (const int index : group->joints) {
+      const Joint& joint = JointAt(index);
+      const auto value = values.find(joint.name);
+      if (value != values.end()) {
+        q.push_back(Numbers(*value->second, "value", 1).front());
+        values.erase(value);
+      } else {
+        q.push_back(defaults[static_cast<std::size_t>(joint.position_index)]);
+        filled.push_back(fmt::format("{} at {}", joint.name, q.back()));
       }
-      q[static_cast<std::size_t>(joint - group->joints.begin())] = Numbers(*e, "value", 1).front();
     }
-    if (!ignored.empty()) {
-      srdf_.left_out.push_back(fmt::format("{}: state '{}': the group '{}' is not planned with {}",
-                                           Where(element), name, group_name,
-                                           fmt::join(ignored, ", ")));
+    const std::string state = fmt::format("{}: state '{}'", Where(element), name);
+    if (!filled.empty()) {
+      srdf_.group_warnings.push_back(
+          fmt::format("{}: joints of the group '{}' that it does not name are at their defaults: "
+                      "{}",
+                      state, group_name, fmt::join(filled, ", ")));
+    }
+    if (!values.empty()) {
+      std::vector<std::string> ignored;
+      for (const auto& [joint, value] : values) ignored.push_back(joint);
+      srdf_.left_out.push_back(fmt::format("{}: the group '{}' is not planned with {}", state,
+                                           group_name, fmt::join(ignored, ", ")));
     }
     group->states[name] = std::move(q);
   }
@@ -471,6 +483,7 @@ class SrdfReader {
   std::set<std::string> passive_;
   std::set<int> hand_joints_;  // Of end effectors.
   std::map<std::string, const Element*> groups_;
+  std::set<std::pair<std::string, std::string>> states_;  // Their groups and names.
   Srdf srdf_;
 };
 

@@ -31,12 +31,14 @@ struct Srdf {
   std::vector<VirtualJoint> virtual_joints;
   std::vector<std::pair<int, int>> disabled_pairs;  ///< Link indices, each pair once, the lower
                                                     ///< first.
-  std::vector<LinkSphere> spheres;                  ///< Approximations, sorted by link.
-  /// What of the file does not count, one line each: pairs of links that the robot does not have,
-  /// elements that are not known.
+  std::vector<LinkSphere> spheres;  ///< Approximations, sorted by link.
+  /// What of the file does not count, or contradicts the rest, one line each: the name of another
+  /// robot, elements and attributes that are not known, pairs of links that the robot does not have
+  /// or that cannot be as the file says.
   std::vector<std::string> warnings;
   /// What of the groups does not count although it was meant to, one line each: groups that name
-  /// nothing or cannot be planned with, planar and floating joints of groups.
+  /// nothing or cannot be planned with, planar and floating joints of groups; and joints that
+  /// states do not give.
   std::vector<std::string> group_warnings;
   /// Groups, joints of groups and states that planning has no use for, one line each.
   std::vector<std::string> left_out;
@@ -48,8 +50,8 @@ struct Srdf {
 std::string NoGroupFault(const Srdf& srdf, const std::string& origin);
 
 /// Reads SRDF text; `origin` names it. Throws InputError with file and line: for text that is no
-/// SRDF, and for groups, end effectors and spheres that name what the robot or the file does not
-/// have.
+/// SRDF, for groups, states, passive joints, end effectors and spheres that name what the robot or
+/// the file does not have, and for names that occur twice.
 Srdf ParseSrdf(const std::string& srdf_text, const std::string& origin, const RobotModel& model);
 
 }  // namespace planbench

@@ -249,6 +249,9 @@ TEST(LoadRobot, VirtualJointsAreTheSrdfsOrItsOwn) {
          {"robot.yaml:5: virtual_joints[0].type", "fixed, planar or floating"});
   refuse("base", "leg", {"robot.yaml:5: virtual_joints[0].child_link", "no link 'leg'"});
   refuse("name: w", "nam: w", {"robot.yaml:5: virtual_joints[0]", "unknown key 'nam'"});
+  refuse("name: w", "name: turn", {"robot.yaml:5: virtual_joints[0].name", "joint of the URDF"});
+  refuse("base}", "base}\n" + own.substr(own.find("  -")),
+         {"robot.yaml:6: virtual_joints[1].name", "'w' occurs twice"});
 }
 
 TEST(LoadRobot, SpheresMayBeTheGeometryOfAUrdf) {

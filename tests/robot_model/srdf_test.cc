@@ -243,12 +243,15 @@ TEST(ParseSrdf, StatesEffectorsAndVirtualJoints) {
     <group name="hand"><link name="f1"/></group>
     <group_state name="home" group="left"><joint name="lj2" value="-1.5"/></group_state>
     <group_state name="odd" group="left"><joint name="lift" value=" 0.2 "/><joint name="rj1" value="1"/>
-    </group_state>
+      <joint name="lj1" value="0"/><joint name="lj2" value="0"/></group_state>
     <end_effector name="hand" group="hand" parent_link="palm" parent_group="left"/>
     <virtual_joint name="world" type="floating" parent_frame="map" child_link="base"/>)");
   EXPECT_THAT(srdf.groups[0].states, ElementsAre(Pair("home", ElementsAre(0.1, 0, -1.5)),
                                                  Pair("odd", ElementsAre(0.2, 0, 0))));
   EXPECT_THAT(srdf.left_out, ElementsAre(AllOf(HasSubstr("twin.srdf:6"), HasSubstr("rj1"))));
+  EXPECT_THAT(srdf.group_warnings,
+              ElementsAre(AllOf(HasSubstr("twin.srdf:5: state 'home'"),
+                                HasSubstr("at their defaults: lift at 0.1, lj1 at 0"))));
   ASSERT_EQ(srdf.end_effectors.size(), 1u);
   EXPECT_EQ(srdf.end_effectors[0].parent_link, "palm");
   EXPECT_EQ(srdf.end_effectors[0].parent_group, "left");
@@ -274,6 +277,30 @@ TEST(ParseSrdf, PairsOfUnknownLinksAreNamedOnce) {
       testing::Not(testing::Contains(std::minmax(model.FindLink("f1"), model.FindLink("f2")))));
   EXPECT_THAT(srdf.warnings, ElementsAre(HasSubstr("<unheard>"),
                                          AllOf(HasSubstr("3 of 5"), HasSubstr("bogey, ghost"))));
+}
+
+TEST(ParseSrdf, UnknownElementsAndAttributesAreNamedWhereverTheyStand) {
+  const Srdf srdf = Parse(R"(
+    <group name="left" nam="l"><chain base_link="torso" tip_link="palm"/>
+      <joints name="lift"/></group>
+    <group_state name="up" group="left"><joint name="lj1" value="1"/>
+      <Joint name="lj2" value="1"/><joint name="lj2" value="2" unit="deg"/></group_state>
+    <link_sphere_approximation link="l1" xmlns:x="y" x:z="1"><sphere center="0 1 0" radius="0.2"/>
+      <ball><sphere/></ball></link_sphere_approximation>)");
+  EXPECT_THAT(srdf.warnings,
+              ElementsAre(HasSubstr("twin.srdf:3: the attribute 'nam' of <group> is not known"),
+                          HasSubstr("twin.srdf:4: <joints> is not known in <group>"),
+                          HasSubstr("twin.srdf:6: <Joint> is not known in <group_state>"),
+                          HasSubstr("twin.srdf:6: the attribute 'unit' of <joint>"),
+                          HasSubstr("twin.srdf:8: <ball> is not known in "
+                                    "<link_sphere_approximation>")));
+  EXPECT_THAT(JointNames(srdf.groups.at(0)), ElementsAre("lj1", "lj2"));
+}
+
+TEST(ParseSrdf, AGroupOfFollowersAloneSaysWhomTheyFollow) {
+  const Srdf srdf = Parse("<group name='hand'><joint name='fj2'/></group>");
+  EXPECT_THAT(srdf.left_out, ElementsAre(AllOf(HasSubstr("twin.srdf:2: group 'hand' is left out"),
+                                               HasSubstr("fj2 follows fj1"))));
 }
 
 TEST(ParseSrdf, SphereApproximations) {
@@ -352,6 +379,32 @@ INSTANTIATE_TEST_SUITE_P(
             "<group name='a'><joint name='lift'/></group>\n<group_state name='s' group='a'>"
             "<joint name='lift' value='high'/></group_state>",
             {":3", "value", "high"}},
+        MalformedSrdf{"state_of_no_joint",
+                      "<group name='a'><joint name='lift'/></group><group_state name='s' "
+                      "group='a'>\n<joint name='left' value='1'/></group_state>",
+                      {":3", "no joint 'left'"}},
+        MalformedSrdf{"state_of_a_left_out_group_of_no_joint",
+                      "<group name='a'/><group_state name='s' group='a'>\n"
+                      "<joint name='left' value='1'/></group_state>",
+                      {":3", "no joint 'left'"}},
+        MalformedSrdf{"state_twice",
+                      "<group name='a'><joint name='lift'/></group>"
+                      "<group_state name='s' group='a'/>\n<group_state name='s' group='a'/>",
+                      {":3", "state 's' of group 'a' occurs twice"}},
+        MalformedSrdf{"value_twice",
+                      "<group name='a'><joint name='lift'/></group><group_state name='s' "
+                      "group='a'><joint name='lift' value='.2'/>\n<joint name='lift' "
+                      "value='.3'/></group_state>",
+                      {":3", "state 's'", "'lift' twice"}},
+        MalformedSrdf{"passive_joint", "\n<passive_joint name='left'/>", {":3", "no joint 'left'"}},
+        MalformedSrdf{"virtual_joint_twice",
+                      "<virtual_joint name='v' type='fixed' parent_frame='w' child_link='base'/>\n"
+                      "<virtual_joint name='v' type='planar' parent_frame='w' child_link='base'/>",
+                      {":3", "'v' occurs twice"}},
+        MalformedSrdf{
+            "virtual_joint_of_the_urdf",
+            "<virtual_joint name='lj1' type='planar' parent_frame='w' child_link='base'/>",
+            {":2", "'lj1'", "joint of the URDF"}},
         MalformedSrdf{"sphere_of_no_link",
                       "<link_sphere_approximation link='toe'><sphere center='0 0 0' radius='1'/>"
                       "</link_sphere_approximation>",
@@ -371,6 +424,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ParseSrdf, TheSrdfOfAnotherRobotIsToldByItsName) {
   ExpectInputError([] { Parse("<group name='a'><joint name='knee'/></group>", "walker"); },
                    {"twin.srdf:2", "'twin' has no joint 'knee'", "SRDF of 'walker'"});
+  EXPECT_THAT(
+      Parse("<group name='a'><joint name='lift'/></group>", "walker").warnings,
+      ElementsAre(AllOf(HasSubstr("twin.srdf:1"), HasSubstr("'walker'"), HasSubstr("'twin'"))));
 }
 
 TEST(ParseSrdf, ATextThatIsNoneIsRefused) {
