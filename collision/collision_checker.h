@@ -48,12 +48,11 @@ struct SampleVerdicts {
 };
 
 /// Decides whether configurations of a planning group collide: with the scene's objects, with
-/// attached objects, and with the robot itself, over the pairs that neither the scene's
-/// allowed-collision matrix, nor the robot's allowed_pairs, nor adjacency (two links joined by a
-/// joint) excludes. Touching counts as collision. Bodies are solid: one wholly inside another
-/// collides with it, as far as a mesh is a closed surface. Joint limits are not its business.
-/// Public functions validate (InputError for wrong sizes, values that are not finite, or a check
-/// before SetScene), the Do... functions compute.
+/// attached objects, and with the robot itself, over the pairs that PairRules has. Touching counts
+/// as collision. Bodies are solid: one wholly inside another collides with it, as far as a mesh is
+/// a closed surface. Joint limits are not its business. Public functions validate (InputError for
+/// wrong sizes, values that are not finite, or a check before SetScene), the Do... functions
+/// compute.
 ///
 /// Not thread-safe: one instance a thread. Holds references to the robot and the group, which must
 /// outlive it. tests/contract/collision_checker_contract.h is the suite every engine passes.

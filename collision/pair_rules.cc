@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "common/error.h"
 
@@ -35,11 +36,11 @@ int PairRules::LinkOf(const AttachedObject& attached) const {
 }
 
 bool PairRules::ChecksLinks(int link_a, int link_b) const {
-  if (link_a == link_b || robot_->model.Adjacent(link_a, link_b)) return false;
-  for (const auto& [a, b] : robot_->allowed_pairs) {
-    if ((a == link_a && b == link_b) || (a == link_b && b == link_a)) return false;
-  }
-  return !scene_->allowed_collisions.Allowed(LinkName(link_a), LinkName(link_b));
+  if (robot_->NeverChecks(link_a, link_b)) return false;
+  const AllowedCollisionMatrix& matrix = scene_->allowed_collisions;
+  const std::optional<bool> allowed = matrix.Entry(LinkName(link_a), LinkName(link_b));
+  if (allowed) return !*allowed;
+  return robot_->ChecksLinks(link_a, link_b) && !matrix.Allowed(LinkName(link_a), LinkName(link_b));
 }
 
 bool PairRules::ChecksLinkWithObject(int link, const SceneObject& object) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -239,6 +240,23 @@ struct Setup {
   std::map<std::string, std::vector<double>> configurations;  // Group order.
 };
 
+// The files of the scenes say of all pairs of the links that they name whether these may touch.
+// That links which are not checked by themselves may is not for a specification to say.
+void AllowJoinedLinks(const Robot& robot, AllowedCollisionMatrix* matrix) {
+  std::set<int> named;
+  for (const auto& [pair, allowed] : matrix->entries()) {
+    named.insert({robot.model.FindLink(pair.first), robot.model.FindLink(pair.second)});
+  }
+  const std::vector<Link>& links = robot.model.links();
+  for (const int a : named) {
+    for (const int b : named) {
+      if (!robot.model.Joined(a, b) || robot.ChecksLinks(a, b)) continue;
+      matrix->SetEntry(links[static_cast<std::size_t>(a)].name,
+                       links[static_cast<std::size_t>(b)].name, true);
+    }
+  }
+}
+
 Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   node.AllowOnly({"robot", "group", "rest", "configurations", "workspace", "time_limit_s",
                   "allowed_collisions"});
@@ -289,6 +307,7 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
         spec->allowed_collisions.SetEntry(link, partner.String(), true);
       }
     }
+    AllowJoinedLinks(robot, &spec->allowed_collisions);
   }
   return setup;
 }

@@ -109,14 +109,28 @@ std::vector<VirtualJoint> ReadVirtualJoints(const YamlNode& node, const RobotMod
   return joints;
 }
 
-void ReadAllowedPairs(const YamlNode& node, const RobotModel& model,
-                      std::vector<std::pair<int, int>>* pairs) {
+std::pair<int, int> ReadPair(const YamlNode& node, const RobotModel& model) {
+  if (node.Size() != 2) node.Fail("expected a pair of links: [link_a, link_b]");
+  const int a = LinkAt(node, node.At(0).String(), model);
+  const int b = LinkAt(node, node.At(1).String(), model);
+  if (a == b) node.Fail("the two links are the same");
+  return {a, b};
+}
+
+// What is checked anyway, or never, would be named in vain.
+void ReadCheckedPairs(const YamlNode& node, Robot* robot) {
   for (const YamlNode& element : node.Elements()) {
-    if (element.Size() != 2) element.Fail("expected a pair of links: [link_a, link_b]");
-    const int a = LinkAt(element, element.At(0).String(), model);
-    const int b = LinkAt(element, element.At(1).String(), model);
-    if (a == b) element.Fail("the two links are the same");
-    pairs->emplace_back(a, b);
+    const auto [a, b] = ReadPair(element, robot->model);
+    if (!robot->model.Joined(a, b)) {
+      element.Fail(robot->model.Rigid(a, b)
+                       ? "the two links are rigid to each other: they are never checked"
+                       : "no joint connects the two links: they are checked unless allowed_pairs "
+                         "names them");
+    }
+    if (robot->NeverChecks(a, b)) {
+      element.Fail("the pair is among those that are never checked (allowed_pairs, or the SRDF's)");
+    }
+    robot->checked_pairs.emplace_back(a, b);
   }
 }
 
@@ -130,6 +144,7 @@ void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, C
     hash->Add(text);
     Srdf srdf = ParseSrdf(text, path.string(), robot->model);
     robot->allowed_pairs = std::move(srdf.disabled_pairs);
+    robot->checked_pairs = std::move(srdf.checked_pairs);
     robot->spheres = std::move(srdf.spheres);
     robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
     robot->virtual_joints = std::move(srdf.virtual_joints);
@@ -146,8 +161,11 @@ void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, C
   }
   if (groups || robot->groups.empty()) robot->groups = ReadGroups(root.At("groups"), robot->model);
   if (const auto pairs = root.Find("allowed_pairs")) {
-    ReadAllowedPairs(*pairs, robot->model, &robot->allowed_pairs);
+    for (const YamlNode& pair : pairs->Elements()) {
+      robot->allowed_pairs.push_back(ReadPair(pair, robot->model));
+    }
   }
+  if (const auto pairs = root.Find("checked_pairs")) ReadCheckedPairs(*pairs, robot);
 }
 
 // Links with a body in the URDF that no sphere is on, and that are not `meant` to have none:
@@ -280,7 +298,22 @@ void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
   }
 }
 
+bool HoldsPair(const std::vector<std::pair<int, int>>& pairs, int link_a, int link_b) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
+    return std::minmax(pair.first, pair.second) == std::minmax(link_a, link_b);
+  });
+}
+
 }  // namespace
+
+bool Robot::NeverChecks(int link_a, int link_b) const {
+  return model.Rigid(link_a, link_b) || HoldsPair(allowed_pairs, link_a, link_b);
+}
+
+bool Robot::ChecksLinks(int link_a, int link_b) const {
+  return !NeverChecks(link_a, link_b) &&
+         (!model.Joined(link_a, link_b) || HoldsPair(checked_pairs, link_a, link_b));
+}
 
 const PlanningGroup& Robot::Group(const std::string& group_name) const {
   if (group_name.empty() && !groups.empty()) return groups.front();
@@ -306,8 +339,8 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
   root.AllowOnly({"name", "urdf", "srdf", "spheres", "enclosing_spheres", "edge_resolution_m",
-                  "edge_check", "groups", "allowed_pairs", "links_without_spheres", "planners",
-                  "voxels", "virtual_joints"});
+                  "edge_check", "groups", "allowed_pairs", "checked_pairs", "links_without_spheres",
+                  "planners", "voxels", "virtual_joints"});
   ContentHash hash;
   hash.Add(robot_text);
 
@@ -381,20 +414,24 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
     referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
   }
   RequireCommonBase(planning_robot, referee);
-  // What the planning robot never checks, its judge does not either.
+  // What the planning robot checks, and what it never does, holds for its judge, too.
   ContentHash hash;
   hash.Add(urdf_text);
-  for (const auto& [a, b] : planning_robot.allowed_pairs) {
+  const auto add_pair = [&](const std::pair<int, int>& pair,
+                            std::vector<std::pair<int, int>>* pairs) {
     const auto& links = planning_robot.model.links();
-    const std::string& name_a = links[static_cast<std::size_t>(a)].name;
-    const std::string& name_b = links[static_cast<std::size_t>(b)].name;
+    const std::string& name_a = links[static_cast<std::size_t>(pair.first)].name;
+    const std::string& name_b = links[static_cast<std::size_t>(pair.second)].name;
     const int link_a = referee.model.FindLink(name_a);
     const int link_b = referee.model.FindLink(name_b);
-    if (link_a < 0 || link_b < 0) continue;  // A pair that this robot does not have.
-    referee.allowed_pairs.emplace_back(link_a, link_b);
+    if (link_a < 0 || link_b < 0) return;  // A pair that this robot does not have.
+    pairs->emplace_back(link_a, link_b);
     hash.Add(name_a);
     hash.Add(name_b);
-  }
+  };
+  for (const auto& pair : planning_robot.allowed_pairs) add_pair(pair, &referee.allowed_pairs);
+  if (!planning_robot.checked_pairs.empty()) hash.Add(std::string("checked_pairs"));
+  for (const auto& pair : planning_robot.checked_pairs) add_pair(pair, &referee.checked_pairs);
   referee.content_id = hash.HexDigest();
   return referee;
 }

@@ -38,6 +38,8 @@ namespace planbench {
 ///     - {name: world_joint, type: fixed, parent_frame: world, child_link: base_link}
 ///   allowed_pairs: [[link_a, link_b], ...]       # optional: never checked against each other,
 ///                                                #   beside those of the SRDF
+///   checked_pairs: [[link_a, link_b], ...]       # optional: checked though a joint connects them,
+///                                                #   beside those of the SRDF (Srdf)
 ///   links_without_spheres: [link, ...]           # optional: links with a body that `spheres`
 ///                                                #   leaves out by intention; others are warned of
 ///   planners: {ara: ara.yaml, rrtc: rrtc.yaml}   # optional: settings files by planner name
@@ -59,6 +61,7 @@ struct Robot {
   std::vector<LinkSphere> spheres;                 ///< Sorted by link.
   std::vector<LinkSphere> enclosing_spheres;       ///< Those of the enclosing model, likewise.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
+  std::vector<std::pair<int, int>> checked_pairs;  ///< Link indices, likewise.
   double edge_resolution_m = 0.02;
   EdgeCheck edge_check = EdgeCheck::kCertified;
   std::optional<VoxelSettings> voxels;
@@ -72,6 +75,13 @@ struct Robot {
   /// that name is none. An empty name is the first
   /// group.
   const PlanningGroup& Group(const std::string& group_name) const;
+
+  /// Whether two links are never checked against each other, whatever a scene says: they are rigid
+  /// to each other, or allowed_pairs names them.
+  bool NeverChecks(int link_a, int link_b) const;
+  /// Whether two links are checked against each other where a scene does not say: all but those
+  /// that are never checked, and those that a joint connects, unless checked_pairs names them.
+  bool ChecksLinks(int link_a, int link_b) const;
 };
 
 /// Loads a robot folder; throws InputError naming file, line and field. `spheres`: a file whose

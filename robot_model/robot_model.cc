@@ -72,15 +72,17 @@ int RobotModel::FindJoint(const std::string& name) const {
   return entry == joint_index_.end() ? -1 : entry->second;
 }
 
-bool RobotModel::Adjacent(int link_a, int link_b) const {
-  if (link_a == link_b) return false;
+bool RobotModel::Rigid(int link_a, int link_b) const {
+  return links_[static_cast<std::size_t>(link_a)].body ==
+         links_[static_cast<std::size_t>(link_b)].body;
+}
+
+bool RobotModel::Joined(int link_a, int link_b) const {
   const auto is_parent_of = [this](int parent, int child) {
     const int joint = links_[static_cast<std::size_t>(child)].parent_joint;
     return joint >= 0 && joints_[static_cast<std::size_t>(joint)].parent_link == parent;
   };
-  return is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a) ||
-         links_[static_cast<std::size_t>(link_a)].body ==
-             links_[static_cast<std::size_t>(link_b)].body;
+  return !Rigid(link_a, link_b) && (is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a));
 }
 
 std::vector<double> RobotModel::DefaultPositions() const {
@@ -160,8 +162,6 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
   return group;
 }
 
-std::vector<Isometry3d> ComputeLinkPoses(const RobotModel& model,
-                                         std::span<const double> positions) {
 std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
                         const std::vector<VirtualJoint>& others) {
   if (model.FindJoint(joint.name) >= 0) {
@@ -173,6 +173,8 @@ std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
   return "";
 }
 
+std::vector<Isometry3d> ComputeLinkPoses(const RobotModel& model,
+                                         std::span<const double> positions) {
   std::vector<Isometry3d> X_BL(static_cast<std::size_t>(model.num_links()), Isometry3d::Identity());
   // Joints come in the order of their child links, parents first.
   for (const Joint& joint : model.joints()) {

@@ -125,8 +125,10 @@ class RobotModel {
   int FindLink(const std::string& name) const;
   int FindJoint(const std::string& name) const;
 
-  /// True if a joint connects the two links, or nothing but fixed joints stands between them.
-  bool Adjacent(int link_a, int link_b) const;
+  /// True if nothing but fixed joints stands between the two links, or they are the same.
+  bool Rigid(int link_a, int link_b) const;
+  /// True if a joint that is not fixed connects the two links.
+  bool Joined(int link_a, int link_b) const;
   /// Full positions with every joint at zero, or at the nearest limit to zero; planar and floating
   /// joints at the identity.
   std::vector<double> DefaultPositions() const;
@@ -147,13 +149,13 @@ class RobotModel {
   std::vector<std::string> position_names_;
 };
 
-/// Poses X_BL of every link at the given full positions (num_positions() values).
-std::vector<Eigen::Isometry3d> ComputeLinkPoses(const RobotModel& model,
 /// For messages: why a virtual joint cannot have its name, "" if it can. Problems give poses by
 /// name, so that it must not be that of a joint of the robot, or of one of `others`.
 std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
                         const std::vector<VirtualJoint>& others);
 
+/// Poses X_BL of every link at the given full positions (num_positions() values).
+std::vector<Eigen::Isometry3d> ComputeLinkPoses(const RobotModel& model,
                                                 std::span<const double> positions);
 
 }  // namespace planbench

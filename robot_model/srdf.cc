@@ -50,7 +50,7 @@ class SrdfReader {
     ReadGroups();
     for (const Element* e : Children(*root_, "end_effector")) ReadEndEffector(*e);
     for (const Element* e : Children(*root_, "group_state")) ReadState(*e);
-    ReadDisabledPairs();
+    ReadPairs();
     for (const Element* e : Children(*root_, "link_sphere_approximation")) ReadSpheres(*e);
     std::stable_sort(srdf_.spheres.begin(), srdf_.spheres.end(),
                      [](const LinkSphere& a, const LinkSphere& b) { return a.link < b.link; });
@@ -62,6 +62,10 @@ class SrdfReader {
     std::set<int> joints;                     // In URDF order.
     std::vector<int> tips;                    // Links, of chains.
     std::vector<std::string> virtual_joints;  // Planar and floating ones.
+  };
+  struct LinkNames {
+    const Element* element;
+    std::vector<int> links;  // In the order of the attributes.
   };
 
   std::string Where(const Element& element) const {
@@ -425,41 +429,73 @@ class SrdfReader {
     group->states[name] = std::move(q);
   }
 
-  void ReadDisabledPairs() {
-    std::set<std::pair<int, int>> pairs;
+  // The links that each element of a kind names, of those elements that name no other than the
+  // robot has; says how many do.
+  std::vector<LinkNames> LinksOfAll(const char* kind, const std::vector<const char*>& attributes) {
+    std::vector<LinkNames> all;
     std::set<std::string> unknown;
-    int num_unknown = 0;
-    const auto link = [&](const Element& element, const char* attribute) {
-      const std::string name = Attribute(element, attribute);
-      const int index = model_.FindLink(name);
-      if (index < 0) unknown.insert(name);
-      return index;
-    };
-    const auto pair = [&](const Element& element) -> std::optional<std::pair<int, int>> {
-      const int a = link(element, "link1");
-      const int b = link(element, "link2");
-      if (a < 0 || b < 0) ++num_unknown;
-      if (a < 0 || b < 0 || a == b) return std::nullopt;
-      return std::minmax(a, b);
-    };
-    for (const Element* e : Children(*root_, "disable_default_collisions")) {
-      const int a = link(*e, "link");
-      for (int b = 0; a >= 0 && b < model_.num_links(); ++b) {
-        if (a != b) pairs.insert(std::minmax(a, b));
+    const std::vector<const Element*> elements = Children(*root_, kind);
+    const Element* first_unknown = nullptr;
+    for (const Element* e : elements) {
+      LinkNames named{e, {}};
+      for (const char* attribute : attributes) {
+        const std::string name = Attribute(*e, attribute);
+        named.links.push_back(model_.FindLink(name));
+        if (named.links.back() < 0) unknown.insert(name);
+      }
+      const bool is_known = *std::ranges::min_element(named.links) >= 0;
+      if (is_known) {
+        all.push_back(std::move(named));
+      } else if (first_unknown == nullptr) {
+        first_unknown = e;
       }
     }
-    for (const Element* e : Children(*root_, "enable_collisions")) {
-      if (const auto enabled = pair(*e)) pairs.erase(*enabled);
+    if (first_unknown != nullptr) {
+      srdf_.warnings.push_back(
+          fmt::format("{}: {} of {} <{}> do not count: the URDF of robot '{}' has no link {}",
+                      Where(*first_unknown), elements.size() - all.size(), elements.size(), kind,
+                      model_.name(), fmt::join(unknown, ", ")));
     }
-    const std::vector<const Element*> disabled = Children(*root_, "disable_collisions");
-    for (const Element* e : disabled) {
-      if (const auto read = pair(*e)) pairs.insert(*read);
+    return all;
+  }
+
+  void ReadPairs() {
+    std::set<std::pair<int, int>> disabled;
+    for (const auto& [element, links] : LinksOfAll("disable_default_collisions", {"link"})) {
+      for (int b = 0; b < model_.num_links(); ++b) {
+        if (b != links[0]) disabled.insert(std::minmax(links[0], b));
+      }
     }
-    srdf_.disabled_pairs.assign(pairs.begin(), pairs.end());
-    if (unknown.empty()) return;
-    srdf_.warnings.push_back(fmt::format(
-        "{}: {} of {} disabled pairs do not count: the URDF of robot '{}' has no link {}", origin_,
-        num_unknown, disabled.size(), model_.name(), fmt::join(unknown, ", ")));
+    std::set<std::pair<int, int>> enabled;
+    for (const auto& [element, links] : LinksOfAll("enable_collisions", {"link1", "link2"})) {
+      if (model_.Rigid(links[0], links[1])) {
+        srdf_.warnings.push_back(
+            fmt::format("{}: {} and {} are rigid to each other, and are never "
+                        "checked, though the file enables them",
+                        Where(*element), LinkName(links[0]), LinkName(links[1])));
+        continue;
+      }
+      enabled.insert(std::minmax(links[0], links[1]));
+      disabled.erase(std::minmax(links[0], links[1]));
+    }
+    for (const auto& [element, links] : LinksOfAll("disable_collisions", {"link1", "link2"})) {
+      if (links[0] == links[1]) continue;
+      disabled.insert(std::minmax(links[0], links[1]));
+      if (enabled.erase(std::minmax(links[0], links[1])) == 0) continue;
+      srdf_.warnings.push_back(
+          fmt::format("{}: {} and {} are not checked, as in MoveIt, though the "
+                      "file enables them, too",
+                      Where(*element), LinkName(links[0]), LinkName(links[1])));
+    }
+    for (const Joint& joint : model_.joints()) {
+      const std::pair<int, int> pair = std::minmax(joint.parent_link, joint.child_link);
+      const bool is_left = !disabled.empty() && !disabled.contains(pair);
+      if (joint.type != JointType::kFixed && (is_left || enabled.contains(pair))) {
+        srdf_.checked_pairs.push_back(pair);
+      }
+    }
+    srdf_.disabled_pairs.assign(disabled.begin(), disabled.end());
+    srdf_.enabled_pairs.assign(enabled.begin(), enabled.end());
   }
 
   void ReadSpheres(const Element& element) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <regex>
@@ -270,15 +271,23 @@ class RobotMaker {
       Say("pairs: {} are not checked, as the SRDF says", srdf_->disabled_pairs.size());
       Exempt("disabled by the SRDF", srdf_->disabled_pairs);
     }
-    if (robot().spheres.empty()) return;
+    if (srdf_) {
+      std::ranges::copy_if(
+          srdf_->checked_pairs, std::back_inserter(robot().checked_pairs),
+          [&](const auto& pair) { return HasBody(pair.first) && HasBody(pair.second); });
+    }
+    if (robot().spheres.empty()) {
+      SayWhatIsChecked();
+      return;
+    }
     const PairSamples samples = Sample(JointsToDraw(robot().model), flags_.samples);
     if (!are_known) {
       Say("pairs: {} of {} met in none of {} random configurations of all joints (with 95 % "
           "confidence they meet in fewer than one of {}), and are not checked",
-          samples.Never().size(), samples.pairs.size(), samples.samples,
+          NotEnabled(samples.Never()).size(), samples.pairs.size(), samples.samples,
           std::max(1, samples.samples / 3));
       Exempt(fmt::format("met in none of {} random configurations", samples.samples),
-             samples.Never());
+             NotEnabled(samples.Never()));
     }
     ExemptOverlaps(samples.Always(),
                    fmt::format("in contact in nearly all of {} random configurations of all joints",
@@ -286,24 +295,59 @@ class RobotMaker {
     ExemptOverlaps(AlwaysForEveryGroup(),
                    "in contact in nearly all random configurations of every group, with other "
                    "joints at their defaults");
+    SayWhatIsChecked();
     for (const PlanningGroup& group : robot().groups) SayHowFree(group);
   }
 
   PairSamples Sample(const std::vector<int>& joints, int samples) {
-    return SamplePairs(robot().model, robot().spheres,
-                       {joints, robot().allowed_pairs, samples, flags_.seed});
+    return SamplePairs(robot(), {joints, samples, flags_.seed});
+  }
+
+  bool HasBody(int link) {
+    const auto is_on_it = [link](const LinkSphere& sphere) { return sphere.link == link; };
+    return !robot().model.links()[static_cast<std::size_t>(link)].collision.empty() ||
+           std::ranges::any_of(robot().spheres, is_on_it);
+  }
+
+  bool IsEnabled(const std::pair<int, int>& pair) const {
+    return srdf_ && std::ranges::find(srdf_->enabled_pairs, pair) != srdf_->enabled_pairs.end();
+  }
+  LinkPairs NotEnabled(LinkPairs pairs) const {
+    std::erase_if(pairs, [&](const auto& pair) { return IsEnabled(pair); });
+    return pairs;
+  }
+
+  std::string PairNames(const LinkPairs& pairs) {
+    std::vector<std::string> names;
+    for (const auto& pair : pairs) names.push_back(PairName(pair));
+    return fmt::format("{}", fmt::join(names, "; "));
+  }
+
+  void SayWhatIsChecked() {
+    if (!robot().checked_pairs.empty()) {
+      Say("  checked, though a joint connects them, as the SRDF does not disable them: {}",
+          PairNames(robot().checked_pairs));
+    }
+    if (!enabled_overlaps_.empty()) {
+      Say("  checked, though in contact in nearly all configurations, as the SRDF enables them: {}",
+          PairNames({enabled_overlaps_.begin(), enabled_overlaps_.end()}));
+    }
   }
 
   void Exempt(const std::string& reason, const LinkPairs& pairs) {
     robot().allowed_pairs.insert(robot().allowed_pairs.end(), pairs.begin(), pairs.end());
+    std::erase_if(robot().checked_pairs,
+                  [&](const auto& pair) { return std::ranges::find(pairs, pair) != pairs.end(); });
     draft_.exempt.push_back({reason, pairs});
   }
 
-  void ExemptOverlaps(const LinkPairs& pairs, const std::string& reason) {
+  void ExemptOverlaps(const LinkPairs& overlaps, const std::string& reason) {
+    const LinkPairs pairs = NotEnabled(overlaps);
+    for (const auto& pair : overlaps) {
+      if (IsEnabled(pair)) enabled_overlaps_.insert(pair);
+    }
     if (pairs.empty()) return;
-    std::vector<std::string> names;
-    for (const auto& pair : pairs) names.push_back(PairName(pair));
-    Say("  {}, so that they are not checked either: {}", reason, fmt::join(names, "; "));
+    Say("  {}, so that they are not checked either: {}", reason, PairNames(pairs));
     Exempt(reason, pairs);
   }
 
@@ -351,8 +395,7 @@ class RobotMaker {
           }
         }
         if (robot().spheres.empty()) continue;
-        const LinkPairs touching =
-            PairsInContact(robot().model, robot().spheres, robot().allowed_pairs, full);
+        const LinkPairs touching = PairsInContact(robot(), full);
         if (touching.empty()) continue;
         Say("  state '{}' of {} is in collision with itself: {}", name, group.name,
             PairName(touching.front()));
@@ -386,6 +429,7 @@ class RobotMaker {
   const SayLine& say_;
   RobotDraft draft_;
   std::optional<Srdf> srdf_;
+  std::set<std::pair<int, int>> enabled_overlaps_;
 };
 
 }  // namespace

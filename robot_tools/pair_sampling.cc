@@ -5,7 +5,6 @@
 #include <functional>
 #include <numbers>
 #include <random>
-#include <set>
 
 #include "common/random.h"
 
@@ -17,11 +16,11 @@ constexpr double kNearlyAll = 0.95;
 // The spheres of the links of a robot at a configuration.
 class PlacedSpheres {
  public:
-  PlacedSpheres(const RobotModel& model, const std::vector<LinkSphere>& spheres)
-      : model_(model),
-        by_link_(static_cast<std::size_t>(model.num_links())),
-        bounds_(static_cast<std::size_t>(model.num_links())) {
-    for (const LinkSphere& sphere : spheres) {
+  explicit PlacedSpheres(const Robot& robot)
+      : robot_(robot),
+        by_link_(static_cast<std::size_t>(robot.model.num_links())),
+        bounds_(static_cast<std::size_t>(robot.model.num_links())) {
+    for (const LinkSphere& sphere : robot.spheres) {
       by_link_[static_cast<std::size_t>(sphere.link)].push_back({sphere.p_LS, sphere.radius});
     }
     for (std::size_t link = 0; link < by_link_.size(); ++link) {
@@ -35,14 +34,11 @@ class PlacedSpheres {
     }
   }
 
-  std::vector<PairSamples::Pair> PairsBut(const std::vector<std::pair<int, int>>& allowed) const {
-    std::set<std::pair<int, int>> skipped;
-    for (const auto& [a, b] : allowed) skipped.insert(std::minmax(a, b));
+  std::vector<PairSamples::Pair> CheckedPairs() const {
     std::vector<PairSamples::Pair> pairs;
-    for (int b = 0; b < model_.num_links(); ++b) {
+    for (int b = 0; b < robot_.model.num_links(); ++b) {
       for (int a = 0; a < b; ++a) {
-        if (Of(a).empty() || Of(b).empty() || model_.Adjacent(a, b)) continue;
-        if (skipped.contains({a, b})) continue;
+        if (Of(a).empty() || Of(b).empty() || !robot_.ChecksLinks(a, b)) continue;
         pairs.push_back({a, b, 0});
       }
     }
@@ -50,7 +46,7 @@ class PlacedSpheres {
   }
 
   void MoveTo(const std::vector<double>& full_positions) {
-    X_BL_ = ComputeLinkPoses(model_, full_positions);
+    X_BL_ = ComputeLinkPoses(robot_.model, full_positions);
   }
 
   bool Touch(int link_a, int link_b) const {
@@ -83,7 +79,7 @@ class PlacedSpheres {
     return (a.center - b.center).squaredNorm() <= reach * reach;
   }
 
-  const RobotModel& model_;
+  const Robot& robot_;
   std::vector<std::vector<Ball>> by_link_;
   std::vector<Ball> bounds_;
   std::vector<Eigen::Isometry3d> X_BL_;
@@ -136,14 +132,13 @@ std::vector<int> JointsToDraw(const RobotModel& model) {
   return joints;
 }
 
-PairSamples SamplePairs(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                        const PairSampling& sampling) {
-  PlacedSpheres placed(model, spheres);
-  PairSamples result{sampling.samples, 0, placed.PairsBut(sampling.allowed)};
+PairSamples SamplePairs(const Robot& robot, const PairSampling& sampling) {
+  PlacedSpheres placed(robot);
+  PairSamples result{sampling.samples, 0, placed.CheckedPairs()};
   std::mt19937_64 random(sampling.seed);
-  std::vector<double> positions = model.DefaultPositions();
+  std::vector<double> positions = robot.model.DefaultPositions();
   for (int i = 0; i < sampling.samples; ++i) {
-    DrawPositions(model, sampling.joints, &random, &positions);
+    DrawPositions(robot.model, sampling.joints, &random, &positions);
     placed.MoveTo(positions);
     bool is_free = true;
     for (PairSamples::Pair& pair : result.pairs) {
@@ -156,14 +151,12 @@ PairSamples SamplePairs(const RobotModel& model, const std::vector<LinkSphere>& 
   return result;
 }
 
-std::vector<std::pair<int, int>> PairsInContact(const RobotModel& model,
-                                                const std::vector<LinkSphere>& spheres,
-                                                const std::vector<std::pair<int, int>>& allowed,
+std::vector<std::pair<int, int>> PairsInContact(const Robot& robot,
                                                 const std::vector<double>& full_positions) {
-  PlacedSpheres placed(model, spheres);
+  PlacedSpheres placed(robot);
   placed.MoveTo(full_positions);
   std::vector<std::pair<int, int>> touching;
-  for (const PairSamples::Pair& pair : placed.PairsBut(allowed)) {
+  for (const PairSamples::Pair& pair : placed.CheckedPairs()) {
     if (placed.Touch(pair.link_a, pair.link_b)) touching.emplace_back(pair.link_a, pair.link_b);
   }
   return touching;

@@ -14,7 +14,6 @@ struct PairSampling {
   /// Joint indices: these are drawn uniformly within their limits (continuous ones within
   /// [-pi, pi]). All others are at their defaults, or follow these.
   std::vector<int> joints;
-  std::vector<std::pair<int, int>> allowed;  ///< Not looked at.
   int samples = 0;
   std::uint64_t seed = 0;
 };
@@ -27,9 +26,8 @@ struct PairSamples {
     int contacts = 0;  ///< Configurations in which spheres of the two touch.
   };
   int samples = 0;
-  int free = 0;  ///< Configurations in which no pair touches.
-  std::vector<Pair>
-      pairs;  ///< All that are checked: links with spheres, not adjacent, not allowed.
+  int free = 0;             ///< Configurations in which no pair touches.
+  std::vector<Pair> pairs;  ///< All that are checked (Robot::ChecksLinks), of links with spheres.
 
   /// Pairs that met in none.
   std::vector<std::pair<int, int>> Never() const;
@@ -45,14 +43,10 @@ std::vector<int> JointsToDraw(const RobotModel& model);
 
 /// Draws configurations and looks which spheres of the robot touch. The same seed gives the same
 /// samples.
-PairSamples SamplePairs(const RobotModel& model, const std::vector<LinkSphere>& spheres,
-                        const PairSampling& sampling);
+PairSamples SamplePairs(const Robot& robot, const PairSampling& sampling);
 
-/// Pairs of links that touch in one configuration (full positions), of those that could be checked
-/// and are not in `allowed`.
-std::vector<std::pair<int, int>> PairsInContact(const RobotModel& model,
-                                                const std::vector<LinkSphere>& spheres,
-                                                const std::vector<std::pair<int, int>>& allowed,
+/// Pairs of links that touch in one configuration (full positions), of those that are checked.
+std::vector<std::pair<int, int>> PairsInContact(const Robot& robot,
                                                 const std::vector<double>& full_positions);
 
 }  // namespace planbench

@@ -73,14 +73,19 @@ std::string VirtualJointsYaml(const Robot& robot) {
   return yaml;
 }
 
-std::string PairsYaml(const RobotDraft& draft) {
+std::string PairList(const std::vector<std::pair<int, int>>& pairs, const RobotModel& model) {
+  std::string yaml;
+  for (const auto& [a, b] : pairs) {
+    yaml += fmt::format("  - [{}, {}]\n", LinkYaml(model, a), LinkYaml(model, b));
+  }
+  return yaml;
+}
+
+std::string ExemptPairsYaml(const RobotDraft& draft) {
   std::string yaml;
   for (const RobotDraft::ExemptPairs& exempt : draft.exempt) {
     if (!exempt.pairs.empty()) yaml += fmt::format("  # {}\n", exempt.reason);
-    for (const auto& [a, b] : exempt.pairs) {
-      yaml += fmt::format("  - [{}, {}]\n", LinkYaml(draft.robot.model, a),
-                          LinkYaml(draft.robot.model, b));
-    }
+    yaml += PairList(exempt.pairs, draft.robot.model);
   }
   return yaml;
 }
@@ -101,8 +106,14 @@ std::string RobotYaml(const RobotDraft& draft) {
       YamlNumber(robot.edge_resolution_m), EnumName(robot.edge_check));
   for (const PlanningGroup& group : robot.groups) yaml += GroupYaml(group, robot.model);
   yaml += VirtualJointsYaml(robot);
-  const std::string pairs = PairsYaml(draft);
+  const std::string pairs = ExemptPairsYaml(draft);
   if (!pairs.empty()) yaml += "\n# Never checked against each other.\nallowed_pairs:\n" + pairs;
+  if (!robot.checked_pairs.empty()) {
+    yaml +=
+        "\n# Checked though a joint connects them: the SRDF does not disable them.\n"
+        "checked_pairs:\n" +
+        PairList(robot.checked_pairs, robot.model);
+  }
   if (!draft.links_without_spheres.empty()) {
     std::vector<std::string> links;
     for (const std::string& link : draft.links_without_spheres) links.push_back(YamlText(link));

@@ -16,7 +16,7 @@ struct RobotDraft {
     std::string reason;
     std::vector<std::pair<int, int>> pairs;
   };
-  Robot robot;            ///< Name, model, groups, virtual joints, spheres, edges.
+  Robot robot;            ///< Name, model, groups, virtual joints, spheres, checked pairs, edges.
   std::string urdf_text;  ///< Written as it is.
   std::string origin;     ///< Of all this, for the first line of robot.yaml.
   std::vector<ExemptPairs> exempt;

@@ -233,7 +233,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
     }
   }
   if (const auto matrix = planning_scene.Find("allowed_collision_matrix")) {
-    scene.allowed_collisions = ReadAllowedCollisions(*matrix);
+    scene.allowed_collisions = ReadAllowedCollisions(*matrix, robot.model);
     RequireNamesOfOne(*matrix, robot, scene);
   }
 

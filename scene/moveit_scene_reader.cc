@@ -10,6 +10,32 @@
 #include "scene/pose.h"
 
 namespace planbench {
+namespace {
+
+// The default entries alone.
+AllowedCollisionMatrix ReadDefaults(const YamlNode& node) {
+  AllowedCollisionMatrix matrix;
+  const std::vector<YamlNode> names = OptionalElements(node, "default_entry_names");
+  const std::vector<YamlNode> values = OptionalElements(node, "default_entry_values");
+  if (names.size() != values.size()) {
+    node.Fail("has " + std::to_string(names.size()) + " default_entry_names but " +
+              std::to_string(values.size()) + " default_entry_values");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = ReadName(names[i]);
+    if (matrix.default_entries().contains(name)) names[i].Fail("'" + name + "' is named twice");
+    matrix.SetDefaultEntry(name, ReadFlag(values[i]));
+  }
+  return matrix;
+}
+
+bool AreJoined(const RobotModel& model, const std::string& link_a, const std::string& link_b) {
+  const int a = model.FindLink(link_a);
+  const int b = model.FindLink(link_b);
+  return a >= 0 && b >= 0 && model.Joined(a, b);
+}
+
+}  // namespace
 
 void RequireScene(const YamlNode& planning_scene) {
   if (!planning_scene.IsMap()) {
@@ -49,18 +75,20 @@ std::vector<FixedTransform> ReadFixedTransforms(const YamlNode& planning_scene) 
   return transforms;
 }
 
-AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& node) {
-  AllowedCollisionMatrix matrix;
-  const std::vector<YamlNode> names = OptionalElements(node, "entry_names");
+AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& node, const RobotModel& model) {
+  const std::vector<YamlNode> nodes_of_names = OptionalElements(node, "entry_names");
   const std::vector<YamlNode> rows = OptionalElements(node, "entry_values");
-  if (names.size() != rows.size()) {
-    node.Fail("has " + std::to_string(names.size()) + " entry_names but " +
+  if (nodes_of_names.size() != rows.size()) {
+    node.Fail("has " + std::to_string(nodes_of_names.size()) + " entry_names but " +
               std::to_string(rows.size()) + " entry_values");
   }
+  std::vector<std::string> names;
   std::set<std::string> seen;
-  for (const YamlNode& node_of_name : names) {
-    const std::string name = ReadName(node_of_name);
-    if (!seen.insert(name).second) node_of_name.Fail("'" + name + "' is named twice");
+  for (const YamlNode& node_of_name : nodes_of_names) {
+    names.push_back(ReadName(node_of_name));
+    if (!seen.insert(names.back()).second) {
+      node_of_name.Fail("'" + names.back() + "' is named twice");
+    }
   }
   std::vector<std::vector<YamlNode>> values;
   for (const YamlNode& row : rows) {
@@ -71,31 +99,20 @@ AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& node) {
                  std::to_string(names.size()) + " entry_names");
     }
   }
+  AllowedCollisionMatrix matrix = ReadDefaults(node);
   for (std::size_t i = 0; i < names.size(); ++i) {
     ReadFlag(values[i][i]);  // Means nothing, but must be readable.
     for (std::size_t j = 0; j < i; ++j) {
       const bool allowed = ReadFlag(values[i][j]);
       if (allowed != ReadFlag(values[j][i])) {
-        values[i][j].Fail("the matrix is not symmetric: '" + names[i].String() + "' against '" +
-                          names[j].String() + "' is " + (allowed ? "true" : "false") +
-                          ", the reverse is not");
+        values[i][j].Fail("the matrix is not symmetric: '" + names[i] + "' against '" + names[j] +
+                          "' is " + (allowed ? "true" : "false") + ", the reverse is not");
       }
-      matrix.SetEntry(names[i].String(), names[j].String(), allowed);
+      const bool by_default = matrix.Allowed(names[i], names[j]);
+      if (allowed || by_default || AreJoined(model, names[i], names[j])) {
+        matrix.SetEntry(names[i], names[j], allowed);
+      }
     }
-  }
-
-  const std::vector<YamlNode> default_names = OptionalElements(node, "default_entry_names");
-  const std::vector<YamlNode> defaults = OptionalElements(node, "default_entry_values");
-  if (default_names.size() != defaults.size()) {
-    node.Fail("has " + std::to_string(default_names.size()) + " default_entry_names but " +
-              std::to_string(defaults.size()) + " default_entry_values");
-  }
-  for (std::size_t i = 0; i < default_names.size(); ++i) {
-    const std::string name = ReadName(default_names[i]);
-    if (matrix.default_entries().contains(name)) {
-      default_names[i].Fail("'" + name + "' is named twice");
-    }
-    matrix.SetDefaultEntry(name, ReadFlag(defaults[i]));
   }
   return matrix.Simplified();
 }

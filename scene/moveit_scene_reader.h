@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/yaml.h"
+#include "robot_model/robot_model.h"
 #include "scene/frame_tree.h"
 #include "scene/scene.h"
 
@@ -18,7 +19,8 @@ void RequireScene(const YamlNode& planning_scene);
 /// fixed_frame_transforms, canonical, in file order.
 std::vector<FixedTransform> ReadFixedTransforms(const YamlNode& planning_scene);
 
-/// A moveit_msgs/AllowedCollisionMatrix; it must be symmetric. Simplified.
-AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& matrix);
+/// A moveit_msgs/AllowedCollisionMatrix; it must be symmetric. Simplified, without each `false`
+/// that asks for what is checked anyway: those of links that a joint of the robot connects stay.
+AllowedCollisionMatrix ReadAllowedCollisions(const YamlNode& matrix, const RobotModel& model);
 
 }  // namespace planbench

@@ -35,9 +35,15 @@ bool AllowedCollisionMatrix::AllowedByDefault(const std::string& a, const std::s
   return false;
 }
 
-bool AllowedCollisionMatrix::Allowed(const std::string& a, const std::string& b) const {
+std::optional<bool> AllowedCollisionMatrix::Entry(const std::string& a,
+                                                  const std::string& b) const {
   const auto entry = entries_.find(Ordered(a, b));
-  return entry != entries_.end() ? entry->second : AllowedByDefault(a, b);
+  return entry == entries_.end() ? std::nullopt : std::optional(entry->second);
+}
+
+bool AllowedCollisionMatrix::Allowed(const std::string& a, const std::string& b) const {
+  const std::optional<bool> entry = Entry(a, b);
+  return entry ? *entry : AllowedByDefault(a, b);
 }
 
 Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometry3d& X_NW) {
@@ -52,7 +58,7 @@ Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometr
 
 bool AllowedCollisionMatrix::Tells(const Entries::value_type& entry) const {
   const auto& [pair, allowed] = entry;
-  return pair.first != pair.second && allowed != AllowedByDefault(pair.first, pair.second);
+  return pair.first != pair.second && !(allowed && AllowedByDefault(pair.first, pair.second));
 }
 
 AllowedCollisionMatrix AllowedCollisionMatrix::Simplified() const {

@@ -44,15 +44,18 @@ class AllowedCollisionMatrix {
   void SetEntry(std::string a, std::string b, bool allowed);
   void SetDefaultEntry(const std::string& name, bool allowed);
   bool Allowed(const std::string& a, const std::string& b) const;
+  /// What the explicit entry of two names says, nothing if there is none. A `false` has links
+  /// checked that a joint connects, which are not by themselves (PairRules).
+  std::optional<bool> Entry(const std::string& a, const std::string& b) const;
 
   /// Pairs in canonical order (first <= second).
   using Entries = std::map<std::pair<std::string, std::string>, bool>;
 
-  /// False for an entry that changes nothing: that says what the default entries say already, or
-  /// one of a body with itself.
+  /// False for an entry that changes nothing: one of a body with itself, or one that allows what
+  /// the default entries allow already.
   bool Tells(const Entries::value_type& entry) const;
-  /// The same matrix without the entries that change nothing. Matrices that allow the same pairs by
-  /// the same defaults are then equal; the file reader gives this form.
+  /// The same matrix without the entries that change nothing. The file reader gives this form, and
+  /// leaves out each `false` that asks for what is checked anyway.
   AllowedCollisionMatrix Simplified() const;
 
   const Entries& entries() const { return entries_; }

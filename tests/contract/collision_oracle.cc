@@ -131,13 +131,21 @@ bool MustCheck(const Robot& robot, const Scene& scene, const Body& a, const Body
   if (a.kind == Body::kObject && b.kind == Body::kObject) return false;
   if (scene.allowed_collisions.Allowed(a.name, b.name)) return false;
   if (a.kind == Body::kLink && b.kind == Body::kLink) {
+    if (BodyOf(robot.model, a.link) == BodyOf(robot.model, b.link)) return false;
+    const auto is_among = [&](const std::vector<std::pair<int, int>>& pairs) {
+      for (const auto& [x, y] : pairs) {
+        if ((x == a.link && y == b.link) || (x == b.link && y == a.link)) return true;
+      }
+      return false;
+    };
+    if (is_among(robot.allowed_pairs)) return false;
+    if (is_among(robot.checked_pairs)) return true;
+    for (const auto& [names, allowed] : scene.allowed_collisions.entries()) {
+      if (names == std::pair(a.name, b.name) || names == std::pair(b.name, a.name)) return true;
+    }
     for (const Joint& joint : robot.model.joints()) {
       if (joint.parent_link == a.link && joint.child_link == b.link) return false;
       if (joint.parent_link == b.link && joint.child_link == a.link) return false;
-    }
-    if (BodyOf(robot.model, a.link) == BodyOf(robot.model, b.link)) return false;
-    for (const auto& [x, y] : robot.allowed_pairs) {
-      if ((x == a.link && y == b.link) || (x == b.link && y == a.link)) return false;
     }
   }
   if (a.kind == Body::kAttached && b.kind == Body::kAttached && a.link == b.link) return false;

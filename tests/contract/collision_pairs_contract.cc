@@ -73,6 +73,57 @@ TEST_P(CollisionCheckerContract, AdjacencyAndAllowedPairsOfTheRobot) {
   EXPECT_TRUE(checker->IsFree(q));
 }
 
+TEST_P(CollisionCheckerContract, LinksThatAJointConnectsAreCheckedWhereRobotOrSceneSaysSo) {
+  const Robot arm = MakeTestArm();
+  const auto base = ArmBase(arm);
+  const std::vector<double> straight = {0, 0, 0, 0};
+  const std::vector<double> folded = {0, 0, 2, 0};  // The hand is bent back into the fore arm.
+  Scene elsewhere;  // Where nothing of the hand is checked but with the fore arm.
+  for (const Link& link : arm.model.links()) {
+    for (const char* bent : {"hand", "finger", "pad"}) {
+      if (link.name != "fore" || bent != std::string("hand")) {
+        elsewhere.allowed_collisions.SetEntry(bent, link.name, true);
+      }
+    }
+  }
+  Scene asks = elsewhere;
+  asks.allowed_collisions.SetEntry("hand", "fore", false);
+  Scene allows = elsewhere;
+  allows.allowed_collisions.SetEntry("hand", "fore", true);
+  const auto expect = [&](CollisionChecker& checker, bool is_checked) {
+    EXPECT_TRUE(checker.IsFree(straight));
+    EXPECT_EQ(checker.IsFree(folded), !is_checked);
+    const auto contact = checker.FindContact(folded);
+    ASSERT_EQ(contact.has_value(), is_checked);
+    if (!is_checked) return;
+    EXPECT_EQ(std::set<std::string>({contact->body_a, contact->body_b}),
+              std::set<std::string>({"fore", "hand"}));
+    EXPECT_LT(checker.FindClosest(folded).distance_m, 0);
+  };
+  {
+    // One checker, so that what it keeps of a scene must follow the matrix.
+    const auto checker = Make(arm);
+    for (const auto& [scene, is_checked] :
+         {std::pair(&elsewhere, false), std::pair(&asks, true), std::pair(&elsewhere, false),
+          std::pair(&allows, false), std::pair(&asks, true)}) {
+      checker->SetScene(*scene, base);
+      expect(*checker, is_checked);
+    }
+  }
+  Robot checks = arm;
+  checks.checked_pairs = {{arm.model.FindLink("hand"), arm.model.FindLink("fore")}};
+  for (const auto& [scene, is_checked] :
+       {std::pair(&elsewhere, true), std::pair(&asks, true), std::pair(&allows, false)}) {
+    const auto checker = Make(checks);
+    checker->SetScene(*scene, base);
+    expect(*checker, is_checked);
+  }
+  checks.allowed_pairs = checks.checked_pairs;
+  const auto checker = Make(checks);
+  checker->SetScene(asks, base);
+  expect(*checker, false);
+}
+
 TEST_P(CollisionCheckerContract, AttachedObjectsMoveWithTheirLink) {
   const Robot robot = MakeRailRobot();
   const auto checker = Make(robot);

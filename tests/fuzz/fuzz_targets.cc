@@ -254,6 +254,7 @@ FuzzTarget SrdfTarget() {
   <end_effector name="eef" parent_link="panda_link7" group="hand" parent_group="arm"/>
   <virtual_joint name="v" type="floating" parent_frame="world" child_link="panda_link0"/>
   <disable_collisions link1="panda_link1" link2="panda_link2" reason="Adjacent"/>
+  <enable_collisions link1="panda_link2" link2="panda_link3"/>
   <link_sphere_approximation link="panda_link1"><sphere center="0 0 0.1" radius="0.1"/>
   </link_sphere_approximation></robot>)")},
           1000};

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "common/read_text.h"
+#include "common/write_file.h"
 #include "tests/problem_generator/generator_support.h"
 #include "tests/support/expect_input_error.h"
 
@@ -56,6 +60,23 @@ TEST(ProblemSpec, SharesItsAllowedCollisionsWithTheShippedProblems) {
   const ProblemFiles files = ListProblemSet(ShippedProblems() / "shelf_demo").problems.front();
   EXPECT_EQ(spec.allowed_collisions.Simplified(),
             ReadProblem(files.scene, files.request, fetch).scene.allowed_collisions);
+}
+
+TEST(ProblemSpec, LinksThatAJointConnectsMayTouchThoughOthersOfThemAreNamed) {
+  Robot fetch = LoadFetch();
+  const SpecFolder folder;
+  std::string setup = ReadText(folder.path() / "fetch_setup.yaml");
+  setup.resize(setup.find("allowed_collisions:"));
+  WriteFile(
+      folder.path() / "fetch_setup.yaml",
+      setup + "allowed_collisions: {base_link: [laser_link], torso_lift_link: [estop_link]}\n");
+  const auto load = [&] { return folder.Load(kCanOnTable, fetch).allowed_collisions; };
+  // The file of a scene says of every two links that it names whether they may touch.
+  EXPECT_EQ(load().Entry("base_link", "torso_lift_link"), std::optional(true));
+  EXPECT_EQ(load().entries().size(), 3u);
+  fetch.checked_pairs = {
+      {fetch.model.FindLink("base_link"), fetch.model.FindLink("torso_lift_link")}};
+  EXPECT_EQ(load().Entry("base_link", "torso_lift_link"), std::nullopt);
 }
 
 struct BadSpec {

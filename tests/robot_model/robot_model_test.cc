@@ -137,20 +137,20 @@ TEST_F(RobotModelTest, ReadsCollisionGeometry) {
   EXPECT_EQ(std::get<Sphere>(twig.collision.at(0).shape).radius, 0.2);
 }
 
-TEST_F(RobotModelTest, AdjacentLinksAreJoinedByAJoint) {
-  const auto adjacent = [this](const char* a, const char* b) {
-    EXPECT_EQ(model_.Adjacent(model_.FindLink(a), model_.FindLink(b)),
-              model_.Adjacent(model_.FindLink(b), model_.FindLink(a)));
-    return model_.Adjacent(model_.FindLink(a), model_.FindLink(b));
+TEST_F(RobotModelTest, LinksAreJoinedByAJointThatIsNotFixed) {
+  const auto joined = [this](const char* a, const char* b) {
+    EXPECT_EQ(model_.Joined(model_.FindLink(a), model_.FindLink(b)),
+              model_.Joined(model_.FindLink(b), model_.FindLink(a)));
+    return model_.Joined(model_.FindLink(a), model_.FindLink(b));
   };
-  EXPECT_TRUE(adjacent("trunk", "branch"));
-  EXPECT_TRUE(adjacent("branch", "leaf_b"));
-  EXPECT_FALSE(adjacent("trunk", "leaf_b"));
-  EXPECT_FALSE(adjacent("leaf_a", "leaf_b"));
-  EXPECT_FALSE(adjacent("trunk", "trunk"));
+  EXPECT_TRUE(joined("trunk", "branch"));
+  EXPECT_FALSE(joined("branch", "leaf_b")) << "rigid to each other";
+  EXPECT_FALSE(joined("trunk", "leaf_b"));
+  EXPECT_FALSE(joined("leaf_a", "leaf_b"));
+  EXPECT_FALSE(joined("trunk", "trunk"));
 }
 
-TEST(RobotModel, LinksRigidToEachOtherAreAdjacent) {
+TEST(RobotModel, LinksAreRigidOverFixedJointsAlone) {
   const RobotModel model = RobotModel::FromUrdf(R"(<robot name="rigid">
     <link name="base"/><link name="post"/><link name="lamp"/><link name="sign"/><link name="arm"/>
     <link name="hand"/>
@@ -161,15 +161,16 @@ TEST(RobotModel, LinksRigidToEachOtherAreAdjacent) {
     <joint name="e" type="fixed"><parent link="arm"/><child link="hand"/></joint>
   </robot>)",
                                                 "rigid.urdf");
-  const auto adjacent = [&](const char* a, const char* b) {
-    return model.Adjacent(model.FindLink(a), model.FindLink(b));
+  const auto rigid = [&](const char* a, const char* b) {
+    return model.Rigid(model.FindLink(a), model.FindLink(b));
   };
-  EXPECT_TRUE(adjacent("base", "lamp"));
-  EXPECT_TRUE(adjacent("lamp", "sign"));
-  EXPECT_TRUE(adjacent("arm", "hand"));
-  EXPECT_TRUE(adjacent("lamp", "arm")) << "a joint between them";
-  EXPECT_FALSE(adjacent("base", "arm"));
-  EXPECT_FALSE(adjacent("hand", "lamp"));
+  EXPECT_TRUE(rigid("base", "lamp"));
+  EXPECT_TRUE(rigid("lamp", "sign"));
+  EXPECT_TRUE(rigid("arm", "hand"));
+  EXPECT_TRUE(rigid("arm", "arm"));
+  EXPECT_FALSE(rigid("lamp", "arm")) << "a joint between them";
+  EXPECT_FALSE(rigid("base", "arm"));
+  EXPECT_FALSE(rigid("hand", "lamp"));
 }
 
 TEST_F(RobotModelTest, DefaultPositionsAreTheNearestToZeroWithinLimits) {

@@ -275,8 +275,62 @@ TEST(ParseSrdf, PairsOfUnknownLinksAreNamedOnce) {
   EXPECT_THAT(
       srdf.disabled_pairs,
       testing::Not(testing::Contains(std::minmax(model.FindLink("f1"), model.FindLink("f2")))));
-  EXPECT_THAT(srdf.warnings, ElementsAre(HasSubstr("<unheard>"),
-                                         AllOf(HasSubstr("3 of 5"), HasSubstr("bogey, ghost"))));
+  EXPECT_THAT(srdf.warnings,
+              ElementsAre(HasSubstr("twin.srdf:8: <unheard>"),
+                          AllOf(HasSubstr("twin.srdf:5: 3 of 5 <disable_collisions>"),
+                                HasSubstr("bogey, ghost"))));
+}
+
+TEST(ParseSrdf, EachKindOfPairIsCountedApart) {
+  const Srdf srdf = Parse(R"(
+    <disable_collisions link1="l1" link2="base"/>
+    <disable_default_collisions link="f3"/>
+    <enable_collisions link1="r1" link2="l2"/>
+    <enable_collisions link1="r1" link2="r3"/>)");
+  EXPECT_THAT(srdf.warnings,
+              ElementsAre(AllOf(HasSubstr("twin.srdf:4: 1 of 1 <disable_default_collisions>"),
+                                HasSubstr("no link f3")),
+                          AllOf(HasSubstr("twin.srdf:6: 1 of 2 <enable_collisions>"),
+                                HasSubstr("no link r3"))));
+}
+
+class CheckedPairsTest : public testing::Test {
+ protected:
+  using Pairs = std::vector<std::pair<int, int>>;
+  std::pair<int, int> Links(const char* a, const char* b) const {
+    const int link_a = model_.FindLink(a);
+    const int link_b = model_.FindLink(b);
+    return std::minmax(link_a, link_b);
+  }
+  const RobotModel model_ = Twin();
+};
+
+TEST_F(CheckedPairsTest, WithoutPairsLinksThatAJointConnectsAreNotChecked) {
+  const Srdf srdf = Parse("");
+  EXPECT_THAT(srdf.checked_pairs, IsEmpty());
+  EXPECT_THAT(srdf.enabled_pairs, IsEmpty());
+  EXPECT_EQ(Parse("<enable_collisions link1='l2' link2='l1'/>").checked_pairs,
+            Pairs{Links("l1", "l2")});
+}
+
+TEST_F(CheckedPairsTest, AFileThatDisablesPairsSaysAllThatAreNotChecked) {
+  const Srdf srdf = Parse(R"(
+    <disable_default_collisions link="palm"/><disable_default_collisions link="torso"/>
+    <disable_collisions link1="l1" link2="l2"/><enable_collisions link1="torso" link2="l1"/>)");
+  EXPECT_THAT(srdf.checked_pairs,
+              testing::UnorderedElementsAre(Links("torso", "l1"), Links("r1", "r2")));
+  EXPECT_EQ(srdf.enabled_pairs, Pairs{Links("torso", "l1")});
+  EXPECT_THAT(srdf.warnings, IsEmpty());
+}
+
+TEST_F(CheckedPairsTest, WhatCannotBeAsTheFileSaysIsNamed) {
+  const Srdf srdf = Parse(R"(
+    <enable_collisions link1="l2" link2="palm"/><enable_collisions link1="l1" link2="l2"/>
+    <disable_collisions link1="l2" link2="l1"/>)");
+  EXPECT_THAT(srdf.enabled_pairs, IsEmpty());
+  EXPECT_EQ(srdf.disabled_pairs, Pairs{Links("l1", "l2")});
+  EXPECT_THAT(srdf.warnings, ElementsAre(HasSubstr("twin.srdf:3: l2 and palm are rigid"),
+                                         HasSubstr("twin.srdf:4: l2 and l1 are not checked")));
 }
 
 TEST(ParseSrdf, UnknownElementsAndAttributesAreNamedWhereverTheyStand) {

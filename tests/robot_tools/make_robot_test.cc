@@ -43,6 +43,9 @@ constexpr char kSrdf[] = R"(<robot name="crane">
   <group_state name="parked" group="jib"><joint name="luff" value="-0.5"/></group_state>
   <group_state name="bent" group="jib"><joint name="luff" value="3"/></group_state>
   <virtual_joint name="yard" type="fixed" parent_frame="world" child_link="base"/>
+  <disable_collisions link1="base" link2="mast" reason="Adjacent"/>
+  <disable_collisions link1="mast" link2="boom" reason="Adjacent"/>
+  <disable_collisions link1="boom" link2="hook" reason="Adjacent"/>
   <disable_collisions link1="base" link2="boom" reason="Never"/>
   <disable_collisions link1="base" link2="wheel" reason="Never"/>
 </robot>)";
@@ -104,8 +107,9 @@ TEST_F(MakeRobotTest, AnSrdfSaysGroupsStatesAndPairs) {
   ASSERT_EQ(robot.groups.size(), 1u);
   EXPECT_EQ(robot.groups[0].name, "jib");
   EXPECT_EQ(robot.groups[0].states.at("parked"), (std::vector<double>{0, -0.5, 0}));
-  EXPECT_EQ(robot.allowed_pairs.size(), 1u);
-  EXPECT_THAT(report, HasSubstr("1 of 2 disabled pairs"));
+  EXPECT_EQ(robot.allowed_pairs.size(), 4u);
+  EXPECT_TRUE(robot.checked_pairs.empty());
+  EXPECT_THAT(report, HasSubstr("crane.srdf:10: 1 of 5 <disable_collisions>"));
   EXPECT_THAT(report, HasSubstr("wheel"));
   EXPECT_THAT(report, HasSubstr("'bent' of jib is out of the limits: luff at 3"));
   EXPECT_THAT(report, HasSubstr("base stands at world by the fixed joint 'yard'"));
@@ -138,6 +142,52 @@ TEST_F(MakeRobotTest, TheWrittenRobotIsTheOneThatItWasMadeFrom) {
   Make();
   const Robot again = LoadRobot(flags_.out);
   EXPECT_EQ(again.content_id, once.content_id) << ReadText(flags_.out / "robot.yaml");
+}
+
+TEST_F(MakeRobotTest, LinksThatAJointConnectsAreCheckedUnlessTheSrdfDisablesThem) {
+  // The boom meets the mast where it hangs.
+  folder_.Write("in/spheres.yaml",
+                "links:\n  mast: [{center: [0.1, 0, 0.8], radius: 0.1}]\n"
+                "  boom: [{center: [0.3, 0, 0], radius: 0.15}]\n");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  const std::string group = "<robot name='crane'><group name='jib'><joint name='luff'/></group>";
+  Srdf(group + "<disable_collisions link1='base' link2='boom'/></robot>");
+  EXPECT_THAT(Make(), AllOf(HasSubstr("checked, though a joint connects them, as the SRDF does not "
+                                      "disable them: base and mast; mast and boom; boom and hook"),
+                            testing::Not(HasSubstr("jib: 1000 of 1000"))));
+  const Robot robot = LoadRobot(flags_.out);
+  EXPECT_EQ(robot.checked_pairs.size(), 3u);
+  EXPECT_TRUE(robot.ChecksLinks(robot.model.FindLink("mast"), robot.model.FindLink("boom")));
+  // An SRDF without disabled pairs says nothing of them.
+  Srdf(group + "</robot>");
+  flags_.replace = true;
+  EXPECT_THAT(Make(), AllOf(testing::Not(HasSubstr("though a joint connects them")),
+                            HasSubstr("jib: 1000 of 1000")));
+  EXPECT_TRUE(LoadRobot(flags_.out).checked_pairs.empty());
+}
+
+TEST_F(MakeRobotTest, NoPairThatTheSrdfEnablesIsExempt) {
+  const std::string group = "<robot name='crane'><group name='jib'><joint name='luff'/></group>";
+  Srdf(group + "<enable_collisions link1='boom' link2='base'/></robot>");
+  EXPECT_THAT(Make(), HasSubstr("met in none of"));
+  const Robot apart = LoadRobot(flags_.out);
+  EXPECT_TRUE(apart.ChecksLinks(apart.model.FindLink("base"), apart.model.FindLink("boom")));
+  // A ball of the boom about its joint is always in that of the mast.
+  folder_.Write("in/spheres.yaml",
+                "links:\n  mast: [{center: [0.1, 0, 1], radius: 0.1}]\n"
+                "  boom: [{center: [0, 0, 0], radius: 0.1}]\n");
+  flags_.spheres = folder_.path() / "in/spheres.yaml";
+  flags_.replace = true;
+  const std::string disabled = "<disable_collisions link1='base' link2='boom'/>";
+  Srdf(group + disabled + "</robot>");
+  EXPECT_THAT(Make(), HasSubstr("not checked either: mast and boom"));
+  Srdf(group + disabled + "<enable_collisions link1='boom' link2='mast'/></robot>");
+  EXPECT_THAT(Make(), AllOf(HasSubstr("checked, though in contact in nearly all configurations, as "
+                                      "the SRDF enables them: mast and boom"),
+                            testing::Not(HasSubstr("not checked either"))));
+  const Robot together = LoadRobot(flags_.out);
+  EXPECT_TRUE(
+      together.ChecksLinks(together.model.FindLink("mast"), together.model.FindLink("boom")));
 }
 
 TEST_F(MakeRobotTest, AHandOfSpheresThatAlwaysTouchIsExempt) {

@@ -33,10 +33,15 @@ class PairSamplingTest : public testing::Test {
     return {Link(link), {x, 0, 0}, radius};
   }
 
+  Robot Chain(const std::vector<LinkSphere>& spheres) const {
+    Robot robot;
+    robot.model = model_;
+    robot.spheres = spheres;
+    return robot;
+  }
   // Of all joints.
-  PairSamples Sample(const std::vector<LinkSphere>& spheres, int samples, std::uint64_t seed = 1,
-                     const std::vector<std::pair<int, int>>& allowed = {}) const {
-    return SamplePairs(model_, spheres, {JointsToDraw(model_), allowed, samples, seed});
+  PairSamples Sample(const Robot& robot, int samples, std::uint64_t seed = 1) const {
+    return SamplePairs(robot, {JointsToDraw(model_), samples, seed});
   }
 
   const RobotModel model_ = RobotModel::FromUrdf(kChainUrdf, "chain.urdf");
@@ -45,14 +50,16 @@ class PairSamplingTest : public testing::Test {
   const std::vector<LinkSphere> spheres_ = {Ball("base", 0, 0.2), Ball("sign", 0, 0.2),
                                             Ball("a", 0.5, 0.2), Ball("b", 0.5, 0.2),
                                             Ball("c", 1.5, 0.2)};
+  const Robot chain_ = Chain(spheres_);
 };
 
 TEST_F(PairSamplingTest, TellsPairsThatMeetFromThoseThatNeverDo) {
-  const PairSamples samples = Sample(spheres_, 2000);
+  const PairSamples samples = Sample(chain_, 2000);
   EXPECT_EQ(samples.samples, 2000);
   int a_and_c = 0;
   for (const auto& pair : samples.pairs) {
-    EXPECT_FALSE(model_.Adjacent(pair.link_a, pair.link_b));
+    EXPECT_FALSE(model_.Joined(pair.link_a, pair.link_b));
+    EXPECT_FALSE(model_.Rigid(pair.link_a, pair.link_b));
     EXPECT_LT(pair.link_a, pair.link_b);
     if (std::pair(pair.link_a, pair.link_b) == Links("a", "c")) a_and_c = pair.contacts;
   }
@@ -68,13 +75,13 @@ TEST_F(PairSamplingTest, OverlapByConstructionIsAlways) {
   std::vector<LinkSphere> spheres = spheres_;
   spheres.push_back(Ball("c", 0, 0.9));
   spheres.push_back(Ball("a", 1.2, 0.3));
-  EXPECT_THAT(Sample(spheres, 500).Always(), ElementsAre(Links("a", "c")));
+  EXPECT_THAT(Sample(Chain(spheres), 500).Always(), ElementsAre(Links("a", "c")));
 }
 
 TEST_F(PairSamplingTest, TheSameSeedDrawsTheSame) {
   const auto counts = [&](std::uint64_t seed) {
     std::vector<int> contacts;
-    for (const auto& pair : Sample(spheres_, 500, seed).pairs) {
+    for (const auto& pair : Sample(chain_, 500, seed).pairs) {
       contacts.push_back(pair.contacts);
     }
     return contacts;
@@ -85,20 +92,30 @@ TEST_F(PairSamplingTest, TheSameSeedDrawsTheSame) {
 
 TEST_F(PairSamplingTest, NamesWhatTouchesInAConfiguration) {
   std::vector<double> folded(static_cast<std::size_t>(model_.num_positions()), 0.0);
-  EXPECT_THAT(PairsInContact(model_, spheres_, {}, folded), testing::IsEmpty());
+  EXPECT_THAT(PairsInContact(chain_, folded), testing::IsEmpty());
   folded[2] = 3.14159265;
-  EXPECT_THAT(PairsInContact(model_, spheres_, {}, folded), ElementsAre(Links("a", "c")));
-  EXPECT_THAT(PairsInContact(model_, spheres_, {{Link("c"), Link("a")}}, folded),
-              testing::IsEmpty());
+  EXPECT_THAT(PairsInContact(chain_, folded), ElementsAre(Links("a", "c")));
+  Robot robot = chain_;
+  robot.allowed_pairs = {{Link("c"), Link("a")}};
+  EXPECT_THAT(PairsInContact(robot, folded), testing::IsEmpty());
+}
+
+TEST_F(PairSamplingTest, LinksThatAJointConnectsCountIfTheyAreChecked) {
+  Robot robot = Chain({Ball("b", 0.9, 0.2), Ball("c", 0.1, 0.2)});
+  EXPECT_THAT(Sample(robot, 100).pairs, testing::IsEmpty());
+  robot.checked_pairs = {{Link("c"), Link("b")}};
+  EXPECT_THAT(Sample(robot, 100).Always(), ElementsAre(Links("b", "c")));
+  robot.allowed_pairs = {{Link("b"), Link("c")}};
+  EXPECT_THAT(Sample(robot, 100).pairs, testing::IsEmpty());
 }
 
 TEST_F(PairSamplingTest, FreeIsWhereNoPairThatCountsTouches) {
-  const PairSamples all = Sample(spheres_, 1000);
+  const PairSamples all = Sample(chain_, 1000);
   EXPECT_GT(all.free, 800);
   EXPECT_LT(all.free, 1000);
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& pair : all.pairs) pairs.emplace_back(pair.link_b, pair.link_a);
-  const PairSamples none = Sample(spheres_, 1000, 1, pairs);
+  Robot robot = chain_;
+  for (const auto& pair : all.pairs) robot.allowed_pairs.emplace_back(pair.link_b, pair.link_a);
+  const PairSamples none = Sample(robot, 1000);
   EXPECT_EQ(none.free, 1000);
   EXPECT_THAT(none.pairs, testing::IsEmpty());
 }
@@ -115,7 +132,7 @@ TEST_F(PairSamplingTest, MostOftenComesFirst) {
 TEST_F(PairSamplingTest, JointsThatAreNotDrawnAreHeld) {
   // c folds back by j3 alone.
   const auto draw = [&](const char* joint) {
-    return SamplePairs(model_, spheres_, {{model_.FindJoint(joint)}, {}, 300, 1});
+    return SamplePairs(chain_, {{model_.FindJoint(joint)}, 300, 1});
   };
   EXPECT_EQ(draw("j1").free, 300);
   EXPECT_LT(draw("j3").free, 300);

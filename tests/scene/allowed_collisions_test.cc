@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "scene/scene.h"
 
 namespace planbench {
@@ -14,6 +16,18 @@ TEST(AllowedCollisionMatrix, EntriesHoldInBothOrders) {
   matrix.SetEntry("a", "b", false);
   EXPECT_FALSE(matrix.Allowed("b", "a"));
   EXPECT_EQ(matrix.entries().size(), 1);
+}
+
+TEST(AllowedCollisionMatrix, TellsEntriesFromWhatFollowsWithoutOne) {
+  AllowedCollisionMatrix matrix;
+  matrix.SetEntry("b", "a", false);
+  matrix.SetDefaultEntry("c", true);
+  EXPECT_EQ(matrix.Entry("a", "b"), std::optional(false));
+  EXPECT_EQ(matrix.Entry("a", "c"), std::nullopt);
+  EXPECT_EQ(matrix.Simplified(), matrix) << "links that a joint connects are then checked";
+  matrix.SetEntry("a", "c", true);
+  EXPECT_EQ(matrix.Entry("c", "a"), std::optional(true));
+  EXPECT_EQ(matrix.Simplified().Entry("c", "a"), std::nullopt);
 }
 
 TEST(AllowedCollisionMatrix, DefaultsDecideWhereNoEntryDoes) {

@@ -194,6 +194,24 @@ TEST(MoveItReader, KeysInReverseOrderAndNoNewlineAtTheEnd) {
   EXPECT_EQ(scene.objects[0].shapes[0].X_FS.translation(), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(MoveItReader, AnEntryHasLinksCheckedThatAJointConnects) {
+  const auto read = [](const std::string& flags) {
+    return ParseScene(
+               "allowed_collision_matrix:\n  entry_names: [mast, gripper_link, l_finger]\n"
+               "  entry_values: " +
+               flags + "\n")
+        .allowed_collisions;
+  };
+  const AllowedCollisionMatrix none =
+      read("[[false, false, false], [false, false, false], [false, false, false]]");
+  EXPECT_EQ(none.entries().size(), 1u) << "the other pairs are checked, or never are, anyway";
+  EXPECT_EQ(none.Entry("gripper_link", "mast"), std::optional(false));
+  const AllowedCollisionMatrix some =
+      read("[[false, true, false], [true, false, false], [false, false, false]]");
+  EXPECT_EQ(some.entries().size(), 1u);
+  EXPECT_EQ(some.Entry("gripper_link", "mast"), std::optional(true));
+}
+
 TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
   const Scene scene = ParseScene(
       "world: {collision_objects: [{id: ball, pose: {position: [1, 2, 3], "

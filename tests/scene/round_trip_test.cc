@@ -181,6 +181,13 @@ TEST_F(RoundTrip, OnlyDefaultEntries) {
   Check(problem);
 }
 
+TEST_F(RoundTrip, LinksThatAnEntryHasChecked) {
+  Problem problem = ParseProblem(kFullScene);
+  problem.scene.allowed_collisions.SetEntry("mast", "gripper_link", false);
+  const Problem again = Check(problem);
+  EXPECT_EQ(again.scene.allowed_collisions.Entry("mast", "gripper_link"), std::optional(false));
+}
+
 TEST_F(RoundTrip, UnwritableFolderIsNamed) {
   EXPECT_THROW(WriteProblem(ParseProblem(kFullScene), folder_ / "none" / "s.yaml",
                             folder_ / "none" / "r.yaml"),
