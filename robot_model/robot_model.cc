@@ -72,6 +72,16 @@ int RobotModel::FindJoint(const std::string& name) const {
   return entry == joint_index_.end() ? -1 : entry->second;
 }
 
+int RobotModel::FollowerThatTurnsMove(int joint) const {
+  if (joints_[static_cast<std::size_t>(joint)].type != JointType::kContinuous) return -1;
+  const auto moved = std::ranges::find_if(joints_, [&](const Joint& follower) {
+    const bool turns_whole = follower.type != JointType::kPrismatic &&
+                             std::rint(follower.multiplier) == follower.multiplier;
+    return follower.leader == joint && follower.multiplier != 0 && !turns_whole;
+  });
+  return moved == joints_.end() ? -1 : static_cast<int>(moved - joints_.begin());
+}
+
 bool RobotModel::Rigid(int link_a, int link_b) const {
   return links_[static_cast<std::size_t>(link_a)].body ==
          links_[static_cast<std::size_t>(link_b)].body;
@@ -132,6 +142,12 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
       fail(fmt::format("joint '{}' follows joint '{}' (mimic); name that one", joint_name,
                        joints_[static_cast<std::size_t>(joint.leader)].name));
     }
+    if (const int follower = FollowerThatTurnsMove(index); follower >= 0) {
+      fail(
+          fmt::format("joint '{}' is continuous, but joint '{}', which follows it, is elsewhere a "
+                      "turn later",
+                      joint_name, joints_[static_cast<std::size_t>(follower)].name));
+    }
     if (!seen.insert(joint_name).second) fail(fmt::format("joint '{}' is repeated", joint_name));
     const bool continuous = joint.type == JointType::kContinuous;
     group.joints.push_back(index);
@@ -147,15 +163,6 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
     const Joint& follower = joints_[j];
     const auto leader = std::find(group.joints.begin(), group.joints.end(), follower.leader);
     if (follower.leader < 0 || leader == group.joints.end()) continue;
-    const Joint& led_by = joints_[static_cast<std::size_t>(follower.leader)];
-    const bool turns_whole = follower.type != JointType::kPrismatic &&
-                             std::rint(follower.multiplier) == follower.multiplier;
-    if (led_by.type == JointType::kContinuous && !turns_whole) {
-      fail(
-          fmt::format("joint '{}' is continuous, but joint '{}', which follows it, is elsewhere a "
-                      "turn later",
-                      led_by.name, follower.name));
-    }
     group.followers.push_back(
         {static_cast<int>(j), static_cast<int>(leader - group.joints.begin())});
   }

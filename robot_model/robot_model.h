@@ -30,6 +30,7 @@ int NumPositions(JointType type);
 /// frame when the joint is at zero.
 struct Joint {
   std::string name;
+  std::string where;  ///< For messages: file, line and name.
   JointType type = JointType::kFixed;
   int parent_link = -1;
   int child_link = -1;
@@ -124,6 +125,10 @@ class RobotModel {
   /// Index of a link or joint, -1 if there is none of that name.
   int FindLink(const std::string& name) const;
   int FindJoint(const std::string& name) const;
+
+  /// Index of a joint that follows this one and is elsewhere when this, a continuous one, has made
+  /// a turn, so that no group can have it; -1 if there is none.
+  int FollowerThatTurnsMove(int joint) const;
 
   /// True if nothing but fixed joints stands between the two links, or they are the same.
   bool Rigid(int link_a, int link_b) const;

@@ -11,9 +11,11 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
+#include "robot_model/urdf_versions.h"
 #include "robot_model/xml_text.h"
 
 namespace planbench {
@@ -189,11 +191,16 @@ void CheckOutermost(std::string_view text, const std::string& origin) {
     throw InputError(
         fmt::format("{}:1: not a valid URDF: it has no XML element; expected <robot>", origin));
   }
-  if (outermost->element == "robot") return;
-  throw InputError(
-      fmt::format("{}:{}: not a valid URDF: its outermost element is <{}>; expected "
-                  "<robot>",
-                  origin, outermost->line, outermost->element));
+  if (outermost->element != "robot") {
+    throw InputError(
+        fmt::format("{}:{}: not a valid URDF: its outermost element is <{}>; expected "
+                    "<robot>",
+                    origin, outermost->line, outermost->element));
+  }
+  if (!outermost->Attribute("name")) {
+    throw InputError(
+        fmt::format("{}:{}: not a valid URDF: <robot> has no name", origin, outermost->line));
+  }
 }
 
 }  // namespace
@@ -203,6 +210,8 @@ UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& 
   CheckOutermost(urdf_text, origin);
   UrdfDocument document;
   const ElementFinder found(urdf_text, origin, &document);
+  Urdf10 urdf = ToUrdf10(urdf_text, origin);
+  document.capsules = std::move(urdf.capsules);
   std::string errors;
   const auto fail = [&](const std::string& report) {
     throw InputError(
@@ -211,9 +220,9 @@ UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& 
   {
     const ReportCapture capture;
     try {
-      document.model = urdf::parseURDF(urdf_text);
+      document.model = urdf::parseURDF(urdf.text);
     } catch (const std::exception& error) {
-      // Some malformed attributes (the version's) come out as exceptions of urdfdom's own.
+      // Some malformed attributes come out as exceptions of urdfdom's own.
       fail(error.what());
     }
     errors = capture.errors();

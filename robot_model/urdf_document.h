@@ -4,8 +4,8 @@
 #include <urdf_world/types.h>
 
 #include <map>
+#include <set>
 #include <string>
-#include <utility>
 
 namespace planbench {
 
@@ -18,11 +18,13 @@ struct UrdfDocument {
   std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
   /// xyz of each joint's <axis>, as written: urdfdom reads none of fixed joints.
   std::map<std::string, std::string> joint_axes;
+  /// Per link which of its collision bodies, from 0, are capsules; the model has cylinders there.
+  std::map<std::string, std::set<int>> capsules;
 };
 
-/// Parses URDF text with urdfdom. Throws InputError with what urdfdom reported (it is not printed),
-/// and for what it would not report: text that is no UTF-8, xacro that is not expanded, a second
-/// element where one counts. `origin` names the text.
+/// Parses URDF text, of version 1.0 to 1.2, with urdfdom. Throws InputError with what urdfdom
+/// reported (it is not printed), and for what it would not report: text that is no UTF-8, xacro
+/// that is not expanded, a second element where one counts. `origin` names the text.
 UrdfDocument ParseUrdfDocument(const std::string& urdf_text, const std::string& origin);
 
 }  // namespace planbench

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "common/error.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/urdf_document.h"
+#include "robot_model/urdf_remarks.h"
 
 namespace planbench {
 namespace {
@@ -19,6 +21,8 @@ using Eigen::Vector3d;
 constexpr double kLimitRounding = 1e-9;
 // Beyond, rad or m, limits are none.
 constexpr double kWidestLimit = 1e4;
+// What turns further from zero, rad, is rare: limits in degrees are likelier.
+constexpr double kFurthestTurn = 4 * 2 * std::numbers::pi;
 // No part of a robot is larger, or further from the next, m.
 constexpr double kGreatestLength = 1e3;
 
@@ -89,6 +93,7 @@ class UrdfConverter {
   Joint ConvertJoint(const urdf::Joint& joint) {
     Joint result;
     result.name = joint.name;
+    result.where = WhereJoint(joint.name);
     result.type = ConvertType(joint);
     result.X_PJ = ToEigen(joint.parent_to_joint_origin_transform);
     if (const std::string what = FaultOf(result.X_PJ); !what.empty()) {
@@ -108,6 +113,8 @@ class UrdfConverter {
 
   std::vector<PlacedShape> ConvertCollision(const urdf::Link& link) const {
     std::vector<PlacedShape> shapes;
+    const auto capsules = document_.capsules.find(link.name);
+    int index = 0;
     for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
       if (collision->geometry == nullptr) FailLink(link.name, "collision: has no geometry");
       const Isometry3d X_LS = ToEigen(collision->origin);
@@ -115,6 +122,9 @@ class UrdfConverter {
         FailLink(link.name, "collision origin: " + what);
       }
       shapes.push_back({ConvertGeometry(link.name, *collision->geometry), X_LS});
+      if (capsules != document_.capsules.end() && capsules->second.contains(index++)) {
+        AddCaps(&shapes);
+      }
     }
     return shapes;
   }
@@ -264,6 +274,16 @@ class UrdfConverter {
     }
   }
 
+  // Makes a capsule of the cylinder that came last: no engine takes capsules as parts of a link.
+  static void AddCaps(std::vector<PlacedShape>* shapes) {
+    const PlacedShape last = shapes->back();
+    const auto* cylinder = std::get_if<Cylinder>(&last.shape);
+    if (cylinder == nullptr) return;  // Only in text that is not quite XML.
+    for (const double z : {-cylinder->length / 2, cylinder->length / 2}) {
+      shapes->push_back({Sphere{cylinder->radius}, last.X_FS * Eigen::Translation3d(0, 0, z)});
+    }
+  }
+
   const UrdfDocument& document_;
   const std::string& origin_;
   std::vector<std::string> soft_limits_;  // Joints that they narrow.
@@ -336,14 +356,53 @@ std::string KeepWithinReason(Joint* joint) {
                      upper, joint->lower, joint->upper);
 }
 
+// A note on revolute joints that turn so far that degrees were probably meant; "" for none.
+std::string RemarkDegrees(const std::vector<Joint>& joints) {
+  std::string note;
+  std::vector<std::string> others;
+  for (const Joint& joint : joints) {
+    const double furthest = std::max(-joint.lower, joint.upper);
+    if (joint.type != JointType::kRevolute) continue;
+    if (furthest <= kFurthestTurn || furthest > kWidestLimit) continue;
+    if (!note.empty()) {
+      others.push_back(joint.name);
+      continue;
+    }
+    note = fmt::format(
+        "{}: its limits [{}, {}] reach {:.3g} turns from zero; are they degrees? URDFs are in "
+        "radians",
+        joint.where, joint.lower, joint.upper, furthest / (2 * std::numbers::pi));
+  }
+  if (!others.empty()) note += fmt::format("; likewise {}", fmt::join(others, ", "));
+  return note;
+}
+
+// Whether a follower never moves, as its leader does not, or moves it by nothing.
+bool StandsStill(const Joint& follower, const Joint& leader) {
+  return follower.multiplier == 0 || leader.upper - leader.lower <= kLimitRounding;
+}
+
+// A note on a follower that stands still out of its limits; "" for none.
+std::string RemarkStanding(const Joint& follower, const Joint& leader) {
+  if (!StandsStill(follower, leader)) return "";
+  // The lower limit of a leader that turns for ever is none.
+  const double led = follower.multiplier == 0 ? 0 : follower.multiplier * leader.lower;
+  const double at = led + follower.offset;
+  if (at >= follower.lower - kLimitRounding && at <= follower.upper + kLimitRounding) return "";
+  return fmt::format(
+      "it stands still at {:g}, out of its limits [{:g}, {:g}], which do not count, as it follows "
+      "joint '{}'{}",
+      at, follower.lower, follower.upper, leader.name,
+      follower.multiplier == 0 ? " with the multiplier 0" : ", which does not move");
+}
+
 // Keeps a leader where its follower is within its limits, and gives the follower the range it then
 // has. A note of what changes, "" for nothing: a follower whose limits leave no range at all has
 // wrong ones (signs that do not fit the multiplier are common), and is not heeded.
 std::string KeepWithinLimits(Joint* follower, Joint* leader) {
   const double m = follower->multiplier;
   std::string note;
-  const bool has_range = leader->upper - leader->lower > kLimitRounding;
-  if (m != 0 && has_range && std::isfinite(follower->lower)) {
+  if (!StandsStill(*follower, *leader) && std::isfinite(follower->lower)) {
     const double a = (follower->lower - follower->offset) / m;
     const double b = (follower->upper - follower->offset) / m;
     const double lower = std::max(leader->lower, std::min(a, b));
@@ -427,7 +486,7 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
     }
   }
 
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = RemarkUnheeded(urdf_text, origin);
   if (!converter.soft_limits().empty()) {
     notes.push_back(fmt::format("{}: soft limits (safety_controller) narrow {}", origin,
                                 fmt::join(converter.soft_limits(), ", ")));
@@ -436,15 +495,16 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
     if (converter.MimicOf(model.joints_[j]) == nullptr) continue;
     FollowLeaders(converter, model, j, &model.joints_[j]);
   }
+  if (const std::string note = RemarkDegrees(model.joints_); !note.empty()) notes.push_back(note);
+  const auto note_of = [&](const Joint& joint, const std::string& note) {
+    if (!note.empty()) notes.push_back(joint.where + ": " + note);
+  };
+  for (Joint& joint : model.joints_) note_of(joint, KeepWithinReason(&joint));
   for (Joint& joint : model.joints_) {
-    const std::string note = KeepWithinReason(&joint);
-    if (!note.empty()) notes.push_back(converter.WhereJoint(joint.name) + ": " + note);
-  }
-  for (Joint& joint : model.joints_) {
-    if (joint.position_index < 0 || joint.leader < 0) continue;
+    if (joint.leader < 0) continue;
     Joint& leader = model.joints_[static_cast<std::size_t>(joint.leader)];
-    const std::string note = KeepWithinLimits(&joint, &leader);
-    if (!note.empty()) notes.push_back(converter.WhereJoint(leader.name) + ": " + note);
+    note_of(joint, RemarkStanding(joint, leader));
+    note_of(leader, KeepWithinLimits(&joint, &leader));
   }
   // Only now, when all followers have had their say.
   for (Joint& joint : model.joints_) {

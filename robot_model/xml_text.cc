@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/text.h"
+#include "geometry/text_words.h"
 
 namespace planbench {
 namespace {
@@ -19,6 +20,20 @@ bool NamesXacro(std::string_view uri) { return uri.ends_with("/xacro"); }
 std::string_view PrefixOf(std::string_view name) {
   const std::size_t colon = name.find(':');
   return colon == std::string_view::npos ? "" : name.substr(0, colon);
+}
+
+// Of a start tag what is no attribute; empty if all is well.
+std::string_view NoAttribute(const XmlTag& tag) {
+  constexpr std::string_view kSpaces = " \t\r\n";
+  std::string_view rest = tag.text.substr(1 + tag.element.size());
+  if (tag.empty) rest.remove_suffix(1);
+  for (const XmlAttribute& attribute : tag.Attributes()) {
+    const auto begin = static_cast<std::size_t>(attribute.name.data() - rest.data());
+    if (begin == 0 || rest.find_first_not_of(kSpaces) != begin) return rest;
+    rest.remove_prefix(static_cast<std::size_t>(attribute.value.data() + attribute.value.size() +
+                                                1 - rest.data()));
+  }
+  return rest.substr(std::min(rest.find_first_not_of(kSpaces), rest.size()));
 }
 
 class TagChecker {
@@ -52,8 +67,28 @@ class TagChecker {
       Fail(tag.line, fmt::format("<{}>: the byte {} is no UTF-8; the file must be UTF-8 text",
                                  tag.element, tag.text.substr(*bad, 1)));
     }
+    if (open_.empty() && has_outermost_) {
+      Fail(tag.line, fmt::format("<{}> stands after the outermost element, of which XML has one",
+                                 tag.element));
+    }
+    has_outermost_ = true;
+    CheckAttributes(tag);
     RefuseXacro(tag);
     if (!tag.empty) open_.push_back(tag);
+  }
+
+  void CheckAttributes(const XmlTag& tag) const {
+    const std::string_view bad = NoAttribute(tag);
+    if (!bad.empty()) {
+      Fail(tag.line, fmt::format("{}<{}>: expected NAME=\"VALUE\" after a space, found: {}",
+                                 Place(), tag.element, bad.substr(0, bad.find('\n'))));
+    }
+    std::set<std::string_view> names;
+    for (const XmlAttribute& attribute : tag.Attributes()) {
+      if (names.insert(attribute.name).second) continue;
+      Fail(tag.line,
+           fmt::format("{}<{}>: has the attribute {} twice", Place(), tag.element, attribute.name));
+    }
   }
 
   // Prefixes hold to the end of the text: what they are bound to elsewhere is xacro too.
@@ -124,8 +159,28 @@ class TagChecker {
 
   const std::string& origin_;
   std::vector<XmlTag> open_;
+  bool has_outermost_ = false;
   std::set<std::string_view> xacro_prefixes_ = {"xacro"};
 };
+
+// Parsers read a declaration up to the first '>', which ends the first of its definitions.
+void RefuseDefinitions(std::string_view text, const std::string& origin) {
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at + 1)) {
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("<!--")) {
+      at = std::min(text.find("-->", at), text.size() - 1);
+    } else if (rest.starts_with("<!DOCTYPE")) {
+      const std::size_t end = rest.find_first_of("[>");
+      if (end == std::string_view::npos || rest[end] == '>') return;
+      throw InputError(fmt::format(
+          "{}:{}: <!DOCTYPE> holds definitions ([...]), which are not read; write their values "
+          "where they are used, and leave them out",
+          origin, 1 + std::ranges::count(text.substr(0, at), '\n')));
+    } else if (!rest.starts_with("<?")) {
+      return;
+    }
+  }
+}
 
 }  // namespace
 
@@ -204,8 +259,23 @@ XmlTag XmlTagReader::Read() {
   return tag;
 }
 
+std::optional<std::vector<double>> ReadNumbers(std::string_view value) {
+  std::string line(value);
+  std::ranges::replace_if(
+      line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::string_view rest = line;
+  std::vector<double> numbers;
+  for (std::string_view word = TakeWord(&rest); !word.empty(); word = TakeWord(&rest)) {
+    const std::optional<double> number = ParseNumber(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 void CheckXmlText(std::string_view text, const std::string& origin) {
   RefuseUtf16(text, origin);
+  RefuseDefinitions(text, origin);
   const TagChecker checked(text, origin);
 }
 

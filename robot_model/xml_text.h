@@ -46,9 +46,13 @@ class XmlTagReader {
   int line_ = 1;
 };
 
+/// The numbers of an attribute's value; nothing if a word of it is none.
+std::optional<std::vector<double>> ReadNumbers(std::string_view value);
+
 /// Refuses (InputError with file and line) what XML parsers pass over in silence, or report without
-/// a place: text that is no UTF-8, elements that are not closed, and what xacro would have to
-/// expand first. `origin` names the text.
+/// a place: text that is no UTF-8, definitions of entities, elements that are not closed or follow
+/// the outermost one, what is no attribute, and what xacro would have to expand first. `origin`
+/// names the text.
 void CheckXmlText(std::string_view text, const std::string& origin);
 
 }  // namespace planbench

@@ -199,6 +199,37 @@ TEST(Mimic, ALeaderStaysWhereItsFollowersMayBe) {
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("joint 'f1': the limits of joint 'f2'")));
 }
 
+TEST(Mimic, AFollowerThatStandsStillOutOfItsLimitsIsNamed) {
+  const auto warnings = [](const std::string& leader, const std::string& mimic) {
+    std::vector<std::string> found;
+    const RobotModel model = RobotModel::FromUrdf(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+        "<joint name='i' " +
+            leader +
+            "<parent link='a'/><child link='b'/></joint>\n"
+            "<joint name='j' type='prismatic'><parent link='b'/><child link='c'/><limit "
+            "lower='-0.6' upper='0.9' velocity='1' effort='1'/><mimic joint='i' " +
+            mimic + "/></joint></robot>",
+        "r.urdf", &found);
+    return found;
+  };
+  const std::string fixed = "type='fixed'>";
+  const std::string turns = "type='continuous'>";
+  const std::string stuck =
+      "type='revolute'><limit lower='0.5' upper='0.5' velocity='1' effort='1'/>";
+  EXPECT_THAT(warnings(fixed, "multiplier='-2' offset='0.9'"), ElementsAre());
+  EXPECT_THAT(
+      warnings(fixed, "multiplier='-2' offset='0.95'"),
+      ElementsAre("r.urdf:2: joint 'j': it stands still at 0.95, out of its limits [-0.6, "
+                  "0.9], which do not count, as it follows joint 'i', which does not move"));
+  EXPECT_THAT(warnings(turns, "multiplier='0' offset='0.5'"), ElementsAre());
+  EXPECT_THAT(warnings(turns, "multiplier='0' offset='5'"),
+              ElementsAre(HasSubstr("at 5, out of its limits [-0.6, 0.9], which do not count, as "
+                                    "it follows joint 'i' with the multiplier 0")));
+  EXPECT_THAT(warnings(stuck, "multiplier='2'"),
+              ElementsAre(HasSubstr("no range"), HasSubstr("joint 'j': it stands still at 1, ")));
+}
+
 TEST(Mimic, AGroupNamesLeadersOnly) {
   const RobotModel model = RobotModel::FromUrdf(kSnake, "snake");
   ExpectInputError(
@@ -225,6 +256,8 @@ TEST(Mimic, AContinuousLeaderNeedsFollowersThatAreTheSameATurnLater) {
         "r.urdf");
   };
   EXPECT_NO_THROW(model("continuous", "-2").MakeGroup("g", {"j"}, "c"));
+  EXPECT_EQ(model("continuous", "-2").FollowerThatTurnsMove(0), -1);
+  EXPECT_EQ(model("continuous", "0.5").FollowerThatTurnsMove(0), 1);
   ExpectInputError([&] { model("continuous", "0.5").MakeGroup("g", {"j"}, "c"); },
                    {"'j' is continuous", "'k'", "a turn later"});
 }

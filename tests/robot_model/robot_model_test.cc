@@ -1,5 +1,6 @@
 #include "robot_model/robot_model.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -63,8 +64,30 @@ TEST(RobotModelLimits, ThatStandForNoneAreNarrowedAndThatLeaveNothingAreNamed) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("no range"), std::string::npos) << warnings[0];
   warnings.clear();
-  model_with("lower='-7' upper='7'", &warnings);
+  model_with("lower='-13' upper='13'", &warnings);  // Two turns.
   EXPECT_TRUE(warnings.empty());
+}
+
+TEST(RobotModelLimits, ThatAreProbablyInDegreesAreNamedOnce) {
+  const auto limit = [](const char* lower, const char* upper) {
+    return fmt::format("<limit velocity='1' effort='1' lower='{}' upper='{}'/></joint>", lower,
+                       upper);
+  };
+  std::vector<std::string> warnings;
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>"
+      "<joint name='i' type='prismatic'><parent link='a'/><child link='b'/>" +
+          limit("0", "100") +
+          "\n<joint name='j' type='revolute'><parent link='b'/><child link='c'/>" +
+          limit("-180", "180") +
+          "<joint name='k' type='revolute'><parent link='c'/><child link='d'/>" +
+          limit("-90", "0") + "</robot>",
+      "r.urdf", &warnings);
+  EXPECT_EQ(model.joints()[1].lower, -180);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "r.urdf:2: joint 'j': its limits [-180, 180] reach 28.6 turns from zero; are they "
+            "degrees? URDFs are in radians; likewise k");
 }
 
 class RobotModelTest : public testing::Test {
