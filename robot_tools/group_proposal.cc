@@ -1,6 +1,7 @@
 #include "robot_tools/group_proposal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +13,23 @@ namespace {
 
 constexpr int kLeastJointsOfAnArm = 3;
 constexpr double kMostFingerTravel = 0.1;  // m
+// Of how long the arm is.
+constexpr double kLongestFinger = 0.5;
+
+double Offset(const Joint& joint) { return joint.X_PJ.translation().norm(); }
 
 class ArmFinder {
  public:
   explicit ArmFinder(const RobotModel& model)
-      : model_(model), depth_(static_cast<std::size_t>(model.num_links())) {
+      : model_(model),
+        depth_(static_cast<std::size_t>(model.num_links())),
+        length_(static_cast<std::size_t>(model.num_links())) {
     // Links come parents first.
     for (int link = model.num_links() - 1; link > 0; --link) {
       const int joint = At(link).parent_joint;
-      int& parent = depth_[static_cast<std::size_t>(JointAt(joint).parent_link)];
-      parent = std::max(parent, Below(joint));
+      const auto parent = static_cast<std::size_t>(JointAt(joint).parent_link);
+      depth_[parent] = std::max(depth_[parent], Below(joint));
+      length_[parent] = std::max(length_[parent], LengthBelow(joint));
     }
   }
 
@@ -33,10 +41,10 @@ class ArmFinder {
   /// Finds the arms from `link` outwards; `own`: the joints of the last arm, or body, that lead
   /// there. Where arms part, those are the body's.
   void Find(int link, std::vector<int> own) {
-    std::vector<int> branches = ArmsFrom(link, own.empty());
+    std::vector<int> branches = ArmsFrom(link, own);
     while (branches.size() == 1) {
       link = Follow(branches.front(), &own);
-      branches = ArmsFrom(link, own.empty());
+      branches = ArmsFrom(link, own);
     }
     if (branches.empty()) {
       arms_.push_back({std::move(own), TipFrom(link)});
@@ -44,6 +52,7 @@ class ArmFinder {
       return;
     }
     body_.insert(body_.end(), own.begin(), own.end());
+    if (IsLong(own)) trunks_.push_back({own, link});
     for (const int branch : branches) {
       std::vector<int> joints;
       const int child = Follow(branch, &joints);
@@ -52,71 +61,132 @@ class ArmFinder {
   }
 
   const std::vector<int>& body() const { return body_; }
+  /// Chains of the body that are long enough for an arm.
+  const std::vector<Arm>& trunks() const { return trunks_; }
   const std::vector<Arm>& arms() const { return arms_; }
 
  private:
   const Link& At(int link) const { return model_.links()[static_cast<std::size_t>(link)]; }
   const Joint& JointAt(int joint) const { return model_.joints()[static_cast<std::size_t>(joint)]; }
   bool CanPlan(int joint) const {
-    return NumPositions(JointAt(joint).type) == 1 && JointAt(joint).leader < 0;
+    return NumPositions(JointAt(joint).type) == 1 && JointAt(joint).leader < 0 &&
+           model_.FollowerThatTurnsMove(joint) < 0;
+  }
+  static bool IsLong(const std::vector<int>& joints) {
+    return static_cast<int>(joints.size()) >= kLeastJointsOfAnArm;
   }
   // Most joints that can be planned with on a way from this joint outwards, itself included.
   int Below(int joint) const {
     return depth_[static_cast<std::size_t>(JointAt(joint).child_link)] + (CanPlan(joint) ? 1 : 0);
   }
 
+  // From this joint's parent link to the furthest below, joint by joint, m.
+  double LengthBelow(int joint) const {
+    return Offset(JointAt(joint)) + length_[static_cast<std::size_t>(JointAt(joint).child_link)];
+  }
+
   // The joints below a link that lead on along arms: those with enough joints, else the only one
-  // that moves anything, or all at the root of an arm. Fingers are several with few.
-  std::vector<int> ArmsFrom(int link, bool nothing_yet) const {
+  // that moves anything, or all at the root of an arm. Fingers are several with few, or short.
+  std::vector<int> ArmsFrom(int link, const std::vector<int>& own) const {
     std::vector<int> arms;
     std::vector<int> moving;
     for (const int joint : At(link).child_joints) {
       if (Below(joint) >= kLeastJointsOfAnArm) arms.push_back(joint);
       if (Below(joint) > 0) moving.push_back(joint);
     }
-    if (arms.empty() && (moving.size() == 1 || nothing_yet)) return moving;
+    if (arms.empty() && (moving.size() == 1 || own.empty())) return moving;
+    if (moving.size() > 1 && AreFingers(moving, link, own)) return {};
     return arms;
   }
+
+  // Whether what parts at a link is a hand's: no branch has more joints than the arm that leads
+  // there, nor is any as long as half of it. Arms of a torso are neither.
+  bool AreFingers(const std::vector<int>& branches, int link, const std::vector<int>& own) const {
+    if (!IsLong(own)) return false;
+    double arm = 0;
+    for (int at = link; At(at).parent_joint != own.front(); at = ParentOf(at)) {
+      arm += Offset(JointAt(At(at).parent_joint));
+    }
+    return std::ranges::all_of(branches, [&](int branch) {
+      return Below(branch) <= static_cast<int>(own.size()) &&
+             LengthBelow(branch) < kLongestFinger * arm;
+    });
+  }
+
+  int ParentOf(int link) const { return JointAt(At(link).parent_joint).parent_link; }
 
   int Follow(int joint, std::vector<int>* joints) const {
     if (CanPlan(joint)) joints->push_back(joint);
     return JointAt(joint).child_link;
   }
 
-  // Outwards from the child link of an arm's last joint, while nothing else is there and fixed.
+  // Outwards from the child link of an arm's last joint, while nothing else is there and it is
+  // fixed or follows a joint.
   int TipFrom(int link) const {
-    while (At(link).child_joints.size() == 1 &&
-           JointAt(At(link).child_joints.front()).type == JointType::kFixed) {
-      link = JointAt(At(link).child_joints.front()).child_link;
+    while (At(link).child_joints.size() == 1) {
+      const Joint& next = JointAt(At(link).child_joints.front());
+      if (next.type != JointType::kFixed && next.leader < 0) break;
+      link = next.child_link;
     }
     return link;
   }
 
-  bool IsFinger(const Joint& joint) const {
-    const int index = model_.FindJoint(joint.name);
-    return std::any_of(model_.joints().begin(), model_.joints().end(),
-                       [&](const Joint& other) {
-                         return other.leader == index && other.type != JointType::kFixed;
-                       }) ||
-           (joint.type == JointType::kPrismatic && joint.upper - joint.lower < kMostFingerTravel);
+  bool IsBelow(int link, int other) const {
+    while (link > other) link = ParentOf(link);  // Links come parents first.
+    return link == other;
+  }
+
+  // The last joint of an arm is a finger's if something stands beside it: a joint that follows it
+  // from another branch (one in the same chain is linkage), or whatever is at the palm of a short
+  // slide.
+  bool IsFinger(int index) const {
+    const Joint& joint = JointAt(index);
+    const auto leads_beside = [&](const Joint& other) {
+      return other.leader == index && other.type != JointType::kFixed &&
+             !IsBelow(other.child_link, joint.child_link) &&
+             !IsBelow(joint.child_link, other.child_link);
+    };
+    return std::ranges::any_of(model_.joints(), leads_beside) ||
+           (joint.type == JointType::kPrismatic && joint.upper - joint.lower < kMostFingerTravel &&
+            At(joint.parent_link).child_joints.size() > 1);
   }
 
   void TakeOffHand(Arm* arm) const {
-    while (arm->joints.size() > 1 && IsFinger(JointAt(arm->joints.back()))) {
+    while (static_cast<int>(arm->joints.size()) > kLeastJointsOfAnArm &&
+           IsFinger(arm->joints.back())) {
       arm->tip = JointAt(arm->joints.back()).parent_link;
       arm->joints.pop_back();
     }
   }
 
   const RobotModel& model_;
-  std::vector<int> depth_;  // Per link: the largest Below of its child joints.
+  std::vector<int> depth_;      // Per link: the largest Below of its child joints.
+  std::vector<double> length_;  // Per link: the largest LengthBelow of its child joints.
   std::vector<int> body_;
+  std::vector<Arm> trunks_;
   std::vector<Arm> arms_;
 };
 
+// Joints that no group can have for the sake of one that follows them.
+std::vector<std::string> RemarkLeftOut(const RobotModel& model) {
+  std::vector<std::string> notes;
+  for (std::size_t j = 0; j < model.joints().size(); ++j) {
+    const int follower = model.FollowerThatTurnsMove(static_cast<int>(j));
+    if (follower < 0) continue;
+    notes.push_back(fmt::format(
+        "{}: is left out: it is continuous, but joint '{}', which follows it, is "
+        "elsewhere a turn later; it could be planned with if it were revolute, with "
+        "limits",
+        model.joints()[j].where, model.joints()[static_cast<std::size_t>(follower)].name));
+  }
+  return notes;
+}
+
 }  // namespace
 
-std::vector<PlanningGroup> ProposeGroups(const RobotModel& model) {
+std::vector<PlanningGroup> ProposeGroups(const RobotModel& model, std::vector<std::string>* notes) {
+  const std::vector<std::string> left_out = RemarkLeftOut(model);
+  if (notes != nullptr) notes->insert(notes->end(), left_out.begin(), left_out.end());
   ArmFinder finder(model);
   finder.Find(0, {});
   const std::vector<ArmFinder::Arm>& arms = finder.arms();
@@ -130,14 +200,17 @@ std::vector<PlanningGroup> ProposeGroups(const RobotModel& model) {
   if (arms.front().joints.empty()) {
     throw InputError(fmt::format(
         "robot '{}': no group can be proposed, as no joint can be planned with (revolute, "
-        "continuous or prismatic, following none)",
-        model.name()));
+        "continuous or prismatic, following none){}{}",
+        model.name(), left_out.empty() ? "" : "; ", fmt::join(left_out, "; ")));
   }
   if (arms.size() == 1) return {make("arm", arms.front().joints, {name_of(arms.front().tip)})};
 
   std::vector<PlanningGroup> groups;
   std::vector<int> all = finder.body();
   std::vector<std::string> tips;
+  for (const ArmFinder::Arm& trunk : finder.trunks()) {
+    groups.push_back(make("arm_" + name_of(trunk.tip), trunk.joints, {name_of(trunk.tip)}));
+  }
   for (const ArmFinder::Arm& arm : arms) {
     tips.push_back(name_of(arm.tip));
     groups.push_back(make("arm_" + tips.back(), arm.joints, {tips.back()}));

@@ -142,11 +142,12 @@ class RobotMaker {
   }
 
   void MakeGroups() {
+    std::vector<std::string> left_out;
     if (srdf_) {
       robot().groups = srdf_->groups;
       robot().virtual_joints = srdf_->virtual_joints;
     } else {
-      robot().groups = ProposeGroups(robot().model);
+      robot().groups = ProposeGroups(robot().model, &left_out);
     }
     Say("groups, {}:", srdf_ ? "from the SRDF" : "proposed from the tree of joints");
     std::set<int> planned;
@@ -160,6 +161,7 @@ class RobotMaker {
           tips.size() == 1 ? "tip" : "tips", fmt::join(tips, ", "),
           states.empty() ? "" : "; states ", fmt::join(states, ", "));
     }
+    for (const std::string& line : left_out) Say("  {}", line);
     if (srdf_) {
       for (const std::string& line : srdf_->group_warnings) Say("  {}", line);
       for (const std::string& line : srdf_->left_out) Say("  {}", line);

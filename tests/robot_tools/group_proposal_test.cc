@@ -18,18 +18,22 @@ using testing::ElementsAre;
 // A URDF from joints; links are named as the joints' ends are.
 class Tree {
  public:
+  static inline const std::string kLimit = "<limit lower='-1' upper='1' velocity='1' effort='1'/>";
+  static std::string Origin(double x) { return fmt::format("<origin xyz='{} 0 0'/>", x); }
+
   Tree& Joint(const std::string& type, const std::string& parent, const std::string& child,
-              const std::string& more = "<limit lower='-1' upper='1' velocity='1' effort='1'/>") {
+              const std::string& more = kLimit) {
     links_ += fmt::format("<link name='{}'/>", child);
     joints_ += fmt::format(
         "<joint name='{0}_joint' type='{1}'><parent link='{2}'/><child link='{0}'/>{3}</joint>",
         child, type, parent, more);
     return *this;
   }
-  Tree& Chain(const std::string& parent, const std::string& prefix, int count) {
+  /// `length`: of a link along x, m.
+  Tree& Chain(const std::string& parent, const std::string& prefix, int count, double length = 0) {
     std::string from = parent;
     for (int i = 1; i <= count; ++i) {
-      Joint("revolute", from, fmt::format("{}{}", prefix, i));
+      Joint("revolute", from, fmt::format("{}{}", prefix, i), kLimit + Origin(length));
       from = fmt::format("{}{}", prefix, i);
     }
     return *this;
@@ -50,9 +54,9 @@ struct Proposal {
   std::vector<std::vector<std::string>> tips;
 };
 
-Proposal Propose(const RobotModel& model) {
+Proposal Propose(const RobotModel& model, std::vector<std::string>* notes = nullptr) {
   Proposal proposal;
-  for (const PlanningGroup& group : ProposeGroups(model)) {
+  for (const PlanningGroup& group : ProposeGroups(model, notes)) {
     proposal.names.push_back(group.name);
     auto& joints = proposal.joints.emplace_back();
     for (const JointSpace::Joint& joint : group.space.joints()) joints.push_back(joint.name);
@@ -77,21 +81,89 @@ TEST(ProposeGroups, AnArmEndsBeforeItsFingers) {
   EXPECT_THAT(proposal.tips[0], ElementsAre("palm"));
 }
 
-TEST(ProposeGroups, WhatOthersFollowAndShortSlidesAreAHand) {
-  constexpr char kShort[] = "<limit lower='0' upper='0.04' velocity='1' effort='1'/>";
+constexpr char kShortSlide[] = "<limit lower='0' upper='0.04' velocity='1' effort='1'/>";
+
+TEST(ProposeGroups, WhatOthersFollowBesideItAndShortSlidesBesideOthersAreAHand) {
   Tree leader;
-  leader.Chain("base", "a", 3).Joint("revolute", "a3", "knuckle");
-  leader.Joint("revolute", "knuckle", "tip",
-               "<limit lower='-1' upper='1' velocity='1' effort='1'/><mimic "
-               "joint='knuckle_joint'/>");
+  leader.Chain("base", "a", 3).Joint("revolute", "a3", "thumb");
+  leader.Joint("revolute", "a3", "finger", Tree::kLimit + "<mimic joint='thumb_joint'/>");
   EXPECT_THAT(Propose(leader.Model()).joints[0], ElementsAre("a1_joint", "a2_joint", "a3_joint"));
   EXPECT_THAT(Propose(leader.Model()).tips[0], ElementsAre("a3"));
+  Tree fingers;  // All of them curl as the first does.
+  fingers.Chain("base", "a", 3).Chain("a3", "f", 2);
+  fingers.Joint("revolute", "a3", "g1", Tree::kLimit + "<mimic joint='f1_joint'/>");
+  fingers.Joint("revolute", "g1", "g2", Tree::kLimit + "<mimic joint='f2_joint'/>");
+  EXPECT_THAT(Propose(fingers.Model()).tips[0], ElementsAre("a3"));
   Tree slide;
-  slide.Chain("base", "a", 3).Joint("prismatic", "a3", "jaw", kShort);
+  slide.Chain("base", "a", 3).Joint("prismatic", "a3", "jaw", kShortSlide);
+  slide.Joint("fixed", "a3", "other_jaw");
   EXPECT_THAT(Propose(slide.Model()).joints[0], ElementsAre("a1_joint", "a2_joint", "a3_joint"));
-  Tree gantry;  // Long slides are an arm's.
-  gantry.Chain("base", "a", 3).Joint("prismatic", "a3", "quill");
+}
+
+TEST(ProposeGroups, LinkageAndSlidesOfAnArmAreItsOwn) {
+  Tree wrist;  // Kept level by the elbow.
+  wrist.Chain("base", "a", 4);
+  wrist.Joint("revolute", "a4", "wrist", Tree::kLimit + "<mimic joint='a4_joint'/>");
+  EXPECT_EQ(Propose(wrist.Model()).joints[0].size(), 4u);
+  EXPECT_THAT(Propose(wrist.Model()).tips[0], ElementsAre("wrist"));
+  Tree quill;
+  quill.Chain("base", "a", 3).Joint("prismatic", "a3", "quill", kShortSlide);
+  EXPECT_EQ(Propose(quill.Model()).joints[0].size(), 4u);
+  Tree gantry;  // Long slides are, too, whatever is beside them.
+  gantry.Chain("base", "a", 3).Joint("prismatic", "a3", "z").Joint("fixed", "a3", "camera");
   EXPECT_EQ(Propose(gantry.Model()).joints[0].size(), 4u);
+}
+
+TEST(ProposeGroups, AnArmKeepsThreeJoints) {
+  Tree tree;
+  tree.Chain("base", "a", 2).Joint("prismatic", "a2", "z", kShortSlide);
+  tree.Joint("fixed", "a2", "camera");
+  EXPECT_THAT(Propose(tree.Model()).joints[0], ElementsAre("a1_joint", "a2_joint", "z_joint"));
+}
+
+TEST(ProposeGroups, AHandOfManyJointsIsNoneOfTheArms) {
+  Tree tree;
+  tree.Chain("base", "a", 6, 0.2).Joint("fixed", "a6", "palm");
+  tree.Chain("palm", "f", 3, 0.04).Chain("palm", "g", 3, 0.04).Chain("palm", "thumb", 4, 0.03);
+  const Proposal proposal = Propose(tree.Model());
+  EXPECT_THAT(proposal.names, ElementsAre("arm"));
+  EXPECT_EQ(proposal.joints[0].size(), 6u);
+  EXPECT_THAT(proposal.tips[0], ElementsAre("palm"));
+  Tree one_long;  // One finger alone has as many joints as an arm.
+  one_long.Chain("base", "a", 6, 0.2).Chain("a6", "thumb", 3, 0.04).Chain("a6", "f", 1, 0.04);
+  EXPECT_THAT(Propose(one_long.Model()).tips[0], ElementsAre("a6"));
+}
+
+TEST(ProposeGroups, ALongTrunkIsAGroupBesideTheArmsOnIt) {
+  Tree torso;  // More joints on each arm than beneath.
+  torso.Chain("base", "waist", 3, 0.2).Chain("waist3", "l", 7, 0.02).Chain("waist3", "r", 7, 0.02);
+  torso.Chain("waist3", "head", 2);
+  const Proposal proposal = Propose(torso.Model());
+  EXPECT_THAT(proposal.names, ElementsAre("arm_waist3", "arm_l7", "arm_r7", "all_arms"));
+  EXPECT_THAT(proposal.joints[0], ElementsAre("waist1_joint", "waist2_joint", "waist3_joint"));
+  EXPECT_EQ(proposal.joints[1].size(), 7u);
+  EXPECT_EQ(proposal.joints[3].size(), 17u);
+  EXPECT_THAT(proposal.tips[3], ElementsAre("l7", "r7"));
+  Tree spine;  // Arms as long as it.
+  spine.Chain("base", "s", 5, 0.05).Chain("s5", "l", 4, 0.1).Chain("s5", "r", 4, 0.1);
+  EXPECT_THAT(Propose(spine.Model()).names, ElementsAre("arm_s5", "arm_l4", "arm_r4", "all_arms"));
+}
+
+TEST(ProposeGroups, AJointThatNoGroupCanHaveIsLeftOutAndNamed) {
+  Tree tree;
+  tree.Joint("continuous", "base", "turret", "").Chain("turret", "a", 3);
+  tree.Joint("continuous", "a3", "drill", "<mimic joint='turret_joint' multiplier='0.5'/>");
+  std::vector<std::string> notes;
+  EXPECT_THAT(Propose(tree.Model(), &notes).joints[0],
+              ElementsAre("a1_joint", "a2_joint", "a3_joint"));
+  EXPECT_THAT(notes, ElementsAre(testing::StartsWith("tree.urdf:1: joint 'turret_joint': is left "
+                                                     "out: it is continuous, but joint "
+                                                     "'drill_joint'")));
+  Tree alone;
+  alone.Joint("continuous", "base", "a", "");
+  alone.Joint("continuous", "a", "b", "<mimic joint='a_joint' multiplier='0.5'/>");
+  ExpectInputError([&] { Propose(alone.Model()); },
+                   {"'tree'", "no joint", "tree.urdf:1: joint 'a_joint'", "'b_joint'"});
 }
 
 TEST(ProposeGroups, ArmsOfATorsoAreGroupsAndOneOfAll) {
