@@ -48,7 +48,7 @@ std::span<const PathMeasure> PathMeasures() {
       {.name = "motion_time",
        .unit = "s",
        .meaning = "shortest time to follow the path exactly, each joint reaching its limit of "
-                  "velocity in 0.5 s at least",
+                  "velocity in 0.5 s at least; a limit of 0, or none, counts as 1 rad/s or m/s",
        .take = [](P& p) { return MotionTime(p.space(), p.path()); }},
       {.name = "clearance",
        .unit = "m",
