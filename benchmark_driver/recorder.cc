@@ -94,9 +94,9 @@ void Recorder::LookAround() {
     const std::string place =
         fmt::format("{}:{}", status.host, out == status.settings.end() ? status.name : out->second);
     Logger& logger = loggers_[place];
-    // Of two that write to one folder the earlier is dead, though not yet given up.
-    if (logger.live && status.start_utime < logger.start_utime) continue;
-    logger.start_utime = status.start_utime;
+    // Of two that write to one folder the one that came first is dead, though not yet given up.
+    if (logger.live && node.since < logger.since) continue;
+    logger.since = node.since;
     logger.name = status.name;
     logger.place = place;
     if (!(logger.sender == node.sender)) logger.silent = false;  // it was started again

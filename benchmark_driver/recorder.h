@@ -53,7 +53,7 @@ class Recorder {
     std::string name;
     std::string place;
     PacketSender sender;
-    std::int64_t start_utime = 0;
+    TimePoint since;  ///< NodeRegistry::Node's.
     bool live = false;
     bool silent = false;
     std::string trouble;

@@ -38,7 +38,7 @@ NodeRegistry::Entry* NodeRegistry::Settle(const Key& key, TimePoint now) const {
   Entry& entry = found->second;
   if (entry.rival && now - entry.rival->last >= kLostAfter) entry.rival.reset();
   if (entry.rival &&
-      (now - entry.holder.last >= kLostAfter || now - entry.rival->first >= kRivalPatience)) {
+      (now - entry.holder.last >= kLostAfter || now - entry.rival->node.since >= kRivalPatience)) {
     entry.holder = *std::exchange(entry.rival, std::nullopt);
   }
   return &entry;
@@ -57,7 +57,7 @@ void NodeRegistry::OnStatus(const NodeStatusMessage& status, const PacketSender&
   if (nodes_.size() >= kManyNodes) ForgetTheDead(now);
   const Key key = KeyOf(status.kind, status.name, status.instance);
   Entry* entry = Settle(key, now);
-  const Heard heard{{status, sender}, now, now};
+  Heard heard{{status, sender, now}, now};
   if (entry == nullptr) {
     if (nodes_.size() < 4 * kManyNodes) nodes_[key] = {heard, std::nullopt};
   } else if (entry->holder.node.sender == sender || now - entry->holder.last >= kLostAfter) {
@@ -67,6 +67,8 @@ void NodeRegistry::OnStatus(const NodeStatusMessage& status, const PacketSender&
           rival.sender, channel::kNodeStatus,
           "claims to be '" + rival.status.name + "', which is live at " + sender.Text());
     }
+    const Node& holder = entry->holder.node;
+    if (holder.sender == sender) heard.node.since = holder.since;
     *entry = {heard, std::nullopt};
   } else if (!entry->rival) {
     entry->rival = heard;

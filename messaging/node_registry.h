@@ -27,10 +27,14 @@ class NodeRegistry {
   static constexpr std::chrono::milliseconds kLostAfter{3000};
   static constexpr std::chrono::milliseconds kRivalPatience{750};
 
-  /// A live node and whom it sends from.
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  /// A live node, whom it sends from, and when he was first heard here: of several processes the
+  /// order in which they came, which times of day, as they are announced, do not tell.
   struct Node {
     NodeStatusMessage status;
     PacketSender sender;
+    TimePoint since;
   };
 
   explicit NodeRegistry(Bus* bus);
@@ -55,12 +59,10 @@ class NodeRegistry {
   bool WaitUntil(const std::function<bool()>& condition, std::chrono::milliseconds timeout);
 
  private:
-  using TimePoint = std::chrono::steady_clock::time_point;
   using Key = std::pair<NodeKind, std::string>;
   struct Heard {
     Node node;
     TimePoint last;
-    TimePoint first;
   };
   struct Entry {
     Heard holder;

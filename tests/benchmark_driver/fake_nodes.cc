@@ -140,7 +140,8 @@ PathCheckReplyMessage FakeSceneServer::Verdict(bool valid, const std::string& re
   return reply;
 }
 
-FakeLogger::FakeLogger(Bus* bus, const std::string& name)
+FakeLogger::FakeLogger(Bus* bus, const std::string& name,
+                       const std::function<void(NodeStatusMessage*)>& describe)
     : bus_(bus),
       name_(name),
       records_(bus, channel::kRunRecord),
@@ -150,17 +151,18 @@ FakeLogger::FakeLogger(Bus* bus, const std::string& name)
                                                               Answer(channel::kRunRecordAck,
                                                                      record.request_id);
                                                             })),
-      session_subscription_(bus->Subscribe<SessionMessage>(channel::kSession,
-                                                           [this](const SessionMessage& session) {
-                                                             Answer(channel::kSessionAck,
-                                                                    SessionAckId(session));
-                                                           })),
-      announcer_(std::make_unique<NodeAnnouncer>(
-          bus, [this, status = MakeNodeStatus(name, NodeKind::kLogger)] {
-            NodeStatusMessage now = status;
-            if (troubled) now.trouble = "disk full";
-            return now;
-          })) {}
+      session_subscription_(
+          bus->Subscribe<SessionMessage>(channel::kSession, [this](const SessionMessage& session) {
+            Answer(channel::kSessionAck, SessionAckId(session));
+          })) {
+  NodeStatusMessage status = MakeNodeStatus(name, NodeKind::kLogger);
+  if (describe) describe(&status);
+  announcer_ = std::make_unique<NodeAnnouncer>(bus, [this, status] {
+    NodeStatusMessage now = status;
+    if (troubled) now.trouble = "disk full";
+    return now;
+  });
+}
 
 void FakeLogger::Answer(const std::string& channel, const std::string& id) {
   if (troubled) return;

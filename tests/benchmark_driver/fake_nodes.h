@@ -91,7 +91,9 @@ class FakeSceneServer {
 /// A logger that stores everything it is sent, or does what the test says.
 class FakeLogger {
  public:
-  explicit FakeLogger(Bus* bus, const std::string& name = "logger");
+  /// `describe`: what else its announcements say.
+  explicit FakeLogger(Bus* bus, const std::string& name = "logger",
+                      const std::function<void(NodeStatusMessage*)>& describe = nullptr);
 
   /// Copies of a message that it does not answer, as if they or the answers had been lost.
   std::atomic<int> num_to_ignore = 0;

@@ -121,6 +121,25 @@ TEST_F(RecorderTest, ASecondLoggersLossIsTold) {
               ElementsAre(AllOf(HasSubstr("1 of 1"), HasSubstr("'second'"))));
 }
 
+TEST_F(RecorderTest, OfTwoLoggersOfAFolderTheOneThatCameLaterRecordsWhateverTheTimeOfDay) {
+  const auto started_at = [](std::int64_t utime) {
+    return [utime](NodeStatusMessage* status) {
+      status->settings["out"] = "/session";
+      status->start_utime = utime;
+    };
+  };
+  FakeLogger killed(&bus_, "x", started_at(2'000'000));
+  killed.num_to_ignore = 1'000'000;
+  AwaitLogger();
+  FakeLogger again(&bus_, "a", started_at(1'000'000));  // the clock was set back meanwhile
+  ASSERT_TRUE(registry_.WaitUntil([&] { return registry_.Live(NodeKind::kLogger).size() == 2; },
+                                  kTestPatience));
+  recorder_.silence_patience = std::chrono::milliseconds(100);
+  recorder_.Record(RunOf("a"));
+  EXPECT_EQ(recorder_.num_unrecorded(), 0u);
+  EXPECT_EQ(bus_.contradictions().count(), 0);
+}
+
 TEST_F(RecorderTest, ALoggerInTroubleIsNotWaitedForAndGetsEverythingAfterwards) {
   FakeLogger logger(&bus_);
   logger.troubled = true;
