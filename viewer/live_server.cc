@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "common/error.h"
-#include "common/utime.h"
 #include "viewer/live_page.h"
 
 namespace planbench {
@@ -67,7 +66,8 @@ LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int 
           {
             const std::scoped_lock lock(mutex_);
             if (look++ % kLooksPerState == 0) {
-              text += Event("state", session_.State(NowUtime(), bus_->counters()));
+              text += Event("state",
+                            session_.State(std::chrono::steady_clock::now(), bus_->counters()));
             }
             if (session_.view_number() != shown) {
               shown = session_.view_number();
@@ -91,7 +91,7 @@ LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int 
   everything_ = bus->SubscribeToAll(
       [this](const ReceivedMessage& message) {
         const std::scoped_lock lock(mutex_);
-        session_.Hear(message);
+        session_.Hear(message, std::chrono::steady_clock::now());
       },
       kUnbounded);
   http_->thread = std::thread([this] { http_->server.listen_after_bind(); });

@@ -46,11 +46,13 @@ Json UnlessZero(double value) { return value == 0 ? Json() : Json(value); }
 LiveSession::LiveSession(std::filesystem::path robot_folder)
     : robot_folder_(std::move(robot_folder)) {}
 
-void LiveSession::Hear(const ReceivedMessage& message) {
+void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
   const std::string& name = message.channel;
   try {
     if (name == channel::kNodeStatus) {
-      HearStatus(Decode<NodeStatusMessage>(message.bytes, name), message.utime);
+      auto status = Decode<NodeStatusMessage>(message.bytes, name);
+      const std::pair key(status.kind, status.name);
+      nodes_.insert_or_assign(key, Node{std::move(status), now});
     } else if (name == channel::kSession) {
       auto session = Decode<SessionMessage>(message.bytes, name);
       if (!session_ || session_->run_id != session.run_id) {
@@ -80,10 +82,6 @@ void LiveSession::Hear(const ReceivedMessage& message) {
   } catch (const MessageError&) {
     ++num_undecodable_;
   }
-}
-
-void LiveSession::HearStatus(const NodeStatusMessage& status, std::int64_t utime) {
-  nodes_.insert_or_assign({status.kind, status.name}, Node{status, utime});
 }
 
 void LiveSession::HearRequest(const PlanRequest& request, const std::string& planner) {
@@ -140,7 +138,7 @@ void LiveSession::HearRecord(const RunRecordMessage& record) {
   ++view_number_;
 }
 
-Json LiveSession::State(std::int64_t now_utime, const Bus::Counters& counters) const {
+Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
   Json json;
   if (session_) {
     json["session"] = {{"run_id", session_->run_id},
@@ -154,15 +152,13 @@ Json LiveSession::State(std::int64_t now_utime, const Bus::Counters& counters) c
         {{"name", name}, {"runs", tally.first}, {"solved", tally.second}});
   }
   json["nodes"] = Json::array();
-  const std::int64_t lost_after_us =
-      std::chrono::duration_cast<std::chrono::microseconds>(NodeRegistry::kLostAfter).count();
   for (const auto& [key, node] : nodes_) {
     json["nodes"].push_back({{"name", node.status.name},
                              {"kind", EnumName(node.status.kind)},
                              {"busy", node.status.busy},
                              {"request", node.status.request_id},
                              {"host", node.status.host},
-                             {"gone", now_utime - node.heard_utime > lost_after_us}});
+                             {"gone", now - node.heard > NodeRegistry::kLostAfter}});
   }
   json["progress"] = Json::array();
   for (const PlanProgress& one : progress_) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -22,19 +23,20 @@ namespace planbench {
 /// what came of it. Messages of a bus, or of an event log. Not thread-safe.
 class LiveSession {
  public:
+  using TimePoint = std::chrono::steady_clock::time_point;
+
   /// `robot_folder`: empty: the one that the session's flags name.
   explicit LiveSession(std::filesystem::path robot_folder);
 
-  /// Takes a message; one that cannot be decoded is counted.
-  void Hear(const ReceivedMessage& message);
+  /// Takes a message that came at `now`; one that cannot be decoded is counted.
+  void Hear(const ReceivedMessage& message, TimePoint now);
 
   /// {session: {run_id, robot, num_runs, finished}, contestants: [{name, runs, solved}],
   ///  nodes: [{name, kind, busy, request, host, gone}],
   ///  progress: [{time_s, cost, bound}] of the last request,
   ///  runs: [{contestant, problem, status, reason, time_s}], the newest first,
-  ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now_utime` (us) is
-  /// gone.
-  Json State(std::int64_t now_utime, const Bus::Counters& counters) const;
+  ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now` is gone.
+  Json State(TimePoint now, const Bus::Counters& counters) const;
 
   /// Grows with every message that changes View.
   std::int64_t view_number() const { return view_number_; }
@@ -43,7 +45,6 @@ class LiveSession {
   std::optional<Json> View() const;
 
  private:
-  void HearStatus(const NodeStatusMessage& status, std::int64_t utime);
   /// `planner`: what its channel calls the planner, in capitals.
   void HearRequest(const PlanRequest& request, const std::string& planner);
   void HearResult(const PlanResultMessage& result);
@@ -56,7 +57,7 @@ class LiveSession {
   std::optional<SessionMessage> session_;
   struct Node {
     NodeStatusMessage status;
-    std::int64_t heard_utime = 0;
+    TimePoint heard;
   };
   std::map<std::pair<NodeKind, std::string>, Node> nodes_;
   std::map<std::string, Scene> scenes_;  ///< By content id.

@@ -11,9 +11,10 @@ class LiveSessionTest : public testing::Test {
  protected:
   template <typename Message>
   void Hear(const std::string& channel, const Message& message) {
-    live_.Hear(PlanarSession::Received(channel, message));
+    live_.Hear(PlanarSession::Received(channel, message), kStart);
   }
-  Json State(std::int64_t now_utime = 1'000'000) const { return live_.State(now_utime, {}); }
+  Json State(std::chrono::milliseconds later = {}) const { return live_.State(kStart + later, {}); }
+  static constexpr LiveSession::TimePoint kStart{};
 
   PlanarSession bus_;
   LiveSession live_{""};
@@ -116,9 +117,9 @@ TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   node.busy = true;
   node.request_id = bus_.request.request_id;
   Hear(channel::kNodeStatus, node);
-  EXPECT_EQ(State(3'900'000)["nodes"][0]["gone"], false);
-  EXPECT_EQ(State(3'900'000)["nodes"][0]["busy"], true);
-  EXPECT_EQ(State(4'100'000)["nodes"][0]["gone"], true);
+  EXPECT_EQ(State(std::chrono::milliseconds(2900))["nodes"][0]["gone"], false);
+  EXPECT_EQ(State(std::chrono::milliseconds(2900))["nodes"][0]["busy"], true);
+  EXPECT_EQ(State(std::chrono::milliseconds(3100))["nodes"][0]["gone"], true);
 }
 
 TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
@@ -137,8 +138,8 @@ TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
 }
 
 TEST_F(LiveSessionTest, WhatCannotBeReadIsCountedAndWhatCannotBeShownSaysWhy) {
-  live_.Hear({channel::kRunRecord, {1, 2, 3}, 1});
-  live_.Hear({"SOMETHING_ELSE", {1, 2, 3}, 1});
+  live_.Hear({channel::kRunRecord, {1, 2, 3}, 1}, kStart);
+  live_.Hear({"SOMETHING_ELSE", {1, 2, 3}, 1}, kStart);
   EXPECT_EQ(State()["undecodable"], 1);
   Hear(channel::kScene, bus_.scene);
   Hear("PLAN_REQUEST_ARA", bus_.request);

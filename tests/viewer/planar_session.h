@@ -45,9 +45,8 @@ struct PlanarSession {
   }
 
   template <typename Message>
-  static ReceivedMessage Received(const std::string& channel, const Message& message,
-                                  std::int64_t utime = 1'000'000) {
-    return {channel, Encode(message), utime};
+  static ReceivedMessage Received(const std::string& channel, const Message& message) {
+    return {channel, Encode(message), 1'000'000};
   }
 
   SessionMessage session;
