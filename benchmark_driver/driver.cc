@@ -58,8 +58,7 @@ Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up
       line_up_(std::move(line_up)),
       flags_(std::move(flags)),
       earlier_(std::move(earlier)),
-      start_utime_(NowUtime()),
-      begun_utime_(start_utime_),
+      begun_utime_(NowUtime()),
       registry_(bus),
       recorder_(bus, &registry_) {
   if (earlier_.sessions.empty()) return;
@@ -255,7 +254,10 @@ SessionMessage Driver::Session(bool finished) const {
   session.run_id = options_.conditions.request.run_id;
   session.start_utime = begun_utime_;
   session.finished = finished;
-  session.total_time_s = earlier_time_s_ + static_cast<double>(NowUtime() - start_utime_) * 1e-6;
+  // The time of day may be set meanwhile.
+  session.total_time_s =
+      earlier_time_s_ +
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   session.num_runs = num_runs_;
   session.version = self.version;
   session.commit = self.commit;

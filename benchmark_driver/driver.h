@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -85,9 +86,9 @@ class Driver {
   std::vector<LineUpEntry> line_up_;
   std::map<std::string, std::string> flags_;
   EarlierSession earlier_;
-  std::int64_t start_utime_;   // of this part of the session
-  std::int64_t begun_utime_;   // of its first
+  std::int64_t begun_utime_;   // of the session's first part
   double earlier_time_s_ = 0;  // of its parts before
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();  // of this
   NodeRegistry registry_;
   Recorder recorder_;
   ProblemSetsMessage served_;

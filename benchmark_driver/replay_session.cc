@@ -53,6 +53,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   const std::filesystem::path& log = options.replay.value();
   if (!IsFile(log)) throw InputError(log.string() + ": there is no such event log");
   RecordedSession recorded = ReadRecords(log);
+  for (const std::string& line : recorded.passed_over) spdlog::warn("{}", line);
   if (PlannersAsked(recorded.runs).empty()) {
     throw InputError(log.string() + ": holds no run that could be made again");
   }

@@ -1,6 +1,7 @@
 #include "benchmark_driver/resume.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ void AwaitLoggersEnd(const std::filesystem::path& session_folder,
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
   if (HoldsNoLogYet(session_folder)) return {};
   RecordedSession recorded = ReadRecords(EventLogOf(session_folder));
+  for (const std::string& line : recorded.passed_over) spdlog::warn("--resume: {}", line);
   if (recorded.sessions.empty() && recorded.runs.empty()) return {};
   if (recorded.sessions.empty()) {
     throw InputError("--resume: " + session_folder.string() + " holds no session");

@@ -34,6 +34,9 @@ int main(int argc, char** argv) {
     std::vector<RunRecordMessage> runs;
     for (const std::string& session : sessions) {
       RecordedSession recorded = ReadRecords(FindEventLog(session));
+      for (const std::string& line : recorded.passed_over) {
+        std::cerr << "learn_paths: " << line << "\n";
+      }
       std::move(recorded.runs.begin(), recorded.runs.end(), std::back_inserter(runs));
     }
     const auto [library, num_against_meshes] = LearnPaths(runs, lessons);

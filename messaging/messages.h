@@ -257,7 +257,7 @@ struct SessionMessage {
   std::string run_id;
   std::int64_t start_utime = 0;  ///< When it was begun, however often it was resumed since.
   bool finished = false;
-  double total_time_s = 0;  ///< Of the parts that told of their end, and of the present one.
+  double total_time_s = 0;  ///< Steady clock; of the parts that told of their end, and the present.
   int num_runs = 0;
   std::string version;
   std::string commit;

@@ -178,6 +178,8 @@ class Merge {
     const fs::path log = FindEventLog(folder);
     RecordedSession recorded = ReadRecords(log);
     logs_.push_back(log);
+    passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(),
+                        recorded.passed_over.end());
     AddShares(folder, recorded.sessions);
     std::map<std::string, SessionMessage> last_words;
     for (SessionMessage& session : recorded.sessions) {
@@ -265,7 +267,7 @@ class Merge {
   std::string bus() const { return shares_.bus(); }
 
   std::string Summary(const fs::path& out) const {
-    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}",
+    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}",
                        out.string(), runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s",
                        num_repeated_,
                        missing_shards_.empty()
@@ -275,7 +277,8 @@ class Merge {
                            ? ""
                            : fmt::format("; without run.json, so that what was lost on the bus is "
                                          "not known: {}",
-                                         fmt::join(without_bus_, ", ")));
+                                         fmt::join(without_bus_, ", ")),
+                       passed_over_.empty() ? "" : "; ", fmt::join(passed_over_, "; "));
   }
 
  private:
@@ -374,6 +377,7 @@ class Merge {
   std::set<std::string> missing_shards_;
   SessionShares shares_;
   std::vector<std::string> without_bus_;  ///< Folders that do not tell.
+  std::vector<std::string> passed_over_;  ///< RecordedSession's, of all logs.
   SessionMessage session_;
 };
 

@@ -44,6 +44,7 @@ Json ViewOfRun(const Flags& flags) {
 /// The run of that number among those of the log, from 1, or the last.
 Json ViewOfLog(const Flags& flags) {
   RecordedSession recorded = ReadRecords(flags.log);
+  for (const std::string& line : recorded.passed_over) std::cerr << "view: " << line << "\n";
   const auto num_runs = static_cast<std::int64_t>(recorded.runs.size());
   const std::int64_t number = flags.run.value_or(num_runs);
   if (num_runs == 0) throw InputError(flags.log + ": no run is recorded in it");

@@ -122,6 +122,25 @@ TEST_F(RecordLogTest, RecordOfAnotherVersionNamesFileAndChannel) {
   ExpectInputError([&] { Read(); }, {file_.string(), channel::kRunRecord});
 }
 
+TEST_F(RecordLogTest, WhatCannotBeDecodedBesideWhatCanIsPassedOverAndCounted) {
+  // As a driver wrote it whose clock was set back.
+  SessionMessage negative = Session("run");
+  negative.total_time_s = -1;
+  Add(channel::kSession, Encode(Session("run")));
+  Add(channel::kRunRecord, Encode(Record("a")));
+  Add(channel::kSession, Encode(negative));
+  Add(channel::kSession, {1, 2, 3});
+  Add(channel::kRunRecord, {});
+  const RecordedSession recorded = Read();
+  EXPECT_EQ(recorded.sessions.size(), 1u);
+  EXPECT_EQ(recorded.runs.size(), 1u);
+  ASSERT_EQ(recorded.passed_over.size(), 2u);
+  EXPECT_EQ(recorded.passed_over[0],
+            file_.string() +
+                ": 2 messages are passed over, the first: SESSION: total_time_s: -1 is negative");
+  EXPECT_TRUE(recorded.passed_over[1].starts_with(file_.string() + ": one message is passed over"));
+}
+
 TEST_F(RecordLogTest, ReadsScenesByTheirContent) {
   SceneMessage message;
   message.request_id = "a";

@@ -136,6 +136,20 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
   ExpectBadInput(Start(resume), "--resume: conditions.request.robot_id");
 }
 
+TEST_F(LaunchedSession, AClockThatIsSetBackCostsNothing) {
+  const auto session = folder() / "session";
+  const bool is_sanitized = !std::string(PLANBENCH_SANITIZED).empty();
+  ChildProcess* driver = StartLaunchedDriver(
+      session, {"--problems-range", "1", "--planners", "rrtc", "--time", "30"},
+      {"env", std::string("LD_PRELOAD=") + (is_sanitized ? "" : PLANBENCH_ANOTHER_TIME),
+       "PLANBENCH_SET_BACK_BY=" + (session / "run.json").string()});
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM sessions WHERE finished AND total_time > 0"), 1);
+  const RecordedSession recorded = ReadRecords(session / "session.lcmlog");
+  EXPECT_TRUE(recorded.passed_over.empty());
+  EXPECT_TRUE(recorded.sessions.back().finished);
+}
+
 TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   const auto session = folder() / "session";
   // With steps so tiny every run lasts to its time limit.

@@ -127,6 +127,18 @@ TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
   EXPECT_TRUE(ReadSessions(folder_ / "again").sessions.front().finished);
 }
 
+TEST_F(MergeSessionsTest, WhatOfALogCannotBeDecodedIsToldOf) {
+  SessionMessage session = Session("part1", 1000, 1);
+  Write("part1", session, {{.contestant = "A", .problem = 1}});
+  session.total_time_s = -1;
+  EventLog(FindEventLog(folder_ / "part1"), EventLog::Mode::kAppend)
+      .Write({channel::kSession, Encode(session), 3});
+  ASSERT_EQ(Merge({"part1"}), kExitOk) << errors_;
+  EXPECT_THAT(output_,
+              HasSubstr("part1.lcmlog: one message is passed over: SESSION: total_time_s"));
+  EXPECT_TRUE(ReadSessions(folder_ / "whole").sessions.front().finished);
+}
+
 TEST_F(MergeSessionsTest, AnUnfinishedPartIsNotFinishedByMergingAgain) {
   SessionMessage part = Session("part1", 1000, 2);
   part.settings["shard"] = "1/2";
