@@ -21,6 +21,7 @@
 #include "common/exit_codes.h"
 #include "common/file_kind.h"
 #include "common/sibling_program.h"
+#include "common/standard_output.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/record_log.h"
@@ -115,13 +116,13 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   if (new_folder) new_folder->Keep();
 
   const bool agree = replay.Run(stop, [](const std::string& line) {
-    fmt::print("{}\n", line);
+    WriteOut(fmt::format("{}\n", line));
     std::fflush(stdout);
   });
   if (supervisor) supervisor->StopAll(planners);
-  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
-  fmt::print("\n{}", replay.Table());
-  for (const std::string& line : missing_runs) fmt::print("{}\n", line);
+  if (interrupted()) WriteOut("Interrupted: what follows is incomplete.\n");
+  WriteOut(fmt::format("\n{}", replay.Table()));
+  for (const std::string& line : missing_runs) WriteOut(fmt::format("{}\n", line));
   std::fflush(stdout);
   return agree ? kExitOk : kExitFailed;
 }

@@ -28,6 +28,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
+#include "common/standard_output.h"
 #include "messaging/channels.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
@@ -211,7 +212,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   const auto tell_how_to_go_on = [&] {
     std::error_code ignored;
     if (!supervisor || !std::filesystem::exists(session_folder, ignored)) return;
-    fmt::print("Go on with: {}\n", ResumingCommand(flags, session_folder));
+    WriteOut(fmt::format("Go on with: {}\n", ResumingCommand(flags, session_folder)));
   };
   bool complete = false;
   try {
@@ -232,11 +233,11 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);
-    fmt::print("Session folder: {}\n", session_folder.string());
+    WriteOut(fmt::format("Session folder: {}\n", session_folder.string()));
   }
-  if (interrupted()) fmt::print("Interrupted: what follows is incomplete.\n");
+  if (interrupted()) WriteOut("Interrupted: what follows is incomplete.\n");
   if (!complete || driver.num_not_asked() > 0) tell_how_to_go_on();
-  fmt::print("\n{}", tables.brief);
+  WriteOut(fmt::format("\n{}", tables.brief));
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
   for (const auto& [planner, reason] : driver.given_up()) {

@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "bus_tools/diagnosis.h"
 #include "common/exit_codes.h"
+#include "common/standard_output.h"
 #include "messaging/program.h"
 
 namespace planbench {
@@ -15,7 +14,7 @@ int Main(int argc, char** argv) {
   return program.Run(argc, argv, [&] {
     bool healthy = true;
     for (const Finding& finding : Diagnose({.lcm_url = program.lcm_url()})) {
-      fmt::print("{}", FindingText(finding));
+      WriteOut(FindingText(finding));
       healthy = healthy && finding.kind != Finding::Kind::kFault;
     }
     return healthy ? kExitOk : kExitFailed;

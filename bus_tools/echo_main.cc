@@ -13,6 +13,7 @@
 #include "bus_tools/traffic.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "common/standard_output.h"
 #include "messaging/bus.h"
 #include "messaging/program.h"
 
@@ -72,7 +73,7 @@ int Main(int argc, char** argv) {
             const std::scoped_lock lock(mutex);
             traffic.Add(message);
           } else if (num_shown < last) {
-            fmt::print("{}", EchoText(message, format));
+            WriteOut(EchoText(message, format));
             std::fflush(stdout);
             ++num_shown;
           }
@@ -80,13 +81,14 @@ int Main(int argc, char** argv) {
         kQueueCapacity);
     bus.Start();
     const auto stop = AwaitStopSignals();
-    for (Clock::time_point then = Clock::now(); !stop() && num_shown < last;) {
+    for (Clock::time_point then = Clock::now();
+         !stop() && num_shown < last && std::ferror(stdout) == 0;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       const double seconds = std::chrono::duration<double>(Clock::now() - then).count();
       if (!rates || seconds < 1) continue;
       then = Clock::now();
       const std::scoped_lock lock(mutex);
-      fmt::print("{}\n", traffic.Rates(seconds, bus.counters()));
+      WriteOut(fmt::format("{}\n", traffic.Rates(seconds, bus.counters())));
       std::fflush(stdout);
       ++num_shown;
     }

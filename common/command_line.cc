@@ -11,6 +11,7 @@
 
 #include "common/error.h"
 #include "common/exit_codes.h"
+#include "common/standard_output.h"
 #include "common/text.h"
 #include "common/version.h"
 
@@ -44,7 +45,9 @@ CLI::Validator Positive(double most) {
       "");
 }
 
-int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
+namespace {
+
+int ParseAndWork(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
   const std::string& name = app->get_name();
   try {
     // What is given goes into messages, databases and JSON.
@@ -64,6 +67,16 @@ int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>&
     std::cerr << name << ": failed: " << error.what() << "\n";
     return kExitFailed;
   }
+}
+
+}  // namespace
+
+int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
+  const int code = ParseAndWork(app, argc, argv, work);
+  const std::string fault = StandardOutputFault();
+  if (fault.empty()) return code;
+  std::cerr << app->get_name() << ": failed: " << fault << "\n";
+  return code == kExitOk ? kExitFailed : code;
 }
 
 }  // namespace planbench

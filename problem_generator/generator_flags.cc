@@ -14,6 +14,7 @@
 #include "common/exit_codes.h"
 #include "common/progress_line.h"
 #include "common/sibling_program.h"
+#include "common/standard_output.h"
 #include "problem_generator/certifier.h"
 #include "problem_generator/problem_set_maker.h"
 
@@ -59,15 +60,16 @@ int Certify(const GeneratorFlags& flags, const ProblemSpec& spec, const Robot& r
         for (const Problem& problem : made.problems) WriteToFolder(problem, flags.out);
       });
   for (const auto& [index, attempt] : certification.replaced) {
-    fmt::print("problem {} replaced: attempt {}\n", index, attempt);
+    WriteOut(fmt::format("problem {} replaced: attempt {}\n", index, attempt));
   }
   if (!certification.unsolved.empty()) {
-    fmt::print("NOT certified: after {} rounds nobody has solved problem {} within {} s\n",
-               certification.num_rounds, fmt::join(certification.unsolved, ", "),
-               flags.certify_time_s);
+    WriteOut(fmt::format(
+        "NOT certified: after {} rounds nobody has solved problem {} within {} s\n",
+        certification.num_rounds, fmt::join(certification.unsolved, ", "), flags.certify_time_s));
     return kExitFailed;
   }
-  fmt::print("certified: a planner has solved each problem within {} s\n", flags.certify_time_s);
+  WriteOut(fmt::format("certified: a planner has solved each problem within {} s\n",
+                       flags.certify_time_s));
   return kExitOk;
 }
 
@@ -99,12 +101,14 @@ int RunGenerator(const GeneratorFlags& flags) {
     });
   }
   WriteProblemSet(made.problems, flags.out);
-  fmt::print("{}: {} problems with seed {} in {}\n", spec.name, flags.count, flags.seed,
-             flags.out.string());
-  for (const auto& [query, count] : made.by_query) fmt::print("  {:6} {}\n", count, query);
+  WriteOut(fmt::format("{}: {} problems with seed {} in {}\n", spec.name, flags.count, flags.seed,
+                       flags.out.string()));
+  for (const auto& [query, count] : made.by_query) {
+    WriteOut(fmt::format("  {:6} {}\n", count, query));
+  }
   const auto rejected = made.rejections.ByReason();
-  if (!rejected.empty()) fmt::print("rejected on the way:\n");
-  for (const auto& [reason, count] : rejected) fmt::print("  {:6} {}\n", count, reason);
+  if (!rejected.empty()) WriteOut("rejected on the way:\n");
+  for (const auto& [reason, count] : rejected) WriteOut(fmt::format("  {:6} {}\n", count, reason));
   if (!flags.certify) return kExitOk;
   std::fflush(stdout);  // before the driver has its say
   return Certify(flags, spec, robot, certifier, indices, threads);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <functional>
 #include <string>
+
+#include "common/standard_output.h"
 
 namespace planbench {
 
@@ -13,7 +13,7 @@ using SayLine = std::function<void(const std::string&)>;
 
 /// To standard output, at once.
 inline void PrintLine(const std::string& line) {
-  fmt::print("{}\n", line);
+  WriteOut(line + "\n");
   std::fflush(stdout);
 }
 

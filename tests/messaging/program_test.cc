@@ -1,14 +1,20 @@
 #include "messaging/program.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/standard_output.h"
 #include "messaging/lcm_url.h"
 #include "messaging/robot_flags.h"
 #include "tests/support/expect_input_error.h"
@@ -146,6 +152,34 @@ TEST_F(ProgramTest, TerminationEndsWhatIsNotYetReady) {
   char* arguments[] = {name};
   const auto run = [&] { Program(name, "").Run(1, arguments, [] { return raise(SIGTERM); }); };
   EXPECT_EXIT(run(), testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST_F(ProgramTest, OutputThatIsLostIsAFailureButNotForAReaderWhoHasEnough) {
+  const auto run = [](int standard_output, const std::string& text) {
+    std::fflush(stdout);
+    dup2(standard_output, STDOUT_FILENO);
+    char name[] = "writer";
+    char* arguments[] = {name};
+    std::exit(Program(name, "").Run(1, arguments, [&] {
+      WriteOut(text);
+      std::cout << text;
+      return kExitOk;
+    }));
+  };
+  const std::string long_text(1'000'000, 'x');  // more than is kept before it is written
+  const int full = open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(full, 0);
+  EXPECT_EXIT(run(full, "x"), testing::ExitedWithCode(kExitFailed),
+              "^writer: failed: standard output could not be written: No space left on device\n$");
+  EXPECT_EXIT(run(full, long_text), testing::ExitedWithCode(kExitFailed),
+              "writer: failed: standard output could not be written");
+  close(full);
+  std::array<int, 2> ends = {};
+  ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+  close(ends[0]);
+  EXPECT_EXIT(run(ends[1], "x"), testing::ExitedWithCode(kExitOk), "^$");
+  EXPECT_EXIT(run(ends[1], long_text), testing::ExitedWithCode(kExitOk), "^$");
+  close(ends[1]);
 }
 
 TEST_F(ProgramTest, PackagePathsMayBeGivenSeveralTimes) {
