@@ -12,6 +12,7 @@
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/name_value.h"
+#include "results/recorded_flags.h"
 
 namespace planbench {
 namespace {
@@ -269,10 +270,15 @@ std::map<std::string, std::string> FlagsOf(const CLI::App& app) {
     if (option == app.get_help_ptr() || option == app.get_version_ptr()) continue;
     const bool given = option->count() > 0;
     const bool takes_value = option->get_items_expected_max() > 0;
-    flags[option->get_single_name()] = !takes_value ? (given ? "true" : "false")
-                                       : given
-                                           ? fmt::format("{}", fmt::join(option->results(), ","))
-                                           : option->get_default_str();
+    const std::string& name = option->get_single_name();
+    if (!takes_value) {
+      flags[name] = given ? "true" : "false";
+    } else if (!given) {
+      flags[name] = option->get_default_str();
+    } else {
+      flags[name] = TakesSeveralValues(name) ? JoinFlagValues(option->results())
+                                             : fmt::format("{}", fmt::join(option->results(), ","));
+    }
   }
   return flags;
 }

@@ -35,7 +35,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kShard[] = "shard";
-constexpr char kAnd[] = " && ";
 
 /// Texts between separators, those that are empty left out.
 std::vector<std::string> Split(const std::string& text, const std::string& separator) {
@@ -332,7 +331,7 @@ class Merge {
     if (!texts.shards.empty()) {
       session_.settings[kShard] = fmt::format("{}", fmt::join(texts.shards, ", "));
     }
-    const std::string command = Joined(texts.commands, kAnd);
+    const std::string command = JoinCommands(texts.commands);
     if (!command.empty()) session_.settings[kMergedCommands] = command;
     session_.settings[kMergedParts] = shares_.Text();
   }
@@ -346,7 +345,7 @@ class Merge {
   void Add(const SessionMessage& told, Texts* texts) {
     AddTexts(told, told.host, ", ", &texts->hosts);
     AddTexts(told, told.cpu, ", ", &texts->processors);
-    AddTexts(told, ReproducingCommand(told.settings), kAnd, &texts->commands);
+    texts->commands.push_back(ReproducingCommand(told.settings));
     texts->shards.merge(ShardsOf(told));
     session_.left_out.insert(told.left_out.begin(), told.left_out.end());
     session_.conditions.problem_sets.insert(told.conditions.problem_sets.begin(),

@@ -2,36 +2,34 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
+#include "results/recorded_flags.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {
 
-bool IsName(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  });
-}
+constexpr std::string_view kAnd = " && ";
 
-/// The values of a flag that may be repeated, which are recorded with commas between them. Where
-/// they are NAME=VALUE, a comma that no name follows is part of a value.
-std::vector<std::string> Values(const std::string& recorded, bool are_named) {
-  std::vector<std::string> values = {""};
-  for (std::size_t i = 0; i < recorded.size(); ++i) {
-    if (recorded[i] == ',') {
-      const std::string_view rest = std::string_view(recorded).substr(i + 1);
-      if (!are_named || IsName(rest.substr(0, std::min(rest.find('='), rest.size())))) {
-        values.emplace_back();
-        continue;
-      }
+/// Commands that were joined by &&, which may stand in a quoted word of one, too.
+std::vector<std::string> SplitCommands(const std::string& joined) {
+  std::vector<std::string> commands = {""};
+  bool quoted = false;
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    if (!quoted && joined.compare(i, kAnd.size(), kAnd) == 0) {
+      commands.emplace_back();
+      i += kAnd.size() - 1;
+      continue;
     }
-    values.back() += recorded[i];
+    if (joined[i] == '\'') quoted = !quoted;
+    commands.back() += joined[i];
+    // What follows a backslash outside of quotes is a letter like any other.
+    if (joined[i] == '\\' && !quoted && i + 1 < joined.size()) commands.back() += joined[++i];
   }
-  return values;
+  return commands;
 }
 
 }  // namespace
@@ -40,21 +38,17 @@ std::string ReproducingCommand(const std::map<std::string, std::string>& flags) 
   if (flags.empty()) return "";
   if (const auto merged = flags.find(kMergedCommands); merged != flags.end()) return merged->second;
   constexpr auto kOwn = std::to_array<std::string_view>({"out", "resume", "lcm-url"});
-  constexpr auto kNamed =
-      std::to_array<std::string_view>({"package-path", "planner-command", "set", "reference"});
-  const auto is_one_of = [](const auto& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
   std::string command = "benchmark_driver";
   for (const auto& [flag, value] : flags) {
-    if (value.empty() || value == "false" || is_one_of(kOwn, flag)) continue;
+    if (value.empty() || value == "false") continue;
+    if (std::find(kOwn.begin(), kOwn.end(), flag) != kOwn.end()) continue;
     if (value == "true") {
       command += " --" + flag;
       continue;
     }
-    const bool are_named = is_one_of(kNamed, flag);
-    const bool repeats = are_named || flag == "problems";
-    for (const std::string& one : repeats ? Values(value, are_named) : std::vector{value}) {
+    const std::vector<std::string> values =
+        TakesSeveralValues(flag) ? SplitFlagValues(flag, value) : std::vector{value};
+    for (const std::string& one : values) {
       command += " --" + flag + " " + ShellQuoted(one);
     }
   }
@@ -63,7 +57,27 @@ std::string ReproducingCommand(const std::map<std::string, std::string>& flags) 
 
 std::string ResumingCommand(const std::map<std::string, std::string>& flags,
                             const std::filesystem::path& session_folder) {
-  return ReproducingCommand(flags) + " --resume " + ShellQuoted(session_folder.string());
+  std::string resuming;
+  for (const std::string& command : SplitCommands(ReproducingCommand(flags))) {
+    if (!resuming.empty()) resuming += kAnd;
+    resuming += command + " --resume " + ShellQuoted(session_folder.string());
+  }
+  return resuming;
+}
+
+std::string JoinCommands(const std::vector<std::string>& commands) {
+  std::string joined;
+  std::vector<std::string> known;
+  for (const std::string& several : commands) {
+    for (const std::string& command : SplitCommands(several)) {
+      if (command.empty() || std::find(known.begin(), known.end(), command) != known.end())
+        continue;
+      if (!known.empty()) joined += kAnd;
+      joined += command;
+      known.push_back(command);
+    }
+  }
+  return joined;
 }
 
 }  // namespace planbench

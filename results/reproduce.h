@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace planbench {
 
-/// Among the flags of a session that was merged of parts: the commands of the parts.
+/// Among the flags of a session that was made in several ways, as one that was merged of parts: the
+/// commands, as JoinCommands gives them.
 inline constexpr char kMergedCommands[] = "merged";
 
 /// Among them too: what the parts took and lost (report/session_shares.h).
@@ -14,8 +16,11 @@ inline constexpr char kMergedParts[] = "merged_parts";
 
 /// The command that runs a session again, from the driver's flags as it recorded them, quoted for a
 /// shell; "" if they are not known. Flags that were left out, and those that name this session's
-/// own folder or bus, are not in it. Of a merged session those of its parts, joined by &&.
+/// own folder or bus, are not in it. Of a session that was made in several ways all of them.
 std::string ReproducingCommand(const std::map<std::string, std::string>& flags);
+
+/// Distinct commands in their order, joined by &&; each may be several that were joined.
+std::string JoinCommands(const std::vector<std::string>& commands);
 
 /// The command that goes on with a session that was interrupted.
 std::string ResumingCommand(const std::map<std::string, std::string>& flags,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "results/recorded_flags.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -190,6 +191,21 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
   EXPECT_EQ(flags.at("set"), "x.step=3,x.name=a=b");
   EXPECT_EQ(flags.at("anytime"), "true");
   EXPECT_EQ(flags.at("no-simplify"), "true");
+}
+
+TEST(DriverFlagsTest, ValuesOfFlagsThatTakeSeveralAreToldApart) {
+  CLI::App app;
+  DriverOptions options;
+  AddDriverFlags(&app, &options);
+  for (const CLI::Option* option : app.get_options()) {
+    const bool repeats = option->get_items_expected_max() > 1 && option->get_delimiter() == '\0';
+    EXPECT_EQ(TakesSeveralValues(option->get_single_name()), repeats) << option->get_name();
+  }
+  std::map<std::string, std::string> flags;
+  ParseFlags(Launch({"--problems", "c,d", "--set", "x.y=a,b=c"}), &flags);
+  EXPECT_EQ(SplitFlagValues("problems", flags.at("problems")),
+            (std::vector<std::string>{"p", "c,d"}));
+  EXPECT_EQ(SplitFlagValues("set", flags.at("set")), std::vector<std::string>{"x.y=a,b=c"});
 }
 
 TEST(DriverFlagsTest, RecordsWhatWasNotGivenToo) {
