@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
+#include "results/reproduce.h"
 
 namespace planbench {
 namespace {
@@ -26,6 +27,13 @@ std::filesystem::path EventLogOf(const std::filesystem::path& session_folder) {
 /// Whether it is a launched session's folder in which the logger has not begun.
 bool HoldsNoLogYet(const std::filesystem::path& folder) {
   return std::filesystem::is_directory(folder / "logs") && EventLogsIn(folder).empty();
+}
+
+/// Of a session's flags.
+std::string ShardOf(const SessionMessage& session) {
+  const auto shard = session.settings.find("shard");
+  return shard == session.settings.end() || shard->second.empty() ? "no --shard"
+                                                                  : "--shard " + shard->second;
 }
 
 }  // namespace
@@ -58,6 +66,12 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
 }
 
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now) {
+  const bool both_tell = before.settings.contains("shard") && now.settings.contains("shard");
+  const bool is_merged = before.settings.contains(kMergedCommands);
+  if (both_tell && !is_merged && ShardOf(before) != ShardOf(now)) {
+    throw InputError(fmt::format("--resume: the session was begun with {} and goes on with {} now",
+                                 ShardOf(before), ShardOf(now)));
+  }
   const auto difference = FindConditionDifference(before, now);
   if (!difference) return;
   throw InputError(fmt::format("--resume: {} was {} when the session was begun and is {} now",

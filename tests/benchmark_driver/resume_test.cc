@@ -216,6 +216,25 @@ TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {
   }
 }
 
+TEST(RequireSameConditionsTest, AnotherShardIsRefusedUnlessSeveralWereMerged) {
+  const auto resume_with = [](const std::string& before, const std::string& now) {
+    SessionMessage first, second;
+    first.settings["shard"] = before;
+    second.settings["shard"] = now;
+    RequireSameConditions(first, second);
+    RequireSameConditions(SessionMessage(), second);  // it is not told
+  };
+  EXPECT_NO_THROW(resume_with("1/3", "1/3"));
+  EXPECT_NO_THROW(resume_with("", ""));
+  ExpectInputError([&] { resume_with("1/3", "2/3"); }, {"--resume", "--shard 1/3", "--shard 2/3"});
+  ExpectInputError([&] { resume_with("1/3", ""); }, {"--resume", "--shard 1/3", "no --shard"});
+  ExpectInputError([&] { resume_with("", "1/2"); }, {"--resume", "no --shard", "--shard 1/2"});
+  SessionMessage merged, now;
+  merged.settings = {{"shard", "1/3, 3/3"}, {"merged", "a && b"}};
+  now.settings["shard"] = "2/3";
+  EXPECT_NO_THROW(RequireSameConditions(merged, now));
+}
+
 TEST(RequireSameConditionsTest, NumbersOfFlagsAndSettingsAreComparedAsNumbers) {
   const auto resume_with = [](const std::string& before, const std::string& now) {
     SessionMessage first, second;
