@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "benchmark_driver/await_nodes.h"
+#include "benchmark_driver/earlier_plan.h"
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/random_id.h"
@@ -20,6 +21,7 @@
 #include "common/version.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
+#include "results/reproduce.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -96,27 +98,75 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   for (const SessionMessage& session : earlier_.sessions) {
     RequireSameConditions(session, Session(false));
   }
-  for (const ScheduledRun& run : schedule_) {
-    if (run.unless_solved) suffices_[*run.unless_solved] = false;
-    if (run.is_one_of_two) one_of_two_.insert(run.request_id);
-  }
-  std::set<std::string> scheduled;
-  for (const ScheduledRun& run : schedule_) scheduled.insert(run.request_id);
-  std::set<std::string> done;
+  if (!flags_.empty()) flags_[kEntrants] = EntrantsText(Entrants());
   std::set<ProblemKey> met;
   for (const RunRecordMessage& record : earlier_.runs) {
     met.emplace(record.problem_set, record.problem_index);
-    if (!WasAsked(record) && scheduled.contains(record.request_id)) continue;  // made anew
-    done.insert(record.request_id);
-    Keep(record);
   }
-  earlier_ = {};
-  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
+  TakeUp(std::exchange(earlier_, {}));
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
   CheckProblems(met, watch);
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
-  num_runs_ = static_cast<int>(runs_.size() + schedule_.size());
+  num_runs_ = static_cast<int>(runs_.size() + schedule_.size()) + num_owed_;
+}
+
+void Driver::TakeUp(EarlierSession earlier) {
+  std::vector<ScheduledRun> before = EarlierPlan(earlier.sessions, served_);
+  std::set<std::string> scheduled;
+  std::set<std::string> problems;
+  for (const ScheduledRun& run : schedule_) {
+    scheduled.insert(run.request_id);
+    problems.insert(fmt::format("{} {}", run.problem_set, run.problem_index));
+  }
+  for (const std::vector<ScheduledRun>* plan : {&schedule_, &before}) {
+    for (const ScheduledRun& run : *plan) {
+      if (run.unless_solved) suffices_[*run.unless_solved] = false;
+      if (run.is_one_of_two) one_of_two_.insert(run.request_id);
+    }
+  }
+  std::set<std::string> done;
+  bool all_scheduled = true;
+  for (const RunRecordMessage& record : earlier.runs) {
+    const bool is_scheduled = scheduled.contains(record.request_id);
+    all_scheduled = all_scheduled && is_scheduled;
+    if (!WasAsked(record) && is_scheduled) continue;  // made anew
+    done.insert(record.request_id);
+    Keep(record);
+  }
+  const auto is_to_do = [&](const ScheduledRun& run) {
+    return !done.contains(run.request_id) &&
+           !(run.unless_solved && suffices_.at(*run.unless_solved));
+  };
+  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
+  if (earlier.sessions.empty()) return;
+
+  const SessionMessage& last = earlier.sessions.back();
+  std::set<std::string> planned;
+  for (const ScheduledRun& run : before) {
+    planned.insert(run.request_id);
+    if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) ++num_owed_;
+  }
+  const bool all_planned = std::all_of(
+      schedule_.begin(), schedule_.end(),
+      [&](const ScheduledRun& run) { return planned.contains(run.request_id) || !is_to_do(run); });
+  std::vector<std::string> sets;
+  for (const auto& [set, content] : options_.conditions.problem_sets) sets.push_back(set);
+  flags_ = FlagsOfResumed(last.settings, std::move(flags_),
+                          all_scheduled && num_owed_ == 0 ? PlanScope::kAll
+                          : all_planned                   ? PlanScope::kPart
+                                                          : PlanScope::kOther,
+                          sets);
+  AddEarlier(earlier.sessions, &options_.conditions);
+  for (const SessionMessage& session : earlier.sessions) {
+    for (const NodeStatusMessage& node : session.nodes) {
+      if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) continue;
+      earlier_planners_.insert_or_assign(node.name, node);
+    }
+  }
+  for (const auto& [problem, reason] : last.left_out) {
+    if (!problems.contains(problem)) left_out_.emplace(problem, reason);
+  }
 }
 
 void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch) {
@@ -233,17 +283,8 @@ void Driver::AddContestant(const LineUpEntry& entry) {
 std::vector<Entrant> Driver::Entrants() const {
   std::vector<Entrant> entrants;
   for (const LineUpEntry& entry : line_up_) {
-    const NodeStatusMessage& planner = planners_.at(entry.contestant.planner);
-    Entrant entrant = {planner.name, entry.directions.value_or(options_.directions),
-                       planner.can_backward, planner.bidirectional, planner.deterministic};
-    if (!entry.contestant.first_path_of.empty()) {
-      // Whether there is a path at all is the other's matter.
-      const NodeStatusMessage& first = planners_.at(entry.contestant.first_path_of);
-      entrant.can_backward = entrant.can_backward && first.can_backward;
-      entrant.bidirectional = first.bidirectional;
-      entrant.deterministic = entrant.deterministic && first.deterministic;
-    }
-    entrants.push_back(std::move(entrant));
+    entrants.push_back(
+        MakeEntrant(entry.contestant, entry.directions.value_or(options_.directions), planners_));
   }
   return entrants;
 }
@@ -270,7 +311,9 @@ SessionMessage Driver::Session(bool finished) const {
   for (const NodeStatusMessage& node : registry_.Live()) {
     if (node.kind != NodeKind::kPlanner) session.nodes.push_back(node);
   }
-  for (const auto& [name, planner] : planners_) session.nodes.push_back(planner);
+  for (const auto* planners : {&planners_, &earlier_planners_}) {
+    for (const auto& [name, planner] : *planners) session.nodes.push_back(planner);
+  }
   return session;
 }
 
@@ -377,7 +420,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ = std::make_unique<ProgressBar>(num_runs_, runs_);
+  progress_ = std::make_unique<ProgressBar>(num_runs_ - num_owed_, runs_);
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;
@@ -422,7 +465,7 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(Session(complete));
+  recorder_.Record(Session(complete && num_owed_ == 0));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
   return recorded;

@@ -37,7 +37,7 @@ class Driver {
   /// throw. Throws InputError naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
-  /// recorded.
+  /// recorded; a session that was to make others before it was resumed is not finished by that.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
@@ -48,6 +48,8 @@ class Driver {
   const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
+  /// Of them those that the resumed session was to make and this call is not.
+  int num_owed() const { return num_owed_; }
   /// Runs that were to be made and of which no request was sent (messaging/asked_runs.h): made when
   /// the session is resumed with the same flags. Others of the resumed session do not count.
   int num_not_asked() const { return num_not_asked_; }
@@ -71,6 +73,8 @@ class Driver {
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);
   std::vector<Entrant> Entrants() const;
+  /// Takes over what was told and made of the resumed session, and leaves to do what it lacks.
+  void TakeUp(EarlierSession earlier);
   SessionMessage Session(bool finished) const;
   /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
@@ -84,7 +88,7 @@ class Driver {
   Bus* bus_;
   DriverOptions options_;
   std::vector<LineUpEntry> line_up_;
-  std::map<std::string, std::string> flags_;
+  std::map<std::string, std::string> flags_;  // once discovered: those of the session
   EarlierSession earlier_;
   std::int64_t begun_utime_;   // of the session's first part
   double earlier_time_s_ = 0;  // of its parts before
@@ -92,13 +96,15 @@ class Driver {
   NodeRegistry registry_;
   Recorder recorder_;
   ProblemSetsMessage served_;
-  std::vector<ScheduledRun> schedule_;           // what is left to do
-  int num_runs_ = 0;                             // of the session, those done earlier included
+  std::vector<ScheduledRun> schedule_;  // what is left to do
+  int num_runs_ = 0;                    // of the session, those done earlier included
+  int num_owed_ = 0;                    // of those the resumed session's that are not to do
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::unique_ptr<RunExecutor> executor_;
 
   /// By name, as found: processes that are described otherwise are not asked.
   std::map<std::string, NodeStatusMessage> planners_;
+  std::map<std::string, NodeStatusMessage> earlier_planners_;  // as the resumed session told
 
   mutable std::mutex mutex_;
   std::map<std::string, std::string> given_up_;

@@ -154,6 +154,10 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     if (!earlier.sessions.empty()) run_id = earlier.sessions.back().run_id;
   }
 
+  // By which it goes on that was planned before.
+  const auto earlier_flags = earlier.sessions.empty() ? std::map<std::string, std::string>()
+                                                      : earlier.sessions.back().settings;
+
   std::vector<StoredSession> references = ReadReferences(options);
   std::string url = lcm_url;
   std::filesystem::path session_folder;
@@ -246,6 +250,11 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
     spdlog::warn("{} not asked for: a session that is resumed makes them",
                  number == 1 ? "1 run was" : fmt::format("{} runs were", number));
+  }
+  if (const int number = driver.num_owed(); number > 0) {
+    spdlog::warn("{} of the session's earlier plan not made: it is not finished; go on with: {}",
+                 number == 1 ? "1 run was" : fmt::format("{} runs were", number),
+                 ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume)));
   }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }

@@ -90,6 +90,21 @@ std::vector<Direction> AttemptsOf(const Entrant& entrant) {
 
 }  // namespace
 
+Entrant MakeEntrant(const Contestant& contestant, Directions directions,
+                    const std::map<std::string, NodeStatusMessage>& planners) {
+  const NodeStatusMessage& planner = planners.at(contestant.planner);
+  Entrant entrant = {planner.name, directions, planner.can_backward, planner.bidirectional,
+                     planner.deterministic};
+  if (!contestant.first_path_of.empty()) {
+    // Whether there is a path at all is the other's matter.
+    const NodeStatusMessage& first = planners.at(contestant.first_path_of);
+    entrant.can_backward = entrant.can_backward && first.can_backward;
+    entrant.bidirectional = first.bidirectional;
+    entrant.deterministic = entrant.deterministic && first.deterministic;
+  }
+  return entrant;
+}
+
 std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
                       Direction direction, int trial) {
   return Derive(session_seed, problem_set, problem_index, EnumName(direction), trial);

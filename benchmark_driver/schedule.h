@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,11 @@ struct Entrant {
   bool deterministic =
       false;  ///< Whatever the seed, the answer is the same: further trials are not run.
 };
+
+/// A contestant that is asked in these directions, by what planners say of themselves: its own, and
+/// the one whose path it improves, if there is one.
+Entrant MakeEntrant(const Contestant& contestant, Directions directions,
+                    const std::map<std::string, NodeStatusMessage>& planners);
 
 /// The seed of a run: a hash, so that neither problems, directions, trials nor sessions share
 /// sequences of samples. Below 2^63.

@@ -105,7 +105,7 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
     for (const auto& [flag, value] : session.flags) flags.insert(flag);
   }
   for (const std::string& flag : flags) {
-    if (flag == kMergedCommands || flag == kMergedParts) continue;
+    if (!IsFlag(flag)) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
     setting("--" + flag,
             [&](const StoredSession& session) { return ValueOf(session.flags, flag); });

@@ -34,13 +34,17 @@ std::vector<std::string> SplitCommands(const std::string& joined) {
 
 }  // namespace
 
+bool IsFlag(std::string_view setting) {
+  return setting != kMergedCommands && setting != kMergedParts && setting != kEntrants;
+}
+
 std::string ReproducingCommand(const std::map<std::string, std::string>& flags) {
   if (flags.empty()) return "";
   if (const auto merged = flags.find(kMergedCommands); merged != flags.end()) return merged->second;
   constexpr auto kOwn = std::to_array<std::string_view>({"out", "resume", "lcm-url"});
   std::string command = "benchmark_driver";
   for (const auto& [flag, value] : flags) {
-    if (value.empty() || value == "false") continue;
+    if (value.empty() || value == "false" || !IsFlag(flag)) continue;
     if (std::find(kOwn.begin(), kOwn.end(), flag) != kOwn.end()) continue;
     if (value == "true") {
       command += " --" + flag;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace planbench {
@@ -13,6 +14,12 @@ inline constexpr char kMergedCommands[] = "merged";
 
 /// Among them too: what the parts took and lost (report/session_shares.h).
 inline constexpr char kMergedParts[] = "merged_parts";
+
+/// Among them too: the planners that were asked, and in which directions: "ara=auto rrtc=forward".
+inline constexpr char kEntrants[] = "entrants";
+
+/// Whether what stands among a session's flags is one, and none of the above.
+bool IsFlag(std::string_view setting);
 
 /// The command that runs a session again, from the driver's flags as it recorded them, quoted for a
 /// shell; "" if they are not known. Flags that were left out, and those that name this session's

@@ -1,12 +1,16 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 
+#include "results/reproduce.h"
 #include "tests/benchmark_driver/driver_fixture.h"
 
 namespace planbench {
@@ -59,6 +63,127 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier);
   ExpectInputError([&] { another.Discover(true, Idle); },
                    {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
+}
+
+/// Flags as they are recorded, of Options() with trials.
+std::map<std::string, std::string> FlagsFor(const std::string& planners, int trials) {
+  return {{"sets", ""},  {"problems-range", "1-2"}, {"directions", "auto"},
+          {"shard", ""}, {"planners", planners},    {"trials", std::to_string(trials)}};
+}
+
+/// A session of two contestants, made and resumed with one or both. Of two problems the arm needs
+/// three runs and the leg two.
+class OtherFlagsTest : public DriverTest {
+ protected:
+  OtherFlagsTest() {
+    leg_.status.algorithm = "Leg*";
+    Reannounce(&leg_);
+    SolveSecondBackwardOnly(&arm_);
+  }
+
+  std::unique_ptr<Driver> Resume(const std::vector<std::string>& planners, int trials) {
+    DriverOptions options = Options();
+    options.directions = Directions::kAuto;
+    options.trials = trials;
+    return std::make_unique<Driver>(&bus_, options, LineUp(planners),
+                                    FlagsFor(fmt::format("{}", fmt::join(planners, ",")), trials),
+                                    earlier_);
+  }
+
+  /// Makes what `planners` lack of the session, and keeps what is told and recorded of it.
+  void Make(const std::vector<std::string>& planners, int trials, int num_owed) {
+    FakeLogger logger(&bus_);
+    const auto driver = Resume(planners, trials);
+    driver->Discover(true, Idle);
+    EXPECT_TRUE(driver->Run(Never, Idle));
+    EXPECT_EQ(driver->num_owed(), num_owed);
+    told_.run_id = "all that was told has been heard";
+    bus_.Publish(channel::kSession, told_);
+    ASSERT_TRUE(logger.sessions().WaitForOne(
+        [&](const SessionMessage& session) { return session.run_id == told_.run_id; }));
+    for (const SessionMessage& session : logger.sessions().messages()) {
+      if (session.run_id == "run") earlier_.sessions.push_back(session);
+    }
+    for (const RunRecordMessage& record : logger.records().messages()) {
+      const auto is_it = [&](const auto& one) { return one.request_id == record.request_id; };
+      if (std::none_of(earlier_.runs.begin(), earlier_.runs.end(), is_it)) {
+        earlier_.runs.push_back(record);
+      }
+    }
+    told_ = earlier_.sessions.back();
+    EXPECT_EQ(told_.finished, num_owed == 0);
+    EXPECT_EQ(told_.num_runs, static_cast<int>(earlier_.runs.size()) + num_owed);
+    EXPECT_EQ(told_.conditions.contestants.size(), 2u);
+    EXPECT_EQ(std::count_if(told_.nodes.begin(), told_.nodes.end(),
+                            [](const auto& node) { return node.kind == NodeKind::kPlanner; }),
+              2);
+    command_ = ReproducingCommand(told_.settings);
+  }
+
+  /// As if the driver had been killed when the arm had made its first run.
+  void Kill() {
+    earlier_.sessions.resize(1);
+    std::erase_if(earlier_.runs, [](const auto& record) {
+      return record.request_id != "run/cans/1/arm/forward/1";
+    });
+    ASSERT_EQ(earlier_.runs.size(), 1u);
+  }
+
+  static std::string Command(const std::string& planners, int trials) {
+    return fmt::format(
+        "benchmark_driver --directions auto --planners {} --problems-range 1-2 --trials {}",
+        planners, trials);
+  }
+
+  FakePlanner arm_{&bus_, "arm"};
+  FakePlanner leg_{&bus_, "leg"};
+  const FakeSceneServer server_{&bus_};
+  EarlierSession earlier_;
+  SessionMessage told_;  // last
+  std::string command_;
+};
+
+TEST_F(OtherFlagsTest, ASessionIsFinishedWhenAllIsMadeThatWasEverPlanned) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  Make({"arm"}, 1, 4);  // the leg's, backward ones included, which may not be needed
+  EXPECT_EQ(earlier_.runs.size(), 3u);
+  EXPECT_EQ(command_, Command("arm,leg", 1));
+  Make({"leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+  EXPECT_EQ(command_, Command("arm,leg", 1));
+}
+
+TEST_F(OtherFlagsTest, AFinishedOneResumedWithFewerContestantsIsWhatItWas) {
+  Make({"arm", "leg"}, 1, 0);
+  Make({"arm"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+  EXPECT_EQ(command_, Command("arm,leg", 1));
+}
+
+TEST_F(OtherFlagsTest, OneThatWasMadeInSeveralWaysTellsOfAll) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  Make({"arm"}, 2, 4);
+  EXPECT_EQ(earlier_.runs.size(), 6u);
+  EXPECT_EQ(command_, Command("arm,leg", 1) + " && " + Command("arm", 2));
+  Make({"leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 8u);
+  // Until one call would make all of it.
+  Make({"arm", "leg"}, 2, 0);
+  EXPECT_EQ(earlier_.runs.size(), 10u);
+  EXPECT_EQ(command_, Command("arm,leg", 2));
+}
+
+TEST_F(OtherFlagsTest, NoContestantTakesTheNameOfAnother) {
+  Make({"arm", "leg"}, 1, 0);
+  for (SessionMessage& session : earlier_.sessions) {
+    std::erase_if(session.conditions.contestants, [](const auto& c) { return c.planner == "arm"; });
+  }
+  earlier_.sessions.front().conditions.contestants.front().planner = "another";
+  earlier_.sessions.front().conditions.contestants.front().name = arm_.status.algorithm;
+  ExpectInputError([&] { Resume({"arm"}, 1)->Discover(false, Idle); },
+                   {"--resume", "'arm'", "'another'", "'Fake*'"});
 }
 
 TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSession) {
