@@ -147,6 +147,10 @@ void Driver::TakeUp(EarlierSession earlier) {
     planned.insert(run.request_id);
     if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) ++num_owed_;
   }
+  if (before.empty() && !last.finished) {  // how many they were is known all the same
+    const auto num_left = static_cast<int>(done.size() + schedule_.size());
+    num_owed_ = std::max(0, last.num_runs - num_left);
+  }
   const bool all_planned = std::all_of(
       schedule_.begin(), schedule_.end(),
       [&](const ScheduledRun& run) { return planned.contains(run.request_id) || !is_to_do(run); });

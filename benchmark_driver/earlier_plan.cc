@@ -60,8 +60,8 @@ std::optional<std::vector<std::string>> SetsOf(const SessionMessage& session,
   return sets;
 }
 
-/// What the session told of, each time, as the driver that told it had planned it; nothing if that
-/// is not known. Throws InputError for flags that cannot be.
+/// What the driver that told it had planned; nothing if that is not known. Throws InputError for
+/// flags that cannot be.
 std::vector<ScheduledRun> PlanOf(const SessionMessage& session, const ProblemSetsMessage& served) {
   const Flags& flags = session.settings;
   for (const char* flag : {kSetsFlag, "problems-range", "trials", "directions", kShardFlag}) {

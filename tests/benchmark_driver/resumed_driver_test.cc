@@ -175,6 +175,13 @@ TEST_F(OtherFlagsTest, OneThatWasMadeInSeveralWaysTellsOfAll) {
   EXPECT_EQ(command_, Command("arm,leg", 2));
 }
 
+TEST_F(OtherFlagsTest, OfAPlanThatCannotBeMadeOutTheNumberCounts) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  earlier_.sessions.front().conditions.problem_sets["gone"] = "gone-1";
+  Make({"arm"}, 1, 4);
+}
+
 TEST_F(OtherFlagsTest, NoContestantTakesTheNameOfAnother) {
   Make({"arm", "leg"}, 1, 0);
   for (SessionMessage& session : earlier_.sessions) {
