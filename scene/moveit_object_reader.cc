@@ -202,7 +202,7 @@ std::vector<ObjectFrame> ReadFrames(const YamlNode& node, const SceneObject& obj
     if (!HasPose(node)) {
       X_WF = object.X_WO * X_OS;
     } else if (MoveItPassesOver(node.At("pose")) && !X_OS.matrix().isIdentity()) {
-      disputed_pose = node.At("pose");
+      disputed_pose.emplace(node.At("pose"));
     }
   }
   std::vector<ObjectFrame> frames = {{object.id, X_WF, node.At("id"), disputed_pose}};
