@@ -8,6 +8,7 @@
 #include <iterator>
 #include <random>
 #include <string_view>
+#include <utility>
 
 #include "common/content_hash.h"
 #include "common/error.h"
@@ -135,22 +136,33 @@ std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
   const bool any_seeds_matter = std::any_of(entrants.begin(), entrants.end(),
                                             [](const Entrant& e) { return !e.deterministic; });
   const int num_trials = any_seeds_matter ? options.trials : 1;
-  int num_parts = 0;  // Trials of all problems.
+  std::vector<std::pair<std::string, int>> problems;
   for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
     for (const int index : SelectProblems(*set, options.problem_indices)) {
-      for (int trial = 1; trial <= num_trials; ++trial) {
-        if (num_parts++ % options.shard.count != options.shard.index - 1) continue;
-        const std::uint64_t order = Derive(request.seed, "order", set->name, index, trial);
-        for (const Entrant& entrant : Shuffled(entrants, order)) {
-          if (trial == 1 || !entrant.deterministic) add(set->name, index, entrant, trial);
-        }
+      problems.emplace_back(set->name, index);
+    }
+  }
+  // Counted trial by trial, so that each shard has its share of the first one, which is all that
+  // deterministic contestants make, and that who they are changes nothing.
+  const auto is_of_shard = [&](std::size_t problem, int trial) {
+    const std::size_t part = static_cast<std::size_t>(trial - 1) * problems.size() + problem;
+    return part % static_cast<std::size_t>(options.shard.count) ==
+           static_cast<std::size_t>(options.shard.index - 1);
+  };
+  for (std::size_t problem = 0; problem < problems.size(); ++problem) {
+    const auto& [set, index] = problems[problem];
+    for (int trial = 1; trial <= num_trials; ++trial) {
+      if (!is_of_shard(problem, trial)) continue;
+      const std::uint64_t order = Derive(request.seed, "order", set, index, trial);
+      for (const Entrant& entrant : Shuffled(entrants, order)) {
+        if (trial == 1 || !entrant.deterministic) add(set, index, entrant, trial);
       }
     }
   }
   if (schedule.empty() && options.shard.count > 1) {
-    throw InputError(
-        fmt::format("--shard {}/{}: there are no more than {} parts, trials of problems",
-                    options.shard.index, options.shard.count, num_parts));
+    throw InputError(fmt::format(
+        "--shard {}/{}: there are no more than {} parts, trials of problems", options.shard.index,
+        options.shard.count, problems.size() * static_cast<std::size_t>(num_trials)));
   }
   return schedule;
 }

@@ -50,9 +50,9 @@ std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set
 /// Every run of a session, in order: problem by problem and trial by trial, the contestants in an
 /// order drawn anew each time (by the session's seed), so that all meet a problem under like
 /// conditions of the machine and none always comes first; forward before backward. A shard has
-/// every count-th trial of a problem, with all contestants. Throws InputError for a set that is not
-/// served (naming those that are), a range that selects no problem of a set, and a shard without
-/// runs.
+/// every count-th trial of a problem, counted over the first trials of all, then the second, with
+/// all contestants, whoever they are. Throws InputError for a set that is not served (naming those
+/// that are), a range that selects no problem of a set, and a shard without runs.
 std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
                                        const std::vector<Entrant>& entrants,
                                        const ProblemSetsMessage& served);

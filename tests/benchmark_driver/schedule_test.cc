@@ -174,6 +174,24 @@ TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
                    {"--shard 99/100", "no more than"});
 }
 
+TEST(ScheduleTest, AShardIsThatOfTheSameProblemsWhoeverIsAsked) {
+  DriverOptions options;
+  options.conditions.request.run_id = "run";
+  options.trials = 5;
+  Entrant seedless = Of("ara");
+  seedless.deterministic = true;
+  for (int index = 1; index <= 5; ++index) {
+    options.shard = {index, 5};
+    std::vector<std::string> of_both = Ids(MakeSchedule(options, {seedless, Of("rrtc")}, Served()));
+    std::erase_if(of_both, [](const auto& id) { return id.find("/ara/") == std::string::npos; });
+    EXPECT_EQ(Ids(MakeSchedule(options, {seedless}, Served())), of_both);
+    EXPECT_EQ(of_both.size(), 1u) << "of five problems in five shards";
+  }
+  options.shard = {6, 6};
+  ExpectInputError([&] { MakeSchedule(options, {seedless}, Served()); },
+                   {"--shard 6/6", "no more than 5 parts"});
+}
+
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
   DriverOptions options;
   options.sets = {"kitchen"};
