@@ -16,6 +16,7 @@
 #include "report/merge_sessions.h"
 #include "report/page.h"
 #include "report/print_figures.h"
+#include "report/session_shares.h"
 #include "results/imported_results.h"
 #include "results/ompl_log.h"
 
@@ -79,6 +80,17 @@ std::vector<StoredSession> ReadImports(const Flags& flags,
   return imported;
 }
 
+/// Of a session, and of those that it was merged of.
+std::set<std::string> RunIdsOf(const StoredSession& session) {
+  try {
+    std::set<std::string> run_ids = SessionShares::MergedRunIds(session.flags);
+    run_ids.insert(session.run_id);
+    return run_ids;
+  } catch (const InputError& error) {
+    throw InputError(session.file.string() + ": " + error.what());
+  }
+}
+
 std::vector<StoredSession> ReadAll(const Flags& flags) {
   std::vector<StoredSession> sessions;
   std::map<std::string, std::string> places;  // by run id
@@ -89,12 +101,13 @@ std::vector<StoredSession> ReadAll(const Flags& flags) {
                                name, stored.num_foreign_runs);
     }
     for (StoredSession& session : stored.sessions) {
-      const auto [place, is_new] = places.emplace(session.run_id, name);
-      if (!is_new) {
+      for (const std::string& run_id : RunIdsOf(session)) {
+        const auto [place, is_new] = places.emplace(run_id, name);
+        if (is_new) continue;
         throw InputError(fmt::format(
             "{} and {} hold the same session, {}, which cannot be compared with itself: name one "
             "of them, or make one of both with --merge",
-            place->second, name, session.run_id));
+            place->second, name, run_id));
       }
       sessions.push_back(std::move(session));
     }

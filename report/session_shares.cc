@@ -13,6 +13,8 @@ namespace {
 
 constexpr char kTotalTime[] = "total_time_s";
 constexpr char kBus[] = "bus";
+/// How the id of what a merged session went on with begins; those of its parts follow.
+constexpr char kAfter[] = "after";
 
 /// The last words of a session, and those with which it was merged, if it was.
 struct Told {
@@ -41,7 +43,7 @@ void SessionShares::Add(const std::vector<SessionMessage>& told, const std::stri
     std::string id = run_id;
     double own_s = session.last->total_time_s;
     if (session.merged != nullptr) {
-      id = "after";
+      id = kAfter;
       for (const auto& [part, share] : Parse(session.merged->settings.at(kMergedParts))) {
         Keep(part, share);
         id += " " + part;
@@ -53,6 +55,16 @@ void SessionShares::Add(const std::vector<SessionMessage>& told, const std::stri
   }
   // Of several sessions of a folder it is not known which was on when something was lost.
   for (const auto& [id, own_s] : own) Keep(id, {own_s, std::exchange(own_bus, "")});
+}
+
+std::set<std::string> SessionShares::MergedRunIds(const std::map<std::string, std::string>& flags) {
+  std::set<std::string> run_ids;
+  const auto parts = flags.find(kMergedParts);
+  if (parts == flags.end()) return run_ids;
+  for (const auto& [id, share] : Parse(parts->second)) {
+    if (!id.starts_with(std::string(kAfter) + " ")) run_ids.insert(id);
+  }
+  return run_ids;
 }
 
 double SessionShares::total_time_s() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ class SessionShares {
   double total_time_s() const;
   /// Of all, as in run.json.
   std::string bus() const;
+
+  /// Of a session's flags: the run ids of those that it was merged of; none if it was not. Throws
+  /// InputError if they do not tell of its parts as Text does.
+  static std::set<std::string> MergedRunIds(const std::map<std::string, std::string>& flags);
 
   /// All of them in one line, for the merged session's setting kMergedParts.
   std::string Text() const;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 
 #include "common/exit_codes.h"
 #include "common/read_text.h"
@@ -74,6 +75,23 @@ TEST_F(ReportProgramTest, ASessionIsNotComparedWithItself) {
     EXPECT_THAT(errors_, HasSubstr(Path(again) + " hold the same session, example, which"));
     EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
   }
+  // Nor with one that was merged of it and of an earlier one, by whose run id it goes.
+  SessionMessage merged;
+  merged.run_id = "early";
+  merged.settings["merged_parts"] = R"({"early": {"total_time_s": 1, "bus": ""}, )"
+                                    R"("example": {"total_time_s": 2, "bus": ""}})";
+  WriteSession(folder_ / "merged", {{.contestant = "A"}}, merged);
+  EXPECT_EQ(Run({Path("merged"), "--out", Path("page.html")}), kExitOk) << errors_;
+  for (const auto& [first, second] : std::map<std::string, std::string>{
+           {Path("example"), Path("merged")}, {Path("merged"), Path("example")}}) {
+    EXPECT_EQ(Run({first, second, "--out", Path("page.html")}), kExitBadInput);
+    EXPECT_THAT(errors_, HasSubstr(first + " and " + second + " hold the same session, example,"));
+  }
+  merged.settings["merged_parts"] = "both";
+  WriteSession(folder_ / "odd", {{.contestant = "A"}}, merged);
+  EXPECT_EQ(Run({Path("odd"), "--out", Path("page.html")}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("odd/results.sqlite: the setting merged_parts is none"));
+  EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
 }
 
 TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
