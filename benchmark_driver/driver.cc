@@ -148,7 +148,14 @@ void Driver::TakeUp(EarlierSession earlier) {
     if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) ++num_owed_;
   }
   if (before.empty() && !last.finished) {  // how many they were is known all the same
-    const auto num_left = static_cast<int>(done.size() + schedule_.size());
+    const auto may_be_of_it = [&had = last.conditions](const ScheduledRun& run) {
+      return had.problem_sets.contains(run.problem_set) &&
+             std::any_of(had.contestants.begin(), had.contestants.end(),
+                         [&](const Contestant& one) { return one.planner == run.planner; });
+    };
+    const auto num_left =
+        static_cast<int>(done.size()) +
+        static_cast<int>(std::count_if(schedule_.begin(), schedule_.end(), may_be_of_it));
     num_owed_ = std::max(0, last.num_runs - num_left);
   }
   const bool all_planned = std::all_of(
@@ -469,7 +476,7 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(Session(complete && num_owed_ == 0));
+  recorder_.Record(Session(complete && num_owed_ == 0 && awaited_shards().empty()));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
   return recorded;

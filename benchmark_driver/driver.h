@@ -20,6 +20,7 @@
 #include "benchmark_driver/schedule.h"
 #include "messaging/bus.h"
 #include "messaging/node_registry.h"
+#include "results/shards.h"
 
 namespace planbench {
 
@@ -37,7 +38,8 @@ class Driver {
   /// throw. Throws InputError naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
-  /// recorded; a session that was to make others before it was resumed is not finished by that.
+  /// recorded; a session that was to make others before it was resumed, or awaits shards, is not
+  /// finished by that.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
@@ -50,6 +52,8 @@ class Driver {
   int num_runs() const { return num_runs_; }
   /// Of them those that the resumed session was to make and this call is not.
   int num_owed() const { return num_owed_; }
+  /// Shards that the session, once merged of others, does not hold: it is not finished without.
+  std::set<std::string> awaited_shards() const { return AwaitedShards(flags_); }
   /// Runs that were to be made and of which no request was sent (messaging/asked_runs.h): made when
   /// the session is resumed with the same flags. Others of the resumed session do not count.
   int num_not_asked() const { return num_not_asked_; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -13,13 +14,13 @@
 #include "benchmark_driver/driver_flags.h"
 #include "common/error.h"
 #include "results/reproduce.h"
+#include "results/shards.h"
 
 namespace planbench {
 namespace {
 
 using Flags = std::map<std::string, std::string>;
 
-constexpr char kShardFlag[] = "shard";
 constexpr char kSetsFlag[] = "sets";
 
 std::vector<std::string> SplitAt(char separator, const std::string& text) {
@@ -64,20 +65,17 @@ std::optional<std::vector<std::string>> SetsOf(const SessionMessage& session,
 /// flags that cannot be.
 std::vector<ScheduledRun> PlanOf(const SessionMessage& session, const ProblemSetsMessage& served) {
   const Flags& flags = session.settings;
-  for (const char* flag : {kSetsFlag, "problems-range", "trials", "directions", kShardFlag}) {
+  for (const char* flag : {kSetsFlag, "problems-range", "trials", kShardFlag, kEntrants}) {
     if (!flags.contains(flag)) return {};
   }
   const auto sets = SetsOf(session, served);
-  const auto directions = ParseEnum<Directions>(flags.at("directions"));
-  if (!sets || !directions) return {};
+  if (!sets) return {};
   DriverOptions options;
   options.conditions = session.conditions;
   options.conditions.request.run_id = session.run_id;
   options.sets = *sets;
   const std::string& range = flags.at("problems-range");
   if (!range.empty()) options.problem_indices = ParseRange(range);
-  const std::string& shard = flags.at(kShardFlag);
-  if (!shard.empty()) options.shard = ParseShard(shard);
   const std::string& trials = flags.at("trials");
   std::from_chars(trials.data(), trials.data() + trials.size(), options.trials);
 
@@ -85,21 +83,28 @@ std::vector<ScheduledRun> PlanOf(const SessionMessage& session, const ProblemSet
   for (const NodeStatusMessage& node : session.nodes) {
     if (node.kind == NodeKind::kPlanner) planners[node.name] = node;
   }
-  // Sessions of before told of the contestants of their call alone.
-  const auto told = flags.find(kEntrants);
-  const auto asked = ParseEntrants(told == flags.end() ? "" : told->second);
+  // The conditions have the contestants of before, too.
+  const auto asked = ParseEntrants(flags.at(kEntrants));
   std::vector<Entrant> entrants;
   for (const Contestant& contestant : session.conditions.contestants) {
     const auto own = asked.find(contestant.planner);
-    if (told != flags.end() && own == asked.end()) continue;
+    if (own == asked.end()) continue;
     const auto first = contestant.first_path_of;
     if (!planners.contains(contestant.planner) || (!first.empty() && !planners.contains(first))) {
       return {};
     }
-    entrants.push_back(
-        MakeEntrant(contestant, own == asked.end() ? *directions : own->second, planners));
+    entrants.push_back(MakeEntrant(contestant, own->second, planners));
   }
-  std::vector<ScheduledRun> plan = MakeSchedule(options, entrants, served);
+  const auto asked_shard = flags.find(kAskedShard);
+  const std::string& shards =
+      asked_shard == flags.end() ? flags.at(kShardFlag) : asked_shard->second;
+  std::vector<ScheduledRun> plan;
+  for (const std::string& shard : ParseShards(shards.empty() ? "1/1" : shards)) {
+    options.shard = ParseShard(shard);
+    for (ScheduledRun& run : MakeSchedule(options, entrants, served)) {
+      plan.push_back(std::move(run));
+    }
+  }
   std::erase_if(plan, [&](const ScheduledRun& run) {
     return session.left_out.contains(fmt::format("{} {}", run.problem_set, run.problem_index));
   });
@@ -132,7 +137,7 @@ std::vector<ScheduledRun> EarlierPlan(const std::vector<SessionMessage>& earlier
         if (known.insert(run.request_id).second) all.push_back(std::move(run));
       }
     } catch (const InputError&) {
-      // Of several shards, for one: what they were to make is not known.
+      // What it was to make is not known.
     }
   }
   return all;
@@ -168,17 +173,19 @@ void AddEarlier(const std::vector<SessionMessage>& earlier, SessionConditions* c
 Flags FlagsOfResumed(const Flags& before, Flags now, PlanScope scope,
                      const std::vector<std::string>& sets) {
   if (scope == PlanScope::kAll || before.empty() || now.empty()) return now;
-  if (scope == PlanScope::kPart) {
+  // A session that was merged of shards may be given further ones, and keeps those it has.
+  std::set<std::string> shards = ShardsOf(before);
+  const std::size_t num_held = shards.size();
+  shards.merge(ShardsOf(now));
+  const bool adds_shard = num_held > 0 && shards.size() > num_held;
+  if (scope == PlanScope::kPart && !adds_shard) {
     now = before;
   } else {
     now[kMergedCommands] = JoinCommands({ReproducingCommand(before), ReproducingCommand(now)});
     now[kSetsFlag] = fmt::format("{}", fmt::join(sets, ","));
-    // A session that was merged of shards may be given further ones.
-    const auto held = before.find(kShardFlag);
-    std::string& shard = now[kShardFlag];
-    if (held != before.end() && !shard.empty() &&
-        (", " + held->second + ", ").find(", " + shard + ", ") == std::string::npos) {
-      shard = held->second + ", " + shard;
+    if (num_held > 0) {
+      now[kAskedShard] = now[kShardFlag];
+      now[kShardFlag] = JoinShards(shards);
     }
   }
   now.erase(kMergedParts);  // what was merged, not what went on with it

@@ -33,7 +33,7 @@ enum class PlanScope {
 };
 
 /// The flags by which a resumed session is made again: those of the call, or those of before, or
-/// with the commands of both (kMergedCommands). `sets`: those of the call.
+/// with the commands of both (kMergedCommands) and the shards of both. `sets`: those of the call.
 std::map<std::string, std::string> FlagsOfResumed(const std::map<std::string, std::string>& before,
                                                   std::map<std::string, std::string> now,
                                                   PlanScope scope,

@@ -12,6 +12,7 @@
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
 #include "results/reproduce.h"
+#include "results/shards.h"
 
 namespace planbench {
 namespace {
@@ -29,11 +30,9 @@ bool HoldsNoLogYet(const std::filesystem::path& folder) {
   return std::filesystem::is_directory(folder / "logs") && EventLogsIn(folder).empty();
 }
 
-/// Of a session's flags.
-std::string ShardOf(const SessionMessage& session) {
-  const auto shard = session.settings.find("shard");
-  return shard == session.settings.end() || shard->second.empty() ? "no --shard"
-                                                                  : "--shard " + shard->second;
+std::string ShardText(const SessionMessage& session) {
+  const auto shards = ShardsOf(session.settings);
+  return shards.empty() ? "no --shard" : "--shard " + JoinShards(shards);
 }
 
 }  // namespace
@@ -66,11 +65,11 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
 }
 
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now) {
-  const bool both_tell = before.settings.contains("shard") && now.settings.contains("shard");
+  const bool both_tell = before.settings.contains(kShardFlag) && now.settings.contains(kShardFlag);
   const bool is_merged = before.settings.contains(kMergedCommands);
-  if (both_tell && !is_merged && ShardOf(before) != ShardOf(now)) {
+  if (both_tell && !is_merged && ShardsOf(before.settings) != ShardsOf(now.settings)) {
     throw InputError(fmt::format("--resume: the session was begun with {} and goes on with {} now",
-                                 ShardOf(before), ShardOf(now)));
+                                 ShardText(before), ShardText(now)));
   }
   const auto difference = FindConditionDifference(before, now);
   if (!difference) return;

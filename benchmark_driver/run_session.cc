@@ -36,6 +36,7 @@
 #include "results/compared_sessions.h"
 #include "results/imported_results.h"
 #include "results/reproduce.h"
+#include "results/shards.h"
 #include "robot_model/robot_folder.h"
 #include "robot_model/shipped_robots.h"
 
@@ -255,6 +256,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     spdlog::warn("{} of the session's earlier plan not made: it is not finished; go on with: {}",
                  number == 1 ? "1 run was" : fmt::format("{} runs were", number),
                  ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume)));
+  }
+  if (const std::set<std::string> awaited = driver.awaited_shards(); !awaited.empty()) {
+    spdlog::warn("the session is not finished; shards missing: {}", JoinShards(awaited));
   }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }

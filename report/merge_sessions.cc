@@ -27,14 +27,13 @@
 #include "report/session_shares.h"
 #include "results/bus_json.h"
 #include "results/reproduce.h"
+#include "results/shards.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr char kShard[] = "shard";
 
 /// Texts between separators, those that are empty left out.
 std::vector<std::string> Split(const std::string& text, const std::string& separator) {
@@ -72,29 +71,6 @@ void AddTexts(const SessionMessage& session, const std::string& text, const char
   texts->insert(texts->end(), parts.begin(), parts.end());
 }
 
-/// The parts "I/N" of a sharded session that it holds.
-std::set<std::string> ShardsOf(const SessionMessage& session) {
-  const auto found = session.settings.find(kShard);
-  if (found == session.settings.end()) return {};
-  const std::vector<std::string> shards = Split(found->second, ", ");
-  return {shards.begin(), shards.end()};
-}
-
-/// Of texts "I/N", of any N, those that are not there.
-std::set<std::string> MissingShards(const std::set<std::string>& shards) {
-  std::set<std::string> missing;
-  for (const std::string& shard : shards) {
-    const std::size_t slash = shard.find('/');
-    if (slash == std::string::npos) continue;
-    const int count = std::atoi(shard.c_str() + slash + 1);
-    for (int i = 1; i <= count; ++i) {
-      const std::string other = fmt::format("{}/{}", i, count);
-      if (!shards.contains(other)) missing.insert(other);
-    }
-  }
-  return missing;
-}
-
 /// A session as the folders tell of it.
 struct Part {
   std::string folder;                ///< The last one that told of it.
@@ -113,7 +89,7 @@ struct Part {
   bool finished() const {
     return std::all_of(told.begin(), told.end(), [&](const SessionMessage& one) {
       return one.finished || !Counts(one) ||
-             (IsMerged(one) && num_missing() == 0 && !MissingShards(ShardsOf(one)).empty());
+             (num_missing() == 0 && !AwaitedShards(one.settings).empty());
     });
   }
 
@@ -328,16 +304,16 @@ class Merge {
     session_.cpu = Joined(texts.processors, ", ");
     missing_shards_ = MissingShards(texts.shards);
     session_.finished = session_.finished && missing_shards_.empty();
-    if (!texts.shards.empty()) {
-      session_.settings[kShard] = fmt::format("{}", fmt::join(texts.shards, ", "));
-    }
+    if (!texts.shards.empty()) session_.settings[kShardFlag] = JoinShards(texts.shards);
+    session_.settings.erase(kAskedShard);
+    if (!texts.entrants.empty()) session_.settings[kEntrants] = Joined(texts.entrants, " ");
     const std::string command = JoinCommands(texts.commands);
     if (!command.empty()) session_.settings[kMergedCommands] = command;
     session_.settings[kMergedParts] = shares_.Text();
   }
 
   struct Texts {
-    std::vector<std::string> hosts, processors, commands;
+    std::vector<std::string> hosts, processors, commands, entrants;
     std::set<std::string> shards;
   };
 
@@ -346,7 +322,11 @@ class Merge {
     AddTexts(told, told.host, ", ", &texts->hosts);
     AddTexts(told, told.cpu, ", ", &texts->processors);
     texts->commands.push_back(ReproducingCommand(told.settings));
-    texts->shards.merge(ShardsOf(told));
+    texts->shards.merge(ShardsOf(told.settings));
+    if (const auto asked = told.settings.find(kEntrants); asked != told.settings.end()) {
+      const std::vector<std::string> entrants = Split(asked->second, " ");
+      texts->entrants.insert(texts->entrants.end(), entrants.begin(), entrants.end());
+    }
     session_.left_out.insert(told.left_out.begin(), told.left_out.end());
     session_.conditions.problem_sets.insert(told.conditions.problem_sets.begin(),
                                             told.conditions.problem_sets.end());

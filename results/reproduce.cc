@@ -35,7 +35,8 @@ std::vector<std::string> SplitCommands(const std::string& joined) {
 }  // namespace
 
 bool IsFlag(std::string_view setting) {
-  return setting != kMergedCommands && setting != kMergedParts && setting != kEntrants;
+  return setting != kMergedCommands && setting != kMergedParts && setting != kEntrants &&
+         setting != kAskedShard;
 }
 
 std::string ReproducingCommand(const std::map<std::string, std::string>& flags) {

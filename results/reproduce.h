@@ -18,6 +18,10 @@ inline constexpr char kMergedParts[] = "merged_parts";
 /// Among them too: the planners that were asked, and in which directions: "ara=auto rrtc=forward".
 inline constexpr char kEntrants[] = "entrants";
 
+/// Among them too, where a session that is resumed holds others beside it (results/shards.h): which
+/// shard was asked for, "" for the whole.
+inline constexpr char kAskedShard[] = "asked_shard";
+
 /// Whether what stands among a session's flags is one, and none of the above.
 bool IsFlag(std::string_view setting);
 

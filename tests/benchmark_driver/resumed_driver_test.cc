@@ -85,9 +85,12 @@ class OtherFlagsTest : public DriverTest {
     DriverOptions options = Options();
     options.directions = Directions::kAuto;
     options.trials = trials;
-    return std::make_unique<Driver>(&bus_, options, LineUp(planners),
-                                    FlagsFor(fmt::format("{}", fmt::join(planners, ",")), trials),
-                                    earlier_);
+    auto flags = FlagsFor(fmt::format("{}", fmt::join(planners, ",")), trials);
+    if (shard_.count > 1) {
+      options.shard = shard_;
+      flags["shard"] = fmt::format("{}/{}", shard_.index, shard_.count);
+    }
+    return std::make_unique<Driver>(&bus_, options, LineUp(planners), flags, earlier_);
   }
 
   /// Makes what `planners` lack of the session, and keeps what is told and recorded of it.
@@ -111,7 +114,7 @@ class OtherFlagsTest : public DriverTest {
       }
     }
     told_ = earlier_.sessions.back();
-    EXPECT_EQ(told_.finished, num_owed == 0);
+    EXPECT_EQ(told_.finished, num_owed == 0 && driver->awaited_shards().empty());
     EXPECT_EQ(told_.num_runs, static_cast<int>(earlier_.runs.size()) + num_owed);
     EXPECT_EQ(told_.conditions.contestants.size(), 2u);
     EXPECT_EQ(std::count_if(told_.nodes.begin(), told_.nodes.end(),
@@ -139,6 +142,7 @@ class OtherFlagsTest : public DriverTest {
   FakePlanner leg_{&bus_, "leg"};
   const FakeSceneServer server_{&bus_};
   EarlierSession earlier_;
+  Shard shard_;          // of the next call
   SessionMessage told_;  // last
   std::string command_;
 };
@@ -180,6 +184,55 @@ TEST_F(OtherFlagsTest, OfAPlanThatCannotBeMadeOutTheNumberCounts) {
   Kill();
   earlier_.sessions.front().conditions.problem_sets["gone"] = "gone-1";
   Make({"arm"}, 1, 4);
+}
+
+TEST_F(OtherFlagsTest, WhatTheSessionCannotHaveBeenToMakeDoesNotCountForIt) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  earlier_.runs.clear();
+  SessionMessage& session = earlier_.sessions.front();  // the leg's
+  std::erase_if(session.conditions.contestants, [](const auto& c) { return c.planner == "arm"; });
+  session.num_runs = 4;
+  session.conditions.problem_sets["gone"] = "gone-1";
+  Make({"arm"}, 1, 4);
+}
+
+TEST_F(OtherFlagsTest, AMergedSessionIsGivenShardsUntilItHasAll) {
+  // As if it had been merged of shards 1/4 and 2/4, the first trials of both problems.
+  Make({"arm", "leg"}, 2, 0);
+  const auto is_second_trial = [](const auto& record) { return record.trial == 2; };
+  std::erase_if(earlier_.runs, is_second_trial);
+  told_.settings["shard"] = "1/4, 2/4";
+  told_.settings[kMergedCommands] = "one && two";
+  told_.settings[kMergedParts] = "{}";
+  told_.finished = false;
+  told_.num_runs = 5;
+  earlier_.sessions = {told_};
+
+  shard_ = {3, 4};
+  const std::string call =
+      "benchmark_driver --directions auto --planners arm,leg "
+      "--problems-range 1-2 --shard 3/4 --trials 2";
+  for (int time = 1; time <= 2; ++time) {
+    Make({"arm", "leg"}, 2, 0);
+    EXPECT_EQ(earlier_.runs.size(), 7u);
+    EXPECT_FALSE(told_.finished);
+    EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4");
+    EXPECT_EQ(command_, "one && two && " + call);
+    std::erase_if(earlier_.runs, is_second_trial);  // as if it had been interrupted
+  }
+  // Nothing is known of what was to be made, but the shards that there are.
+  std::vector<SessionMessage> known = earlier_.sessions;
+  for (SessionMessage& session : earlier_.sessions) session.settings.erase(kEntrants);
+  Make({"arm", "leg"}, 2, 0);
+  EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4");
+
+  earlier_.sessions = std::move(known);
+  shard_ = {4, 4};
+  Make({"arm", "leg"}, 2, 0);
+  EXPECT_EQ(earlier_.runs.size(), 10u);
+  EXPECT_TRUE(told_.finished);
+  EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4, 4/4");
 }
 
 TEST_F(OtherFlagsTest, NoContestantTakesTheNameOfAnother) {

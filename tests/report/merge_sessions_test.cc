@@ -127,6 +127,37 @@ TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
   EXPECT_TRUE(ReadSessions(folder_ / "again").sessions.front().finished);
 }
 
+TEST_F(MergeSessionsTest, AMergedSessionThatWentOnWithAShardWaitsForOthersAlone) {
+  SessionMessage part = Session("part1", 1000, 2);  // as it is resumed
+  part.settings.insert({{"shard", "1/3, 2/3"}, {"merged", "a && b"}, {"asked_shard", "2/3"}});
+  part.finished = false;
+  Write("part1", part, {{.contestant = "A", .problem = 1}, {.contestant = "A", .problem = 2}});
+  SessionMessage other = Session("part3", 3000, 1);
+  other.settings["shard"] = "3/3";
+  Write("part3", other, {{.contestant = "A", .problem = 3}});
+  ASSERT_EQ(Merge({"part1", "part3"}), kExitOk) << errors_;
+  const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_TRUE(whole.finished);
+  EXPECT_EQ(whole.flags.at("shard"), "1/3, 2/3, 3/3");
+  ASSERT_EQ(MergeTo("alone", {"part1"}), kExitOk) << errors_;
+  const StoredSession alone = ReadSessions(folder_ / "alone").sessions.front();
+  EXPECT_FALSE(alone.finished);
+  EXPECT_EQ(alone.flags.at("shard"), "1/3, 2/3");
+  EXPECT_FALSE(alone.flags.contains("asked_shard")) << "it is to hold all of these";
+}
+
+TEST_F(MergeSessionsTest, TheMergedSessionAsksWhomItsPartsAsked) {
+  const std::vector<std::string> entrants = {"ara=auto rrtc=forward", "rrtc=forward trajopt=both"};
+  for (const int number : {1, 2}) {
+    SessionMessage part = Session(fmt::format("part{}", number), std::int64_t{1000} * number, 1);
+    part.settings["entrants"] = entrants[static_cast<std::size_t>(number - 1)];
+    Write(part.run_id, part, {{.contestant = "A", .problem = number}});
+  }
+  ASSERT_EQ(Merge({"part1", "part2"}), kExitOk) << errors_;
+  EXPECT_EQ(ReadSessions(folder_ / "whole").sessions.front().flags.at("entrants"),
+            "ara=auto rrtc=forward trajopt=both");
+}
+
 TEST_F(MergeSessionsTest, WhatOfALogCannotBeDecodedIsToldOf) {
   SessionMessage session = Session("part1", 1000, 1);
   Write("part1", session, {{.contestant = "A", .problem = 1}});
