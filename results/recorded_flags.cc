@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 
 namespace planbench {
@@ -11,16 +10,6 @@ namespace {
 constexpr char kMark = '\\';
 
 bool IsMarked(char c) { return c == ',' || c == kMark; }
-
-/// Whether what stands after a comma is another value of the flag.
-bool BeginsValue(std::string_view flag, std::string_view piece) {
-  if (flag == "problems") return true;
-  const std::string_view name = piece.substr(0, piece.find('='));
-  if (name.empty() || name.size() == piece.size()) return false;
-  return flag == "reference" || std::all_of(name.begin(), name.end(), [](unsigned char c) {
-           return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-         });
-}
 
 }  // namespace
 
@@ -42,28 +31,18 @@ std::string JoinFlagValues(const std::vector<std::string>& values) {
   return text;
 }
 
-std::vector<std::string> SplitFlagValues(std::string_view flag, std::string_view recorded) {
-  std::vector<std::string> values;
-  std::string piece;
-  const auto take_piece = [&] {
-    if (values.empty() || BeginsValue(flag, piece)) {
-      values.push_back(piece);
-    } else {
-      values.back() += "," + piece;
-    }
-    piece.clear();
-  };
+std::vector<std::string> SplitFlagValues(std::string_view recorded) {
+  std::vector<std::string> values = {""};
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     const bool marks = recorded[i] == kMark && i + 1 < recorded.size() && IsMarked(recorded[i + 1]);
     if (marks) {
-      piece += recorded[++i];
+      values.back() += recorded[++i];
     } else if (recorded[i] == ',') {
-      take_piece();
+      values.emplace_back();
     } else {
-      piece += recorded[i];
+      values.back() += recorded[i];
     }
   }
-  take_piece();
   return values;
 }
 

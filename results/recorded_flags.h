@@ -12,8 +12,8 @@ namespace planbench {
 bool TakesSeveralValues(std::string_view flag);
 std::string JoinFlagValues(const std::vector<std::string>& values);
 
-/// The values that were recorded of such a flag. Earlier sessions did not mark commas: of those,
-/// one that no other NAME=VALUE follows is part of a value.
-std::vector<std::string> SplitFlagValues(std::string_view flag, std::string_view recorded);
+/// The values that were recorded of such a flag. Sessions of earlier versions did not mark commas:
+/// of those, a value with commas is read as several.
+std::vector<std::string> SplitFlagValues(std::string_view recorded);
 
 }  // namespace planbench

@@ -52,7 +52,7 @@ std::string ReproducingCommand(const std::map<std::string, std::string>& flags) 
       continue;
     }
     const std::vector<std::string> values =
-        TakesSeveralValues(flag) ? SplitFlagValues(flag, value) : std::vector{value};
+        TakesSeveralValues(flag) ? SplitFlagValues(value) : std::vector{value};
     for (const std::string& one : values) {
       command += " --" + flag + " " + ShellQuoted(one);
     }

@@ -203,9 +203,8 @@ TEST(DriverFlagsTest, ValuesOfFlagsThatTakeSeveralAreToldApart) {
   }
   std::map<std::string, std::string> flags;
   ParseFlags(Launch({"--problems", "c,d", "--set", "x.y=a,b=c"}), &flags);
-  EXPECT_EQ(SplitFlagValues("problems", flags.at("problems")),
-            (std::vector<std::string>{"p", "c,d"}));
-  EXPECT_EQ(SplitFlagValues("set", flags.at("set")), std::vector<std::string>{"x.y=a,b=c"});
+  EXPECT_EQ(SplitFlagValues(flags.at("problems")), (std::vector<std::string>{"p", "c,d"}));
+  EXPECT_EQ(SplitFlagValues(flags.at("set")), std::vector<std::string>{"x.y=a,b=c"});
 }
 
 TEST(DriverFlagsTest, RecordsWhatWasNotGivenToo) {

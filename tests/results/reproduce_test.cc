@@ -31,24 +31,22 @@ TEST(ReproducingCommandTest, RepeatsFlagsThatWereGivenSeveralTimes) {
   EXPECT_EQ(Command({{"problems", "/c\\,d,/e"}}), "benchmark_driver --problems /c,d --problems /e");
 }
 
-TEST(ReproducingCommandTest, OfEarlierSessionsACommaThatNoNameFollowsIsPartOfAValue) {
-  EXPECT_EQ(Command({{"set", "ara.k=[1,2],rrtc.range=1"}}),
-            "benchmark_driver --set 'ara.k=[1,2]' --set rrtc.range=1");
-  EXPECT_EQ(Command({{"planner-command", "mine=./a \\d"}}),
-            "benchmark_driver --planner-command 'mine=./a \\d'");
-}
-
 TEST(ReproducingCommandTest, ValuesAreRecordedAsTheyWereGiven) {
-  const std::vector<std::string> odd = {"x.y=a,b=c", "x.z=[1,2]", "x.w=\\", "x.v=\\,", "v.u=,=,"};
-  for (const char* flag : {"set", "planner-command", "package-path", "reference"}) {
-    EXPECT_TRUE(TakesSeveralValues(flag));
-    EXPECT_EQ(SplitFlagValues(flag, JoinFlagValues(odd)), odd) << flag;
+  const std::vector<std::vector<std::string>> given = {
+      {"x.y=1", "a+b.k=2"},
+      {"x.y=a,b=c", "x.z=[1,2]", "x.w=\\", "x.v=\\,", "v.u=,=,"},
+      {"Planner A, B=x.csv", "C d=y,z.csv"},
+      {"c,d", "e\\", "\\,", "a=b"},
+      {"mine=./a \\d"}};
+  for (const std::vector<std::string>& values : given) {
+    EXPECT_EQ(SplitFlagValues(JoinFlagValues(values)), values) << values.front();
   }
-  const std::vector<std::string> names = {"Planner A, B=x.csv", "C d=y,z.csv"};
-  EXPECT_EQ(SplitFlagValues("reference", JoinFlagValues(names)), names);
-  const std::vector<std::string> folders = {"c,d", "e\\", "\\,", "a=b"};
-  EXPECT_EQ(SplitFlagValues("problems", JoinFlagValues(folders)), folders);
   EXPECT_EQ(JoinFlagValues({"/a", "/b c"}), "/a,/b c");
+  for (const char* flag : {"set", "planner-command", "package-path", "reference", "problems"}) {
+    EXPECT_TRUE(TakesSeveralValues(flag)) << flag;
+  }
+  EXPECT_EQ(Command({{"set", JoinFlagValues(given[0])}}),
+            "benchmark_driver --set x.y=1 --set a+b.k=2");
 }
 
 TEST(ReproducingCommandTest, OfAMergedSessionIsThatOfItsParts) {
