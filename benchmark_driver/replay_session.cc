@@ -54,6 +54,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   const std::filesystem::path& log = options.replay.value();
   if (!IsFile(log)) throw InputError(log.string() + ": there is no such event log");
   RecordedSession recorded = ReadRecords(log);
+  std::map<std::string, Scene> scenes = ReadScenes(log, &recorded.passed_over);
   for (const std::string& line : recorded.passed_over) spdlog::warn("{}", line);
   if (PlannersAsked(recorded.runs).empty()) {
     throw InputError(log.string() + ": holds no run that could be made again");
@@ -76,7 +77,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   }
   Bus bus(url);
   NodeRegistry registry(&bus);
-  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), ReadScenes(log), planners);
+  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), std::move(scenes), planners);
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::optional<NewSessionFolder> new_folder;
   if (options.launch) new_folder.emplace(folder);

@@ -24,8 +24,10 @@ struct RecordedSession {
 /// can be decoded: they are of another version.
 RecordedSession ReadRecords(const std::filesystem::path& event_log);
 
-/// The scenes that an LCM event log holds, by content id; errors as above.
-std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log);
+/// The scenes that an LCM event log holds, by content id. Adds to `passed_over` a line as of
+/// RecordedSession; errors as above.
+std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log,
+                                        std::vector<std::string>* passed_over);
 
 /// The event logs that a folder holds.
 std::vector<std::filesystem::path> EventLogsIn(const std::filesystem::path& folder);

@@ -20,6 +20,7 @@
 #include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
+#include "messaging/decoded.h"
 #include "messaging/event_log.h"
 #include "messaging/event_log_reader.h"
 #include "messaging/record_log.h"
@@ -220,17 +221,18 @@ class Merge {
     session_.num_runs += static_cast<int>(runs_.size());
   }
 
-  void Write(const fs::path& file) const {
+  void Write(const fs::path& file) {
     EventLog log(file, EventLog::Mode::kNew);
     const std::int64_t utime = session_.start_utime;
     log.Write({channel::kSession, Encode(session_), utime});
     std::set<std::string> scenes;
     for (const fs::path& from : logs_) {
+      Decoded<SceneMessage> answers(from, channel::kScene);
       ReadEventLog(from, [&](const ReceivedMessage& message) {
-        if (message.channel != channel::kScene) return;
-        const auto scene = Decode<SceneMessage>(message.bytes, message.channel);
-        if (scene.ok && scenes.insert(scene.scene_id).second) log.Write(message);
+        const auto answer = answers.Take(message);
+        if (answer && answer->ok && scenes.insert(answer->scene_id).second) log.Write(message);
       });
+      answers.TellPassedOver(&passed_over_);
     }
     for (const Run& run : runs_) {
       log.Write({channel::kRunRecord, Encode(run.record), run.record.start_utime});

@@ -38,8 +38,9 @@ RecordedViews::RecordedViews(const StoredSession& session,
                              const std::filesystem::path& robot_folder)
     : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())),
       robot_(LoadRobot(RobotFolder(session, robot_folder), {}, SpheresFile(session))),
-      scenes_(ReadScenes(log_)) {
+      scenes_(ReadScenes(log_, &passed_over_)) {
   RecordedSession recorded = ReadRecords(log_);
+  passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {
     if (record.run_id == session.run_id) records_.emplace(record.request_id, std::move(record));
   }
@@ -80,6 +81,8 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
     if (compared.sessions()[s].imported) continue;
     try {
       sessions[s] = std::make_unique<RecordedViews>(compared.sessions()[s], "");
+      for (const std::string& line : sessions[s]->passed_over())
+        embedded.notes.push_back(line + ".");
     } catch (const InputError& error) {
       embedded.notes.push_back(
           fmt::format("{}: no 3D views: {}.", compared.session_names()[s], error.what()));

@@ -22,9 +22,13 @@ class RecordedViews {
   /// robot is another.
   Json View(const StoredRun& run, int num_frames) const;
 
+  /// Of the log, as RecordedSession tells it.
+  const std::vector<std::string>& passed_over() const { return passed_over_; }
+
  private:
   std::filesystem::path log_;
   Robot robot_;
+  std::vector<std::string> passed_over_;
   std::map<std::string, RunRecordMessage> records_;  ///< By request.
   std::map<std::string, Scene> scenes_;              ///< By content id.
 };

@@ -29,13 +29,20 @@ struct Flags {
 /// Frames of a path.
 constexpr int kFrames = 120;
 
+void TellPassedOver(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) std::cerr << "view: " << line << "\n";
+}
+
 Json ViewOfRun(const Flags& flags) {
   if (!flags.run) {
     throw InputError(flags.session + ": give --run ID: the id of a run in its table runs");
   }
   for (const StoredSession& session : ReadSessions(flags.session).sessions) {
     for (const StoredRun& run : session.runs) {
-      if (run.id == *flags.run) return RecordedViews(session, flags.robot).View(run, kFrames);
+      if (run.id != *flags.run) continue;
+      const RecordedViews views(session, flags.robot);
+      TellPassedOver(views.passed_over());
+      return views.View(run, kFrames);
     }
   }
   throw InputError(fmt::format("{}: no run {} in its table runs", flags.session, *flags.run));
@@ -44,7 +51,8 @@ Json ViewOfRun(const Flags& flags) {
 /// The run of that number among those of the log, from 1, or the last.
 Json ViewOfLog(const Flags& flags) {
   RecordedSession recorded = ReadRecords(flags.log);
-  for (const std::string& line : recorded.passed_over) std::cerr << "view: " << line << "\n";
+  const auto scenes = ReadScenes(flags.log, &recorded.passed_over);
+  TellPassedOver(recorded.passed_over);
   const auto num_runs = static_cast<std::int64_t>(recorded.runs.size());
   const std::int64_t number = flags.run.value_or(num_runs);
   if (num_runs == 0) throw InputError(flags.log + ": no run is recorded in it");
@@ -53,7 +61,6 @@ Json ViewOfLog(const Flags& flags) {
         fmt::format("{}: no run {}; --run takes 1 to {}", flags.log, number, num_runs));
   }
   const RunRecordMessage& run = recorded.runs[static_cast<std::size_t>(number - 1)];
-  const auto scenes = ReadScenes(flags.log);
   const auto scene = scenes.find(run.request.scene_id);
   if (scene == scenes.end()) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));

@@ -155,10 +155,22 @@ TEST_F(RecordLogTest, ReadsScenesByTheirContent) {
   refused.scene_id = "unknown";
   refused.message = "no such scene";
   Add(channel::kScene, Encode(refused));
+  Add(channel::kScene, {1, 2, 3});
+  Add(channel::kScene, {});
   log_.reset();
-  const std::map<std::string, Scene> scenes = ReadScenes(file_);
+  std::vector<std::string> passed_over;
+  const std::map<std::string, Scene> scenes = ReadScenes(file_, &passed_over);
   ASSERT_EQ(scenes.size(), 1u);
   EXPECT_EQ(scenes.at(message.scene_id).objects.at(0).id, "ball");
+  ASSERT_EQ(passed_over.size(), 1u);
+  EXPECT_TRUE(passed_over[0].starts_with(file_.string() + ": 2 messages are passed over"));
+}
+
+TEST_F(RecordLogTest, ScenesNoneOfWhichCanBeDecodedAreRefused) {
+  Add(channel::kScene, {1, 2, 3});
+  log_.reset();
+  std::vector<std::string> passed_over;
+  ExpectInputError([&] { ReadScenes(file_, &passed_over); }, {file_.string(), channel::kScene});
 }
 
 TEST_F(RecordLogTest, ASessionFolderHasOneLog) {

@@ -323,7 +323,19 @@ TEST_F(MergeSessionsTest, PartsMakeTheSessionThatTheyAreOf) {
     EXPECT_TRUE(run.request_id.starts_with("early/")) << run.request_id;
     EXPECT_EQ(run.request.request_id, run.request_id);
   }
-  EXPECT_EQ(ReadScenes(log).size(), 1u);
+  std::vector<std::string> passed_over;
+  EXPECT_EQ(ReadScenes(log, &passed_over).size(), 1u);
+}
+
+TEST_F(MergeSessionsTest, ScenesThatCannotBeDecodedArePassedOver) {
+  Write("one", Session("one", 1'000'000, 1), {{.contestant = "A", .problem = 1}});
+  Write("two", Session("two", 2'000'000, 1), {{.contestant = "A", .problem = 2}});
+  EventLog(folder_ / "two/two.lcmlog", EventLog::Mode::kAppend).Write({channel::kScene, {1, 2}, 3});
+  ASSERT_EQ(Merge({"one", "two"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("two.lcmlog: one message is passed over: SCENE"));
+  std::vector<std::string> passed_over;
+  EXPECT_EQ(ReadScenes(FindEventLog(folder_ / "whole"), &passed_over).size(), 1u);
+  EXPECT_TRUE(passed_over.empty());
 }
 
 TEST_F(MergeSessionsTest, ARunThatTwoTellOfCountsOnce) {
