@@ -42,6 +42,8 @@ double ProblemTime(const std::vector<Outcome>& trials) {
   return std::max(MedianTime(trials), 1e-9);
 }
 
+bool TookNoTime(const std::vector<Outcome>& trials) { return MedianTime(trials) == 0; }
+
 SuccessSummary SummarizeSuccess(const Outcomes& outcomes) {
   SuccessSummary summary;
   summary.num_problems = static_cast<int>(outcomes.by_problem.size());
@@ -101,7 +103,7 @@ PairedComparison Compare(const Outcomes& first, const Outcomes& second) {
     times_second.push_back(ProblemTime(other->second));
     differences.push_back(LogRatio(times_first.back(), times_second.back()));
     if (!std::isfinite(times_first.back()) || !std::isfinite(times_second.back())) continue;
-    if (MedianTime(trials) == 0 || MedianTime(other->second) == 0) {
+    if (TookNoTime(trials) || TookNoTime(other->second)) {
       ++comparison.num_zero;
       continue;
     }

@@ -45,6 +45,8 @@ std::optional<double> TrialSpread(const Outcomes& outcomes);
 /// any; positive, or infinite. 1 ns is what stands for a time of 0, as of a clock that read the
 /// same twice: shorter than any other, and no time to divide by.
 double ProblemTime(const std::vector<Outcome>& trials);
+/// Whether it stands for a time of 0: such problems have no ratio.
+bool TookNoTime(const std::vector<Outcome>& trials);
 
 /// Two contestants on the problems of a set that both tried.
 struct PairedComparison {

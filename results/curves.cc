@@ -12,22 +12,22 @@
 namespace planbench {
 namespace {
 
-/// Problems that all contestants tried, each with its shortest time.
+/// Problems that all contestants tried, each with its shortest time, unless one is 0.
 std::map<int, double> BestTimes(const std::map<std::string, Outcomes>& contestants) {
   std::map<int, double> best;
   if (contestants.empty()) return best;
   for (const auto& [problem, trials] : contestants.begin()->second.by_problem) {
     double shortest = kInfinity;
-    bool common = true;
+    bool counts = true;
     for (const auto& [name, outcomes] : contestants) {
       const auto found = outcomes.by_problem.find(problem);
-      if (found == outcomes.by_problem.end()) {
-        common = false;
+      if (found == outcomes.by_problem.end() || TookNoTime(found->second)) {
+        counts = false;
       } else {
         shortest = std::min(shortest, ProblemTime(found->second));
       }
     }
-    if (common) best[problem] = shortest;
+    if (counts) best[problem] = shortest;
   }
   return best;
 }

@@ -28,8 +28,8 @@ struct ProfileStep {
   double share = 0;  ///< Of the problems on which the contestant is within the ratio.
 };
 /// Performance profiles (Dolan and Moré 2002) by contestant, over the problems that all of them
-/// tried; one that nobody solved counts against all. One step for each ratio at which the share
-/// rises, ascending.
+/// tried; one that nobody solved counts against all, one of which a time is 0 is left out. One step
+/// for each ratio at which the share rises, ascending.
 std::map<std::string, std::vector<ProfileStep>> PerformanceProfiles(
     const std::map<std::string, Outcomes>& contestants);
 

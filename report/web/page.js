@@ -229,7 +229,8 @@ const report = (() => {
     made.append(tableBlock("pairs", false));
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
-           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved."),
+           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved. " +
+           "Problems at which a time is 0 are left out."),
       ...limitsNote());
     const grid = figuresOfSets("profile");
     made.append(legend(() => grid), grid);

@@ -111,6 +111,16 @@ TEST(PerformanceProfilesTest, WhatNobodySolvedCountsAgainstAll) {
   EXPECT_TRUE(PerformanceProfiles({}).empty());
 }
 
+TEST(PerformanceProfilesTest, NothingIsDividedByATimeOfNothing) {
+  const auto profiles = PerformanceProfiles(
+      {{"A", OutcomesOf({{0, 0, 1}, {1}, {1}})}, {"B", OutcomesOf({{2}, {2}, {kInfinity}})}});
+  ASSERT_EQ(profiles.at("A").size(), 1u);
+  EXPECT_EQ(profiles.at("A")[0].share, 1);
+  ASSERT_EQ(profiles.at("B").size(), 1u);
+  EXPECT_EQ(profiles.at("B")[0].ratio, 2);
+  EXPECT_EQ(profiles.at("B")[0].share, 0.5);
+}
+
 StoredRun AnytimeRun(int problem, std::vector<PlanProgress> progress, int trial = 1) {
   StoredRun run;
   run.problem_index = problem;
