@@ -31,8 +31,8 @@ CLI::Validator Positive(double most = std::numeric_limits<double>::max());
 
 /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
 /// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on
-/// stderr that begins with the app's name; so ends, with 1 instead
-/// of 0, what lost something of its standard output.
+/// stderr that begins with the app's name; so ends, with 1 instead of 0, what lost something of its
+/// standard output.
 int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work);
 
 }  // namespace planbench
