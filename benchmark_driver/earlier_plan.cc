@@ -116,7 +116,9 @@ std::vector<ScheduledRun> PlanOf(const SessionMessage& session, const ProblemSet
 std::string EntrantsText(const std::vector<Entrant>& entrants) {
   std::vector<std::string> texts;
   for (const Entrant& entrant : entrants) {
-    texts.push_back(fmt::format("{}={}", entrant.planner, EnumName(entrant.directions)));
+    const bool is_forward = entrant.directions == Directions::kAuto && entrant.IsAskedOnce();
+    texts.push_back(fmt::format("{}={}", entrant.planner,
+                                EnumName(is_forward ? Directions::kForward : entrant.directions)));
   }
   return fmt::format("{}", fmt::join(texts, " "));
 }

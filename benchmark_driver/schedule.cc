@@ -83,7 +83,7 @@ std::vector<Direction> AttemptsOf(const Entrant& entrant) {
     case Directions::kBoth:
       return {kForward, kBackward};
     case Directions::kAuto:
-      if (entrant.bidirectional || !entrant.can_backward) return {kForward};
+      if (entrant.IsAskedOnce()) return {kForward};
       return {kForward, kBackward};
   }
   return {};

@@ -35,6 +35,9 @@ struct Entrant {
   bool bidirectional = false;  ///< Searches from both ends at once: auto is one run.
   bool deterministic =
       false;  ///< Whatever the seed, the answer is the same: further trials are not run.
+
+  /// Whether auto is the forward search alone.
+  bool IsAskedOnce() const { return bidirectional || !can_backward; }
 };
 
 /// A contestant that is asked in these directions, by what planners say of themselves: its own, and

@@ -1,26 +1,23 @@
 #include "results/awaited_attempts.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <map>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
+
+#include "results/reproduce.h"
 
 namespace planbench {
 namespace {
 
-using Trial = std::tuple<std::string, int, int>;  // set, problem and number
+/// Contestant, set, problem, trial and direction.
+using AttemptKey = std::tuple<std::size_t, std::string, int, int, Direction>;
 
-Trial TrialOf(const StoredRun& run) { return {run.problem_set, run.problem_index, run.trial}; }
-
-/// What a contestant's runs tell of the directions that it tries.
-struct Tried {
-  std::set<Trial> backward;  ///< Trials with an attempt from goal to start.
-  bool both = false;         ///< Also where the other had found a path.
-  std::vector<const StoredRun*> forward;
-};
+AttemptKey KeyOf(const StoredRun& run, Direction direction) {
+  return {run.contestant, run.problem_set, run.problem_index, run.trial, direction};
+}
 
 /// A planner's name on the bus, of a request id that ends with "/PLANNER/DIRECTION/TRIAL".
 std::string PlannerOf(const std::string& request_id) {
@@ -34,11 +31,16 @@ std::string PlannerOf(const std::string& request_id) {
   return begin == std::string::npos ? "" : request_id.substr(begin + 1, end - begin);
 }
 
-/// Whether the other direction is made after this attempt, of a contestant that tries both: unless
-/// it claimed a path, or could not be made at all.
-bool IsFollowed(const StoredRun& run, bool both) {
-  if (both) return !run.confirmed();
-  return !run.claimed && run.roundtrip_time_s > 0;
+/// Whether the other direction is made besides this attempt. `entrants`: kEntrants, between blanks.
+bool NeedsOther(const StoredRun& run, const std::string& entrants) {
+  const std::string planner = " " + PlannerOf(run.request_id) + "=";
+  const auto is_asked = [&](const char* directions) {
+    return entrants.find(planner + directions + " ") != std::string::npos;
+  };
+  if (is_asked("both")) return !run.confirmed();
+  // Backward is asked only after forward, unless that claimed a path or could not be made at all.
+  return is_asked("auto") && run.direction == Direction::kForward && !run.claimed &&
+         run.roundtrip_time_s > 0;
 }
 
 }  // namespace
@@ -46,49 +48,17 @@ bool IsFollowed(const StoredRun& run, bool both) {
 int LeaveOutAwaiting(StoredSession* session) {
   const bool complete =
       session->finished && static_cast<int>(session->runs.size()) >= session->num_runs;
-  if (session->imported || complete) return 0;
-  const auto flag = session->flags.find("directions");
-  const std::string directions = flag == session->flags.end() ? "" : flag->second;
-
-  std::map<std::size_t, Tried> contestants;
-  for (const StoredRun& run : session->runs) {
-    Tried& tried = contestants[run.contestant];
-    if (run.direction == Direction::kBackward) {
-      tried.backward.insert(TrialOf(run));
-    } else {
-      tried.forward.push_back(&run);
-    }
-  }
-  std::set<const StoredRun*> awaiting;
-  for (auto& [index, tried] : contestants) {
-    std::vector<const StoredRun*> without_other;
-    tried.both = directions == "both";
-    for (const StoredRun* run : tried.forward) {
-      if (!tried.backward.contains(TrialOf(*run))) continue;
-      tried.both = tried.both || run->claimed;
-    }
-    for (const StoredRun* run : tried.forward) {
-      if (!tried.backward.contains(TrialOf(*run)) && IsFollowed(*run, tried.both)) {
-        without_other.push_back(run);
-      }
-    }
-    if (without_other.empty()) continue;
-    if (tried.backward.empty()) {
-      const bool says_so =
-          directions == "both" ||
-          (directions == "auto" &&
-           session->backward_planners.contains(PlannerOf(without_other.front()->request_id)));
-      if (!says_so || without_other.front() != tried.forward.back()) continue;
-    }
-    awaiting.insert(without_other.begin(), without_other.end());
-  }
-  std::vector<StoredRun> kept;
-  kept.reserve(session->runs.size());
-  for (StoredRun& run : session->runs) {
-    if (!awaiting.contains(&run)) kept.push_back(std::move(run));
-  }
-  session->runs = std::move(kept);
-  return static_cast<int>(awaiting.size());
+  const auto setting = session->flags.find(kEntrants);
+  if (session->imported || complete || setting == session->flags.end()) return 0;
+  const std::string entrants = " " + setting->second + " ";
+  std::set<AttemptKey> made;
+  for (const StoredRun& run : session->runs) made.insert(KeyOf(run, run.direction));
+  const auto num_left_out = std::erase_if(session->runs, [&](const StoredRun& run) {
+    const Direction other =
+        run.direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
+    return NeedsOther(run, entrants) && !made.contains(KeyOf(run, other));
+  });
+  return static_cast<int>(num_left_out);
 }
 
 }  // namespace planbench

@@ -148,6 +148,11 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
       contestants_[first + run.contestant].runs.push_back(&run);
     }
   }
+  for (const ComparedContestant& one : contestants_) {
+    if (!one.runs.empty()) continue;
+    without_runs_.push_back(one.own_name +
+                            (sessions_.size() > 1 ? ", " + session_names_[one.session] : ""));
+  }
   std::erase_if(contestants_, [](const auto& one) { return one.runs.empty(); });
   std::vector<std::string> names;
   for (const ComparedContestant& one : contestants_) names.push_back(one.own_name);

@@ -43,6 +43,9 @@ class ComparedSessions {
   /// which it is not known last, by the share of these that they solved. If there is no such
   /// problem, by the same of what each tried, which ranks nobody.
   const std::vector<ComparedContestant>& contestants() const { return contestants_; }
+  /// Those that are in nothing else here, as none of their runs counts: with that of the session if
+  /// there are several.
+  const std::vector<std::string>& without_runs() const { return without_runs_; }
   /// By set and the contestants' names.
   const OutcomesBySet& outcomes() const { return outcomes_; }
   /// Over all sets.
@@ -61,6 +64,7 @@ class ComparedSessions {
   std::vector<std::string> session_names_;
   std::vector<std::string> other_sets_;
   std::vector<ComparedContestant> contestants_;
+  std::vector<std::string> without_runs_;
   OutcomesBySet outcomes_;
   std::map<std::string, Outcomes> pooled_;
   OutcomesBySet common_;

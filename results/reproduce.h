@@ -16,6 +16,7 @@ inline constexpr char kMergedCommands[] = "merged";
 inline constexpr char kMergedParts[] = "merged_parts";
 
 /// Among them too: the planners that were asked, and in which directions: "ara=auto rrtc=forward".
+/// Whose backward search is not asked for stands as forward, not as auto.
 inline constexpr char kEntrants[] = "entrants";
 
 /// Among them too, where a session that is resumed holds others beside it (results/shards.h): which

@@ -252,9 +252,6 @@ class Reader {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);
         }
-        if (node.value("backward", false) && !node.value("bidirectional", false)) {
-          session.backward_planners.insert(node.value("name", ""));
-        }
       }
     }
   }

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -82,8 +81,6 @@ struct StoredSession {
   std::map<std::string, std::string> flags;     ///< Of the driver.
   std::map<std::string, std::string> left_out;  ///< Problems without runs, and why.
   std::map<std::string, std::string> machine;   ///< What the driver says of its own.
-  /// Names on the bus of planners that can search backward, and do not search from both ends.
-  std::set<std::string> backward_planners;
   std::optional<BusRecord> bus;  ///< Of its folder; nothing if that holds no run.json.
 
   std::vector<StoredContestant> contestants;

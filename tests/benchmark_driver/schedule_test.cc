@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "benchmark_driver/earlier_plan.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -56,6 +57,15 @@ TEST(ScheduleTest, EveryContestantMeetsEveryProblemInEveryTrial) {
     return std::tie(a.problem_set, a.problem_index, a.trial) <
            std::tie(b.problem_set, b.problem_index, b.trial);
   }));
+}
+
+TEST(EntrantsTextTest, SaysForwardWhereAutoIsThatAlone) {
+  using enum Directions;
+  Entrant both_ends = Of("rrtc", kAuto), one_way = Of("chomp", kAuto);
+  both_ends.bidirectional = true;
+  one_way.can_backward = false;
+  EXPECT_EQ(EntrantsText({Of("ara", kAuto), both_ends, one_way, Of("b", kBackward)}),
+            "ara=auto rrtc=forward chomp=forward b=backward");
 }
 
 TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {

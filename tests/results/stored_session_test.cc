@@ -146,21 +146,6 @@ TEST_F(ReadSessionsTest, TimesThatCannotBeAreRefused) {
   EXPECT_NO_THROW(ReadSessions(folder_ / "one"));
 }
 
-TEST_F(ReadSessionsTest, KnowsWhoIsAskedBackward) {
-  SessionMessage message;
-  for (const char* name : {"one_way", "both_ends", "forward_only"}) {
-    NodeStatusMessage node;
-    node.name = name;
-    node.kind = NodeKind::kPlanner;
-    node.can_backward = node.name != "forward_only";
-    node.bidirectional = node.name == "both_ends";
-    message.nodes.push_back(node);
-  }
-  WriteSession(folder_ / "one", {{.contestant = "A"}}, message);
-  EXPECT_EQ(ReadSessions(folder_ / "one").sessions.front().backward_planners,
-            std::set<std::string>{"one_way"});
-}
-
 TEST_F(ReadSessionsTest, AFileThatWasCutShortIsRefused) {
   std::vector<MadeRun> runs;
   for (int i = 1; i <= 60; ++i) runs.push_back({.contestant = "A", .problem = i});
