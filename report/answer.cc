@@ -225,15 +225,13 @@ std::string OnTheBus(const BusRecord& bus) {
 /// What the time limits of a set make of its figures; "" if they are known and the same for all.
 std::string OnTheLimits(const std::string& set,
                         const std::map<std::string, Outcomes>& by_contestant) {
-  std::set<double> limits_s;
-  bool unknown = false;
-  for (const auto& [name, outcomes] : by_contestant) {
-    limits_s.insert(outcomes.time_limit_s);
-    unknown = unknown || std::isnan(SummarizeTimes(outcomes).penalised_mean_s);
-  }
+  const bool unknown = std::any_of(by_contestant.begin(), by_contestant.end(), [](const auto& one) {
+    return std::isnan(SummarizeTimes(one.second).penalised_mean_s);
+  });
   if (unknown) {
     return set + ": time limits are not known, and so are the penalised means of those who failed.";
   }
+  const std::set<double> limits_s = LimitsOn(by_contestant);
   if (limits_s.size() < 2) return "";
   return fmt::format(
       "{}: time limits differ ({} to {} s): who had longer could solve more. {} Penalised means "
@@ -348,7 +346,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
                                      num_runs, session.num_runs));
     } else if (num_runs < session.num_runs) {
       cautions.push_back(fmt::format("{}: {} of {} runs are not recorded.", name,
-                                     session.num_runs - num_runs, session.num_runs));
+                                     session.num_runs - num_runs - num_awaiting, session.num_runs));
     } else {
       cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
                                      FormatNumber(session.total_time_s)));
@@ -369,6 +367,9 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
           "{}: the planners worked at once (--parallel): all times were measured under load.",
           name));
     }
+  }
+  for (const std::string& name : compared.without_runs()) {
+    cautions.push_back(name + ": no run counts.");
   }
   for (const ComparedContestant& contestant : compared.contestants()) {
     if (std::string trained = Trained(compared, contestant); !trained.empty()) {

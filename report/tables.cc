@@ -147,14 +147,18 @@ std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& c
   return TrainedMark(SetsLearnedFrom(compared, contestant), static_cast<std::size_t>(num_tried));
 }
 
+std::set<double> LimitsOn(const std::map<std::string, Outcomes>& by_contestant) {
+  std::set<double> limits_s;
+  for (const auto& [name, outcomes] : by_contestant) {
+    if (outcomes.time_limit_s > 0) limits_s.insert(outcomes.time_limit_s);
+  }
+  return limits_s;
+}
+
 std::string LimitsNote(const ComparedSessions& compared) {
   std::vector<std::string> sets;
   for (const auto& [set, by_contestant] : compared.outcomes()) {
-    std::set<double> limits_s;
-    for (const auto& [name, outcomes] : by_contestant) {
-      if (outcomes.time_limit_s > 0) limits_s.insert(outcomes.time_limit_s);
-    }
-    if (limits_s.size() > 1) sets.push_back(set);
+    if (LimitsOn(by_contestant).size() > 1) sets.push_back(set);
   }
   if (sets.empty()) return "";
   return fmt::format("Time limits differ on {}. {}", fmt::join(sets, ", "), kLimitsNote);
@@ -527,7 +531,7 @@ std::vector<Table> AllTables(const ComparedSessions& compared,
       SessionTable(compared, false), SuccessTable(compared),  TimeTable(compared),
       DirectionTable(compared),      PairTable(pairs),        QualityTable(compared),
       PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
-      ChangeTable(compared),   ConditionTable(compared)};
+      ChangeTable(compared),         ConditionTable(compared)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   if (const std::string limits = LimitsNote(compared); !limits.empty()) {
     for (Table& table : tables) {

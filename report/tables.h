@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,9 @@ std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& c
 inline constexpr char kLimitsNote[] =
     "The time of a run contains its failed forward attempt, which lasts as long as the time limit "
     "lets it: such times, and ratios of them, are in part of limits.";
-/// The same with the sets on which contestants had different limits; "" if there are none.
+/// Different limits of contestants on a set, s, as far as they are known.
+std::set<double> LimitsOn(const std::map<std::string, Outcomes>& by_contestant);
+/// kLimitsNote with the sets on which contestants had different limits; "" if there are none.
 std::string LimitsNote(const ComparedSessions& compared);
 
 /// One contestant against another on one set, or on all.

@@ -1,0 +1,224 @@
+#include "report/answer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "tests/report/report_fixture.h"
+
+namespace planbench {
+namespace {
+
+TEST_F(ReportTest, WhatCannotBeComparedIsTold) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "old", {{.contestant = "A"}}, ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "old").sessions;
+  sessions.push_back(sessions.front());
+  sessions[0].runs[0].scene_id = "a";
+  sessions[1].runs[0].scene_id = "b";
+  sessions[1].file = folder / "new" / "results.sqlite";
+  const auto cautions = Cautions(ComparedSessions(sessions));
+  EXPECT_EQ(cautions.at(0),
+            "shelf (new): other scenes than those of the set of this name before; nothing is "
+            "compared with them.");
+  sessions[1].runs[0].scene_id = "a";
+  sessions[1].runs[0].time_limit_s = 2;
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
+              testing::HasSubstr("shelf: time limits differ (2.00 to 10.0 s)"));
+  const ComparedSessions compared(sessions);
+  EXPECT_THAT(LimitsNote(compared), testing::StartsWith("Time limits differ on shelf."));
+  EXPECT_EQ(LimitsNote(compared_), "");
+  int num_noted = 0;
+  for (const Table& table : AllTables(compared, ComparePairs(compared))) {
+    num_noted += table.note.find(kLimitsNote) != std::string::npos;
+  }
+  EXPECT_EQ(num_noted, 2) << "times, and pairs; there is nothing to tell of changes";
+  sessions[1].runs[0].time_limit_s = 0;
+  EXPECT_EQ(LimitsNote(ComparedSessions(sessions)), "");
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)),
+              testing::Not(testing::Contains(testing::HasSubstr("time limits"))))
+      << "one is not known, and nobody needs it";
+  for (StoredSession& session : sessions) {
+    session.runs[0].time_limit_s = 0;
+    session.runs[0].status = PlanStatus::kTimedOut;
+  }
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)).at(0),
+              testing::HasSubstr("shelf: time limits are not known"));
+}
+
+TEST_F(ReportTest, PathsThatCameTooLateAreNoConfirmedOnes) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "one", {{.contestant = "A"}, {.contestant = "A", .problem = 2}},
+               ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "one").sessions;
+  sessions[0].runs[1].status = PlanStatus::kTimedOut;
+  EXPECT_THAT(Answer(ComparedSessions(sessions), {}).at(1),
+              testing::HasSubstr("confirmed every one of 1 paths, and 1 more came after the time"));
+}
+
+TEST_F(ReportTest, ProblemsThatWereLeftOutAreTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  session.left_out = {{"shelf 3", "scene0003.yaml:7: world: is odd"}, {"shelf 9", "is even"}};
+  WriteSession(folder / "example", {{.contestant = "A"}}, session);
+  const auto cautions = Cautions(ComparedSessions(ReadSessions(folder / "example").sessions));
+  EXPECT_EQ(cautions.at(1),
+            "example: 2 problems left out, since the scene server refused them: shelf 3, shelf 9 "
+            "(shelf 3: scene0003.yaml:7: world: is odd).");
+}
+
+TEST_F(ReportTest, TheBusIsTold) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "example", {{.contestant = "A"}}, ExampleSession());
+  const auto cautions = [&] {
+    return Cautions(ComparedSessions(ReadSessions(folder / "example").sessions));
+  };
+  EXPECT_EQ(cautions().size(), 1u);  // no run.json: nothing is known
+  folder.Write("example/run.json", R"({"sessions": []})");
+  EXPECT_EQ(cautions().at(1), "example: no message was lost on the bus, as far as the logger saw.");
+  folder.Write("example/run.json",
+               R"({"bus": {"malformed_packets": 0, "lost_messages": 3, "dropped_messages": 1,
+                           "contradictions": [{"count": 2}, {"count": 5}]}})");
+  EXPECT_TRUE(cautions().at(1).starts_with(
+      "example: on the bus 3 messages did not reach the logger, 1 messages were more than it could "
+      "keep up with, 7 messages told otherwise"))
+      << cautions().at(1);
+  folder.Write("example/run.json", "{\"sessions\": [");
+  EXPECT_THROW(cautions(), InputError);
+}
+
+TEST_F(ReportTest, ImpossibleTimesAreTold) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .counters = {{"told_time", 300}}}, {.contestant = "B"}});
+  EXPECT_EQ(Cautions(compared).size(), 2u);
+  EXPECT_EQ(
+      Cautions(compared).at(1),
+      "A: 1 of 1 runs were told to have taken more time than passed until the answer came, up "
+      "to 300 s: the round trip counts in its place.");
+}
+
+TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
+  const std::vector<std::string> answer = Answer(compared_, pairs_);
+  ASSERT_EQ(answer.size(), 3u);
+  EXPECT_EQ(answer[0],
+            fmt::format("Of 2 contestants {} ranks first by penalised mean time: it solved "
+                        "100.0 % of the problems (95 % interval 82.4 to 100.0), in a median "
+                        "of 1500 ms (1300 to 1800), over 18 problems of 2 sets.",
+                        kTagName));
+  EXPECT_TRUE(
+      answer[1].starts_with(fmt::format("The next, {}, solved 83.3 % of the", kScriptName)));
+  EXPECT_THAT(answer[1], testing::HasSubstr("on the 15 problems that both solved"));
+  EXPECT_NE(answer[2].find("ranks first in 2 of the 2 sets; the referee rejected 1 of 46 paths"),
+            std::string::npos)
+      << answer[2];
+}
+
+TEST_F(ReportTest, TheNextIsMarkedLikeTheFirst) {
+  const std::map<std::string, std::string> settings = {{"learned_from", "shelf"}};
+  const ComparedSessions compared =
+      Read({{.contestant = "A"}, {.contestant = "B", .time_s = 2, .settings = settings}});
+  const std::vector<std::string> answer = Answer(compared, ComparePairs(compared));
+  ASSERT_EQ(answer.size(), 4u);
+  EXPECT_THAT(answer[0], testing::HasSubstr("contestants A ranks first"));
+  EXPECT_THAT(answer[1], testing::HasSubstr("The next, B (trained), solved"));
+  EXPECT_THAT(answer[2], testing::StartsWith("B has learned from shelf"));
+  EXPECT_THAT(answer[3], testing::HasSubstr("faster than B (trained)"));
+}
+
+TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
+  EXPECT_EQ(Answer(ComparedSessions({}), {}), std::vector<std::string>{"No runs are recorded."});
+  const ComparedSessions alone = Read({{.contestant = "A"}});
+  EXPECT_EQ(Answer(alone, {}).at(1),
+            "There is nothing to compare it with; the referee confirmed every one of 1 paths.");
+  const ComparedSessions apart =
+      Read({{.contestant = "A"}, {.contestant = "B", .set = "table", .time_s = 2}});
+  EXPECT_EQ(Answer(apart, ComparePairs(apart)),
+            (std::vector<std::string>{
+                "None of 2 contestants ranks first: there is no problem that all of them tried.",
+                "Nobody tried a problem that another tried; the referee confirmed every one of 2 "
+                "paths."}));
+  EXPECT_EQ(Cautions(apart).front(),
+            "The contestants tried different problems (A 1, B 1): none that all of them tried, so "
+            "that none ranks first.");
+  const ComparedSessions failed = Read({{.contestant = "A", .status = PlanStatus::kTimedOut},
+                                        {.contestant = "B", .status = PlanStatus::kTimedOut}});
+  EXPECT_EQ(Answer(failed, {}).at(0),
+            "None of 2 contestants solved a problem; no path was claimed to the referee.");
+}
+
+TEST_F(ReportTest, TooFewProblemsAreNoSignOfEquality) {
+  const auto answer_of = [](int num_problems, const std::vector<std::string>& contestants) {
+    std::vector<MadeRun> runs;
+    for (int problem = 1; problem <= num_problems; ++problem) {
+      double time_s = 1;
+      for (const std::string& name : contestants) {
+        runs.push_back({.contestant = name, .problem = problem, .time_s = time_s});
+        time_s *= 1.5;
+      }
+    }
+    const ComparedSessions compared = Read(runs);
+    return Answer(compared, ComparePairs(compared)).at(2);
+  };
+  using testing::StartsWith;
+  EXPECT_THAT(answer_of(1, {"A", "B"}),
+              StartsWith("Too few problems to test whether A is faster than B: 1, 6 would do; "));
+  EXPECT_THAT(answer_of(6, {"A", "B"}), StartsWith("Problem by problem A is faster than B"));
+  // Of three pairs.
+  EXPECT_THAT(answer_of(6, {"A", "B", "C"}),
+              StartsWith("Too few problems to test whether A is faster than any of the 2 others: "
+                         "7 would do"));
+  EXPECT_THAT(answer_of(7, {"A", "B", "C"}),
+              StartsWith("Problem by problem A is faster than each of the 2 others"));
+}
+
+TEST_F(ReportTest, WhoTriedOtherProblemsRanksByTheCommonOnes) {
+  std::vector<MadeRun> runs;
+  for (int problem = 1; problem <= 7; ++problem) {
+    runs.push_back({.contestant = "A", .problem = problem});
+    runs.push_back({.contestant = "B", .problem = problem, .time_s = 2});
+  }
+  // What B alone tried is easy, what A alone tried is not.
+  for (int problem = 8; problem <= 20; ++problem) {
+    runs.push_back({.contestant = "B", .problem = problem, .time_s = 0.001});
+  }
+  runs.push_back({.contestant = "A", .problem = 21, .status = PlanStatus::kTimedOut});
+  runs.push_back({.contestant = "A", .set = "table", .time_s = 9});
+  const ComparedSessions compared = Read(runs);
+  const std::vector<std::string> answer = Answer(compared, ComparePairs(compared));
+  EXPECT_THAT(answer.at(0), testing::HasSubstr("A ranks first by penalised mean time: it solved "
+                                               "100.0 % of the problems"));
+  EXPECT_THAT(answer.at(0),
+              testing::EndsWith("over the 7 problems of 1 set that all of them tried."));
+  EXPECT_EQ(Cautions(compared).front(),
+            "The contestants tried different problems (A 9, B 20): they rank by the 7 that all of "
+            "them tried.");
+}
+
+TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  session.settings["entrants"] = "planner=auto";
+  WriteSession(folder / "example",
+               {{.contestant = "A", .status = PlanStatus::kTimedOut},
+                {.contestant = "A", .direction = Direction::kBackward},
+                {.contestant = "A", .problem = 2, .status = PlanStatus::kTimedOut},
+                {.contestant = "B", .status = PlanStatus::kTimedOut}},
+               session);
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  for (StoredRun& run : sessions[0].runs) run.request_id = "id/shelf/1/planner/forward/1";
+  sessions[0].finished = false;
+  sessions[0].num_runs = 6;
+  const ComparedSessions compared(sessions);
+  EXPECT_EQ(Texts(SuccessTable(compared), 0)[3], "1");
+  const std::vector<std::string> cautions = Cautions(compared);
+  ASSERT_EQ(cautions.size(), 3u);
+  EXPECT_EQ(cautions[0], "example: did not finish: 2 of 6 runs are recorded.");
+  EXPECT_THAT(cautions[1], testing::HasSubstr("2 more runs found nothing in one"));
+  EXPECT_EQ(cautions[2], "B: no run counts.");
+  sessions[0].finished = true;
+  EXPECT_EQ(Cautions(ComparedSessions(sessions)).at(0), "example: 2 of 6 runs are not recorded.")
+      << "those that await others are recorded";
+}
+
+}  // namespace
+}  // namespace planbench
