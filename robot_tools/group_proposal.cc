@@ -15,6 +15,9 @@ constexpr int kLeastJointsOfAnArm = 3;
 constexpr double kMostFingerTravel = 0.1;  // m
 // Of how long the arm is.
 constexpr double kLongestFinger = 0.5;
+// An arm that can bring its hand to any pose: what it would lack is no wrist or further arm.
+constexpr int kJointsOfAWholeArm = 6;
+constexpr int kFingersOfAnyHand = 3;
 
 double Offset(const Joint& joint) { return joint.X_PJ.translation().norm(); }
 
@@ -47,7 +50,8 @@ class ArmFinder {
       branches = ArmsFrom(link, own);
     }
     if (branches.empty()) {
-      arms_.push_back({std::move(own), TipFrom(link)});
+      const int tip = TipFrom(link, own);
+      arms_.push_back({std::move(own), tip});
       TakeOffHand(&arms_.back());
       return;
     }
@@ -100,9 +104,15 @@ class ArmFinder {
   }
 
   // Whether what parts at a link is a hand's: no branch has more joints than the arm that leads
-  // there, nor is any as long as half of it. Arms of a torso are neither.
+  // there, nor is any as long as half of it. Arms of a torso are neither. Two branches at the end
+  // of less than a whole arm may as well be its wrist beside a camera's joint, or the arms of a
+  // gantry.
   bool AreFingers(const std::vector<int>& branches, int link, const std::vector<int>& own) const {
     if (!IsLong(own)) return false;
+    if (static_cast<int>(own.size()) < kJointsOfAWholeArm &&
+        static_cast<int>(branches.size()) < kFingersOfAnyHand) {
+      return false;
+    }
     double arm = 0;
     for (int at = link; At(at).parent_joint != own.front(); at = ParentOf(at)) {
       arm += Offset(JointAt(At(at).parent_joint));
@@ -121,11 +131,12 @@ class ArmFinder {
   }
 
   // Outwards from the child link of an arm's last joint, while nothing else is there and it is
-  // fixed or follows a joint.
-  int TipFrom(int link) const {
+  // fixed or follows a joint of the arm.
+  int TipFrom(int link, const std::vector<int>& arm) const {
     while (At(link).child_joints.size() == 1) {
       const Joint& next = JointAt(At(link).child_joints.front());
-      if (next.type != JointType::kFixed && next.leader < 0) break;
+      const bool follows = std::ranges::find(arm, next.leader) != arm.end();
+      if (next.type != JointType::kFixed && !follows) break;
       link = next.child_link;
     }
     return link;

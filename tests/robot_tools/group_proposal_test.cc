@@ -134,6 +134,29 @@ TEST(ProposeGroups, AHandOfManyJointsIsNoneOfTheArms) {
   EXPECT_THAT(Propose(one_long.Model()).tips[0], ElementsAre("a6"));
 }
 
+TEST(ProposeGroups, AWristBesideACamerasJointIsTheArms) {
+  Tree tree;
+  tree.Chain("base", "a", 4, 0.3).Chain("a4", "camera", 1, 0.02).Chain("a4", "w", 3, 0.05);
+  const Proposal proposal = Propose(tree.Model());
+  EXPECT_THAT(proposal.names, ElementsAre("arm"));
+  EXPECT_EQ(proposal.joints[0].size(), 7u);
+  EXPECT_THAT(proposal.tips[0], ElementsAre("w3"));
+}
+
+TEST(ProposeGroups, ShortArmsOfALongGantryAreGroupsBesideIt) {
+  Tree tree;
+  tree.Chain("base", "axis", 3, 2).Chain("axis3", "l", 3, 0.2).Chain("axis3", "r", 3, 0.2);
+  EXPECT_THAT(Propose(tree.Model()).names,
+              ElementsAre("arm_axis3", "arm_l3", "arm_r3", "all_arms"));
+}
+
+TEST(ProposeGroups, ATipIsMovedByTheArmAlone) {
+  Tree tree;  // A pointer that a wheel elsewhere turns.
+  tree.Joint("revolute", "base", "wheel").Chain("base", "a", 3);
+  tree.Joint("revolute", "a3", "pointer", Tree::kLimit + "<mimic joint='wheel_joint'/>");
+  EXPECT_THAT(Propose(tree.Model()).tips[0], ElementsAre("a3"));
+}
+
 TEST(ProposeGroups, ALongTrunkIsAGroupBesideTheArmsOnIt) {
   Tree torso;  // More joints on each arm than beneath.
   torso.Chain("base", "waist", 3, 0.2).Chain("waist3", "l", 7, 0.02).Chain("waist3", "r", 7, 0.02);
