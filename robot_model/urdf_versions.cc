@@ -52,7 +52,9 @@ class UrdfRewriter {
     } else if (IsAt({"robot", "link", "collision"})) {
       ++collisions_;
     } else if (IsAt({"robot", "joint", "origin"}) ||
-               IsAt({"robot", "link", "collision", "origin"})) {
+               IsAt({"robot", "link", "collision", "origin"}) ||
+               IsAt({"robot", "link", "visual", "origin"}) ||
+               IsAt({"robot", "link", "inertial", "origin"})) {
       RewriteOrientation(tag);
     } else if (IsOfCapsule()) {
       RewriteCapsule(tag);

@@ -54,6 +54,16 @@ TEST(UrdfVersions, QuaternionsOfOriginsCount) {
   }
 }
 
+TEST(UrdfVersions, NoOriginKeepsItsQuaternionInATextOf10) {
+  const std::string origin = "<origin quat_xyzw='0 0 0 1'/>";
+  const Urdf10 urdf =
+      ToUrdf10("<robot name='r' version='1.1'><link name='a'><inertial>" + origin +
+                   "</inertial><visual>" + origin + "</visual><collision>" + origin +
+                   "</collision></link><joint name='j'>" + origin + "</joint></robot>",
+               "r.urdf");
+  EXPECT_EQ(urdf.text.find("quat_xyzw"), std::string::npos) << urdf.text;
+}
+
 TEST(UrdfVersions, ACapsuleIsACylinderWithCaps) {
   const RobotModel model = RobotModel::FromUrdf(
       "<robot name='r' version='1.2'><link name='a'>"
