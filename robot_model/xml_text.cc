@@ -163,20 +163,44 @@ class TagChecker {
   std::set<std::string_view> xacro_prefixes_ = {"xacro"};
 };
 
+// The first of `any` from `at` on that is not between quotes; the text's end if there is none.
+std::size_t FindUnquoted(std::string_view text, std::size_t at, std::string_view any) {
+  for (char quote = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (any.find(c) != std::string_view::npos) {
+      break;
+    }
+  }
+  return at;
+}
+
+// Behind what begins at `at` with `begin`, a comment or the like, and ends with `end`.
+std::size_t EndOf(std::string_view text, std::size_t at, std::string_view begin,
+                  std::string_view end) {
+  const std::size_t found = text.find(end, at + begin.size());
+  return found == std::string_view::npos ? text.size() : found + end.size();
+}
+
 // Parsers read a declaration up to the first '>', which ends the first of its definitions.
 void RefuseDefinitions(std::string_view text, const std::string& origin) {
-  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at + 1)) {
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
     const std::string_view rest = text.substr(at);
     if (rest.starts_with("<!--")) {
-      at = std::min(text.find("-->", at), text.size() - 1);
+      at = EndOf(text, at, "<!--", "-->");
+    } else if (rest.starts_with("<?")) {
+      at = EndOf(text, at, "<?", "?>");
     } else if (rest.starts_with("<!DOCTYPE")) {
-      const std::size_t end = rest.find_first_of("[>");
-      if (end == std::string_view::npos || rest[end] == '>') return;
+      const std::size_t end = FindUnquoted(rest, 0, "[>");
+      if (end == rest.size() || rest[end] == '>') return;
       throw InputError(fmt::format(
           "{}:{}: <!DOCTYPE> holds definitions ([...]), which are not read; write their values "
           "where they are used, and leave them out",
           origin, 1 + std::ranges::count(text.substr(0, at), '\n')));
-    } else if (!rest.starts_with("<?")) {
+    } else {
       return;
     }
   }
@@ -222,32 +246,21 @@ std::optional<XmlTag> XmlTagReader::Next() {
     counted_ = at_;
     const std::string_view rest = text_.substr(at_);
     if (rest.starts_with("<!--")) {
-      Skip("-->");
+      at_ = EndOf(text_, at_, "<!--", "-->");
     } else if (rest.starts_with("<![CDATA[")) {
-      Skip("]]>");
-    } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
-      Skip(">");
+      at_ = EndOf(text_, at_, "<![CDATA[", "]]>");
+    } else if (rest.starts_with("<?")) {
+      at_ = EndOf(text_, at_, "<?", "?>");
+    } else if (rest.starts_with("<!")) {
+      at_ = EndOf(text_, at_, "<!", ">");
     } else {
       return Read();
     }
   }
 }
 
-void XmlTagReader::Skip(std::string_view end) {
-  at_ = text_.find(end, at_);
-  at_ = at_ == std::string_view::npos ? text_.size() : at_ + end.size();
-}
-
 XmlTag XmlTagReader::Read() {
-  std::size_t end = at_;
-  for (char quote = 0; end < text_.size() && (quote != 0 || text_[end] != '>'); ++end) {
-    const char c = text_[end];
-    if (quote != 0) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    }
-  }
+  const std::size_t end = FindUnquoted(text_, at_, ">");
   XmlTag tag;
   tag.text = text_.substr(at_, end - at_);
   tag.line = line_;

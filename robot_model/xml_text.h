@@ -37,7 +37,6 @@ class XmlTagReader {
   std::optional<XmlTag> Next();
 
  private:
-  void Skip(std::string_view end);
   XmlTag Read();
 
   std::string_view text_;
