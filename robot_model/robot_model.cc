@@ -171,7 +171,9 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
 
 std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
                         const std::vector<VirtualJoint>& others) {
-  if (model.FindJoint(joint.name) >= 0) {
+  const int same = model.FindJoint(joint.name);
+  if (same >= 0 && (joint.type != JointType::kFixed ||
+                    model.joints()[static_cast<std::size_t>(same)].type != JointType::kFixed)) {
     return fmt::format("'{}' is the name of a joint of the URDF", joint.name);
   }
   if (std::ranges::find(others, joint.name, &VirtualJoint::name) != others.end()) {

@@ -155,7 +155,8 @@ class RobotModel {
 };
 
 /// For messages: why a virtual joint cannot have its name, "" if it can. Problems give poses by
-/// name, so that it must not be that of a joint of the robot, or of one of `others`.
+/// name, so that it must not be that of a joint of the robot, unless both are fixed and have none
+/// to give, or of one of `others`.
 std::string FaultOfName(const VirtualJoint& joint, const RobotModel& model,
                         const std::vector<VirtualJoint>& others);
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/text.h"
 #include "robot_model/srdf_vocabulary.h"
 #include "robot_model/xml_text.h"
 
@@ -74,13 +75,26 @@ class SrdfReader {
   [[noreturn]] void Fail(const Element& element, const std::string& what) const {
     throw InputError(fmt::format("{}: <{}>: {}", Where(element), element.Name(), what));
   }
-  // Of a link or joint that the robot does not have.
-  [[noreturn]] void FailUnknown(const Element& element, const char* kind,
-                                const std::string& name) const {
-    Fail(element, fmt::format("the URDF of robot '{}' has no {} '{}'{}", model_.name(), kind, name,
-                              robot_name_ == model_.name()
-                                  ? ""
-                                  : fmt::format("; this is the SRDF of '{}'", robot_name_)));
+  // For messages: that the robot has no such link.
+  std::string NoLink(const std::string& name) const {
+    std::vector<std::string_view> known;
+    for (const Link& link : model_.links()) known.push_back(link.name);
+    return None("link", name, known);
+  }
+  // The same of a joint that neither the URDF nor the file itself has.
+  std::string NoJoint(const std::string& name) const {
+    std::vector<std::string_view> known;
+    for (const Joint& joint : model_.joints()) known.push_back(joint.name);
+    for (const VirtualJoint& joint : srdf_.virtual_joints) known.push_back(joint.name);
+    return None("joint", name, known);
+  }
+  std::string None(const char* kind, const std::string& name,
+                   const std::vector<std::string_view>& known) const {
+    const std::string nearest = NearestName(name, known);
+    return fmt::format(
+        "the URDF of robot '{}' has no {} '{}'{}{}", model_.name(), kind, name,
+        nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest),
+        robot_name_ == model_.name() ? "" : fmt::format("; this is the SRDF of '{}'", robot_name_));
   }
 
   static std::vector<const Element*> Children(const Element& parent, const char* name) {
@@ -112,16 +126,21 @@ class SrdfReader {
   int LinkAt(const Element& element, const char* attribute) const {
     const std::string name = Attribute(element, attribute);
     const int link = model_.FindLink(name);
-    if (link < 0) FailUnknown(element, "link", name);
+    if (link < 0) Fail(element, NoLink(name));
     return link;
   }
-  // Of a joint that the URDF or the file itself has.
-  std::string JointNameAt(const Element& element) const {
+  // Whether the URDF or the file itself has it.
+  bool HasJoint(const std::string& name) const {
+    return model_.FindJoint(name) >= 0 || FindVirtualJoint(name) != nullptr;
+  }
+  // The joint that an element names, unless there is none, so that it does not count, as in
+  // MoveIt: files are kept for robots with and without a hand.
+  std::optional<std::string> KnownJoint(const Element& element, const std::string& part_of) {
     const std::string name = Attribute(element, "name");
-    if (model_.FindJoint(name) < 0 && FindVirtualJoint(name) == nullptr) {
-      FailUnknown(element, "joint", name);
-    }
-    return name;
+    if (HasJoint(name)) return name;
+    srdf_.group_warnings.push_back(fmt::format("{}: {}<{}> does not count: {}", Where(element),
+                                               part_of, element.Name(), NoJoint(name)));
+    return std::nullopt;
   }
   const VirtualJoint* FindVirtualJoint(const std::string& name) const {
     const auto joint = std::ranges::find(srdf_.virtual_joints, name, &VirtualJoint::name);
@@ -137,7 +156,9 @@ class SrdfReader {
 
   // They stand beside groups, and in some files in them.
   void FindPassiveJoints(const Element& parent) {
-    for (const Element* e : Children(parent, "passive_joint")) passive_.insert(JointNameAt(*e));
+    for (const Element* e : Children(parent, "passive_joint")) {
+      if (const auto joint = KnownJoint(*e, "")) passive_.insert(*joint);
+    }
     for (const Element* group : Children(parent, "group")) FindPassiveJoints(*group);
   }
 
@@ -246,7 +267,8 @@ class SrdfReader {
     path.push_back(name);
     Members members;
     for (const Element* e : Children(group, "joint")) {
-      const std::string joint_name = JointNameAt(*e);
+      const std::string joint_name = Attribute(*e, "name");
+      if (!HasJoint(joint_name)) Fail(*e, NoJoint(joint_name));
       const int joint = model_.FindJoint(joint_name);
       if (joint >= 0) {
         members.joints.insert(joint);
@@ -391,9 +413,9 @@ class SrdfReader {
     }
     std::map<std::string, const Element*> values;  // By joint.
     for (const Element* e : Children(element, "joint")) {
-      const std::string joint_name = JointNameAt(*e);
-      if (!values.emplace(joint_name, e).second) {
-        Fail(*e, fmt::format("the state '{}' names the joint '{}' twice", name, joint_name));
+      const auto joint = KnownJoint(*e, fmt::format("state '{}': ", name));
+      if (joint && !values.emplace(*joint, e).second) {
+        Fail(*e, fmt::format("the state '{}' names the joint '{}' twice", name, *joint));
       }
     }
     const auto group = std::find_if(srdf_.groups.begin(), srdf_.groups.end(),

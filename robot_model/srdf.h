@@ -43,8 +43,8 @@ struct Srdf {
   /// or that cannot be as the file says.
   std::vector<std::string> warnings;
   /// What of the groups does not count although it was meant to, one line each: groups that name
-  /// nothing or cannot be planned with, planar and floating joints of groups; and joints that
-  /// states do not give.
+  /// nothing or cannot be planned with, planar and floating joints of groups; joints that states do
+  /// not give; and those of states, and passive ones, that neither the robot nor the file has.
   std::vector<std::string> group_warnings;
   /// Groups, joints of groups and states that planning has no use for, one line each.
   std::vector<std::string> left_out;
@@ -56,8 +56,8 @@ struct Srdf {
 std::string NoGroupFault(const Srdf& srdf, const std::string& origin);
 
 /// Reads SRDF text; `origin` names it. Throws InputError with file and line: for text that is no
-/// SRDF, for groups, states, passive joints, end effectors and spheres that name what the robot or
-/// the file does not have, and for names that occur twice.
+/// SRDF, for groups, end effectors and spheres that name what the robot or the file does not have,
+/// for states of no group, and for names that occur twice.
 Srdf ParseSrdf(const std::string& srdf_text, const std::string& origin, const RobotModel& model);
 
 }  // namespace planbench

@@ -260,6 +260,48 @@ TEST(ParseSrdf, StatesEffectorsAndVirtualJoints) {
   EXPECT_EQ(srdf.virtual_joints[0].type, JointType::kFloating);
 }
 
+TEST(ParseSrdf, UnknownJointsOfStatesAndPassiveOnesAreNamedAndDoNotCount) {
+  const Srdf srdf = Parse(R"(
+    <group name="left"><chain base_link="base" tip_link="l2"/></group>
+    <group name="none"/>
+    <passive_joint name="gripper"/><passive_joint name="lj2"/>
+    <group_state name="up" group="left"><joint name="left" value="0.3"/>
+      <joint name="lj1" value="1"/><joint name="gripper" value="wide"/></group_state>
+    <group_state name="up" group="none"><joint name="gripper" value="1"/></group_state>)");
+  EXPECT_THAT(srdf.groups.at(0).states, ElementsAre(Pair("up", ElementsAre(0.1, 1))));
+  EXPECT_THAT(srdf.group_warnings,
+              ElementsAre(HasSubstr("twin.srdf:5: <passive_joint> does not count: the URDF of "
+                                    "robot 'twin' has no joint 'gripper'"),
+                          HasSubstr("group 'none' is left out"),
+                          AllOf(HasSubstr("twin.srdf:6: state 'up': <joint> does not count"),
+                                HasSubstr("no joint 'left'; did you mean 'lift'?")),
+                          AllOf(HasSubstr("twin.srdf:7: state 'up'"), HasSubstr("'gripper'")),
+                          AllOf(HasSubstr("twin.srdf:6"), HasSubstr("defaults: lift at 0.1")),
+                          AllOf(HasSubstr("twin.srdf:8: state 'up'"), HasSubstr("'gripper'"))));
+}
+
+TEST(ParseSrdf, AFixedVirtualJointMayHaveTheNameOfAFixedOne) {
+  const Srdf srdf = Parse(
+      "<virtual_joint name='mount' type='fixed' parent_frame='world' child_link='base'/>"
+      "<group name='a'><joint name='mount'/><joint name='lift'/></group>");
+  EXPECT_EQ(srdf.virtual_joints.size(), 1u);
+  EXPECT_THAT(JointNames(srdf.groups.at(0)), ElementsAre("lift"));
+  EXPECT_THAT(srdf.warnings, IsEmpty());
+}
+
+TEST(ParseSrdf, XmlThatIsNoUsualOneIsRead) {
+  const Srdf srdf = ParseSrdf(
+      "\xEF\xBB\xBF<?xml version='1.0' encoding='UTF-8'?><?xml-model href='a<b' type=\"x>y<z>\"?>\n"
+      "<!----><!-- <group> - -> <!DOCTYPE robot [ --->\n"
+      "<!DOCTYPE robot PUBLIC '-//a[1]//EN' \"robot.dtd\">\n"
+      "<robot name = 'twin' xmlns:x='http://x' x:name='a > b'\n\txsi:schemaLocation=\"it's /\" >"
+      "<!--> <group> --><group name='a'><![CDATA[</robot> <b]]>it's > \"<joint name='lift' />"
+      "</group ></robot ><!-- <robot> -->\n",
+      "twin.srdf", Twin());
+  EXPECT_EQ(srdf.groups.size(), 1u);
+  EXPECT_THAT(srdf.warnings, IsEmpty());
+}
+
 TEST(ParseSrdf, PairsOfUnknownLinksAreNamedOnce) {
   const Srdf srdf = Parse(R"(
     <disable_collisions link1="l1" link2="base" reason="Never"/>
@@ -408,6 +450,9 @@ INSTANTIATE_TEST_SUITE_P(
         MalformedSrdf{"unknown_joint",
                       "<group name='a'>\n<joint name='knee'/></group>",
                       {":3", "no joint 'knee'"}},
+        MalformedSrdf{"misspelt_joint",
+                      "<group name='a'>\n<joint name='left'/></group>",
+                      {":3", "no joint 'left'; did you mean 'lift'?"}},
         MalformedSrdf{"unknown_tip",
                       "<group name='a'><chain base_link='base' tip_link='toe'/></group>",
                       {":2", "no link 'toe'"}},
@@ -433,14 +478,6 @@ INSTANTIATE_TEST_SUITE_P(
             "<group name='a'><joint name='lift'/></group>\n<group_state name='s' group='a'>"
             "<joint name='lift' value='high'/></group_state>",
             {":3", "value", "high"}},
-        MalformedSrdf{"state_of_no_joint",
-                      "<group name='a'><joint name='lift'/></group><group_state name='s' "
-                      "group='a'>\n<joint name='left' value='1'/></group_state>",
-                      {":3", "no joint 'left'"}},
-        MalformedSrdf{"state_of_a_left_out_group_of_no_joint",
-                      "<group name='a'/><group_state name='s' group='a'>\n"
-                      "<joint name='left' value='1'/></group_state>",
-                      {":3", "no joint 'left'"}},
         MalformedSrdf{"state_twice",
                       "<group name='a'><joint name='lift'/></group>"
                       "<group_state name='s' group='a'/>\n<group_state name='s' group='a'/>",
@@ -450,7 +487,6 @@ INSTANTIATE_TEST_SUITE_P(
                       "group='a'><joint name='lift' value='.2'/>\n<joint name='lift' "
                       "value='.3'/></group_state>",
                       {":3", "state 's'", "'lift' twice"}},
-        MalformedSrdf{"passive_joint", "\n<passive_joint name='left'/>", {":3", "no joint 'left'"}},
         MalformedSrdf{"virtual_joint_twice",
                       "<virtual_joint name='v' type='fixed' parent_frame='w' child_link='base'/>\n"
                       "<virtual_joint name='v' type='planar' parent_frame='w' child_link='base'/>",
@@ -459,6 +495,13 @@ INSTANTIATE_TEST_SUITE_P(
             "virtual_joint_of_the_urdf",
             "<virtual_joint name='lj1' type='planar' parent_frame='w' child_link='base'/>",
             {":2", "'lj1'", "joint of the URDF"}},
+        MalformedSrdf{
+            "planar_joint_of_the_urdf",
+            "<virtual_joint name='mount' type='planar' parent_frame='w' child_link='base'/>",
+            {":2", "'mount'", "joint of the URDF"}},
+        MalformedSrdf{"fixed_joint_that_the_urdf_moves",
+                      "<virtual_joint name='lj1' type='fixed' parent_frame='w' child_link='base'/>",
+                      {":2", "'lj1'", "joint of the URDF"}},
         MalformedSrdf{"sphere_of_no_link",
                       "<link_sphere_approximation link='toe'><sphere center='0 0 0' radius='1'/>"
                       "</link_sphere_approximation>",
