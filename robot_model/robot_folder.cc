@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using LinkPairs = std::vector<std::pair<int, int>>;
+
 // The file a field of robot.yaml names, relative to the folder.
 fs::path NamedFile(const fs::path& folder, const YamlNode& field) {
   fs::path path = folder / field.String();
@@ -134,17 +136,38 @@ void ReadCheckedPairs(const YamlNode& node, Robot* robot) {
   }
 }
 
+bool HoldsPair(const LinkPairs& pairs, int link_a, int link_b) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
+    return std::minmax(pair.first, pair.second) == std::minmax(link_a, link_b);
+  });
+}
+
+// What is checked for an SRDF's sake is part of the robot's identity: its text alone does not tell.
+void AddCheckedPairs(const LinkPairs& of_srdf, Robot* robot, ContentHash* hash) {
+  if (!of_srdf.empty()) hash->Add(std::string("checked_pairs"));
+  for (const auto& [a, b] : of_srdf) {
+    hash->Add(robot->model.links()[static_cast<std::size_t>(a)].name);
+    hash->Add(robot->model.links()[static_cast<std::size_t>(b)].name);
+    robot->checked_pairs.emplace_back(a, b);
+  }
+}
+
 // Groups, pairs, virtual joints and spheres: those of the SRDF, if there is one, and what
-// robot.yaml says itself.
-void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, ContentHash* hash) {
+// robot.yaml says itself. The result are the pairs that are checked only because the SRDF does not
+// disable them.
+LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot,
+                        ContentHash* hash) {
   const auto groups = root.Find("groups");
+  LinkPairs checked_by_srdf;
+  LinkPairs enabled;
   if (const auto file = root.Find("srdf")) {
     const fs::path path = NamedFile(folder, *file);
     const std::string text = ReadText(path);
     hash->Add(text);
     Srdf srdf = ParseSrdf(text, path.string(), robot->model);
     robot->allowed_pairs = std::move(srdf.disabled_pairs);
-    robot->checked_pairs = std::move(srdf.checked_pairs);
+    checked_by_srdf = std::move(srdf.checked_pairs);
+    enabled = std::move(srdf.enabled_pairs);
     robot->spheres = std::move(srdf.spheres);
     robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
     robot->virtual_joints = std::move(srdf.virtual_joints);
@@ -166,6 +189,39 @@ void ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot, C
     }
   }
   if (const auto pairs = root.Find("checked_pairs")) ReadCheckedPairs(*pairs, robot);
+  LinkPairs left = checked_by_srdf;
+  std::erase_if(left, [&](const auto& pair) {
+    const auto [a, b] = pair;
+    return HoldsPair(enabled, a, b) || HoldsPair(robot->checked_pairs, a, b) ||
+           robot->NeverChecks(a, b);
+  });
+  AddCheckedPairs(checked_by_srdf, robot, hash);
+  return left;
+}
+
+// Nothing else would tell that the SRDF has links checked that a joint connects.
+void WarnOfCheckedPairs(const YamlNode& srdf, const LinkPairs& left, Robot* robot) {
+  constexpr std::size_t kMostNamed = 5;
+  const auto has_body = [&](int link) {
+    return !robot->model.links()[static_cast<std::size_t>(link)].collision.empty() ||
+           std::ranges::find(robot->spheres, link, &LinkSphere::link) != robot->spheres.end();
+  };
+  std::vector<std::string> names;
+  for (const auto& [a, b] : left) {
+    if (!has_body(a) || !has_body(b)) continue;
+    names.push_back(fmt::format("{} and {}", robot->model.links()[static_cast<std::size_t>(a)].name,
+                                robot->model.links()[static_cast<std::size_t>(b)].name));
+  }
+  if (names.empty()) return;
+  if (names.size() > kMostNamed) {
+    const std::size_t more = names.size() - kMostNamed;
+    names.resize(kMostNamed);
+    names.push_back(fmt::format("{} more", more));
+  }
+  robot->warnings.push_back(fmt::format(
+      "{}: checked, though a joint connects them, as the SRDF does not disable them: {}; if that "
+      "is meant, name them in checked_pairs, otherwise in allowed_pairs",
+      srdf.Where(), fmt::join(names, "; ")));
 }
 
 // Links with a body in the URDF that no sphere is on, and that are not `meant` to have none:
@@ -298,12 +354,6 @@ void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
   }
 }
 
-bool HoldsPair(const std::vector<std::pair<int, int>>& pairs, int link_a, int link_b) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
-    return std::minmax(pair.first, pair.second) == std::minmax(link_a, link_b);
-  });
-}
-
 }  // namespace
 
 bool Robot::NeverChecks(int link_a, int link_b) const {
@@ -350,7 +400,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   const std::string urdf_text = ReadText(urdf_file);
   hash.Add(urdf_text);
   robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &robot.warnings);
-  ReadSemantics(root, folder, &robot, &hash);
+  const LinkPairs left = ReadSemantics(root, folder, &robot, &hash);
   const auto read_spheres = [&](const fs::path& file) {
     const std::string text = ReadText(file);
     hash.Add(text);
@@ -366,6 +416,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   } else if (const auto srdf = root.Find("srdf")) {
     WarnOfUncheckedLinks(root, srdf->Where(), &robot);
   }
+  if (const auto srdf = root.Find("srdf")) WarnOfCheckedPairs(*srdf, left, &robot);
   if (const auto named = root.Find("enclosing_spheres")) {
     robot.enclosing_spheres = read_spheres(NamedFile(folder, *named));
     const auto bare = LinksWithout(robot.enclosing_spheres, {}, robot.model);

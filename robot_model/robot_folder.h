@@ -52,8 +52,8 @@ namespace planbench {
 struct Robot {
   std::string name;
   std::filesystem::path folder;
-  std::string content_id;  ///< Content hash of robot.yaml, the URDF, the SRDF and both spheres:
-                           ///< equal robots, equal ids.
+  std::string content_id;  ///< Content hash of robot.yaml, the URDF, the SRDF and what it has
+                           ///< checked, and both spheres: equal robots, equal ids.
   RobotModel model;
   std::vector<PlanningGroup> groups;
   std::map<std::string, std::string> why_no_group;  ///< Srdf::why_no_group, if the groups are its.

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,6 +45,41 @@ TEST(LoadRobot, PairsThatAJointConnectsAreCheckedIfSrdfOrFolderSaysSo) {
         checks("<disable_collisions link1='base' link2='arm'/>", "checked_pairs: [[arm, base]]\n");
       },
       {"robot.yaml:4: checked_pairs[0]", "never checked"});
+}
+
+TEST(LoadRobot, PairsThatAnSrdfLeavesCheckedAreNamed) {
+  std::string urdf = "<robot name='row'><link name='frame'/>";
+  std::string from = "frame";
+  for (int i = 1; i <= 8; ++i) {
+    const std::string link = "l" + std::to_string(i);
+    urdf += "<link name='" + link +
+            "'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
+            "<joint name='j" +
+            link + "' type='continuous'><parent link='" + from + "'/><child link='" + link +
+            "'/></joint>";
+    from = link;
+  }
+  const TemporaryFolder folder;
+  folder.Write("row.urdf", urdf + "</robot>");
+  folder.Write("row.srdf",
+               "<robot name='row'><group name='all'><joint name='jl1'/></group>"
+               "<enable_collisions link1='l1' link2='l2'/>"
+               "<disable_collisions link1='l2' link2='l3'/></robot>");
+  const auto warnings = [&](const std::string& pairs) {
+    folder.Write("robot.yaml", "name: row\nurdf: row.urdf\nsrdf: row.srdf\n" + pairs);
+    return LoadRobot(folder.path()).warnings;
+  };
+  EXPECT_THAT(warnings(""), testing::ElementsAre(testing::AllOf(
+                                testing::HasSubstr("robot.yaml:3: srdf"),
+                                testing::HasSubstr(": l3 and l4; l4 and l5; l5 and l6; l6 and l7; "
+                                                   "l7 and l8; if that is meant"))));
+  EXPECT_THAT(warnings("checked_pairs: [[l4, l3], [l4, l5], [l5, l6]]\n"
+                       "allowed_pairs: [[l7, l6], [l7, l8]]\n"),
+              testing::IsEmpty());
+  folder.Write("row.srdf",
+               "<robot name='row'><group name='all'><joint name='jl1'/></group>"
+               "<disable_collisions link1='l1' link2='l3'/></robot>");
+  EXPECT_THAT(warnings(""), testing::ElementsAre(testing::HasSubstr("l5 and l6; 2 more; if")));
 }
 
 TEST(LoadRefereeRobot, ChecksThePairsThatThePlanningRobotChecks) {
