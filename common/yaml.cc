@@ -310,17 +310,27 @@ void YamlNode::Warn(const std::string& what) const {
 }
 
 std::optional<YAML::Node> YamlNode::FindIn(const YAML::Node& map, const std::string& key) const {
-  MergeOrder maps(map);
-  while (const std::optional<YAML::Node> next = maps.Next()) {
+  bool merges = false;
+  // By hand and not by map[key], which keeps silent about a key that occurs twice.
+  const auto find_own = [&](const YAML::Node& own) {
     std::optional<YAML::Node> value;
-    // By hand and not by map[key], which keeps silent about a key that occurs twice.
-    for (const auto& entry : *next) {
-      if (!entry.first.IsScalar() || IsMergeKey(entry.first)) continue;
-      if (entry.first.Scalar() != key) continue;
+    for (const auto& entry : own) {
+      if (IsMergeKey(entry.first)) {
+        merges = true;
+        continue;
+      }
+      if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
       if (value) Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
       value.emplace(entry.second);
     }
-    if (value) return value;
+    return value;
+  };
+  if (const std::optional<YAML::Node> value = find_own(map)) return value;
+  if (!merges) return std::nullopt;  // As in nearly all maps, which are looked into often.
+  MergeOrder maps(map);
+  maps.Next();  // The map itself.
+  while (const std::optional<YAML::Node> next = maps.Next()) {
+    if (const std::optional<YAML::Node> value = find_own(*next)) return value;
   }
   return std::nullopt;
 }
