@@ -36,11 +36,12 @@ int PairRules::LinkOf(const AttachedObject& attached) const {
 }
 
 bool PairRules::ChecksLinks(int link_a, int link_b) const {
-  if (robot_->NeverChecks(link_a, link_b)) return false;
+  const std::string& a = LinkName(link_a);
+  const std::string& b = LinkName(link_b);
   const AllowedCollisionMatrix& matrix = scene_->allowed_collisions;
-  const std::optional<bool> allowed = matrix.Entry(LinkName(link_a), LinkName(link_b));
-  if (allowed) return !*allowed;
-  return robot_->ChecksLinks(link_a, link_b) && !matrix.Allowed(LinkName(link_a), LinkName(link_b));
+  const std::optional<bool> allowed = matrix.Entry(a, b);
+  if (allowed) return !*allowed && !robot_->NeverChecks(link_a, link_b);
+  return !matrix.AllowedByDefault(a, b) && robot_->ChecksLinks(link_a, link_b);
 }
 
 bool PairRules::ChecksLinkWithObject(int link, const SceneObject& object) const {

@@ -47,6 +47,8 @@ class AllowedCollisionMatrix {
   /// What the explicit entry of two names says, nothing if there is none. A `false` has links
   /// checked that a joint connects, which are not by themselves (PairRules).
   std::optional<bool> Entry(const std::string& a, const std::string& b) const;
+  /// What the default entries say where there is no explicit one.
+  bool AllowedByDefault(const std::string& a, const std::string& b) const;
 
   /// Pairs in canonical order (first <= second).
   using Entries = std::map<std::pair<std::string, std::string>, bool>;
@@ -63,8 +65,6 @@ class AllowedCollisionMatrix {
   bool operator==(const AllowedCollisionMatrix&) const = default;
 
  private:
-  bool AllowedByDefault(const std::string& a, const std::string& b) const;
-
   Entries entries_;
   std::map<std::string, bool> default_entries_;
 };
