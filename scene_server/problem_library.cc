@@ -70,6 +70,18 @@ std::string Summary(const std::vector<std::string>& warnings) {
   return fmt::format("{} (and {} more)", warnings.front(), warnings.size() - 1);
 }
 
+/// With spheres for meshes, which go into a store on disk when they are sent.
+Scene WithoutMeshes(Scene scene) {
+  const auto replace = [](SceneObject* object) {
+    for (PlacedShape& placed : object->shapes) {
+      if (std::holds_alternative<Mesh>(placed.shape)) placed.shape = Sphere{1};
+    }
+  };
+  for (SceneObject& object : scene.objects) replace(&object);
+  for (AttachedObject& attached : scene.attached) replace(&attached.object);
+  return scene;
+}
+
 /// Throws InputError for what others would not take off the bus: they would wait for it in vain.
 template <typename Message>
 void RequireDeliverable(Message message, const std::string& channel, const fs::path& file) {
@@ -193,7 +205,8 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   const std::string& scene_id = served.message.scene_id;
   auto scene = scenes_.find(scene_id);
   if (scene == scenes_.end()) {
-    RequireDeliverable(SceneMessage{"", scene_id, true, "", problem.scene}, channel::kScene,
+    const Scene meshless = WithoutMeshes(problem.scene);
+    RequireDeliverable(SceneMessage{"", SceneId(meshless), true, "", meshless}, channel::kScene,
                        files.scene);
     scene =
         scenes_.emplace(scene_id, std::make_shared<const Scene>(std::move(problem.scene))).first;

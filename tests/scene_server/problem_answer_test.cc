@@ -223,6 +223,9 @@ TEST(ProblemSets, HaveTheIdOfWhatTheirFilesSay) {
   thing.shapes = {{shape, Eigen::Isometry3d::Identity()}};
   problem.scene.objects.push_back(thing);
   const std::string with_mesh = id(problem);
+  setenv("PLANBENCH_MESH_STORE", (file / "below").c_str(), 1);
+  EXPECT_EQ(id(problem), with_mesh) << "whether meshes can be stored or not";
+  unsetenv("PLANBENCH_MESH_STORE");
   folder.Write("problems/cans/thing.obj", "v -1 0 0\n" + rest);
   EXPECT_NE(id(problem), with_mesh);
 
