@@ -8,7 +8,6 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/numbers.h"
 
 namespace planbench {
 namespace {
@@ -111,9 +110,6 @@ std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std:
     return fmt::format(
         "is fixed; {} is a number of its origin, taken for where it was fixed, and does not count",
         position);
-  }
-  if (joint.type == JointType::kContinuous && std::abs(position) > 2 * kPi) {
-    return fmt::format("is at {} rad, {:.1f} turns; degrees?", position, position / (2 * kPi));
   }
   return std::nullopt;
 }

@@ -16,9 +16,8 @@ namespace planbench {
 std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
                                              double position);
 
-/// What is odd about a position that is taken all the same ("is at 90 rad, 14.3 turns; degrees?"),
-/// nothing if nothing is: a fixed joint's that its origin does not show along or about the axis of
-/// its description, and a continuous joint's that is more than one turn away from 0.
+/// What is odd about a position that is taken all the same, nothing if nothing is: a fixed joint's
+/// that its origin does not show along or about the axis of its description.
 std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std::string& name,
                                              double position);
 

@@ -89,6 +89,11 @@ double JointSpace::WithoutTurns(int j, double position) const {
   return has_turns ? WrapAngle(position) : position;
 }
 
+std::optional<std::string> JointSpace::FindTurnsDoubt(int j, double position) const {
+  if (!joint(j).continuous || std::abs(position) <= 2 * kPi) return std::nullopt;
+  return fmt::format("is at {} rad, {:.1f} turns; degrees?", position, position / (2 * kPi));
+}
+
 void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) const {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int j = 0; j < size(); ++j) {

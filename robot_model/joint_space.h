@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class JointSpace {
   /// `position` of joint j; of a continuous joint that is beyond half a turn, as far as turns can
   /// be told, in [-pi, pi) instead.
   double WithoutTurns(int j, double position) const;
+  /// What is odd about a position whose whole turns are taken out ("is at 90 rad, 14.3 turns;
+  /// degrees?"): a continuous joint's that is more than one turn away from 0. Else nothing.
+  std::optional<std::string> FindTurnsDoubt(int j, double position) const;
   /// Brings joints that may turn more than once round to the turn, within their limits, that is
   /// nearest to where they are at `to`.
   void ToNearestTurn(std::span<const double> to, std::span<double> q) const;

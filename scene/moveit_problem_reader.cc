@@ -25,9 +25,10 @@ YamlNode Unwrapped(const YamlNode& file, const char* field) {
   return file.At(field);
 }
 
-RobotStateFields OptionalState(const YamlNode& message, const char* field, const Robot& robot) {
+RobotStateFields OptionalState(const YamlNode& message, const char* field, const Robot& robot,
+                               const PlanningGroup& group) {
   const std::optional<YamlNode> state = message.Find(field);
-  return state ? ReadRobotState(*state, robot) : RobotStateFields();
+  return state ? ReadRobotState(*state, robot, group) : RobotStateFields();
 }
 
 void RequireRobot(const YamlNode& scene, const Robot& robot) {
@@ -194,8 +195,8 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   Problem problem;
   const PlanningGroup& group = ReadGroup(request, robot);
   problem.group = group.name;
-  const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot);
-  const RobotStateFields start_state = OptionalState(request, "start_state", robot);
+  const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot, group);
+  const RobotStateFields start_state = OptionalState(request, "start_state", robot, group);
   const RobotStateFields start = Overlaid(scene_state, start_state);
   const Stance at_start = ReadStart(request, robot.model, group, start, &problem.start);
   // Where a scene's things are is said with the robot in the scene's own state. What that leaves

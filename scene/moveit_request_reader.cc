@@ -131,7 +131,10 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
     }
     goal.tolerance_above = ReadTolerance(node, "tolerance_above");
     goal.tolerance_below = ReadTolerance(node, "tolerance_below");
-    if (group.space.Find(goal.joint) >= 0) {
+    if (const int j = group.space.Find(goal.joint); j >= 0) {
+      if (const auto doubt = group.space.FindTurnsDoubt(j, goal.position)) {
+        position.Warn("the joint '" + goal.joint + "' " + *doubt);
+      }
       goals.push_back(goal);
     } else {
       others.emplace_back(goal, name);

@@ -66,7 +66,8 @@ void ReadParts(const Joint& joint, const RobotModel& model, const std::vector<Ya
   }
 }
 
-void ReadJointState(const YamlNode& node, const RobotModel& model, RobotStateFields* fields) {
+void ReadJointState(const YamlNode& node, const RobotModel& model, const JointSpace& group,
+                    RobotStateFields* fields) {
   fields->frame = ReadFrame(node);
   const std::vector<YamlNode> names = OptionalElements(node, "name");
   const std::vector<YamlNode> positions = OptionalElements(node, "position");
@@ -82,9 +83,9 @@ void ReadJointState(const YamlNode& node, const RobotModel& model, RobotStateFie
     if (const auto fault = FindPositionFault(model, name, position)) {
       names[i].Fail("the joint '" + name + "' " + *fault);
     }
-    if (const auto doubt = FindPositionDoubt(model, name, position)) {
-      names[i].Warn("the joint '" + name + "' " + *doubt);
-    }
+    std::optional<std::string> doubt = FindPositionDoubt(model, name, position);
+    if (const int j = group.Find(name); j >= 0) doubt = group.FindTurnsDoubt(j, position);
+    if (doubt) names[i].Warn("the joint '" + name + "' " + *doubt);
     fields->joints.names.push_back(name);
     fields->joints.positions.push_back(position);
   }
@@ -273,10 +274,11 @@ std::vector<PlacedLink> OverlaidLinks(const std::vector<PlacedLink>& below,
 
 }  // namespace
 
-RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot) {
+RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot,
+                                const PlanningGroup& group) {
   RobotStateFields fields;
   if (const auto joint_state = robot_state.Find("joint_state")) {
-    ReadJointState(*joint_state, robot.model, &fields);
+    ReadJointState(*joint_state, robot.model, group.space, &fields);
   }
   if (const auto multi_dof = robot_state.Find("multi_dof_joint_state")) {
     ReadMultiDofState(*multi_dof, robot, &fields);

@@ -26,8 +26,10 @@ struct RobotStateFields {
 /// Throws InputError naming the line: names with another number of positions or transforms, joints
 /// that occur twice or that the robot does not have, positions and poses that a joint's type rules
 /// out (FindPositionFault, FindPoseFault), those of virtual joints too, rotations that are none,
-/// and poses in a frame that is not the joint's. Warns of positions in doubt (FindPositionDoubt).
-RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot);
+/// and poses in a frame that is not the joint's. Warns of positions in doubt (FindPositionDoubt),
+/// of the group's joints also for their turns (JointSpace::FindTurnsDoubt).
+RobotStateFields ReadRobotState(const YamlNode& robot_state, const Robot& robot,
+                                const PlanningGroup& group);
 
 /// `below` overlaid by `above`, which has the last word on the joints that it names. Throws
 /// InputError if both place the root link, but in different frames.

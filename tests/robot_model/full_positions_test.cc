@@ -111,15 +111,6 @@ TEST(FullPositions, TheAxisOfAFixedJointTellsWhereItWasFixed) {
   EXPECT_FALSE(is_taken("finger", 0.04));
 }
 
-TEST(FullPositions, AContinuousJointTurnedMoreThanOnceIsInDoubt) {
-  const RobotModel model = RobotModel::FromUrdf(
-      "<robot name='r'><link name='base'/><link name='l'/><joint name='roll' type='continuous'>"
-      "<parent link='base'/><child link='l'/></joint></robot>",
-      "r.urdf");
-  EXPECT_FALSE(FindPositionDoubt(model, "roll", -6.28));
-  EXPECT_EQ(FindPositionDoubt(model, "roll", 90), "is at 90 rad, 14.3 turns; degrees?");
-}
-
 TEST(FullPositions, APlanarJointStaysInItsPlane) {
   const RobotModel model = RobotModel::FromUrdf(
       "<robot name='r'><link name='base'/><link name='l'/><joint name='cart' type='planar'>"

@@ -145,6 +145,12 @@ TEST(JointSpace, WholeTurnsOfContinuousJointsAreTakenOut) {
   EXPECT_EQ(space.WithoutTurns(1, 7), 7);
 }
 
+TEST(JointSpace, AContinuousJointTurnedMoreThanOnceIsInDoubt) {
+  EXPECT_FALSE(Space().FindTurnsDoubt(2, -6.28));
+  EXPECT_EQ(Space().FindTurnsDoubt(2, 90), "is at 90 rad, 14.3 turns; degrees?");
+  EXPECT_FALSE(Space().FindTurnsDoubt(1, 90));
+}
+
 TEST(JointSpace, TellsTheLimitsThatHold) {
   const JointSpace space = Space();
   EXPECT_EQ(space.DescribeLimits(0), "[0, 0.4]");

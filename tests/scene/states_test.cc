@@ -302,14 +302,17 @@ TEST(ContinuousJoints, AreReadWithoutWholeTurns) {
 TEST(ContinuousJoints, OutsideTheGroupAreWhereTheyAreAtAnyTurn) {
   Robot robot = TextRobot();
   robot.groups = {robot.model.MakeGroup("arm", {"b_joint"}, "gripper_link")};
-  const auto read = [&](const std::string& goal) {
+  const auto read = [&](const std::string& goal, const std::string& start = "0.5") {
     return ParseProblem(
         YamlNode::Parse(kFullScene, "scene.yaml"),
-        YamlNode::Parse(Replaced(kFullRequest, "position: 1.5,", "position: " + goal + ","),
-                        "request.yaml"),
+        YamlNode::Parse(
+            Replaced(Replaced(kFullRequest, "position: 1.5,", "position: " + goal + ","),
+                     "position: [0.5, 1]", "position: [" + start + ", 1]"),
+            "request.yaml"),
         robot, {});
   };
-  EXPECT_NO_THROW(read("0.5"));
+  EXPECT_THAT(read("0.5").warnings, IsEmpty());
+  EXPECT_THAT(read("133.7", "133.7").warnings, IsEmpty()) << "a wheel that has rolled";
   EXPECT_NO_THROW(read("6.783185307179586"));
   ExpectInputError([&] { read("3.5"); }, {"'a_joint' is not in group 'arm' and stays at 0.5"});
 }
