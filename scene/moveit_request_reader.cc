@@ -217,8 +217,10 @@ std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request,
   const std::optional<YamlNode> node = motion_plan_request.Find("workspace_parameters");
   if (!node) return std::nullopt;
   const std::optional<Workspace> workspace = ReadCorners(*node, ReadFrame(*node));
-  if (workspace) frames.At(workspace->frame, FrameNode(*node));  // It must be known.
-  return workspace;
+  if (!workspace || frames.Find(workspace->frame) != nullptr) return workspace;
+  FrameNode(*node).Warn("unknown frame '" + workspace->frame +
+                        "'; the workspace, which is kept but not enforced, is left out");
+  return std::nullopt;
 }
 
 std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& frame) {

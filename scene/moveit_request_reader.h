@@ -31,8 +31,8 @@ std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const Robot
                                 const PlanningGroup& group, const std::vector<double>& start,
                                 const FrameTree& frames);
 
-/// workspace_parameters, if they are set. `frames` have the robot at the start; they must have the
-/// header's.
+/// workspace_parameters, if they are set. `frames` have the robot at the start; in a frame that
+/// they do not have it is left out, with a warning.
 std::optional<Workspace> ReadWorkspace(const YamlNode& motion_plan_request,
                                        const FrameTree& frames);
 /// min_corner and max_corner of `node`, in a frame; nothing if all are zero, which is unset.

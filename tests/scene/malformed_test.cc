@@ -316,8 +316,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "negative"},
         Mistake{"EmptyWorkspace", kRequest, "[1, 2, 3]", "[1, -2, 3]", "[1, -2, 3]",
                 "workspace_parameters.max_corner", "greater than min_corner"},
-        Mistake{"WorkspaceInAnUnknownFrame", kRequest, "frame_id: base_link", "frame_id: nowhere",
-                "nowhere", "workspace_parameters.header.frame_id", "unknown frame 'nowhere'"},
         Mistake{"WorkspaceLacksACorner", kRequest, "  max_corner: [1, 2, 3]\n", "",
                 "header: {frame_id: base_link}\n", "workspace_parameters",
                 "'max_corner' is missing"}),

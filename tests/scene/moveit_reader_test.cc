@@ -118,6 +118,16 @@ TEST(MoveItReader, ReadsEveryField) {
   EXPECT_EQ(problem.goal[1].tolerance_above, 0);
 }
 
+TEST(MoveItReader, AWorkspaceInAnUnknownFrameIsLeftOut) {
+  const Problem problem =
+      ParseProblem(kFullScene, Replaced(kFullRequest, "frame_id: base_link", "frame_id: nowhere"));
+  EXPECT_FALSE(problem.workspace);
+  EXPECT_THAT(problem.warnings, ElementsAre(testing::AllOf(
+                                    HasSubstr("workspace_parameters.header.frame_id: unknown frame "
+                                              "'nowhere'"),
+                                    HasSubstr("left out"))));
+}
+
 // Each pair of texts says the same in two dialects.
 struct Dialect {
   const char* name;
