@@ -38,7 +38,9 @@ Problem ParseProblem(const YamlNode& planning_scene, const YamlNode& motion_plan
                      const Robot& robot, const ResourceResolver& resources);
 
 /// Writes the pair; reading it again gives an equal problem (equal content id, start, goal,
-/// limits), and equal problems give equal bytes. Orientations as xyzw, numbers in the shortest form
+/// limits), and equal problems give equal bytes. What was not read must have, for that, an entry in
+/// the matrix for every two links among its names that a joint connects: files name all pairs, and
+/// "may not touch" there has such links checked. Orientations as xyzw, numbers in the shortest form
 /// that reads back exactly. Throws InputError for capsules and octomaps, which files have no form
 /// for here.
 void WriteProblem(const Problem& problem, const std::filesystem::path& scene_file,
