@@ -1,5 +1,6 @@
 #include "scene/frame_tree.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "common/text.h"
@@ -15,21 +16,6 @@ constexpr double kAgreement = 1e-6;
 
 bool Agree(const Isometry3d& a, const Isometry3d& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff() <= kAgreement;
-}
-
-// MoveIt goes by the robot's state alone, which has the planning frame at a virtual joint.
-void WarnOfPlacedRobot(const std::vector<FixedTransform>& transforms,
-                       const PlanningFrame& planning_frame, const RobotModel& model) {
-  const std::string& frame = planning_frame.name;
-  if (planning_frame.is_guessed || model.FindLink(frame) >= 0) return;
-  for (const FixedTransform& transform : transforms) {
-    if (transform.header != frame && transform.child != frame) continue;
-    const std::string& link = transform.header == frame ? transform.child : transform.header;
-    if (model.FindLink(link) < 0 || Agree(transform.X, Isometry3d::Identity())) continue;
-    transform.node.Warn("taken as the pose of the robot's link '" + link +
-                        "' in the planning frame '" + frame +
-                        "'; MoveIt passes it over, and goes by the robot's state");
-  }
 }
 
 }  // namespace
@@ -51,20 +37,21 @@ FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFra
   for (FixedTransform& transform : named) {
     if (transform.header.empty()) transform.header = planning_frame.name;
   }
+  const std::vector<OutwardFrame> outward = FollowOutwards(named, planning_frame);
   // What the file says comes before what the robot's description says, and that before what is
   // taken where neither says anything.
-  Follow(named, planning_frame);
+  Follow(named, outward);
   for (const PlacedLink& placed : stance.placed_links) {
     Place(placed, placed.frame.empty() ? planning_frame.name : placed.frame, robot.model);
   }
-  Follow(named, planning_frame);
+  Follow(named, outward);
   PlaceSurroundings(robot);
-  Follow(named, planning_frame);
+  Follow(named, outward);
   X_BF_.try_emplace(planning_frame.name, Isometry3d::Identity());
   X_BF_[""] = X_BF_.at(planning_frame.name);
-  Follow(named, planning_frame);
+  Follow(named, outward);
   CheckAgreement(named);
-  if (stance.placed_links.empty()) WarnOfPlacedRobot(named, planning_frame, robot.model);
+  if (stance.placed_links.empty()) WarnOfPlacedRobot(outward, robot.model);
 }
 
 void FrameTree::Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model) {
@@ -96,8 +83,38 @@ void FrameTree::MoveToBaseOf(const FrameTree& other, const std::string& still) {
   for (auto& [name, X] : X_BF_) X = X_OB * X;
 }
 
+std::vector<FrameTree::OutwardFrame> FrameTree::FollowOutwards(
+    const std::vector<FixedTransform>& transforms, const PlanningFrame& planning_frame) {
+  if (planning_frame.is_guessed) return {};
+  std::map<std::string, std::vector<const FixedTransform*>> touching;
+  for (const FixedTransform& transform : transforms) {
+    touching[transform.header].push_back(&transform);
+    touching[transform.child].push_back(&transform);
+  }
+  std::vector<OutwardFrame> reached = {{planning_frame.name, Isometry3d::Identity(), nullptr}};
+  std::set<std::string> seen = {planning_frame.name};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const OutwardFrame from = reached[i];  // Not a reference: they grow.
+    for (const FixedTransform* transform : touching[from.name]) {
+      const bool is_from_header = transform->header == from.name;
+      const std::string& other = is_from_header ? transform->child : transform->header;
+      if (seen.insert(other).second) {
+        reached.push_back({other, from.X_PF * transform->X, transform});
+      }
+    }
+  }
+  return reached;
+}
+
 void FrameTree::Follow(const std::vector<FixedTransform>& transforms,
-                       const PlanningFrame& planning_frame) {
+                       const std::vector<OutwardFrame>& outward) {
+  const auto known = std::find_if(outward.begin(), outward.end(), [&](const OutwardFrame& frame) {
+    return Find(frame.name) != nullptr;
+  });
+  if (known != outward.end()) {
+    const Isometry3d X_BP = *Find(known->name) * known->X_PF.inverse(Eigen::Isometry);
+    for (const OutwardFrame& frame : outward) X_BF_.try_emplace(frame.name, X_BP * frame.X_PF);
+  }
   for (bool progress = true; progress;) {
     progress = false;
     for (const FixedTransform& transform : transforms) {
@@ -105,13 +122,27 @@ void FrameTree::Follow(const std::vector<FixedTransform>& transforms,
       const Isometry3d* child = Find(transform.child);
       if ((header == nullptr) == (child == nullptr)) continue;
       const std::string& unknown = header == nullptr ? transform.header : transform.child;
-      const bool is_of_the_known = unknown == planning_frame.name && !planning_frame.is_guessed;
-      const Isometry3d X = is_of_the_known ? transform.X.inverse(Eigen::Isometry) : transform.X;
-      const Isometry3d X_BF = (header == nullptr ? *child : *header) * X;
+      const Isometry3d X_BF = (header == nullptr ? *child : *header) * transform.X;
       X_BF_[unknown] = X_BF;
       progress = true;
     }
   }
+}
+
+// MoveIt goes by the robot's state alone, which has the planning frame at a virtual joint.
+void FrameTree::WarnOfPlacedRobot(const std::vector<OutwardFrame>& outward,
+                                  const RobotModel& model) const {
+  const auto link = std::find_if(outward.begin(), outward.end(), [&](const OutwardFrame& frame) {
+    return model.FindLink(frame.name) >= 0;
+  });
+  if (link == outward.end() || link == outward.begin()) return;
+  const std::string& planning_frame = outward.front().name;
+  if (Agree(X_BF_.at(planning_frame), Isometry3d::Identity())) return;
+  const FixedTransform& last = *link->last;
+  const std::string& from = last.header == link->name ? last.child : last.header;
+  last.node.Warn("taken as the pose of the robot's link '" + link->name + "' in the frame '" +
+                 from + "', which places the robot in the planning frame '" + planning_frame +
+                 "'; MoveIt passes it over, and goes by the robot's state");
 }
 
 void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) const {
@@ -181,28 +212,26 @@ const Isometry3d* FrameTree::Find(const std::string& name) const {
   return found == X_BF_.end() ? nullptr : &found->second;
 }
 
-const FrameTree::PlacedObjectFrame* FrameTree::UseOfObject(const std::string& name,
-                                                           const YamlNode& node) const {
+const FrameTree::PlacedObjectFrame* FrameTree::UseOfObject(const std::string& name) const {
   const PlacedObjectFrame* frame = FindOfObject(name);
   if (frame != nullptr && frame->disputed_pose) {
-    node.Warn("is a frame of the object '" + frame->id +
-              "', taken where its pose puts it; MoveIt " +
-              "takes a pose of nothing but w: 1 for none, and the pose of the one shape for it (" +
-              frame->disputed_pose->Where() + ")");
+    frame->disputed_pose->Warn("puts the frame of the object '" + frame->id +
+                               "', which others are in; MoveIt takes a pose of nothing but w: 1 "
+                               "for none, and the pose of the one shape for it");
+    frame->disputed_pose.reset();
   }
   return frame;
 }
 
-std::optional<FrameTree::InLink> FrameTree::OfObject(const std::string& name,
-                                                     const YamlNode& node) const {
-  const PlacedObjectFrame* frame = UseOfObject(name, node);
+std::optional<FrameTree::InLink> FrameTree::OfObject(const std::string& name) const {
+  const PlacedObjectFrame* frame = UseOfObject(name);
   if (frame == nullptr) return std::nullopt;
   const std::string& link = objects_.at(frame->id).link;
   return InLink{link, PoseOf(link).inverse(Eigen::Isometry) * frame->X_BF};
 }
 
 const Isometry3d& FrameTree::At(const std::string& name, const YamlNode& node) const {
-  if (const PlacedObjectFrame* frame = UseOfObject(name, node)) return frame->X_BF;
+  if (const PlacedObjectFrame* frame = UseOfObject(name)) return frame->X_BF;
   if (const Isometry3d* X_BF = Find(name)) return *X_BF;
   std::vector<std::string_view> known;
   for (const auto& [frame, X_BF] : X_BF_) known.push_back(frame);

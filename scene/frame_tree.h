@@ -54,14 +54,14 @@ struct ObjectFrame {
 /// stance: the robot's links, its surroundings, the planning frame (also named ""), fixed frames,
 /// objects and their subframes.
 ///
-/// Of a fixed transform between the planning frame and another, the numbers are the pose of the
-/// other in the planning frame, whichever of the two the header names. That is what MoveIt means,
-/// which writes the planning frame as the child, and what tf means, where it is the header. So one
-/// with a link of the robot says where the robot stands; MoveIt passes such over, hence a warning.
-/// Of any other between a frame that is known and one that is not, the numbers are the pose of the
-/// latter in the former. Chains are followed. The parent frame of a virtual joint is where the
-/// stance has its child link in it, by default at the child link. The planning frame, if all that
-/// does not lead to it, is at the root link.
+/// Chains of fixed transforms are followed outwards from the planning frame, if it is not guessed:
+/// of each the numbers are the pose of the frame that is further out in the other one, whichever of
+/// the two the header names. That is what MoveIt means, which writes the planning frame as the
+/// child, and what tf means, where it is the header. So a chain to a link of the robot says where
+/// the robot stands; MoveIt passes such over, hence a warning. Transforms that no chain joins to
+/// the planning frame are followed outwards from the robot. The parent frame of a virtual joint is
+/// where the stance has its child link in it, by default at the child link. The planning frame, if
+/// all that does not lead to it, is at the root link.
 ///
 /// An object's frame comes before a fixed one of that name, as in MoveIt.
 class FrameTree {
@@ -91,8 +91,8 @@ class FrameTree {
 
   /// X_BF of a frame, null if it is unknown. A leading slash in `name` does not count.
   const Eigen::Isometry3d* Find(const std::string& name) const;
-  /// The same for who uses it, at `node`: throws InputError there for an unknown one, and warns of
-  /// one that MoveIt would have elsewhere.
+  /// The same for who uses it, at `node`: throws InputError there for an unknown one. Warns of one
+  /// that MoveIt would have elsewhere, at the pose that is disputed.
   const Eigen::Isometry3d& At(const std::string& name, const YamlNode& node) const;
 
   /// A frame of an object, in that of the link it moves with ("" for the base frame).
@@ -101,9 +101,15 @@ class FrameTree {
     Eigen::Isometry3d X_LF;
   };
   /// Nothing if no object has a frame of that name. Warns as At does.
-  std::optional<InLink> OfObject(const std::string& name, const YamlNode& node) const;
+  std::optional<InLink> OfObject(const std::string& name) const;
 
  private:
+  // A frame that transforms join to the planning frame P.
+  struct OutwardFrame {
+    std::string name;
+    Eigen::Isometry3d X_PF;
+    const FixedTransform* last;  // Which leads there; null for P itself.
+  };
   struct ObjectFrames {
     std::string link;  // "" for the base frame.
     std::vector<ObjectFrame> frames;
@@ -111,21 +117,27 @@ class FrameTree {
   struct PlacedObjectFrame {
     std::string id;  // Of the object.
     Eigen::Isometry3d X_BF;
-    std::optional<YamlNode> disputed_pose;
+    mutable std::optional<YamlNode> disputed_pose;  // Until it is warned of.
   };
 
   // Places the frame that a state gives the pose of a link in.
   void Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model);
   // Places the parent frames of virtual joints that are not known by now.
   void PlaceSurroundings(const Robot& robot);
-  // Follows the transforms from known frames to unknown ones, as far as they go.
-  void Follow(const std::vector<FixedTransform>& transforms, const PlanningFrame& planning_frame);
+  // P, and what transforms join to it, the nearest first; nothing for a guess.
+  static std::vector<OutwardFrame> FollowOutwards(const std::vector<FixedTransform>& transforms,
+                                                  const PlanningFrame& planning_frame);
+  // Places what is joined to P, if any of it is known, by the nearest that is; then follows the
+  // transforms from known frames to unknown ones, as far as they go.
+  void Follow(const std::vector<FixedTransform>& transforms,
+              const std::vector<OutwardFrame>& outward);
+  void WarnOfPlacedRobot(const std::vector<OutwardFrame>& outward, const RobotModel& model) const;
   void CheckAgreement(const std::vector<FixedTransform>& transforms) const;
   Eigen::Isometry3d PoseOf(const std::string& link) const;  // X_BL; "" is the base frame.
   // Null if no object has a frame of that name.
   const PlacedObjectFrame* FindOfObject(const std::string& name) const;
-  // The same for who uses it, at `node`.
-  const PlacedObjectFrame* UseOfObject(const std::string& name, const YamlNode& node) const;
+  // The same for who uses it.
+  const PlacedObjectFrame* UseOfObject(const std::string& name) const;
 
   std::set<std::string> not_of_objects_;           // Names that no object takes.
   std::map<std::string, Eigen::Isometry3d> X_BF_;  // But for those of objects.

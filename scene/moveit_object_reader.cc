@@ -201,11 +201,12 @@ std::vector<ObjectFrame> ReadFrames(const YamlNode& node, const SceneObject& obj
     const Eigen::Isometry3d& X_OS = object.shapes.front().X_FS;
     if (!HasPose(node)) {
       X_WF = object.X_WO * X_OS;
-    } else if (MoveItPassesOver(node.At("pose")) && !X_OS.matrix().isIdentity()) {
+    } else if (!X_OS.matrix().isIdentity() && MoveItPassesOver(node.At("pose"))) {
       disputed_pose.emplace(node.At("pose"));
     }
   }
-  std::vector<ObjectFrame> frames = {{object.id, X_WF, node.At("id"), disputed_pose}};
+  const std::string name = WithoutSlash(object.id);  // As frames are asked for.
+  std::vector<ObjectFrame> frames = {{name, X_WF, node.At("id"), disputed_pose}};
   const std::vector<YamlNode> names = OptionalElements(node, "subframe_names");
   const std::vector<YamlNode> poses = OptionalElements(node, "subframe_poses");
   if (names.size() != poses.size()) {
@@ -214,7 +215,7 @@ std::vector<ObjectFrame> ReadFrames(const YamlNode& node, const SceneObject& obj
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     frames.push_back(
-        {object.id + "/" + ReadName(names[i]), X_WF * ReadPose(poses[i]), names[i], disputed_pose});
+        {name + "/" + ReadName(names[i]), X_WF * ReadPose(poses[i]), names[i], disputed_pose});
   }
   return frames;
 }

@@ -153,7 +153,7 @@ FrameTree::InLink ReadConstrainedFrame(const YamlNode& node, const RobotModel& m
                                        const FrameTree& frames) {
   const std::string name = WithoutSlash(node.String());
   if (model.FindLink(name) >= 0) return {name, Eigen::Isometry3d::Identity()};
-  const std::optional<FrameTree::InLink> of_object = frames.OfObject(name, node);
+  const std::optional<FrameTree::InLink> of_object = frames.OfObject(name);
   if (!of_object) {
     node.Fail("the robot has no link '" + name +
               "', nor is an object of that frame attached to it");

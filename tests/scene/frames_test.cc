@@ -11,7 +11,6 @@ namespace planbench {
 namespace {
 
 using Eigen::Vector3d;
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -170,7 +169,8 @@ TEST(Frames, ATransformOfALinkSaysWhereTheRobotStandsInThePlanningFrame) {
     EXPECT_THAT(ParseProblem(BallIn("map", map + robot), kBallRequest).warnings,
                 ElementsAre(HasSubstr(
                     "scene.yaml:4: fixed_frame_transforms[1]: taken as the pose of the robot's "
-                    "link 'base_link' in the planning frame 'map'; MoveIt passes it over")));
+                    "link 'base_link' in the frame 'map', which places the robot in the planning "
+                    "frame 'map'; MoveIt passes it over")));
   }
   ExpectAt(Ball(BallIn("", kTransforms + Transform("", "base_link", "0, 7, 0"))), 1, -7, 0);
   ExpectAt(Ball(BallIn("map", map + Transform("gripper_link", "map", "0, 0, 5"))), 0, 2, -5);
@@ -181,6 +181,35 @@ TEST(Frames, ATransformOfALinkSaysWhereTheRobotStandsInThePlanningFrame) {
         BallIn("map", map + Transform("base_link", "map", "0, 0, 0"))}) {
     EXPECT_THAT(ParseProblem(scene, kBallRequest).warnings, IsEmpty());
   }
+}
+
+// Whether tf has a frame in between or not.
+TEST(Frames, ChainsAreFollowedOutwardsFromThePlanningFrame) {
+  const std::string map = kTransforms + Transform("map", "map", "0, 0, 0");
+  const std::string odom = Transform("map", "odom", "0, 0, 0");
+  const std::string robot = Transform("odom", "base_link", "0, 7, 0");
+  for (const std::string& chain : {odom + robot, robot + odom}) {
+    ExpectAt(Ball(BallIn("map", map + chain)), 1, -7, 0);
+    ExpectAt(Ball(BallIn("odom", map + chain)), 1, -7, 0);
+    ExpectAt(Ball(BallIn("base_link", map + chain)), 1, 0, 0);
+    ExpectAt(Ball(BallIn("lens", map + chain + Transform("odom", "camera", "0, 7, 0") +
+                                     Transform("camera", "lens", "0, 0, 3"))),
+             1, 0, 3);
+    EXPECT_THAT(ParseProblem(BallIn("map", map + chain), kBallRequest).warnings,
+                ElementsAre(HasSubstr("link 'base_link' in the frame 'odom', which places the "
+                                      "robot in the planning frame 'map'")));
+  }
+  const std::string turned =
+      Transform("map", "odom", "5, 0, 0", kQuarter) + Transform("odom", "base_link", "0, 7, 0");
+  ExpectAt(Ball(BallIn("map", map + turned)), 0, -3, 0);  // The base is at (-2, 0, 0), turned.
+  // Where the robot's state joins the chain.
+  const std::string joint = "robot_state:\n" + RootAt("odom", "0, 7, 0");
+  ExpectAt(Ball(BallIn("map", joint + map + Transform("map", "odom", "0, 0, 3"))), 1, -7, -3);
+  // From a link below the planning frame.
+  ExpectAt(Ball(BallIn("lens", kTransforms + Transform("base_link", "base_link", "0, 0, 0") +
+                                   Transform("base_link", "camera", "0, 2, 0") +
+                                   Transform("lens", "camera", "0, 0, 3"))),
+           1, 2, 3);
 }
 
 TEST(Frames, AVirtualJointPlacesTheRobot) {
@@ -293,6 +322,16 @@ TEST(Frames, OfObjectsHaveNamesOfTheirOwn) {
          "[1].subframe_names[0]", "the object 'table/edge' has a frame 'table/edge' already");
 }
 
+TEST(Frames, OfObjectsWhoseNamesBeginWithASlash) {
+  const auto ball = [](const std::string& frame) {
+    return PlaceOf(
+        ParseProblem(Replaced(WithTable(BallIn(frame)), "id: table", "id: /table"), kBallRequest)
+            .scene.objects.at(1));
+  };
+  for (const char* frame : {"table", "/table"}) ExpectAt(ball(frame), 1, 0, 1);
+  for (const char* frame : {"table/edge", "/table/edge"}) ExpectAt(ball(frame), 1, 2, 1);
+}
+
 TEST(Frames, OfObjectsComeBeforeFixedOnesOfTheirName) {
   const std::string fixed = kTransforms + Transform("table", "base_link", "0, 0, 5");
   const std::string scene = Replaced(WithTable(BallIn("table", fixed)),
@@ -300,7 +339,7 @@ TEST(Frames, OfObjectsComeBeforeFixedOnesOfTheirName) {
   ExpectAt(PlaceOf(ParseProblem(scene, kBallRequest).scene.objects.at(1)), 1, 0, 6);
 }
 
-TEST(Frames, ThatMoveItHasElsewhereAreNamedWhereTheyAreUsed) {
+TEST(Frames, ThatMoveItHasElsewhereAreNamedWhereTheyArePutIfTheyAreUsed) {
   const auto with_pose = [](const std::string& frame, const std::string& orientation) {
     return ParseProblem(
         Replaced(WithTable(BallIn(frame)), "{position: [0, 0, 1], orientation: [0, 0, 0, 1]}",
@@ -308,15 +347,21 @@ TEST(Frames, ThatMoveItHasElsewhereAreNamedWhereTheyAreUsed) {
         kBallRequest);
   };
   for (const char* frame : {"table", "table/edge"}) {
-    EXPECT_THAT(
-        with_pose(frame, "{x: 0, y: 0, z: 0, w: 1}").warnings,
-        ElementsAre(AllOf(HasSubstr("scene.yaml:12: world.collision_objects[1].header.frame_id: "
-                                    "is a frame of the object 'table'"),
-                          HasSubstr("(scene.yaml:6: world.collision_objects[0].pose)"))));
+    EXPECT_THAT(with_pose(frame, "{x: 0, y: 0, z: 0, w: 1}").warnings,
+                ElementsAre(HasSubstr(
+                    "scene.yaml:6: world.collision_objects[0].pose: puts the frame of the "
+                    "object 'table', which others are in")));
     EXPECT_THAT(with_pose(frame, "[0, 0, 0, 0]").warnings, IsEmpty()) << "none for MoveIt, too";
     EXPECT_THAT(with_pose(frame, "[0, 0, 0.6, 0.8]").warnings, IsEmpty());
   }
   EXPECT_THAT(with_pose("base_link", "[0, 0, 0, 1]").warnings, IsEmpty());
+  const std::string used_twice =
+      Replaced(Replaced(WithTable(BallIn("table")), "position: [0, 0, 1]", "position: [0, 0, 0]"),
+               "    - id: ball",
+               "    - {id: can, header: {frame_id: table/edge}, primitives: [{type: sphere, "
+               "dimensions: [1]}], primitive_poses: [{position: [0, 0, 0], orientation: [0, 0, 0, "
+               "1]}]}\n    - id: ball");
+  EXPECT_EQ(ParseProblem(used_twice, kBallRequest).warnings.size(), 1u);
   ExpectAt(PlaceOf(with_pose("table", "[0, 0, 0, 1]").scene.objects.at(1)), 1, 0, 0);
 }
 
