@@ -98,6 +98,7 @@ TEST_F(RoundTrip, TextThatYamlWouldTakeForSomethingElse) {
   robot.model = RobotModel::FromUrdf(kUrdf, "text.urdf");
   robot.groups = {robot.model.MakeGroup("true", {"null"}, "yes")};
   problem.scene.world_frame = "no";
+  problem.workspace->frame = "no";
   problem.group = "true";
   problem.start = {{"null", "~"}, {0.5, 0}};
   problem.goal = {{.joint = "null", .position = 1}};

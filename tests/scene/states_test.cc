@@ -199,7 +199,7 @@ TEST(StartState, PartsOfAPoseAreHeldToWhatAPoseIsHeldTo) {
   EXPECT_NEAR(position(rounded, "drive/rot_w"), std::sqrt(0.5), 1e-12);
 
   ExpectInputError([&] { state("drive/rot_w, drive/rot_z", "2, 2"); },
-                   {"joint_state.name[1]: the rotation of joint 'drive' is no unit quaternion "
+                   {"joint_state.name[2]: the rotation of joint 'drive' is no unit quaternion "
                     "(length 2.828427)"});
   ExpectInputError([&] { state("drive/trans_x", "1e300"); },
                    {"joint_state.name[1]: is beyond 1000000000 m"});

@@ -129,9 +129,9 @@ TEST(ProblemAnswer, WhatPlannersCouldNotTakeOffTheBusIsRefused) {
   TinyWorld world;
   world.folder().Write("problems/cans/scene0002.yaml", R"(robot_model_name: tiny
 fixed_frame_transforms:
-  - {header: {frame_id: "a\x09b"}, child_frame_id: base_link,
+  - {header: {frame_id: 'a\tb'}, child_frame_id: base_link,
      transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}
-  - {header: {frame_id: "a	b"}, child_frame_id: base_link,
+  - {header: {frame_id: "a\tb"}, child_frame_id: base_link,
      transform: {translation: [0, 0, 0], rotation: [0, 0, 0, 1]}}
 )");
   const ProblemAnswer answer = world.service().AnswerProblem({"id", "cans", 2});
