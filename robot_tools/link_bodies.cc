@@ -65,8 +65,8 @@ void RemarkSurface(const std::string& link, const Mesh& mesh, int filled, const 
                     survey.not_oriented, survey.components));
   }
   if (survey.volume < 0) say("is turned inside out: what it encloses counts as its inside");
-  const TriangleMesh& surface = mesh.triangles;
-  const auto& [vertices, triangles] = surface;
+  const auto& vertices = mesh.triangles->vertices;
+  const auto& triangles = mesh.triangles->triangles;
   const auto flat = std::ranges::count_if(triangles, [&](const auto& triangle) {
     const auto corner = [&](std::size_t i) -> const Vector3d& { return vertices[triangle[i]]; };
     return (corner(1) - corner(0)).cross(corner(2) - corner(0)).isZero(0);
