@@ -21,7 +21,7 @@
 #include "common/version.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
-#include "results/reproduce.h"
+#include "results/entrants.h"
 #include "results/training.h"
 
 namespace planbench {

@@ -13,6 +13,7 @@
 
 #include "benchmark_driver/driver_flags.h"
 #include "common/error.h"
+#include "results/entrants.h"
 #include "results/reproduce.h"
 #include "results/shards.h"
 
@@ -28,17 +29,6 @@ std::vector<std::string> SplitAt(char separator, const std::string& text) {
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
   return parts;
-}
-
-/// "ara=auto rrtc=forward" by planner.
-std::map<std::string, Directions> ParseEntrants(const std::string& text) {
-  std::map<std::string, Directions> directions;
-  for (const std::string& entrant : SplitAt(' ', text)) {
-    const std::size_t equals = std::min(entrant.find('='), entrant.size() - 1);
-    const auto direction = ParseEnum<Directions>(entrant.substr(equals + 1));
-    if (direction) directions[entrant.substr(0, equals)] = *direction;
-  }
-  return directions;
 }
 
 /// Sets that the session was to run and that are served as they were then; nothing if one is not.
@@ -84,7 +74,7 @@ std::vector<ScheduledRun> PlanOf(const SessionMessage& session, const ProblemSet
     if (node.kind == NodeKind::kPlanner) planners[node.name] = node;
   }
   // The conditions have the contestants of before, too.
-  const auto asked = ParseEntrants(flags.at(kEntrants));
+  const AskedDirections asked = ParseEntrants(flags.at(kEntrants));
   std::vector<Entrant> entrants;
   for (const Contestant& contestant : session.conditions.contestants) {
     const auto own = asked.find(contestant.planner);
@@ -174,7 +164,7 @@ void AddEarlier(const std::vector<SessionMessage>& earlier, SessionConditions* c
 
 Flags FlagsOfResumed(const Flags& before, Flags now, PlanScope scope,
                      const std::vector<std::string>& sets) {
-  if (scope == PlanScope::kAll || before.empty() || now.empty()) return now;
+  if (before.empty() || now.empty()) return now;
   // A session that was merged of shards may be given further ones, and keeps those it has.
   std::set<std::string> shards = ShardsOf(before);
   const std::size_t num_held = shards.size();
@@ -182,7 +172,7 @@ Flags FlagsOfResumed(const Flags& before, Flags now, PlanScope scope,
   const bool adds_shard = num_held > 0 && shards.size() > num_held;
   if (scope == PlanScope::kPart && !adds_shard) {
     now = before;
-  } else {
+  } else if (scope != PlanScope::kAll) {
     now[kMergedCommands] = JoinCommands({ReproducingCommand(before), ReproducingCommand(now)});
     now[kSetsFlag] = fmt::format("{}", fmt::join(sets, ","));
     if (num_held > 0) {
@@ -190,7 +180,11 @@ Flags FlagsOfResumed(const Flags& before, Flags now, PlanScope scope,
       now[kShardFlag] = JoinShards(shards);
     }
   }
-  now.erase(kMergedParts);  // what was merged, not what went on with it
+  // What was merged is not what went on with it, which holds it all the same.
+  now.erase(kMergedParts);
+  for (const char* parts : {kHeldParts, kMergedParts}) {
+    if (const auto held = before.find(parts); held != before.end()) now[kHeldParts] = held->second;
+  }
   return now;
 }
 

@@ -7,21 +7,9 @@
 #include <vector>
 
 #include "messaging/messages.h"
+#include "results/entrants.h"
 
 namespace planbench {
-
-/// In which directions a contestant is asked to search.
-enum class Directions {
-  kAuto,  ///< Forward; then backward if that failed, unless it searches from both ends at once.
-  kForward,
-  kBackward,
-  kBoth,
-};
-template <>
-struct EnumNames<Directions> {
-  static constexpr auto kNames =
-      std::to_array<std::string_view>({"auto", "forward", "backward", "both"});
-};
 
 /// A contestant, how it is started, and which runs it makes.
 struct LineUpEntry {

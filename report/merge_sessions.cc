@@ -27,6 +27,7 @@
 #include "messaging/session_conditions.h"
 #include "report/session_shares.h"
 #include "results/bus_json.h"
+#include "results/entrants.h"
 #include "results/reproduce.h"
 #include "results/shards.h"
 #include "results/shell_quoted.h"

@@ -59,10 +59,12 @@ void SessionShares::Add(const std::vector<SessionMessage>& told, const std::stri
 
 std::set<std::string> SessionShares::MergedRunIds(const std::map<std::string, std::string>& flags) {
   std::set<std::string> run_ids;
-  const auto parts = flags.find(kMergedParts);
-  if (parts == flags.end()) return run_ids;
-  for (const auto& [id, share] : Parse(parts->second)) {
-    if (!id.starts_with(std::string(kAfter) + " ")) run_ids.insert(id);
+  for (const char* setting : {kMergedParts, kHeldParts}) {
+    const auto parts = flags.find(setting);
+    if (parts == flags.end()) continue;
+    for (const auto& [id, share] : Parse(parts->second)) {
+      if (!id.starts_with(std::string(kAfter) + " ")) run_ids.insert(id);
+    }
   }
   return run_ids;
 }

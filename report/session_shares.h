@@ -23,7 +23,8 @@ class SessionShares {
   /// Of all, as in run.json.
   std::string bus() const;
 
-  /// Of a session's flags: the run ids of those that it was merged of; none if it was not. Throws
+  /// Of a session's flags: the run ids of those that it was merged of, before it was resumed
+  /// if it was. Throws
   /// InputError if they do not tell of its parts as Text does.
   static std::set<std::string> MergedRunIds(const std::map<std::string, std::string>& flags);
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/reproduce.h"
+#include "results/entrants.h"
 
 namespace planbench {
 namespace {
@@ -31,16 +31,13 @@ std::string PlannerOf(const std::string& request_id) {
   return begin == std::string::npos ? "" : request_id.substr(begin + 1, end - begin);
 }
 
-/// Whether the other direction is made besides this attempt. `entrants`: kEntrants, between blanks.
-bool NeedsOther(const StoredRun& run, const std::string& entrants) {
-  const std::string planner = " " + PlannerOf(run.request_id) + "=";
-  const auto is_asked = [&](const char* directions) {
-    return entrants.find(planner + directions + " ") != std::string::npos;
-  };
-  if (is_asked("both")) return !run.confirmed();
+/// Whether the other direction is made besides this attempt.
+bool NeedsOther(const StoredRun& run, const AskedDirections& asked) {
+  const std::string planner = PlannerOf(run.request_id);
+  if (IsAsked(asked, planner, Directions::kBoth)) return !run.confirmed();
   // Backward is asked only after forward, unless that claimed a path or could not be made at all.
-  return is_asked("auto") && run.direction == Direction::kForward && !run.claimed &&
-         run.roundtrip_time_s > 0;
+  return IsAsked(asked, planner, Directions::kAuto) && run.direction == Direction::kForward &&
+         !run.claimed && run.roundtrip_time_s > 0;
 }
 
 }  // namespace
@@ -50,13 +47,13 @@ int LeaveOutAwaiting(StoredSession* session) {
       session->finished && static_cast<int>(session->runs.size()) >= session->num_runs;
   const auto setting = session->flags.find(kEntrants);
   if (session->imported || complete || setting == session->flags.end()) return 0;
-  const std::string entrants = " " + setting->second + " ";
+  const AskedDirections asked = ParseEntrants(setting->second);
   std::set<AttemptKey> made;
   for (const StoredRun& run : session->runs) made.insert(KeyOf(run, run.direction));
   const auto num_left_out = std::erase_if(session->runs, [&](const StoredRun& run) {
     const Direction other =
         run.direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
-    return NeedsOther(run, entrants) && !made.contains(KeyOf(run, other));
+    return NeedsOther(run, asked) && !made.contains(KeyOf(run, other));
   });
   return static_cast<int>(num_left_out);
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "results/entrants.h"
 #include "results/recorded_flags.h"
 #include "results/shell_quoted.h"
 
@@ -35,8 +36,8 @@ std::vector<std::string> SplitCommands(const std::string& joined) {
 }  // namespace
 
 bool IsFlag(std::string_view setting) {
-  return setting != kMergedCommands && setting != kMergedParts && setting != kEntrants &&
-         setting != kAskedShard;
+  const auto others = {kMergedCommands, kMergedParts, kHeldParts, kEntrants, kAskedShard};
+  return std::find(others.begin(), others.end(), setting) == others.end();
 }
 
 std::string ReproducingCommand(const std::map<std::string, std::string>& flags) {

@@ -15,9 +15,8 @@ inline constexpr char kMergedCommands[] = "merged";
 /// Among them too: what the parts took and lost (report/session_shares.h).
 inline constexpr char kMergedParts[] = "merged_parts";
 
-/// Among them too: the planners that were asked, and in which directions: "ara=auto rrtc=forward".
-/// Whose backward search is not asked for stands as forward, not as auto.
-inline constexpr char kEntrants[] = "entrants";
+/// Among them too, of a merged session that was resumed: the kMergedParts that it had.
+inline constexpr char kHeldParts[] = "held_parts";
 
 /// Among them too, where a session that is resumed holds others beside it (results/shards.h): which
 /// shard was asked for, "" for the whole.

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "results/entrants.h"
 #include "results/reproduce.h"
 #include "tests/benchmark_driver/driver_fixture.h"
 
@@ -204,7 +205,7 @@ TEST_F(OtherFlagsTest, AMergedSessionIsGivenShardsUntilItHasAll) {
   std::erase_if(earlier_.runs, is_second_trial);
   told_.settings["shard"] = "1/4, 2/4";
   told_.settings[kMergedCommands] = "one && two";
-  told_.settings[kMergedParts] = "{}";
+  told_.settings[kMergedParts] = R"({"part": {"total_time_s": 1, "bus": ""}})";
   told_.finished = false;
   told_.num_runs = 5;
   earlier_.sessions = {told_};
@@ -219,6 +220,8 @@ TEST_F(OtherFlagsTest, AMergedSessionIsGivenShardsUntilItHasAll) {
     EXPECT_FALSE(told_.finished);
     EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4");
     EXPECT_EQ(command_, "one && two && " + call);
+    EXPECT_FALSE(told_.settings.contains(kMergedParts));
+    EXPECT_THAT(told_.settings[kHeldParts], testing::HasSubstr("part"));
     std::erase_if(earlier_.runs, is_second_trial);  // as if it had been interrupted
   }
   // Nothing is known of what was to be made, but the shards that there are.

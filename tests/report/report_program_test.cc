@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <utility>
 
 #include "common/exit_codes.h"
 #include "common/read_text.h"
@@ -87,6 +88,11 @@ TEST_F(ReportProgramTest, ASessionIsNotComparedWithItself) {
     EXPECT_EQ(Run({first, second, "--out", Path("page.html")}), kExitBadInput);
     EXPECT_THAT(errors_, HasSubstr(first + " and " + second + " hold the same session, example,"));
   }
+  // Or that went on after it had been merged.
+  merged.settings["held_parts"] = std::exchange(merged.settings["merged_parts"], "{}");
+  WriteSession(folder_ / "resumed", {{.contestant = "A"}}, merged);
+  EXPECT_EQ(Run({Path("example"), Path("resumed"), "--out", Path("page.html")}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr(" hold the same session, example,"));
   merged.settings["merged_parts"] = "both";
   WriteSession(folder_ / "odd", {{.contestant = "A"}}, merged);
   EXPECT_EQ(Run({Path("odd"), "--out", Path("page.html")}), kExitBadInput);
