@@ -2,6 +2,7 @@
 
 #include "common/file_kind.h"
 #include "logger/session_recorder.h"
+#include "messaging/event_log_files.h"
 #include "messaging/event_log_reader.h"
 
 namespace planbench {
@@ -10,6 +11,7 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   if (!IsFile(event_log)) {
     throw InputError(event_log.string() + ": there is no such event log");
   }
+  EventLogFiles(event_log);  // complete, before a folder is made
   Contradictions contradictions;
   SessionRecorder recorder(
       options.out, options.resume, options.name, [](const std::string&, const AckMessage&) {},

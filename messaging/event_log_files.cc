@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,8 @@
 #include <system_error>
 
 #include "common/error.h"
+#include "common/file_kind.h"
+#include "common/read_text.h"
 
 namespace planbench {
 
@@ -27,6 +30,16 @@ std::optional<int> NumberAfter(const std::string& first_name, const std::string&
   return number;
 }
 
+/// How many files the log of a session folder has, as its run.json tells; 0 if that tells nothing.
+/// A logger that was killed may have begun more.
+std::size_t NumFilesTold(const fs::path& run_json) {
+  if (!IsFile(run_json)) return 0;
+  const auto told = nlohmann::json::parse(ReadText(run_json), nullptr, false);
+  if (!told.is_object()) return 0;
+  const auto number = told.find("event_log_files");
+  return number != told.end() && number->is_number_unsigned() ? number->get<std::size_t>() : 0;
+}
+
 }  // namespace
 
 fs::path EventLogFile(const fs::path& event_log, int number) {
@@ -38,11 +51,13 @@ std::vector<fs::path> EventLogFiles(const fs::path& event_log) {
   if (base.extension() == ".00") base.replace_extension();
   const fs::path folder = base.has_parent_path() ? base.parent_path() : fs::path(".");
   std::set<int> numbers;
+  std::set<fs::path> logs;
   std::error_code ignored;  // a folder that cannot be listed may hold a file that can be read
   fs::directory_iterator entry(folder, ignored);
   for (; !ignored && entry != fs::directory_iterator(); entry.increment(ignored)) {
     const auto number = NumberAfter(base.filename().string(), entry->path().filename().string());
     if (number) numbers.insert(*number);
+    if (entry->path().extension() == ".lcmlog") logs.insert(entry->path().filename());
   }
   std::vector<fs::path> files = {event_log};
   for (const int number : numbers) {
@@ -52,6 +67,14 @@ std::vector<fs::path> EventLogFiles(const fs::path& event_log) {
       throw InputError(fmt::format("{} is missing between the files of the event log {}",
                                    expected.string(), event_log.string()));
     }
+  }
+  // Of several logs in the folder it is not known of which run.json tells.
+  if (logs != std::set<fs::path>{event_log.filename()}) return files;
+  const fs::path run_json = folder / "run.json";
+  if (const std::size_t num_told = NumFilesTold(run_json); files.size() < num_told) {
+    throw InputError(fmt::format("{} is missing: the event log {} has {} files, as {} tells",
+                                 EventLogFile(base, static_cast<int>(files.size())).string(),
+                                 event_log.string(), num_told, run_json.string()));
   }
   return files;
 }

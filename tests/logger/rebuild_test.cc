@@ -84,6 +84,12 @@ TEST_F(RebuildTest, WhatCannotBeStoredIsAFailure) {
 TEST_F(RebuildTest, BadUseMakesNoFolder) {
   ExpectInputError([&] { RebuildSession(temporary_ / "none.lcmlog", Options()); },
                    {"none.lcmlog", "no such event log"});
+  const auto log = Live(
+      {Received(channel::kSession, SampleSession()), Received(channel::kRunRecord, SampleRecord()),
+       Received(channel::kRunRecord, UnansweredRecord())},
+      1);
+  std::filesystem::remove(log.string() + ".02");
+  ExpectInputError([&] { RebuildSession(log, Options()); }, {"live.lcmlog.02 is missing"});
   EXPECT_FALSE(std::filesystem::exists(temporary_ / "rebuilt"));
 }
 

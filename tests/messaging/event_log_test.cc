@@ -158,6 +158,34 @@ TEST(EventLog, ASplitLogIsReadAsOne) {
   ExpectInputError([&] { read(folder / "a.lcmlog.00"); }, {"a.lcmlog.03 is missing"});
 }
 
+TEST(EventLog, AFileThatIsMissingAtTheEndIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  const auto num_files = [&] { return EventLogFiles(file).size(); };
+  {
+    EventLog log(file, EventLog::Mode::kNew, 1);
+    for (int i = 0; i < 4; ++i) log.Write(Message("A", "data", i));
+  }
+  // A logger that was killed may have begun more than it told of.
+  for (const char* told : {R"({"event_log_files": 4})", R"({"event_log_files": 3})", "{}", "[",
+                           R"({"event_log_files": "many"})", R"({"event_log_files": -1})"}) {
+    folder.Write("run.json", told);
+    EXPECT_EQ(num_files(), 4) << told;
+  }
+  folder.Write("run.json", R"({"event_log_files": 4})");
+  std::filesystem::remove(folder / "a.lcmlog.03");
+  const std::vector<std::string> said = {"a.lcmlog.03 is missing", "has 4 files",
+                                         (folder / "run.json").string()};
+  ExpectInputError([&] { ReadEventLog(file, [](const ReceivedMessage&) {}); }, said);
+  ExpectInputError([&] { EventLog(file, EventLog::Mode::kAppend); }, said);
+  std::filesystem::remove(folder / "a.lcmlog.02");
+  ExpectInputError([&] { num_files(); }, {"a.lcmlog.02 is missing"});
+  // run.json does not tell of a part by itself, nor of which log among several.
+  EXPECT_EQ(EventLogFiles(folder / "a.lcmlog.01").size(), 1);
+  folder.Write("whole.lcmlog", "");
+  EXPECT_EQ(num_files(), 2);
+}
+
 TEST(EventLog, NeverOverwrites) {
   const TemporaryFolder folder;
   folder.Write("a.lcmlog", "precious");
