@@ -320,9 +320,10 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
       "Faster, slower: problems that the first solved faster, or alone, and the other way round. "
       "Time ratio: geometric mean of first / second over the problems that both solved, with "
       "Student's 95 % interval of the logarithms' mean (six problems at least). p: Wilcoxon's "
-      "signed-rank test of the logarithms, two-sided, problems that only one solved included; "
-      "beside it adjusted for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 "
-      "if the first is always faster, 1 if always slower; ties have the lowest ranks and no side.",
+      "signed-rank test of the logarithms, two-sided, problems that only one solved included and "
+      "ties left out; beside it adjusted for all pairs of the set (Holm). Effect: rank-biserial "
+      "correlation, -1 if the first is always faster, 1 if always slower; here ties count, with "
+      "the lowest ranks and no side.",
       {{"set", "set"},
        {"first", "first"},
        {"second", "second"},

@@ -13,8 +13,9 @@ struct SignedRankTest {
   double negative = 0;
   double p_value = 1;  ///< Two-sided.
   /// Effect size: matched-pairs rank-biserial correlation (Kerby 2014), from -1 (every difference
-  /// is negative) to 1; 0 if there are none. Differences of zero have the lowest ranks and no side
-  /// (Pratt 1959), so that few differences among many ties are a small effect.
+  /// is negative) to 1; 0 if there are none. Differences of zero, other than in the p-value, have
+  /// the lowest ranks and no side (Pratt 1959): over the sum of all ranks, theirs included, so that
+  /// few differences among many ties are a small effect.
   double rank_biserial = 0;
 };
 

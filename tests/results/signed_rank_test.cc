@@ -154,6 +154,17 @@ TEST(SignedRankTestTest, TiesHaveTheLowestRanksAndNoSide) {
   EXPECT_NEAR(TestSignedRanks({0, 0, -1, 2, -3}).rank_biserial, (4 - 3 - 5) / 15.0, 1e-12);
 }
 
+TEST(SignedRankTestTest, PValuesLeaveTiesOutAndEffectsCountThem) {
+  for (const int n : {8, kExactDifferences + 10}) {
+    std::vector<double> differences = Signed(n, n / 2);
+    const SignedRankTest without = TestSignedRanks(differences);
+    differences.resize(differences.size() + 20, 0.0);
+    const SignedRankTest with = TestSignedRanks(differences);
+    EXPECT_EQ(with.p_value, without.p_value) << n;
+    EXPECT_LT(with.rank_biserial, without.rank_biserial) << n;
+  }
+}
+
 TEST(FewestDifferencesTest, AreThoseThatCanBeRejected) {
   for (const std::size_t num_tests : {1u, 2u, 10u, 45u}) {
     const int fewest = FewestDifferences(kTestLevel, num_tests);
