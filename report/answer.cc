@@ -77,18 +77,56 @@ int NumCommonProblems(const ComparedSessions& compared) {
   return common.empty() ? 0 : static_cast<int>(common.begin()->second.by_problem.size());
 }
 
+constexpr std::size_t kMostNamed = 4;
+
+/// "A, B and 3 more"
+std::string Named(const std::vector<std::string>& names) {
+  const std::size_t num_named = std::min(names.size(), kMostNamed);
+  return fmt::format(
+      "{}{}",
+      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(num_named), ", "),
+      names.size() > num_named ? fmt::format(" and {} more", names.size() - num_named) : "");
+}
+
+/// Those that rank as `name` does, itself included, as they are called.
+std::vector<std::string> RankAlike(const ComparedSessions& compared, const std::string& name) {
+  const int rank = ContestantCalled(compared, name).rank;
+  std::vector<std::string> alike;
+  for (const ComparedContestant& one : compared.contestants()) {
+    if (one.rank == rank) alike.push_back(Called(compared, one.name));
+  }
+  return alike;
+}
+
+/// "A, B and C", or as Named
+std::string Enumerated(std::vector<std::string> names) {
+  if (names.size() < 2 || names.size() > kMostNamed + 1) return Named(names);
+  const std::string last = std::move(names.back());
+  names.pop_back();
+  return Named(names) + " and " + last;
+}
+
+/// The beginning of the sentence on the first of several: "Of 3 contestants A ranks first by
+/// penalised mean time: it"
+std::string WhoRanksFirst(const ComparedSessions& compared, const char* rule) {
+  const std::string& leader = compared.contestants().front().name;
+  const std::size_t num = compared.contestants().size();
+  const std::vector<std::string> alike = RankAlike(compared, leader);
+  if (alike.size() == 1) {
+    return fmt::format("Of {} contestants {} ranks first by {}: it", num, alike.front(), rule);
+  }
+  return fmt::format("Of {} contestants {} rank alike{} by {}: {}", num, Enumerated(alike),
+                     alike.size() < num ? ", before all others," : "", rule, alike.front());
+}
+
 std::string WhoIsBest(const ComparedSessions& compared) {
   const std::string& leader = compared.contestants().front().name;
   const Outcomes& outcomes = compared.pooled_common().at(leader);
-  const auto num_contestants = compared.contestants().size();
   const char* rule = std::isnan(SummarizeTimes(outcomes).penalised_mean_s)
                          ? "the share solved, as time limits are not known"
                          : "penalised mean time";
-  const std::string called = Called(compared, leader);
-  const std::string begin = num_contestants == 1
-                                ? called
-                                : fmt::format("Of {} contestants {} ranks first by {}: it",
-                                              num_contestants, called, rule);
+  const std::string begin =
+      compared.contestants().size() == 1 ? Called(compared, leader) : WhoRanksFirst(compared, rule);
   return fmt::format("{} solved {}{}, over {}{} of {}.", begin, SolvedShare(outcomes),
                      MedianTime(outcomes), TriedDifferentProblems(compared) ? "the " : "",
                      Count(NumCommonProblems(compared), "problem"),
@@ -97,8 +135,17 @@ std::string WhoIsBest(const ComparedSessions& compared) {
 }
 
 std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next) {
-  std::string text = fmt::format("The next, {}, solved {}", Called(compared, next.second),
-                                 SolvedShare(compared.pooled_common().at(next.second)));
+  const std::string called = Called(compared, next.second);
+  const std::vector<std::string> alike = RankAlike(compared, next.second);
+  std::string text;
+  if (ContestantCalled(compared, next.second).rank == compared.contestants().front().rank) {
+    text = called;
+  } else if (alike.size() == 1) {
+    text = fmt::format("The next, {},", called);
+  } else {
+    text = fmt::format("The next, {}, rank alike: {}", Enumerated(alike), called);
+  }
+  text += " solved " + SolvedShare(compared.pooled_common().at(next.second));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
     text += fmt::format(" and took {} times as long on the {} that both solved (geometric mean",
@@ -119,14 +166,25 @@ std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next
   return text + ".";
 }
 
-/// "A, B and 3 more"
-std::string Named(const std::vector<std::string>& names) {
-  constexpr std::size_t kMostNamed = 4;
-  const std::size_t num_named = std::min(names.size(), kMostNamed);
-  return fmt::format(
-      "{}{}",
-      fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(num_named), ", "),
-      names.size() > num_named ? fmt::format(" and {} more", names.size() - num_named) : "");
+/// In how many sets a contestant ranks first, and in how many of these others rank alike.
+std::pair<int, int> SetsLed(const ComparedSessions& compared, const std::string& name) {
+  int num_first = 0, num_shared = 0;
+  for (const auto& set : compared.outcomes()) {
+    const std::map<std::string, Outcomes> by_contestant = OnCommonProblems(set.second);
+    const auto own = by_contestant.find(name);
+    if (own == by_contestant.end() || own->second.by_problem.empty()) continue;
+    const RankKey key = RankKeyOf(own->second);
+    bool is_first = true, is_shared = false;
+    for (const auto& [other, outcomes] : by_contestant) {
+      if (other == name) continue;
+      const RankKey of_other = RankKeyOf(outcomes);
+      is_first = is_first && key <= of_other;
+      is_shared = is_shared || key == of_other;
+    }
+    num_first += is_first;
+    num_shared += is_first && is_shared;
+  }
+  return {num_first, num_shared};
 }
 
 /// `num_tests`: those that the p-values are adjusted for.
@@ -171,18 +229,10 @@ std::string HowSure(const ComparedSessions& compared,
     }
   }
   if (compared.outcomes().size() > 1) {
-    const auto leads = [&](const auto& set) {
-      const std::map<std::string, Outcomes> by_contestant = OnCommonProblems(set.second);
-      const auto own = by_contestant.find(leader);
-      return own != by_contestant.end() && !own->second.by_problem.empty() &&
-             std::none_of(by_contestant.begin(), by_contestant.end(), [&](const auto& other) {
-               return SummarizeTimes(other.second).penalised_mean_s <
-                      SummarizeTimes(own->second).penalised_mean_s;
-             });
-    };
-    const auto& sets = compared.outcomes();
-    text += fmt::format("; it ranks first in {} of the {} sets",
-                        std::count_if(sets.begin(), sets.end(), leads), sets.size());
+    const auto [num_first, num_shared] = SetsLed(compared, leader);
+    text +=
+        fmt::format("; it ranks first in {} of the {} sets", num_first, compared.outcomes().size());
+    if (num_shared > 0) text += fmt::format(", in {} of them with others alike", num_shared);
   }
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
@@ -120,6 +121,15 @@ bool ComparedContestant::IsTrainedOn(const std::string& problem_set) const {
   });
 }
 
+RankKey RankKeyOf(const Outcomes& outcomes) {
+  const auto without_rounding = [](double value) {
+    return std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr);
+  };
+  const double penalised_mean_s = SummarizeTimes(outcomes).penalised_mean_s;
+  if (!std::isnan(penalised_mean_s)) return {without_rounding(penalised_mean_s), 0};
+  return {kInfinity, -without_rounding(SummarizeSuccess(outcomes).share)};
+}
+
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant) {
   Attempt attempt;
   attempt.problem_set = run.problem_set;
@@ -142,7 +152,7 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
   for (std::size_t s = 0; s < sessions_.size(); ++s) {
     const std::size_t first = contestants_.size();
     for (const StoredContestant& one : sessions_[s].contestants) {
-      contestants_.push_back({"", one.name, one.settings, s, {}});
+      contestants_.push_back({"", one.name, one.settings, s, 0, {}});
     }
     for (const StoredRun& run : sessions_[s].runs) {
       contestants_[first + run.contestant].runs.push_back(&run);
@@ -170,15 +180,19 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
   pooled_ = PoolSets(outcomes_);
   common_ = CommonOutcomes(outcomes_, pooled_.size());
   pooled_common_ = PoolSets(common_);
-  std::map<std::string, std::pair<double, double>> ranks;  // The least first.
+  std::map<std::string, RankKey> keys;
   for (const auto& [name, outcomes] : common_.empty() ? pooled_ : pooled_common_) {
-    const double penalised_mean_s = SummarizeTimes(outcomes).penalised_mean_s;
-    ranks[name] = {std::isnan(penalised_mean_s) ? kInfinity : penalised_mean_s,
-                   -SummarizeSuccess(outcomes).share};
+    keys[name] = RankKeyOf(outcomes);
   }
-  std::stable_sort(contestants_.begin(), contestants_.end(), [&](const auto& a, const auto& b) {
-    return ranks.at(a.name) < ranks.at(b.name);
-  });
+  const auto is_better = [&](const auto& a, const auto& b) {
+    return keys.at(a.name) < keys.at(b.name);
+  };
+  std::stable_sort(contestants_.begin(), contestants_.end(), is_better);
+  if (common_.empty()) return;
+  for (std::size_t i = 0; i < contestants_.size(); ++i) {
+    const bool is_alike = i > 0 && !is_better(contestants_[i - 1], contestants_[i]);
+    contestants_[i].rank = is_alike ? contestants_[i - 1].rank : static_cast<int>(i) + 1;
+  }
 }
 
 std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,

@@ -17,11 +17,20 @@ struct ComparedContestant {
   std::string own_name;  ///< In its session.
   std::string settings;
   std::size_t session = 0;
+  /// From 1, of equal RankKeys alike: 1, 1, 3. 0 if nobody ranks, there being no problem that all
+  /// contestants tried.
+  int rank = 0;
   std::vector<const StoredRun*> runs;  ///< In the order of the database.
 
   /// Whether it has learned from problems of the set (training.h).
   bool IsTrainedOn(const std::string& problem_set) const;
 };
+
+/// What contestants rank by on problems that they all tried, the best least: penalised mean time,
+/// s, and 0; where it is not known, infinity and the share solved, negative. What differs by no
+/// more than the rounding of a sum is equal.
+using RankKey = std::pair<double, double>;
+RankKey RankKeyOf(const Outcomes& outcomes);
 
 /// A run as the comparison knows it.
 Attempt AttemptOf(const StoredRun& run, const std::string& contestant);
@@ -40,8 +49,9 @@ class ComparedSessions {
   /// Sets that have the name of an earlier session's, and other scenes: what they stand as.
   const std::vector<std::string>& other_sets() const { return other_sets_; }
   /// By penalised mean time over the problems that all of them tried, the best first; those of
-  /// which it is not known last, by the share of these that they solved. If there is no such
-  /// problem, by the same of what each tried, which ranks nobody.
+  /// which it is not known last, by the share of these that they solved; those that rank alike in
+  /// the order of their sessions. If there is no such problem, by the same of what each tried,
+  /// which ranks nobody.
   const std::vector<ComparedContestant>& contestants() const { return contestants_; }
   /// Those that are in nothing else here, as none of their runs counts: with that of the session if
   /// there are several.

@@ -171,6 +171,48 @@ TEST_F(ReportTest, TooFewProblemsAreNoSignOfEquality) {
               StartsWith("Problem by problem A is faster than each of the 2 others"));
 }
 
+TEST_F(ReportTest, EqualsAreToldToRankAlike) {
+  // Times of A, B, C and so on, in s.
+  const auto answer_of = [](const std::vector<double>& times_s) {
+    std::vector<MadeRun> runs;
+    for (int problem = 1; problem <= 10; ++problem) {
+      for (std::size_t i = 0; i < times_s.size(); ++i) {
+        runs.push_back({.contestant = std::string(1, static_cast<char>('A' + i)),
+                        .problem = problem,
+                        .time_s = times_s[i]});
+      }
+    }
+    const ComparedSessions compared = Read(runs);
+    return Answer(compared, ComparePairs(compared));
+  };
+  using testing::StartsWith;
+  const std::vector<std::string> both = answer_of({1, 1});
+  EXPECT_THAT(both.at(0), StartsWith("Of 2 contestants A and B rank alike by penalised mean time: "
+                                     "A solved 100.0 %"));
+  EXPECT_THAT(both.at(1), StartsWith("B solved 100.0 %"));
+  EXPECT_THAT(
+      answer_of({1, 2, 1}).at(0),
+      StartsWith("Of 3 contestants A and C rank alike, before all others, by penalised mean "
+                 "time: A solved"));
+  EXPECT_THAT(answer_of({1, 1, 1, 1, 1, 1}).at(0),
+              StartsWith("Of 6 contestants A, B, C, D and 2 more rank alike by"));
+  const std::vector<std::string> next = answer_of({2, 1, 2});
+  EXPECT_THAT(next.at(0), StartsWith("Of 3 contestants B ranks first by penalised mean time: it"));
+  EXPECT_THAT(next.at(1), StartsWith("The next, A and C, rank alike: A solved"));
+}
+
+TEST_F(ReportTest, SetsInWhichOthersRankAlikeAreCounted) {
+  std::vector<MadeRun> runs;
+  for (const char* set : {"shelf", "table"}) {
+    runs.push_back({.contestant = "A", .set = set});
+    runs.push_back({.contestant = "B", .set = set, .time_s = set == runs[0].set ? 1.0 : 2.0});
+  }
+  const ComparedSessions compared = Read(runs);
+  EXPECT_THAT(Answer(compared, ComparePairs(compared)).at(2),
+              testing::HasSubstr("; it ranks first in 2 of the 2 sets, in 1 of them with others "
+                                 "alike; "));
+}
+
 TEST_F(ReportTest, WhoTriedOtherProblemsRanksByTheCommonOnes) {
   std::vector<MadeRun> runs;
   for (int problem = 1; problem <= 7; ++problem) {

@@ -50,6 +50,33 @@ TEST(ComparedSessionsTest, ContestantsRankByPenalisedMeanTime) {
   EXPECT_EQ(compared.session_names(), std::vector<std::string>{"one"});
 }
 
+TEST(ComparedSessionsTest, EqualsRankAlike) {
+  // "sums" has the times of "same" in another order, of which the sum differs by rounding.
+  std::vector<StoredRun> runs;
+  for (int problem = 1; problem <= 3; ++problem) {
+    runs.push_back(MakeRun(0, problem, 5));
+    runs.push_back(MakeRun(1, problem, problem / 10.0));
+    runs.push_back(MakeRun(2, problem, (4 - problem) / 10.0));
+    runs.push_back(MakeRun(3, problem, 9, PlanStatus::kTimedOut));
+  }
+  ASSERT_NE(0.1 + 0.2 + 0.3, 0.3 + 0.2 + 0.1);
+  const auto ranks = [&] {
+    std::vector<std::pair<std::string, int>> of_all;
+    const ComparedSessions compared(
+        {Session("one", {{"slow", ""}, {"same", ""}, {"sums", ""}, {"fails", ""}}, runs)});
+    for (const ComparedContestant& one : compared.contestants()) {
+      of_all.emplace_back(one.name, one.rank);
+    }
+    return of_all;
+  };
+  using Ranks = std::vector<std::pair<std::string, int>>;
+  EXPECT_EQ(ranks(), (Ranks{{"same", 1}, {"sums", 1}, {"slow", 3}, {"fails", 4}}));
+  for (StoredRun& run : runs) run.time_limit_s = 0;
+  runs[8].status = PlanStatus::kTimedOut;  // of "slow"
+  EXPECT_EQ(ranks(), (Ranks{{"same", 1}, {"sums", 1}, {"slow", 3}, {"fails", 4}}))
+      << "by the share solved";
+}
+
 TEST(ComparedSessionsTest, ContestantsRankByTheProblemsThatAllTried) {
   // "easy" is slower on the problem that both tried; the one that it alone tried is easy.
   const ComparedSessions compared(
@@ -71,6 +98,7 @@ TEST(ComparedSessionsTest, WithoutACommonProblemNothingIsCommon) {
       {Session("one", {{"A", ""}, {"B", ""}}, {MakeRun(0, 1, 1), MakeRun(1, 2, 2)})});
   EXPECT_TRUE(compared.common().empty());
   EXPECT_TRUE(compared.pooled_common().empty());
+  for (const ComparedContestant& one : compared.contestants()) EXPECT_EQ(one.rank, 0);
   EXPECT_EQ(compared.contestants().size(), 2u);
 }
 
