@@ -3,7 +3,6 @@
 #include <lcm/eventlog.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,6 +13,7 @@
 
 #include "common/error.h"
 #include "messaging/event_log_files.h"
+#include "messaging/event_log_reader.h"
 
 namespace planbench {
 namespace {
@@ -24,30 +24,16 @@ InputError CannotOpen(const fs::path& file) {
   return InputError("cannot open event log " + file.string() + ": " + std::strerror(errno));
 }
 
-struct Extent {
-  std::int64_t next_number = 0;
-  std::uintmax_t bytes = 0;  ///< Up to the end of the last whole event.
-};
-
-Extent Scan(const fs::path& file) {
-  lcm_eventlog_t* log = lcm_eventlog_create(file.c_str(), "r");
-  if (log == nullptr) throw CannotOpen(file);
-  Extent extent;
-  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log)) {
-    extent.next_number = std::max(extent.next_number, event->eventnum + 1);
-    extent.bytes = static_cast<std::uintmax_t>(ftello(log->f));
-    lcm_eventlog_free_event(event);
-  }
-  lcm_eventlog_destroy(log);
-  return extent;
+EventLogExtent Scan(const fs::path& file) {
+  return ReadEventLogFile(file, [](const ReceivedMessage&) {});
 }
 
 /// Cuts off a torn last event.
-Extent PrepareToAppend(const fs::path& file) {
+EventLogExtent PrepareToAppend(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size == 0) return {};
-  const Extent extent = Scan(file);
+  const EventLogExtent extent = Scan(file);
   if (extent.bytes < size) {
     spdlog::warn("{}: {} bytes after the last whole event cut off", file.string(),
                  size - extent.bytes);
@@ -113,7 +99,7 @@ void EventLog::Flush() {
 void EventLog::Reopen() {
   // First closed: what it still holds is torn.
   log_.reset();
-  const Extent extent = PrepareToAppend(Current());
+  const EventLogExtent extent = PrepareToAppend(Current());
   std::int64_t next_number = extent.next_number;
   for (int before = number_; next_number == 0 && before > 0;) {
     next_number = Scan(EventLogFile(file_, --before)).next_number;

@@ -17,7 +17,7 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   std::map<std::string, std::size_t> places;  // by request id
   Decoded<SessionMessage> sessions(event_log, channel::kSession);
   Decoded<RunRecordMessage> runs(event_log, channel::kRunRecord);
-  ReadEventLog(event_log, [&](const ReceivedMessage& message) {
+  recorded.passed_over = ReadEventLog(event_log, [&](const ReceivedMessage& message) {
     if (auto session = sessions.Take(message)) recorded.sessions.push_back(*std::move(session));
     auto run = runs.Take(message);
     if (!run) return;

@@ -69,20 +69,24 @@ TEST(EventLog, NumbersGoOnWhenAppending) {
 }
 
 TEST(EventLog, CutsOffATornLastEvent) {
-  const TemporaryFolder folder;
-  const auto file = folder / "a.lcmlog";
-  {
-    EventLog log(file, EventLog::Mode::kNew);
-    log.Write(Message("A", "whole", 1));
-    log.Write(Message("B", "this event will be torn", 2));
-  }
-  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 5);
-  {
-    EventLog log(file, EventLog::Mode::kAppend);
-    log.Write(Message("C", "after", 3));
-  }
   const std::vector<Event> expected = {{0, 1, "A", "whole"}, {1, 3, "C", "after"}};
-  EXPECT_EQ(ReadEvents(file), expected);
+  // From within the sync word that it begins with to within its data.
+  for (const std::uintmax_t left : {1u, 3u, 4u, 20u, 30u}) {
+    SCOPED_TRACE(left);
+    const TemporaryFolder folder;
+    const auto file = folder / "a.lcmlog";
+    {
+      EventLog log(file, EventLog::Mode::kNew);
+      log.Write(Message("A", "whole", 1));
+      log.Flush();
+      const std::uintmax_t whole = std::filesystem::file_size(file);
+      log.Write(Message("B", "this event will be torn", 2));
+      log.Flush();
+      std::filesystem::resize_file(file, whole + left);
+    }
+    EventLog(file, EventLog::Mode::kAppend).Write(Message("C", "after", 3));
+    EXPECT_EQ(ReadEvents(file), expected);
+  }
 }
 
 std::vector<Event> ReadEventsOfAll(const std::vector<std::filesystem::path>& files) {

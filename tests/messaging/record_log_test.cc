@@ -1,5 +1,6 @@
 #include "messaging/record_log.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 
@@ -101,11 +102,17 @@ TEST_F(RecordLogTest, TornLastEventIsNoError) {
   Add(channel::kRunRecord, Encode(Record("b")));
   log_.reset();
   const auto size = std::filesystem::file_size(file_);
-  for (const std::uintmax_t torn : {1u, 20u, 100u}) {
-    std::filesystem::resize_file(file_, size - torn);
+  EXPECT_TRUE(ReadRecords(file_).passed_over.empty());
+  const auto whole = size / 2;  // of two like events
+  for (const std::uintmax_t torn : {whole - 1, whole - 20, whole - 100, 3ul, 1ul}) {
+    std::filesystem::resize_file(file_, whole + torn);
     const RecordedSession recorded = ReadRecords(file_);
     ASSERT_EQ(recorded.runs.size(), 1u) << torn;
     EXPECT_EQ(recorded.runs[0].request_id, "a");
+    ASSERT_EQ(recorded.passed_over.size(), 1u) << torn;
+    EXPECT_TRUE(recorded.passed_over[0].starts_with(
+        fmt::format("{}: {} bytes after the last whole event are not read", file_.string(), torn)))
+        << recorded.passed_over[0];
   }
 }
 
