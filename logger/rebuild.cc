@@ -1,5 +1,10 @@
 #include "logger/rebuild.h"
 
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <vector>
+
 #include "common/file_kind.h"
 #include "logger/session_recorder.h"
 #include "messaging/event_log_files.h"
@@ -16,8 +21,10 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   SessionRecorder recorder(
       options.out, options.resume, options.name, [](const std::string&, const AckMessage&) {},
       &contradictions, options.split_bytes);
-  ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
+  const std::vector<std::string> not_read =
+      ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
   recorder.Flush();
+  for (const std::string& line : not_read) spdlog::warn("{}", line);
   return recorder.Report();
 }
 

@@ -331,10 +331,12 @@ std::vector<std::string> ResultsDatabase::Sessions() {
 std::vector<IncompleteSession> ResultsDatabase::IncompleteSessions() {
   std::vector<IncompleteSession> sessions;
   SqliteStatement statement = connection_.Prepare(
-      "SELECT run_id, num_runs, (SELECT count(*) FROM runs WHERE runs.run_id = sessions.run_id) AS "
-      "recorded FROM sessions WHERE finished AND recorded < num_runs ORDER BY start_utime, run_id");
+      "SELECT run_id, finished, num_runs, (SELECT count(*) FROM runs WHERE runs.run_id = "
+      "sessions.run_id) AS recorded FROM sessions WHERE recorded < num_runs ORDER BY start_utime, "
+      "run_id");
   while (statement.Step()) {
-    sessions.push_back({statement.Text(0), statement.Int(1), statement.Int(2)});
+    sessions.push_back(
+        {statement.Text(0), statement.Int(1) != 0, statement.Int(2), statement.Int(3)});
   }
   return sessions;
 }

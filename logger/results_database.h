@@ -11,9 +11,10 @@
 
 namespace planbench {
 
-/// A finished session of which not all runs have come.
+/// A session of which not all runs have come that it has by its last words.
 struct IncompleteSession {
   std::string run_id;
+  bool finished = false;
   std::int64_t num_runs = 0;
   std::int64_t num_recorded = 0;
 };

@@ -89,7 +89,8 @@ bool SessionRecorder::Report(const std::string& bus) {
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
-    spdlog::warn("session {} finished with {} runs, of which {} are recorded here", session.run_id,
+    spdlog::warn("session {} {} {} runs, of which {} are recorded here", session.run_id,
+                 session.finished ? "finished with" : "has not finished and was to have",
                  session.num_runs, session.num_recorded);
   }
   if (tally_.failures > 0) {

@@ -48,7 +48,7 @@ class SessionRecorder {
   /// To be called after a failure, before the next message. Throws like Record.
   void Recover();
 
-  /// Logs what was recorded, and which finished sessions have fewer runs here than they made. `bus`
+  /// Logs what was recorded, and which sessions have fewer runs here than they tell of. `bus`
   /// is BusJson's. True if every run record and session that came could be stored.
   bool Report(const std::string& bus = "");
 

@@ -11,6 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "messaging/channels.h"
+#include "messaging/event_log.h"
+#include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -104,6 +107,33 @@ TEST_F(LoggerProgramTest, BadUseIsRefused) {
   WriteText(temporary_ / "file", "x");
   EXPECT_EQ(LoggerProgram(Arguments("file"), temporary_ / "stderr").ExitCode(), 2);
   EXPECT_NE(Stderr().find("cannot create session folder"), std::string::npos) << Stderr();
+}
+
+TEST_F(LoggerProgramTest, WhatALogThatWasCutOffLacksIsTold) {
+  const std::filesystem::path log = temporary_ / "cut.lcmlog";
+  {
+    EventLog events(log, EventLog::Mode::kNew);
+    events.Write(Received(channel::kSession, SampleSession()));
+    events.Write(Received(channel::kRunRecord, SampleRecord()));
+    events.Write(Received(channel::kRunRecord, UnansweredRecord()));
+  }
+  const auto rebuild = [&](const std::string& folder) {
+    std::vector<std::string> arguments = Arguments(folder);
+    arguments.insert(arguments.end(), {"--from", log.string()});
+    return LoggerProgram(arguments, temporary_ / "stderr").ExitCode();
+  };
+  EXPECT_EQ(rebuild("whole"), 0);
+  EXPECT_EQ(Stderr().find("whole event"), std::string::npos) << Stderr();
+  EXPECT_NE(Stderr().find("session session-1 has not finished and was to have 12 runs, of which 2 "
+                          "are recorded here"),
+            std::string::npos)
+      << Stderr();
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) - 5);
+  EXPECT_EQ(rebuild("cut"), 0);
+  EXPECT_NE(Stderr().find(log.string() + ": "), std::string::npos) << Stderr();
+  EXPECT_NE(Stderr().find("bytes after the last whole event are not read"), std::string::npos)
+      << Stderr();
+  EXPECT_NE(Stderr().find("12 runs, of which 1 are recorded here"), std::string::npos) << Stderr();
 }
 
 TEST_F(LoggerProgramTest, AKilledOneCanBeResumed) {

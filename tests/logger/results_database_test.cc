@@ -440,15 +440,21 @@ TEST_F(ResultsDatabaseTest, ListsSessionsOldestFirst) {
   EXPECT_NE(sessions[1].find("\"session-0\""), std::string::npos);
 }
 
-TEST_F(ResultsDatabaseTest, NamesFinishedSessionsThatLackRuns) {
+TEST_F(ResultsDatabaseTest, NamesSessionsThatLackRuns) {
   SessionMessage session = FinishedSession();
   session.num_runs = 2;
   database_.Store(SampleSession());
   database_.Store(SampleRecord());
-  EXPECT_TRUE(database_.IncompleteSessions().empty());  // it may go on
-  database_.Store(session);
-  const std::vector<IncompleteSession> incomplete = database_.IncompleteSessions();
+  // Of its end nothing may come, of a log that was cut off, say.
+  std::vector<IncompleteSession> incomplete = database_.IncompleteSessions();
   ASSERT_EQ(incomplete.size(), 1u);
+  EXPECT_FALSE(incomplete[0].finished);
+  EXPECT_EQ(incomplete[0].num_runs, SampleSession().num_runs);
+  EXPECT_EQ(incomplete[0].num_recorded, 1);
+  database_.Store(session);
+  incomplete = database_.IncompleteSessions();
+  ASSERT_EQ(incomplete.size(), 1u);
+  EXPECT_TRUE(incomplete[0].finished);
   EXPECT_EQ(incomplete[0].run_id, session.run_id);
   EXPECT_EQ(incomplete[0].num_runs, 2);
   EXPECT_EQ(incomplete[0].num_recorded, 1);
