@@ -31,6 +31,7 @@
 #include "results/reproduce.h"
 #include "results/shards.h"
 #include "results/shell_quoted.h"
+#include "results/stored_session.h"
 
 namespace planbench {
 namespace {
@@ -158,6 +159,7 @@ class Merge {
     passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(),
                         recorded.passed_over.end());
     AddShares(folder, recorded.sessions);
+    RequireRunsOfDatabase(folder, log, recorded.runs);
     std::map<std::string, SessionMessage> last_words;
     for (SessionMessage& session : recorded.sessions) {
       const auto [last, is_new] = last_words.try_emplace(session.run_id, session);
@@ -273,6 +275,32 @@ class Merge {
     } catch (const InputError& error) {
       throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
     }
+  }
+
+  /// A log that was cut off must not cost the runs that the folder's database has.
+  void RequireRunsOfDatabase(const std::string& folder, const fs::path& log,
+                             const std::vector<RunRecordMessage>& recorded) {
+    if (!IsFile(fs::path(folder) / "results.sqlite")) return;
+    StoredSessions stored;
+    try {
+      stored = ReadSessions(folder);
+    } catch (const InputError& error) {
+      passed_over_.push_back(fmt::format("not compared with the event log: {}", error.what()));
+      return;
+    }
+    std::set<std::string> logged;
+    for (const RunRecordMessage& record : recorded) logged.insert(record.request_id);
+    std::size_t num_stored = 0;
+    std::size_t num_logged = 0;
+    for (const StoredSession& session : stored.sessions) {
+      num_stored += session.runs.size();
+      for (const StoredRun& run : session.runs) num_logged += logged.count(run.request_id);
+    }
+    if (num_logged == num_stored) return;
+    throw InputError(fmt::format(
+        "--merge: {}: its results.sqlite holds {} runs, of which {} holds {}: the others would be "
+        "lost (to merge without them, take results.sqlite out of the folder)",
+        folder, num_stored, log.filename().string(), num_logged));
   }
 
   static void RequireEqual(const Part& first, const Part& second) {

@@ -264,6 +264,28 @@ TEST_F(MergeSessionsTest, WhatAPartTookAndLostCountsOnce) {
   expect_told("again", 7.6, 56, 56);
 }
 
+TEST_F(MergeSessionsTest, RunsThatOnlyTheDatabaseHoldsAreNotLost) {
+  for (const int shard : {1, 2}) {
+    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 2);
+    Write(part.run_id, part,
+          {{.contestant = "A", .problem = shard}, {.contestant = "B", .problem = shard}});
+  }
+  ASSERT_EQ(MergeTo("of1", {"part1"}), kExitOk) << errors_;
+  ASSERT_EQ(MergeTo("of12", {"of1", "part2"}), kExitOk) << errors_;
+  const auto log = FindEventLog(folder_ / "of1");
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) - 5);
+  ExpectRefused({"of1", "part2"}, (folder_ / "of1").string() +
+                                      ": its results.sqlite holds 2 runs, of which of1.lcmlog "
+                                      "holds 1: the others would be lost");
+  // What is no database cannot be compared.
+  folder_.Write("of1/results.sqlite", "damaged");
+  ASSERT_EQ(Merge({"of1", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("not compared with the event log: "));
+  EXPECT_THAT(output_, HasSubstr("of1.lcmlog: "));
+  EXPECT_THAT(output_, HasSubstr("after the last whole event are not read"));
+  EXPECT_EQ(ReadSessions(folder_ / "whole").sessions.front().runs.size(), 3u);
+}
+
 TEST_F(MergeSessionsTest, OtherFilesBesideTheMergedSessionStay) {
   Write("one", Session("early", 1000, 1), {{.contestant = "A"}});
   folder_.Write("whole.merging", "somebody's");
