@@ -2,17 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "common/error.h"
+#include "common/random_id.h"
+#include "common/read_text.h"
 #include "common/write_file.h"
+#include "report/output_folder.h"
 #include "report/web_files.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool IsInstalled(const char* program) {
   return std::system(fmt::format("command -v {} >/dev/null", program).c_str()) == 0;
@@ -35,29 +46,61 @@ std::string Script() {
   return script;
 }
 
+/// A folder for what is of no use to anybody else, as long as it exists.
+class ScratchFolder {
+ public:
+  ScratchFolder() { fs::create_directory(path_); }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_ = fs::temp_directory_path() / ("planbench-figures-" + RandomId());
+};
+
+/// Whether figures of these kinds are called so on any set, as print.js names them.
+bool IsFigure(const std::vector<std::string>& kinds, const fs::path& name) {
+  if (name.extension() != ".svg" && name.extension() != ".pdf") return false;
+  const std::string stem = name.stem().string();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const std::string& kind) {
+    return stem.starts_with(kind + "-") &&
+           std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(kind.size()), stem.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+  });
+}
+
 }  // namespace
 
-void PrintFigures(const Json& data, const std::filesystem::path& folder) {
+void PrintFigures(const Json& data, const fs::path& folder) {
   if (!IsInstalled("node")) throw InputError("--figures needs node: apt-get install nodejs");
-  const std::filesystem::path script = folder / "figures.js";
-  const std::filesystem::path numbers = folder / "figures.json";
+  const ScratchFolder scratch;
+  const fs::path script = scratch.path() / "figures.js";
+  const fs::path numbers = scratch.path() / "figures.json";
   WriteFile(script, Script());
   WriteFile(numbers, data.dump(-1, ' ', false, Json::error_handler_t::replace));
   Run(fmt::format("node {} {} {}", ShellQuoted(script.string()), ShellQuoted(numbers.string()),
-                  ShellQuoted(folder.string())));
-  std::filesystem::remove(script);
-  std::filesystem::remove(numbers);
-  if (!IsInstalled("rsvg-convert")) {
-    std::cerr << "report: no PDF of the figures: rsvg-convert is missing (apt-get install "
-                 "librsvg2-bin)\n";
-    return;
-  }
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+                  ShellQuoted(scratch.path().string())));
+  const std::vector<std::string> kinds = Json::parse(ReadText(scratch.path() / "kinds.json"));
+  PrepareFolder(folder, [&](const std::string& name) { return IsFigure(kinds, name); });
+  const bool has_pdf = IsInstalled("rsvg-convert");
+  for (const auto& entry : fs::directory_iterator(scratch.path())) {
     if (entry.path().extension() != ".svg") continue;
-    std::filesystem::path pdf = entry.path();
+    const fs::path svg = folder / entry.path().filename();
+    WriteFile(svg, ReadText(entry.path()));
+    if (!has_pdf) continue;
+    fs::path pdf = svg;
     pdf.replace_extension(".pdf");
     Run(fmt::format("rsvg-convert -f pdf -o {} {}", ShellQuoted(pdf.string()),
-                    ShellQuoted(entry.path().string())));
+                    ShellQuoted(svg.string())));
+  }
+  if (!has_pdf) {
+    std::cerr << "report: no PDF of the figures: rsvg-convert is missing (apt-get install "
+                 "librsvg2-bin)\n";
   }
 }
 

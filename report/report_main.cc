@@ -14,6 +14,7 @@
 #include "common/write_file.h"
 #include "report/figures.h"
 #include "report/merge_sessions.h"
+#include "report/output_folder.h"
 #include "report/page.h"
 #include "report/print_figures.h"
 #include "report/session_shares.h"
@@ -39,16 +40,14 @@ struct Flags {
   std::string ompl_log;
 };
 
-void MakeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
-}
-
 void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
                  std::string (*format)(const Table&)) {
   if (folder.empty()) return;
-  MakeFolder(folder);
+  const std::vector<std::string> known = TableNames();
+  PrepareFolder(folder, [&](const std::string& file) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const std::string& name) { return file == name + extension; });
+  });
   for (const Table& table : tables) {
     WriteFile(std::filesystem::path(folder) / (table.name + extension), format(table));
   }
@@ -158,10 +157,7 @@ int Run(Flags flags) {
   WriteTables(flags.csv, ".csv", tables, TableCsv);
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);
-  if (!flags.figures.empty()) {
-    MakeFolder(flags.figures);
-    PrintFigures(data, flags.figures);
-  }
+  if (!flags.figures.empty()) PrintFigures(data, flags.figures);
   WriteFile(flags.out, ReportPage(data, EmbedViews(compared, kMostBytesOfViews)));
   std::cout << "report: " << flags.out << "\n";
   return kExitOk;
@@ -178,10 +174,12 @@ int main(int argc, char** argv) {
   app.add_option("session", flags.sessions,
                  "session folders, or results databases; several are compared side by side");
   app.add_option("--out", flags.out, "the page")->capture_default_str();
-  app.add_option("--csv", flags.csv, "folder for the tables as CSV");
-  app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs)");
-  app.add_option("--figures", flags.figures,
-                 "folder for the figures as SVG (needs node) and PDF (needs rsvg-convert)");
+  app.add_option("--csv", flags.csv,
+                 "folder for the tables as CSV, in the place of an earlier report's");
+  app.add_option("--latex", flags.latex, "folder for the tables as LaTeX (booktabs), likewise");
+  app.add_option(
+      "--figures", flags.figures,
+      "folder for the figures as SVG (needs node) and PDF (needs rsvg-convert), likewise");
   app.add_option("--merge", flags.merge,
                  "session folder to make of the sessions, which are parts of one: of this the page "
                  "is made");

@@ -102,6 +102,15 @@ void MarkTrained(const ComparedSessions& compared, Table* table) {
   table->note += std::string(" ") + (of_sets ? kTrainedNote : kTrainedOnNote);
 }
 
+/// In the page's order, also those without rows.
+std::vector<Table> MakeTables(const ComparedSessions& compared,
+                              const std::vector<ComparedPair>& pairs) {
+  return {SessionTable(compared, false), SuccessTable(compared),  TimeTable(compared),
+          DirectionTable(compared),      PairTable(pairs),        QualityTable(compared),
+          PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
+          ChangeTable(compared),         ConditionTable(compared)};
+}
+
 /// The bodies that a reason names ("'a' and 'b'"), or all of it.
 std::string ContactOf(const std::string& reason) {
   const std::size_t begin = reason.find('\'');
@@ -526,13 +535,15 @@ Table MeshTable(const ComparedSessions& compared) {
   return table;
 }
 
+std::vector<std::string> TableNames() {
+  std::vector<std::string> names;
+  for (const Table& table : MakeTables(ComparedSessions({}), {})) names.push_back(table.name);
+  return names;
+}
+
 std::vector<Table> AllTables(const ComparedSessions& compared,
                              const std::vector<ComparedPair>& pairs) {
-  std::vector<Table> tables = {
-      SessionTable(compared, false), SuccessTable(compared),  TimeTable(compared),
-      DirectionTable(compared),      PairTable(pairs),        QualityTable(compared),
-      PhaseTable(compared),          FailureTable(compared),  MeshTable(compared),
-      ChangeTable(compared),         ConditionTable(compared)};
+  std::vector<Table> tables = MakeTables(compared, pairs);
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   if (const std::string limits = LimitsNote(compared); !limits.empty()) {
     for (Table& table : tables) {

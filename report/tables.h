@@ -59,6 +59,9 @@ Table FailureTable(const ComparedSessions& compared);
 /// Verdicts of the mesh robot and what its meshes touch; no rows if there are none.
 Table MeshTable(const ComparedSessions& compared);
 
+/// Names of all tables that there can be (Table::name), with or without rows.
+std::vector<std::string> TableNames();
+
 /// All of them and those of the sessions (session_tables.h) that have rows. Columns of their own
 /// mark who has learned from the set of a row, or from any if rows are of none (training.h).
 std::vector<Table> AllTables(const ComparedSessions& compared,

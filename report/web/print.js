@@ -42,6 +42,8 @@ function fileName(text) {
   return name;
 }
 
+// By which all names of figures begin, whatever the set.
+fs.writeFileSync(`${folder}/kinds.json`, JSON.stringify([...Object.keys(figureKinds), ...data.measures.map(measure => measure.name)]));
 const written = [];
 for (const set of data.sets) {
   const own = fileName(set.name);

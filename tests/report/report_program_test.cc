@@ -53,6 +53,40 @@ TEST_F(ReportProgramTest, WritesThePageAndTheTables) {
   EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr(",12,24,24,24,100,"));
 }
 
+TEST_F(ReportProgramTest, TablesOfAnEarlierReportAreReplaced) {
+  SessionMessage later;
+  later.start_utime = 60'000'000;
+  WriteSession(folder_ / "old",
+               {{.contestant = "A"},
+                {.contestant = "A", .direction = Direction::kBackward},
+                {.contestant = "B", .status = PlanStatus::kTimedOut}},
+               later);
+  WriteSession(folder_ / "older", {{.contestant = "A"}});
+  WriteSession(folder_ / "new", {{.contestant = "A"}});
+  const auto write = [&](std::vector<std::string> sessions) {
+    for (const char* more : {"--out", "page.html", "--csv", "csv", "--latex", "latex"}) {
+      sessions.push_back(*more == '-' ? more : Path(more));
+    }
+    EXPECT_EQ(Run(sessions), kExitOk) << errors_;
+  };
+  write({Path("old"), Path("older")});
+  const std::vector<std::string> others = {"csv/mine.csv", "csv/pairs.tex", "csv/pairs.csv.bak",
+                                           "latex/paper.tex", "latex/pairs/text"};
+  for (const std::string& file : others) folder_.Write(file, "");
+  const std::vector<std::string> gone = {"changes", "directions", "pairs", "failures"};
+  for (const std::string& table : gone) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / ("csv/" + table + ".csv"))) << table;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / ("latex/" + table + ".tex"))) << table;
+  }
+  write({Path("new")});
+  for (const std::string& table : gone) {
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ("csv/" + table + ".csv"))) << table;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ("latex/" + table + ".tex"))) << table;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "csv/times.csv"));
+  for (const std::string& file : others) EXPECT_TRUE(std::filesystem::exists(folder_ / file));
+}
+
 TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   folder_.Write("empty/results.sqlite", "");
   WriteSession(folder_ / "example", {{.contestant = "A"}});
@@ -148,9 +182,24 @@ TEST_F(ReportProgramTest, FiguresAreWrittenForEverySet) {
     GTEST_SKIP() << "no node here: apt-get install nodejs";
   }
   WriteSession(folder_ / "example", ExampleRuns(), ExampleSession());
+  // Of an earlier report on other sets, and what is none of a report's.
+  for (const char* file : {"success-old_set.svg", "bound-old-2.pdf", "path_length-old_set.pdf"}) {
+    folder_.Write("figures/" + std::string(file), "");
+  }
+  const std::vector<std::string> others = {"success.svg", "success-old set.svg", "draft-shelf.svg",
+                                           "times-old.txt", "figures.js"};
+  for (const std::string& file : others) folder_.Write("figures/" + file, "mine");
   ASSERT_EQ(Run({Path("example"), "--out", Path("page.html"), "--figures", Path("figures")}),
             kExitOk)
       << errors_;
+  for (const std::string& file : others) {
+    EXPECT_EQ(ReadText(folder_ / "figures" / file), "mine") << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "figures" / "draft-shelf.pdf"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "figures")) {
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("old_set")));
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("bound-old")));
+  }
   // Names of sets become names of files.
   for (const char* figure : {"success-shelf", "times-a_i_set_i_", "survival-all_sets",
                              "profile-all_sets", "phases-shelf", "path_length-shelf"}) {
