@@ -284,9 +284,9 @@ void YamlNode::RequireTag(std::initializer_list<std::string_view> allowed,
   Fail(std::string("expected ") + wanted + ", found the tag '" + tag + "'");
 }
 
-YamlNode YamlNode::FromReplacement(const Replacement& replacement, const std::string& key) {
-  return YamlNode(replacement.node,
-                  std::make_shared<Document>(Document{replacement.origin, false, {}}), key);
+YamlNode YamlNode::Foreign(const YAML::Node& node, const std::string& key,
+                           const std::string& origin) const {
+  return YamlNode(node, std::make_shared<Document>(Document{origin, false, {}}), PathOf(key));
 }
 
 bool YamlNode::IsNull() const { return overrides_.empty() && IsNullNode(node_); }
@@ -337,8 +337,8 @@ std::optional<YAML::Node> YamlNode::FindIn(const YAML::Node& map, const std::str
 
 std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
   if (const auto found = overrides_.find(key); found != overrides_.end()) {
-    if (IsNullNode(found->second.node)) return std::nullopt;
-    return FromReplacement(found->second, key);
+    if (found->second->IsNull()) return std::nullopt;
+    return *found->second;
   }
   if (IsNullNode(node_)) return std::nullopt;
   if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
@@ -398,9 +398,7 @@ void YamlNode::RequireKeys(
       require(key, Child(entry.first, PathOf(key)));
     }
   }
-  for (const auto& [key, replacement] : overrides_) {
-    require(key, FromReplacement(replacement, key));
-  }
+  for (const auto& [key, replacement] : overrides_) require(key, *replacement);
 }
 
 void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
@@ -549,8 +547,21 @@ std::string YamlNode::StringOr(const std::string& key, const std::string& fallba
 
 void YamlNode::Override(const std::string& key, const std::string& text,
                         const std::string& origin) {
-  if (!IsNullNode(node_) && !node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  overrides_[key] = {Parse(text, origin).node_, origin};
+  if (!IsNullNode(node_) && !node_.IsMap()) {
+    throw InputError(origin + ": " + Where() + ": expected a map, found " + KindOf(node_));
+  }
+  const std::size_t dot = key.find('.');
+  const bool is_own =
+      overrides_.contains(key) || (!IsNullNode(node_) && FindIn(node_, key).has_value());
+  if (dot == std::string::npos || is_own) {
+    overrides_[key] = std::make_shared<YamlNode>(Foreign(Parse(text, origin).node_, key, origin));
+    return;
+  }
+  const std::string outer = key.substr(0, dot);
+  const std::optional<YamlNode> found = Find(outer);
+  YamlNode map = found ? *found : Foreign(YAML::Node(YAML::NodeType::Map), outer, origin);
+  map.Override(key.substr(dot + 1), text, origin);
+  overrides_[outer] = std::make_shared<YamlNode>(std::move(map));
 }
 
 }  // namespace planbench

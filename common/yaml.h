@@ -86,9 +86,11 @@ class YamlNode {
   bool BoolOr(const std::string& key, bool fallback) const;
   std::string StringOr(const std::string& key, const std::string& fallback) const;
 
-  /// Replaces `key` (of a map or null node) by `text` parsed as YAML. Errors about it will name
-  /// `origin`, e.g. "--set range" or "PLAN_REQUEST_RRTC parameter range". Copies made before keep
-  /// the old value.
+  /// Replaces `key` (of a map or null node) by `text` parsed as YAML. A key with dots that the map
+  /// does not have leads into maps: `ompl.goal_bias` is `goal_bias` of the map `ompl`, which is
+  /// made if it is missing. Errors about it will name `origin`, e.g. "--set range" or
+  /// "PLAN_REQUEST_RRTC parameter range". Copies made before keep the old value. Throws for text
+  /// that is no YAML, and where a map should be and is none.
   void Override(const std::string& key, const std::string& text, const std::string& origin);
 
   /// "file:line: field.path".
@@ -106,11 +108,6 @@ class YamlNode {
     bool has_lines = true;  ///< False for a command line or a message: one line, no file.
     std::vector<std::string> warnings;
   };
-  // A value given by Override, and where it came from.
-  struct Replacement {
-    YAML::Node node;
-    std::string origin;
-  };
   using Entry = std::pair<YAML::Node, YAML::Node>;
 
   YamlNode(const YAML::Node& node, std::shared_ptr<Document> document, std::string path)
@@ -122,7 +119,8 @@ class YamlNode {
   std::string PathOf(const std::string& key) const {
     return path_.empty() ? key : path_ + "." + key;
   }
-  static YamlNode FromReplacement(const Replacement& replacement, const std::string& key);
+  // `node` at `key` of this map, but of a text without lines that `origin` stands for.
+  YamlNode Foreign(const YAML::Node& node, const std::string& key, const std::string& origin) const;
   // The entries of a map with what it merges; throws for keys that are no text or occur twice.
   std::vector<Entry> Entries(const YAML::Node& map) const;
   // The value of `key` in `map` or in what it merges, nothing if it has none.
@@ -137,7 +135,7 @@ class YamlNode {
   std::shared_ptr<Document> document_;
   std::string path_;
   // Beside the tree and not in it, because copies of a YAML::Node share what they point to.
-  std::map<std::string, Replacement> overrides_;
+  std::map<std::string, std::shared_ptr<const YamlNode>> overrides_;
 };
 
 }  // namespace planbench

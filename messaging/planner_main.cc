@@ -20,7 +20,8 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
   program.app().add_option("--config", config, "settings file; default: the robot folder's");
   program.app()
-      .add_option("--set", overrides, "KEY=VALUE: overrides a setting; repeatable")
+      .add_option("--set", overrides,
+                  "KEY=VALUE: overrides a setting, dots in KEY lead into maps; repeatable")
       ->allow_extra_args(false);
   for (const SettingFlag& flag : setting_flags) {
     program.app().add_option_function<std::string>(

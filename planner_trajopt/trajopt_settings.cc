@@ -101,7 +101,7 @@ TrajoptSettings SettingsOfRequest(const TrajoptSettings& settings,
   request.AllowOnly({"waypoints", "clearance", "smoothness", "iterations", "patience", "rollouts",
                      "noise", "gain", "step", "gradient_step"});
   // A parameter without a value is a mistake, not a wish for the default.
-  for (const auto& [key, text] : parameters) request.At(key).String();
+  for (const std::string& key : request.Keys()) request.At(key).String();
   return ReadTrajoptSettings(request, settings);
 }
 

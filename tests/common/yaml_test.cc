@@ -186,6 +186,40 @@ TEST(YamlNode, OverrideErrorsNameTheirOrigin) {
   EXPECT_THROW(scalar.Override("a", "1", "--set a"), InputError);
 }
 
+TEST(YamlNode, OverrideDescendsAtDots) {
+  YamlNode node = Parse("ompl: {goal_bias: 0.05, range: 1}\na.b: 1\n");
+  node.Override("ompl.goal_bias", "0.1", "--set ompl.goal_bias");
+  node.Override("ompl.delay", "2", "--set ompl.delay");
+  node.Override("a.b", "3", "--set a.b");
+  node.Override("joints.torso.lift", "4", "--set joints.torso.lift");
+  EXPECT_THAT(node.Keys(), ElementsAre("ompl", "a.b", "joints"));
+  EXPECT_THAT(node.At("ompl").Keys(), ElementsAre("goal_bias", "range", "delay"));
+  EXPECT_EQ(node.At("ompl").At("goal_bias").Double(), 0.1);
+  EXPECT_EQ(node.At("ompl").At("range").Double(), 1);
+  EXPECT_EQ(node.At("ompl").At("delay").Int(), 2);
+  EXPECT_EQ(node.At("a.b").Int(), 3) << "a key of that very name";
+  EXPECT_EQ(node.At("joints").At("torso").At("lift").Int(), 4);
+
+  node.Override("ompl.goal_bias", "~", "--set ompl.goal_bias");
+  EXPECT_FALSE(node.At("ompl").Find("goal_bias"));
+  node.Override("ompl", "{goal_bias: 0.2}", "--set ompl");
+  node.Override("ompl.range", "far", "--set ompl.range");
+  EXPECT_THAT(node.At("ompl").Keys(), ElementsAre("goal_bias", "range"));
+  EXPECT_EQ(ErrorOf([&] { node.At("ompl").At("range").Double(); }),
+            "--set ompl.range: ompl.range: expected a number, found 'far'");
+}
+
+TEST(YamlNode, OverrideDescendsIntoMapsOnly) {
+  YamlNode node = Parse("range: 1\n");
+  EXPECT_EQ(ErrorOf([&] { node.Override("range.x", "1", "--set range.x"); }),
+            "--set range.x: file.yaml:1: range: expected a map, found '1'");
+  node.Override("seed.x", "1", "--set seed.x");
+  EXPECT_EQ(ErrorOf([&] { node.AllowOnly({"range"}); }),
+            "--set seed.x: seed: unknown key 'seed'; known are: range");
+  EXPECT_EQ(ErrorOf([&] { node.At("seed").Int(); }),
+            "--set seed.x: seed: expected an integer, found a map");
+}
+
 TEST(YamlNode, OverrideWorksOnAnEmptyFileAndLeavesCopiesAlone) {
   YamlNode node = Parse("");
   const YamlNode before = node;
