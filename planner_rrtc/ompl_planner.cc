@@ -233,18 +233,25 @@ class OmplPlanner::Workspace {
 
   double Extent() const { return space_->getMaximumExtent(); }
 
+  /// Whether the planner limits motions as the setting `range` says. Where a roadmap has a
+  /// parameter of this name, it limits how far neighbours may be apart, which is another matter.
+  static bool HasRange(const OmplAlgorithm& algorithm, ob::Planner& planner) {
+    return algorithm.planner_class != PlannerClass::kSampleThenSearch &&
+           planner.params().hasParam("range");
+  }
+
   /// OMPL's planner with the settings' range and parameters. Throws InputError, prefixed by
   /// `origin`, for parameters that it refuses.
   ob::PlannerPtr MakePlanner(const RrtcSettings& settings, const std::string& origin) const {
     ob::PlannerPtr planner = settings.ompl_algorithm->make(si_);
     ob::ParamSet& parameters = planner->params();
-    // Where a roadmap has one, it limits how far neighbours may be apart, which is another matter.
-    const bool is_roadmap =
-        settings.ompl_algorithm->planner_class == PlannerClass::kSampleThenSearch;
-    if (settings.range && parameters.hasParam("range") && !is_roadmap) {
+    if (settings.range && HasRange(*settings.ompl_algorithm, *planner)) {
       parameters.setParam("range", fmt::format("{}", *settings.range));
     }
     for (const auto& [key, value] : settings.ompl_parameters) {
+      if (key == "range" && HasRange(*settings.ompl_algorithm, *planner)) {
+        throw InputError(origin + ": ompl.range: is the setting 'range'");
+      }
       if (!parameters.hasParam(key)) {
         std::vector<std::string> known;
         parameters.getParamNames(known);
@@ -292,7 +299,8 @@ OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::s
     workspaces_[&group.space] = std::make_unique<Workspace>(group.space, settings_.metric);
   }
   // Refuses bad parameters now rather than at the first request.
-  workspaces_.begin()->second->MakePlanner(settings_, origin);
+  const ob::PlannerPtr planner = workspaces_.begin()->second->MakePlanner(settings_, origin);
+  has_range_ = Workspace::HasRange(*settings_.ompl_algorithm, *planner);
 }
 
 OmplPlanner::~OmplPlanner() = default;
@@ -305,6 +313,7 @@ PlannerDescription OmplPlanner::Describe() const {
   description.bidirectional = settings_.ompl_algorithm->bidirectional;
   description.collision_models = EnumValues<CollisionModel>();
   description.settings = DescribeSettings(settings_);
+  if (!has_range_) description.settings.erase("range");
   return description;
 }
 

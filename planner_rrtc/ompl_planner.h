@@ -31,6 +31,7 @@ class OmplPlanner final : public Planner {
   class Workspace;
 
   RrtcSettings settings_;
+  bool has_range_;  ///< Whether the setting `range` is one of this algorithm's.
   /// What is kept from one request to the next, for each joint space.
   std::map<const JointSpace*, std::unique_ptr<Workspace>> workspaces_;
 };

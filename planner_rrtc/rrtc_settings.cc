@@ -74,18 +74,20 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
   const bool is_ompl = settings.ompl_algorithm != nullptr;
+  for (const char* key : {"extension", "balance", "domain_radius", "experience", "recall"}) {
+    const auto value = node.Find(key);
+    if (value && is_ompl) value->Fail("is for RRT-Connect only, not for OMPL's planners");
+  }
   if (const auto value = node.Find("range")) settings.range = ReadRange(*value);
   if (const auto value = node.Find("extension")) settings.extension = value->Enum<Extension>();
   if (const auto value = node.Find("balance")) settings.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {
     settings.domain_radius = ReadDomainRadius(*value);
   }
-  for (const char* key : {"experience", "recall"}) {
-    const auto value = node.Find(key);
-    if (value && is_ompl) value->Fail("is for RRT-Connect only, not for OMPL's planners");
-  }
   if (const auto value = node.Find("experience")) settings.experience = value->String();
-  if (const auto value = node.Find("recall")) settings.recall = ReadRecall(*value);
+  if (const auto value = node.Find("recall")) {
+    settings.recall = ReadRecall(*value, settings.experience);
+  }
   for (const char* key : {"metric", kSegmentFraction, "ompl"}) {
     const auto value = node.Find(key);
     if (value && !is_ompl) value->Fail("is for OMPL's planners only, not for RRT-Connect");
@@ -97,7 +99,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   }
   if (const auto value = node.Find("ompl")) {
     for (const std::string& key : value->Keys()) {
-      settings.ompl_parameters[key] = value->At(key).String();
+      if (const auto own = value->Find(key)) settings.ompl_parameters[key] = own->String();
     }
   }
   return settings;
@@ -135,7 +137,7 @@ RrtcSettings SettingsOfRequest(const RrtcSettings& settings,
   }
   request.AllowOnly({"sampler", "range", "extension", "balance", "domain_radius", "recall"});
   // A parameter without a value is a mistake, not a wish for the default.
-  for (const auto& [key, text] : parameters) request.At(key).String();
+  for (const std::string& key : request.Keys()) request.At(key).String();
   return ReadRrtcSettings(request, settings);
 }
 

@@ -33,9 +33,9 @@ struct RrtcSettings {
   /// `algorithm`: kRrtConnect, or the name of a planner of OMPL; null: kRrtConnect.
   const OmplAlgorithm* ompl_algorithm = nullptr;
   SamplerKind sampler = SamplerKind::kUniform;
-  /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit. None
-  /// (`default`): the algorithm's own choice, for RRT-Connect ShrinkingRange, for OMPL's 20 % of
-  /// the space's extent.
+  /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit
+  /// (others take it for nothing, so that a line-up may give it to all). None (`default`): the
+  /// algorithm's own choice, for RRT-Connect ShrinkingRange, for OMPL's 20 % of the space's extent.
   std::optional<double> range;
 
   // Of RRT-Connect:
@@ -77,7 +77,8 @@ struct RrtcSettings {
 double ShrinkingRange(std::int64_t iterations);
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for
-/// unknown keys, algorithms (naming the known ones), and bad values.
+/// unknown keys, algorithms (naming the known ones), bad values, and settings that the algorithm
+/// has no use for, but `range`.
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults);
 
 /// The settings that are in effect, as text.

@@ -28,7 +28,8 @@ class Experience {
   std::string id_;  // The file may change while its name stays.
 };
 
-/// Reads the setting `recall`: how many known paths a request uses at most.
-int ReadRecall(const YamlNode& node);
+/// Reads the setting `recall`: how many known paths a request uses at most. Throws InputError if it
+/// is out of range, and where the setting `experience` names no file, so that it would do nothing.
+int ReadRecall(const YamlNode& node, const std::string& experience);
 
 }  // namespace planbench

@@ -149,6 +149,7 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
       {"two_way: both", {"ara.yaml:1: two_way:", "true or false"}},
       {"memory_limit_mb: 0", {"ara.yaml:1: memory_limit_mb:", "greater than zero"}},
       {"primitives: [a, b]", {"ara.yaml:1: primitives:", "text"}},
+      {"recall: 2", {"ara.yaml:1: recall:", "without 'experience'"}},
   };
   for (const Case& test : cases) {
     SCOPED_TRACE(test.text);

@@ -129,8 +129,37 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
   expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
   expect_refused("algorithm: RRT\nmetric: max", {"rrtc.yaml:2", "metric", "max", "sum"});
+  expect_refused("algorithm: RRT\nompl: {range: 2}", {"ompl.range", "the setting 'range'"});
   expect_refused("algorithm: RRT\nlongest_valid_segment_fraction: 2",
                  {"rrtc.yaml:2", "longest_valid_segment_fraction", "2"});
+}
+
+TEST_F(RrtcPlannerTest, RefusesWhatTheAlgorithmHasNoUseFor) {
+  for (const std::string setting :
+       {"extension: step", "balance: false", "domain_radius: 2", "recall: 2"}) {
+    ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("algorithm: RRT\n" + setting)); },
+                     {"rrtc.yaml:2", setting.substr(0, setting.find(':')), "RRT-Connect only"});
+  }
+  ExpectInputError([&] { MakeRrtcPlanner(robot_, Settings("recall: 2")); },
+                   {"rrtc.yaml:1: recall", "'experience'"});
+
+  const std::unique_ptr<Planner> planner = MakeRrtcPlanner(robot_, Settings("algorithm: RRT"));
+  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  request.parameters["balance"] = "false";
+  const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+  EXPECT_NE(result.message.find("balance"), std::string::npos) << result.message;
+}
+
+TEST_F(RrtcPlannerTest, TellsTheRangeWhereThereIsOne) {
+  const auto settings = [&](const std::string& text) {
+    return MakeRrtcPlanner(robot_, Settings(text))->Describe().settings;
+  };
+  EXPECT_EQ(settings("{algorithm: RRT, range: 1}").at("range"), "1");
+  for (const std::string algorithm : {"PRM", "LazyPRM", "BITstar"}) {
+    EXPECT_FALSE(settings("{range: 1, algorithm: " + algorithm + "}").contains("range"))
+        << algorithm;
+  }
 }
 
 TEST_F(RrtcPlannerTest, TheFetchsStudySettingsAreAccepted) {
@@ -226,7 +255,7 @@ TEST_F(RrtcPlannerTest, TheLongestValidSegmentDecidesHowEdgesAreSampled) {
 
 TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {
   const std::unique_ptr<Planner> planner = MakeForContract(robot_);
-  for (const std::string text : {"0", "-1", "x", "", "[1]"}) {
+  for (const std::string text : {"0", "-1", "x", "", "[1]", "{x: 1}"}) {
     PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
     request.parameters["range"] = text;
     const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
