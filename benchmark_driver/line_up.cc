@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/yaml.h"
+#include "common/yaml_text.h"
 #include "messaging/channels.h"
 
 namespace planbench {
@@ -17,23 +18,40 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;  // key, value as YAML
 
-Settings ReadSettings(const YamlNode& map) {
-  Settings settings;
-  for (const std::string& key : map.Keys()) settings.emplace_back(key, map.At(key).String());
-  return settings;
+/// The values of settings by their keys; those in a map's by MAP.KEY, as --set has them.
+std::vector<std::pair<std::string, YamlNode>> ReadValues(const YamlNode& map) {
+  std::vector<std::pair<std::string, YamlNode>> values;
+  for (const std::string& key : map.Keys()) {
+    const YamlNode value = map.At(key);
+    if (!value.IsMap()) {
+      values.emplace_back(key, value);
+      continue;
+    }
+    for (const std::string& inner : value.Keys()) {
+      values.emplace_back(key + "." + inner, value.At(inner));
+    }
+  }
+  return values;
+}
+
+/// A text or a list of texts as YAML in one line.
+std::string AsYaml(const YamlNode& value) {
+  if (!value.IsSequence()) return value.String();
+  std::vector<std::string> texts;
+  for (const std::string& text : value.Strings()) texts.push_back(YamlText(text));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 /// Every choice of one value for each key, the last key varying fastest.
 std::vector<Settings> ReadSweep(const YamlNode& map) {
   std::vector<Settings> choices = {{}};
-  for (const std::string& key : map.Keys()) {
-    const YamlNode values = map.At(key);
+  for (const auto& [key, values] : ReadValues(map)) {
     if (values.Size() == 0) values.Fail("no value to sweep over");
     std::vector<Settings> longer;
     for (const Settings& choice : choices) {
       for (const YamlNode& value : values.Elements()) {
         longer.push_back(choice);
-        longer.back().emplace_back(key, value.String());
+        longer.back().emplace_back(key, AsYaml(value));
       }
     }
     choices = std::move(longer);
@@ -66,7 +84,7 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   if (!IsNodeName(planner)) node.Fail(kNodeNameRule);
   LineUpEntry entry;
   Contestant& contestant = entry.contestant;
-  contestant.planner = planner;
+  contestant.planner = entry.key = planner;
   contestant.name = node.StringOr("name", "");
   contestant.about = node.StringOr("about", "");
   contestant.published = node.StringOr("published", "");
@@ -93,7 +111,9 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   const auto config = node.Find("config");
   if (config && robot_folder) entry.config = FindConfig(*config, file, *robot_folder);
   if (const auto set = node.Find("set")) {
-    for (const auto& [key, value] : ReadSettings(*set)) entry.settings.push_back(key + "=" + value);
+    for (const auto& [key, value] : ReadValues(*set)) {
+      entry.settings.push_back(key + "=" + AsYaml(value));
+    }
   }
   const auto sweep = node.Find("sweep");
   if (!sweep) return {entry};
@@ -114,21 +134,36 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   return entries;
 }
 
-/// The entry of a planner; null if there is none.
-LineUpEntry* Find(std::vector<LineUpEntry>* entries, const std::string& planner) {
-  const auto found = std::find_if(entries->begin(), entries->end(), [&](const LineUpEntry& entry) {
-    return entry.contestant.planner == planner;
-  });
-  return found == entries->end() ? nullptr : &*found;
+/// What a name stands for: the planner of that name, else all that a sweep of that name makes.
+std::vector<LineUpEntry*> Find(std::vector<LineUpEntry>* entries, const std::string& name) {
+  std::vector<LineUpEntry*> found;
+  for (LineUpEntry& entry : *entries) {
+    if (entry.contestant.planner == name) return {&entry};
+    if (entry.key == name) found.push_back(&entry);
+  }
+  return found;
 }
 
-/// The flags' entry of a planner; throws if it is not among those that are chosen.
-LineUpEntry& Chosen(std::vector<LineUpEntry>* entries, const std::string& planner,
-                    const char* flag) {
-  LineUpEntry* entry = Find(entries, planner);
-  if (entry == nullptr)
-    throw InputError(fmt::format("{}: '{}' is not among the planners", flag, planner));
-  return *entry;
+/// The same; throws, beginning with `where`, if none of the chosen entries has that name.
+std::vector<LineUpEntry*> Chosen(std::vector<LineUpEntry>* entries, const std::string& name,
+                                 const std::string& where) {
+  std::vector<LineUpEntry*> found = Find(entries, name);
+  if (found.empty())
+    throw InputError(fmt::format("{}: '{}' is not among the planners", where, name));
+  return found;
+}
+
+/// The one entry that a name stands for; throws likewise, and if it stands for several.
+LineUpEntry& ChosenOne(std::vector<LineUpEntry>* entries, const std::string& name,
+                       const std::string& where) {
+  const std::vector<LineUpEntry*> found = Chosen(entries, name, where);
+  if (found.size() > 1) {
+    std::vector<std::string> planners;
+    for (const LineUpEntry* entry : found) planners.push_back(entry->contestant.planner);
+    throw InputError(fmt::format("{}: '{}' stands for several planners; name one: {}", where, name,
+                                 fmt::join(planners, ", ")));
+  }
+  return *found.front();
 }
 
 std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
@@ -137,14 +172,14 @@ std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
   if (planners.empty()) return entries;
   std::vector<LineUpEntry> picked;
   for (const std::string& planner : planners) {
-    const LineUpEntry* entry = Find(&entries, planner);
-    if (entry == nullptr) {
+    const std::vector<LineUpEntry*> found = Find(&entries, planner);
+    if (found.empty()) {
       std::vector<std::string> known;
       for (const LineUpEntry& one : entries) known.push_back(one.contestant.planner);
       throw InputError(fmt::format("--planners: {} has no '{}'; it has: {}", file.string(), planner,
                                    fmt::join(known, ", ")));
     }
-    picked.push_back(*entry);
+    for (const LineUpEntry* entry : found) picked.push_back(*entry);
   }
   return picked;
 }
@@ -152,7 +187,8 @@ std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
 void RequireDistinct(const std::vector<LineUpEntry>& entries) {
   std::map<std::string, std::string> by_channel;
   std::map<std::string, std::string> by_name;
-  for (const auto& [contestant, program, config, settings, directions] : entries) {
+  for (const LineUpEntry& entry : entries) {
+    const Contestant& contestant = entry.contestant;
     const std::string& planner = contestant.planner;
     const auto [same, is_new] = by_channel.emplace(PlannerChannels(planner).request, planner);
     if (!is_new) {
@@ -171,18 +207,18 @@ void RequireDistinct(const std::vector<LineUpEntry>& entries) {
   }
 }
 
-/// Who is given a path is given one that another finds by itself.
-void RequireFirstPaths(std::vector<LineUpEntry> entries) {
-  for (const LineUpEntry& entry : entries) {
-    const std::string& first = entry.contestant.first_path_of;
+/// Who is given a path is given one that another finds by itself, whose own name is put in place.
+void ResolveFirstPaths(std::vector<LineUpEntry>* entries) {
+  for (LineUpEntry& entry : *entries) {
+    std::string& first = entry.contestant.first_path_of;
     if (first.empty()) continue;
-    const LineUpEntry* other = Find(&entries, first);
-    if (other == nullptr || other->contestant.planner == entry.contestant.planner ||
-        !other->contestant.first_path_of.empty()) {
-      throw InputError(fmt::format(
-          "the planner '{}': first_path_of: '{}' {}", entry.contestant.planner, first,
-          other == nullptr ? "is not among the planners" : "does not find a path by itself"));
+    const std::string where =
+        fmt::format("the planner '{}': first_path_of", entry.contestant.planner);
+    const Contestant& other = ChosenOne(entries, first, where).contestant;
+    if (!other.first_path_of.empty()) {
+      throw InputError(fmt::format("{}: '{}' does not find a path by itself", where, first));
     }
+    first = other.planner;
   }
 }
 
@@ -211,25 +247,26 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
     static const std::vector<std::string> kOwn = {"ara", "rrtc"};
     for (const std::string& planner : flags.planners.empty() ? kOwn : flags.planners) {
       LineUpEntry& entry = entries.emplace_back();
-      entry.contestant.planner = entry.program = planner;
+      entry.contestant.planner = entry.key = entry.program = planner;
     }
   }
   RequireDistinct(entries);
-  RequireFirstPaths(entries);
+  ResolveFirstPaths(&entries);
   for (const auto& [planner, command] : flags.commands) {
-    LineUpEntry& entry = Chosen(&entries, planner, "--planner-command");
+    LineUpEntry& entry = ChosenOne(&entries, planner, "--planner-command");
     if (!entry.contestant.command.empty()) {
       throw InputError("--planner-command: '" + planner + "' has a command already");
     }
     entry.contestant.command = command;
   }
   for (const auto& [planner, setting] : flags.settings) {
-    LineUpEntry& entry = Chosen(&entries, planner, "--set");
-    if (!entry.contestant.command.empty()) {
-      throw InputError("--set: '" + planner +
-                       "' is started by its own command; give settings there");
+    for (LineUpEntry* entry : Chosen(&entries, planner, "--set")) {
+      if (!entry->contestant.command.empty()) {
+        throw InputError("--set: '" + planner +
+                         "' is started by its own command; give settings there");
+      }
+      entry->settings.push_back(setting);
     }
-    entry.settings.push_back(setting);
   }
   return entries;
 }

@@ -14,6 +14,7 @@ namespace planbench {
 /// A contestant, how it is started, and which runs it makes.
 struct LineUpEntry {
   Contestant contestant;
+  std::string key;                              ///< In the line-up; all of a sweep have one.
   std::string program;                          ///< planner_PROGRAM, unless it has a command.
   std::optional<std::filesystem::path> config;  ///< Its settings file; none: the robot folder's.
   std::vector<std::string> settings;            ///< "KEY=VALUE", over those of the file.
@@ -35,8 +36,10 @@ std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
                                     const std::optional<std::filesystem::path>& robot_folder);
 
 /// The contestants that the flags ask for, in the order of --planners or else of the line-up;
-/// without a line-up each is named as its program. Throws InputError for names that are unknown,
-/// occur twice or would share their channels, and for commands and settings of others.
+/// without a line-up each is named as its program. The key of a sweep stands for all contestants
+/// that it makes, as `first_path_of` for the one of them that is chosen. Throws InputError for
+/// names that are unknown, occur twice or would share their channels, for commands and settings of
+/// others, and where a name stands for several and one is needed.
 std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
                                     const std::optional<std::filesystem::path>& robot_folder);
 

@@ -155,7 +155,7 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
                                                    "--planner-command",
                                                    "y=./y --fast=1",
                                                    "--set",
-                                                   "x.step=3",
+                                                   "x.ompl.step=3",
                                                    "--set",
                                                    "x.name=a=b"}),
                                            &flags);
@@ -183,12 +183,12 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
   EXPECT_EQ(options.out, "o");
   using Pairs = std::vector<std::pair<std::string, std::string>>;
   EXPECT_EQ(options.line_up.commands, (Pairs{{"y", "./y --fast=1"}}));
-  EXPECT_EQ(options.line_up.settings, (Pairs{{"x", "step=3"}, {"x", "name=a=b"}}));
+  EXPECT_EQ(options.line_up.settings, (Pairs{{"x", "ompl.step=3"}, {"x", "name=a=b"}}));
 
   EXPECT_EQ(flags.at("time"), "2.5");
   EXPECT_EQ(flags.at("problems-range"), "1-2");
   EXPECT_EQ(flags.at("problems"), "p,q");
-  EXPECT_EQ(flags.at("set"), "x.step=3,x.name=a=b");
+  EXPECT_EQ(flags.at("set"), "x.ompl.step=3,x.name=a=b");
   EXPECT_EQ(flags.at("anytime"), "true");
   EXPECT_EQ(flags.at("no-simplify"), "true");
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -98,6 +100,67 @@ TEST_F(LineUpTest, ASweepIsAContestantForEachValue) {
   EXPECT_THAT(entries[1].settings, ElementsAre("sampler=halton", "range=0.5", "balance=false"));
 }
 
+TEST_F(LineUpTest, SettingsThatAreMapsAndListsAreHandedOnAsTheFlagHasThem) {
+  const auto entries = Read(R"(contestants:
+  rrtc:
+    set: {algorithm: RRT, ompl: {range: 2, delay: 1}, crowding_joints: [lift, "a, b"]}
+    sweep: {ompl.goal_bias: [0.05, 0.5]}
+  a: {sweep: {cells: {roll: [0.1, 0.2]}, joints: [[lift], [lift, roll]]}}
+)");
+  EXPECT_THAT(
+      Planners(entries),
+      ElementsAre("rrtc_ompl_goal_bias_0_05", "rrtc_ompl_goal_bias_0_5",
+                  "a_cells_roll_0_1_joints__lift_", "a_cells_roll_0_1_joints__lift__roll_",
+                  "a_cells_roll_0_2_joints__lift_", "a_cells_roll_0_2_joints__lift__roll_"));
+  EXPECT_THAT(entries[1].settings,
+              ElementsAre("algorithm=RRT", "ompl.range=2", "ompl.delay=1",
+                          "crowding_joints=[lift, \"a, b\"]", "ompl.goal_bias=0.5"));
+  EXPECT_THAT(entries[3].settings, ElementsAre("cells.roll=0.1", "joints=[lift, roll]"));
+}
+
+TEST_F(LineUpTest, TheNameOfASweepStandsForAllOfIt) {
+  LineUpFlags flags = Flags(R"(contestants:
+  chomp: {program: trajopt, first_path_of: rrtc_range_2}
+  improved: {program: trajopt, first_path_of: rrtc}
+  rrtc: {sweep: {range: [1, 2]}}
+)");
+  flags.planners = {"rrtc", "chomp"};
+  flags.settings = {{"rrtc", "balance=false"}, {"rrtc_range_2", "sampler=halton"}};
+  const auto entries = MakeLineUp(flags, robot());
+  EXPECT_THAT(Planners(entries), ElementsAre("rrtc_range_1", "rrtc_range_2", "chomp"));
+  EXPECT_THAT(entries[0].settings, ElementsAre("range=1", "balance=false"));
+  EXPECT_THAT(entries[1].settings, ElementsAre("range=2", "balance=false", "sampler=halton"));
+  EXPECT_EQ(entries[2].contestant.first_path_of, "rrtc_range_2");
+
+  flags.commands = {{"rrtc", "./rrtc"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); },
+                   {"--planner-command", "'rrtc' stands for several", "rrtc_range_1"});
+  flags.commands = {};
+  flags.planners = {"rrtc", "improved"};
+  ExpectInputError(
+      [&] { MakeLineUp(flags, robot()); },
+      {"'improved': first_path_of: 'rrtc' stands for several", "rrtc_range_1, rrtc_range_2"});
+  flags.planners = {"improved", "rrtc_range_2"};
+  flags.settings = {};
+  EXPECT_EQ(MakeLineUp(flags, robot())[0].contestant.first_path_of, "rrtc_range_2");
+}
+
+TEST_F(LineUpTest, TheExamplesOfTheDocumentationAreRead) {
+  folder_.Write("lineups/rrtc_fine.yaml", "");  // A file of the reader's own.
+  std::ifstream file(std::filesystem::path(PLANBENCH_SOURCE_DIR) / "docs" / "lineups.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string fence = "```yaml\n";
+  int examples = 0;
+  for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+    at += fence.size();
+    const std::string example = text.substr(at, text.find("```", at) - at);
+    SCOPED_TRACE(example);
+    EXPECT_NO_THROW(MakeLineUp(Flags(example), robot()));
+    ++examples;
+  }
+  EXPECT_GE(examples, 1);
+}
+
 TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
   ExpectRefused("contestants: {}", {"contestants", "no contestant"});
   ExpectRefused("lineup: {}", {":1", "lineup"});
@@ -108,6 +171,8 @@ TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
   ExpectRefused("contestants:\n  ara: {directions: up}", {":2", "auto, forward, backward or both"});
   ExpectRefused("contestants:\n  ara: {config: none.yaml}", {":2", "config", robot().string()});
   ExpectRefused("contestants:\n  ara: {sweep: {range: []}}", {":2", "range", "no value"});
+  ExpectRefused("contestants:\n  ara: {set: {ompl: {a: {b: 1}}}}", {":2", "ompl.a", "a map"});
+  ExpectRefused("contestants:\n  ara: {sweep: {range: 1}}", {":2", "range", "sequence"});
   ExpectRefused("contestants:\n  a b: {}", {":2", "a b", "letters"});
   ExpectRefused("contestants:\n  ara: {command: ./x, set: {a: 1}}", {":2", "set", "command"});
   ExpectRefused("contestants:\n  ara: {sweep: {a_very_long_name_of_a_setting: [100000000000]}}",
