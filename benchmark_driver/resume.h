@@ -20,8 +20,8 @@ void AwaitLoggersEnd(const std::filesystem::path& session_folder,
                      std::chrono::milliseconds patience = std::chrono::seconds(5));
 
 /// Reads the last session of a folder's only .lcmlog; nothing if the folder is a session's whose
-/// driver was killed before it had told of the session. Throws InputError if it is none, or if
-/// there are several logs.
+/// driver was killed before it had told of the session. Throws InputError if it is none, if there
+/// are several logs, or if results.sqlite holds sessions or runs that the log lacks.
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder);
 
 /// A session can be given more sets, problems, planners or trials when it is resumed, but nothing

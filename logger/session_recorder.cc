@@ -51,6 +51,8 @@ void SessionRecorder::Record(const ReceivedMessage& message) {
                             : message.channel == channel::kSession ? channel::kSessionAck
                                                                    : nullptr;
   if (ack_channel == nullptr) return;
+  // First the log: wherever the process is killed, the database holds nothing that the log lacks.
+  Flush();
   std::string id;
   std::string refusal;
   try {
@@ -63,7 +65,7 @@ void SessionRecorder::Record(const ReceivedMessage& message) {
     spdlog::error("{} '{}' not stored: {}", message.channel, id, error.what());
     return;
   }
-  Flush();
+  folder_.RequireThere();
   if (refusal.empty()) {
     acknowledge_(ack_channel, AckMessage{id, sender_, true, ""});
     return;

@@ -11,8 +11,13 @@
 #include <set>
 #include <type_traits>
 
+#include "common/sqlite.h"
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/event_log.h"
 #include "messaging/message_fields.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/session_database.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -276,6 +281,83 @@ TEST(ReadEarlierSessionTest, ASessionKilledAtOnceHoldsNothing) {
   EXPECT_TRUE(ReadEarlierSession(folder.path()).sessions.empty());
   folder.Write("a.lcmlog", "");
   EXPECT_TRUE(ReadEarlierSession(folder.path()).sessions.empty());
+}
+
+/// A session folder "s" whose database and event log hold different things, if the test says so.
+class LoggedSessionTest : public testing::Test {
+ protected:
+  LoggedSessionTest() {
+    folder_.Write("s/logs/logger.log", "");
+    WriteSession(path_, runs_);
+  }
+
+  /// The log of the session's beginning and of runs, by their places in `runs_`.
+  void WriteLog(const std::vector<std::size_t>& runs, bool with_session = true) {
+    EventLog log(path_ / "s.lcmlog", EventLog::Mode::kNew);
+    SessionMessage session;
+    session.run_id = "s";
+    if (with_session) log.Write({channel::kSession, Encode(session), 1});
+    for (const std::size_t run : runs) {
+      const RunRecordMessage record = MakeRecord(runs_[run], "s", static_cast<int>(run) + 1);
+      log.Write({channel::kRunRecord, Encode(record), 2});
+    }
+  }
+
+  void ExpectNotResumed(std::vector<std::string> parts) const {
+    parts.insert(parts.end(), {"--resume: results.sqlite in " + path_.string()});
+    ExpectInputError([&] { ReadEarlierSession(path_); }, parts);
+  }
+
+  const std::vector<MadeRun> runs_ = {{.contestant = "A", .problem = 1},
+                                      {.contestant = "A", .problem = 2},
+                                      {.contestant = "A", .problem = 3}};
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "s";
+};
+
+TEST_F(LoggedSessionTest, WhatTheLogLacksOfTheDatabaseIsNotMadeAgain) {
+  WriteLog({2});  // the middle of the log is damaged, or its end is cut off
+  ExpectNotResumed(
+      {"2 runs, the first of them s-1",
+       "logger --from " + (path_ / "s.lcmlog").string() + " --out " + path_.string() + "-rebuilt"});
+  std::filesystem::remove(path_ / "s.lcmlog");
+  WriteLog({0, 2});
+  ExpectNotResumed({"1 run, s-2"});
+  std::filesystem::remove(path_ / "s.lcmlog");
+  WriteLog({}, false);  // nothing is left of it
+  ExpectNotResumed({"3 runs"});
+}
+
+TEST_F(LoggedSessionTest, ADatabaseMayBeBehindItsLogOrLost) {
+  WriteLog({0, 1, 2});
+  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  {
+    SqliteConnection database(path_ / "results.sqlite", SqliteConnection::Mode::kReadWriteCreate);
+    database.Execute("DELETE FROM runs WHERE problem_index = 1");
+    // As other programs append it.
+    database.Execute("UPDATE runs SET run_id = NULL, request_id = 'x' WHERE problem_index = 2");
+  }
+  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  folder_.Write("s/results.sqlite", "");  // of a logger that was killed at once
+  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  std::filesystem::remove(path_ / "results.sqlite");
+  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+}
+
+TEST_F(LoggedSessionTest, NoSecondSessionBeginsWhereTheLogIsGone) {
+  ExpectNotResumed({"3 runs, the first of them s-1", "no event log (.lcmlog)"});
+  SqliteConnection(path_ / "results.sqlite", SqliteConnection::Mode::kReadWriteCreate)
+      .Execute("DELETE FROM runs");
+  ExpectNotResumed({"the session s", "no event log"});
+  WriteLog({}, false);
+  ExpectNotResumed({"the session s"});
+}
+
+TEST_F(LoggedSessionTest, ADatabaseThatIsNoneIsNamed) {
+  WriteLog({0});
+  folder_.Write("s/results.sqlite", std::string(4096, 'x'));
+  ExpectInputError([&] { ReadEarlierSession(path_); },
+                   {"--resume: " + (path_ / "results.sqlite").string()});
 }
 
 TEST(AwaitLoggersEndTest, NamesTheOneThatDoesNotEnd) {
