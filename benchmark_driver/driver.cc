@@ -126,11 +126,18 @@ void Driver::TakeUp(EarlierSession earlier) {
     }
   }
   std::set<std::string> done;
+  std::set<std::string> owed;
   bool all_scheduled = true;
   for (const RunRecordMessage& record : earlier.runs) {
     const bool is_scheduled = scheduled.contains(record.request_id);
     all_scheduled = all_scheduled && is_scheduled;
-    if (!WasAsked(record) && is_scheduled) continue;  // made anew
+    if (!WasAsked(record)) {  // it is to be made, now or later
+      if (is_scheduled) continue;
+      owed.insert(record.request_id);
+      const auto attempt = suffices_.find(record.request_id);
+      if (attempt != suffices_.end()) attempt->second = true;
+      continue;
+    }
     done.insert(record.request_id);
     Keep(record);
   }
@@ -145,8 +152,11 @@ void Driver::TakeUp(EarlierSession earlier) {
   std::set<std::string> planned;
   for (const ScheduledRun& run : before) {
     planned.insert(run.request_id);
-    if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) ++num_owed_;
+    if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) {
+      owed.insert(run.request_id);
+    }
   }
+  num_owed_ = static_cast<int>(owed.size());
   if (before.empty() && !last.finished) {  // how many they were is known all the same
     const auto may_be_of_it = [&had = last.conditions](const ScheduledRun& run) {
       return had.problem_sets.contains(run.problem_set) &&
@@ -156,7 +166,7 @@ void Driver::TakeUp(EarlierSession earlier) {
     const auto num_left =
         static_cast<int>(done.size()) +
         static_cast<int>(std::count_if(schedule_.begin(), schedule_.end(), may_be_of_it));
-    num_owed_ = std::max(0, last.num_runs - num_left);
+    num_owed_ = std::max(num_owed_, last.num_runs - num_left);
   }
   const bool all_planned = std::all_of(
       schedule_.begin(), schedule_.end(),
@@ -476,7 +486,8 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(Session(complete && num_owed_ == 0 && awaited_shards().empty()));
+  recorder_.Record(
+      Session(complete && num_owed_ + num_not_asked_ == 0 && awaited_shards().empty()));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
   return recorded;

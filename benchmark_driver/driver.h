@@ -38,8 +38,8 @@ class Driver {
   /// throw. Throws InputError naming what is missing or does not fit.
   void Discover(bool need_logger, const std::function<void()>& watch);
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
-  /// recorded; a session that was to make others before it was resumed, or awaits shards, is not
-  /// finished by that.
+  /// recorded; a session that was to make others before it was resumed, in which one was not asked
+  /// (num_not_asked), or which awaits shards, is not finished by that.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
@@ -54,8 +54,8 @@ class Driver {
   int num_owed() const { return num_owed_; }
   /// Shards that the session, once merged of others, does not hold: it is not finished without.
   std::set<std::string> awaited_shards() const { return AwaitedShards(flags_); }
-  /// Runs that were to be made and of which no request was sent (messaging/asked_runs.h): made when
-  /// the session is resumed with the same flags. Others of the resumed session do not count.
+  /// Of this call's runs those of which no request was sent (messaging/asked_runs.h): made when the
+  /// session is resumed with the same flags. Others of the resumed session are owed.
   int num_not_asked() const { return num_not_asked_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }

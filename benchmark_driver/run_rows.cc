@@ -1,6 +1,7 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
+#include "messaging/asked_runs.h"
 #include "planning/told_edges.h"
 #include "results/training.h"
 
@@ -26,6 +27,7 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   row.trial = record.trial;
   row.direction = record.request.direction;
   row.status = record.status;
+  row.asked = WasAsked(record);
   row.claimed = result.Solves();
   row.needs_other = needs_other;
   row.disturbed = counter("disturbed").value_or(0) > 0;

@@ -25,6 +25,7 @@ struct RunRow {
   int trial = 1;
   Direction direction = Direction::kForward;
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
+  bool asked = true;                          ///< Else it counts as missing (asked_runs.h).
   bool claimed = false;                       ///< The planner says that it found a path.
   bool trained = false;                       ///< On this very problem (training.h).
   bool needs_other = false;  ///< It failed, and the other direction is to be tried, too.

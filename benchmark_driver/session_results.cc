@@ -70,8 +70,15 @@ SessionResults::SessionResults(const SessionConditions& conditions, const RunRow
   std::vector<Attempt> attempts;
   std::set<std::pair<std::string, int>> problems;
   std::set<AttemptKey> made;
-  for (const RunRow& run : runs.rows()) made.insert(KeyOf(run, run.direction));
   for (const RunRow& run : runs.rows()) {
+    if (run.asked) made.insert(KeyOf(run, run.direction));
+  }
+  for (const RunRow& run : runs.rows()) {
+    if (!run.asked) {
+      ++num_not_asked_;
+      why_not_asked_.Add(*run.message);
+      continue;
+    }
     if (run.needs_other && !made.contains(KeyOf(run, OtherThan(run.direction)))) {
       ++num_awaiting_;
       continue;

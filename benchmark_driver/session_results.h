@@ -7,6 +7,7 @@
 #include "benchmark_driver/run_rows.h"
 #include "messaging/messages.h"
 #include "results/outcomes.h"
+#include "results/reason_count.h"
 
 namespace planbench {
 
@@ -44,6 +45,9 @@ class SessionResults {
   /// Attempts that failed and are in no set's results, since the one in the other direction, which
   /// was to follow, is missing: what becomes of their trials is not known.
   int num_awaiting() const { return num_awaiting_; }
+  /// Runs that were not asked for (messaging/asked_runs.h), in no set's results either, and why.
+  int num_not_asked() const { return num_not_asked_; }
+  const ReasonCount& why_not_asked() const { return why_not_asked_; }
   /// A contestant's name where all sets are shown together.
   std::string LabelOf(const Contestant& contestant) const;
 
@@ -51,6 +55,8 @@ class SessionResults {
   std::vector<Contestant> contestants_;
   std::vector<SetResults> sets_;
   int num_awaiting_ = 0;
+  int num_not_asked_ = 0;
+  ReasonCount why_not_asked_;
 };
 
 }  // namespace planbench

@@ -302,12 +302,21 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   return text + OddTimesTold(results) + Disturbances(results) + "\n";
 }
 
-/// What is in no table since it was not made, or awaits what was not; "" if nothing.
-std::string Missing(int num_made, int num_missing, int num_awaiting) {
+/// What is in no table since it was not made, or awaits what was not; "" if nothing. Of `num_runs`
+/// that have a record.
+std::string Missing(int num_runs, int num_without_record, const SessionResults& results) {
+  const int num_not_asked = results.num_not_asked();
+  const int num_awaiting = results.num_awaiting();
+  const int num_missing = num_without_record + num_not_asked;
   std::string text;
   if (num_missing > 0) {
     text = fmt::format("{} OF {} RUNS ARE MISSING: they were not made, and no figure counts them.",
-                       num_missing, num_made + num_missing);
+                       num_missing, num_runs + num_without_record);
+  }
+  if (num_not_asked > 0) {
+    text += fmt::format(" {} of them could not be asked for", num_not_asked);
+    const std::string reason = results.why_not_asked().Summary();
+    text += reason.empty() ? "." : fmt::format(" ({}).", reason);
   }
   if (num_awaiting > 0) {
     text += fmt::format(
@@ -339,8 +348,7 @@ SessionTables MakeTables(const SessionConditions& conditions, const RunRows& run
                          const std::map<std::string, std::string>& left_out) {
   const SessionResults results(conditions, runs, references);
   const std::string missing =
-      Missing(static_cast<int>(runs.size()), num_missing, results.num_awaiting()) +
-      LeftOut(left_out);
+      Missing(static_cast<int>(runs.size()), num_missing, results) + LeftOut(left_out);
   if (results.sets().empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const std::string begin =
       missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);

@@ -21,8 +21,9 @@ struct SessionTables {
 
 /// Tables of the runs, which may come in any order; contestants in that of the conditions.
 /// Beside a contestant that asks for it stand the figures that the study published
-/// (published_study.h). Runs that were to be made and were not (`num_missing`), and problems that
-/// were left out (SessionMessage::left_out), are told of before everything else. Definitions stand
+/// (published_study.h). Runs that were to be made and have no record (`num_missing`), those that
+/// were not asked for (messaging/asked_runs.h), which no table has either, and problems that were
+/// left out (SessionMessage::left_out), are told of before everything else. Definitions stand
 /// below each table and in docs/lineups.md.
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references = {}, int num_missing = 0,

@@ -1,12 +1,11 @@
 #include "messaging/asked_runs.h"
 
+#include "planning/asked_request.h"
+
 namespace planbench {
 
 bool WasAsked(const RunRecordMessage& run) {
-  // A request that was sent took time, whatever came of it; of a refusal older sessions do not tell
-  // how much.
-  const bool took_time = run.roundtrip_time_s > 0;
-  return took_time || (run.status != PlanStatus::kNoAnswer && !run.request.scene_id.empty());
+  return TellsOfRequest(run.roundtrip_time_s, run.status, !run.request.scene_id.empty());
 }
 
 RunStanding StandingOf(const RunRecordMessage& run) { return {WasAsked(run), run.start_utime}; }

@@ -7,8 +7,8 @@
 namespace planbench {
 
 /// Whether a request of the run was sent. A run that was not (its planner had been given up, or had
-/// come back as another; its problem could not be had) has a record that says why, and is still to
-/// be made: --resume makes it.
+/// come back as another; its problem could not be had) has a record that says why, and counts as
+/// missing: no figure counts it, the session is not finished without, --resume makes it.
 bool WasAsked(const RunRecordMessage& run);
 
 /// Of a run's record, what tells which of several stands.

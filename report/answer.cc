@@ -383,6 +383,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     const std::string& name = compared.session_names()[i];
     const int num_runs = static_cast<int>(session.runs.size());
     const int num_awaiting = compared.num_awaiting()[i];
+    const int num_lacking = session.num_runs - num_runs - num_awaiting - session.num_not_asked;
     if (session.imported) {
       cautions.push_back(fmt::format(
           "{}: {} runs from elsewhere, on another machine or under other conditions; no referee "
@@ -394,12 +395,20 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     } else if (!session.finished) {
       cautions.push_back(fmt::format("{}: did not finish: {} of {} runs are recorded.", name,
                                      num_runs, session.num_runs));
-    } else if (num_runs < session.num_runs) {
-      cautions.push_back(fmt::format("{}: {} of {} runs are not recorded.", name,
-                                     session.num_runs - num_runs - num_awaiting, session.num_runs));
-    } else {
+    } else if (num_lacking > 0) {
+      cautions.push_back(
+          fmt::format("{}: {} of {} runs are not recorded.", name, num_lacking, session.num_runs));
+    } else if (num_runs >= session.num_runs) {
       cautions.push_back(fmt::format("{}: all {} runs are recorded; it took {} s.", name, num_runs,
                                      FormatNumber(session.total_time_s)));
+    }
+    if (session.num_not_asked > 0) {
+      const std::string reason = session.why_not_asked.Summary();
+      cautions.push_back(fmt::format(
+          "{}: {} could not be asked for{}: counted as missing, not as failed; --resume makes {}.",
+          name, Count(session.num_not_asked, num_runs > 0 ? "more run" : "run"),
+          reason.empty() ? "" : fmt::format(" ({})", reason),
+          session.num_not_asked == 1 ? "it" : "them"));
     }
     if (num_awaiting > 0) {
       cautions.push_back(fmt::format(

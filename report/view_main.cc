@@ -45,7 +45,8 @@ Json ViewOfRun(const Flags& flags) {
       return views.View(run, kFrames);
     }
   }
-  throw InputError(fmt::format("{}: no run {} in its table runs", flags.session, *flags.run));
+  throw InputError(
+      fmt::format("{}: no run {} in its table runs that was asked for", flags.session, *flags.run));
 }
 
 /// The run of that number among those of the log, from 1, or the last.

@@ -14,6 +14,7 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/sqlite.h"
+#include "planning/asked_request.h"
 #include "results/bus_json.h"
 #include "results/database_version.h"
 #include "results/outcomes.h"
@@ -280,6 +281,11 @@ class Reader {
       const auto [known, is_new] =
           contestants_.try_emplace({session.run_id, select.Int(1)}, session.contestants.size());
       if (is_new) session.contestants.push_back({select.Text(2), Text(select.Value(3))});
+      if (!TellsOfRequest(run.roundtrip_time_s, run.status, !run.scene_id.empty())) {
+        ++session.num_not_asked;
+        session.why_not_asked.Add(run.message);
+        continue;
+      }
       run.contestant = known->second;
       places_[run.id] = {&session, session.runs.size()};
       session.runs.push_back(std::move(run));

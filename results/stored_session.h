@@ -11,6 +11,7 @@
 #include "planning/plan_result.h"
 #include "planning/plan_status.h"
 #include "results/outcomes.h"
+#include "results/reason_count.h"
 
 namespace planbench {
 
@@ -85,6 +86,10 @@ struct StoredSession {
 
   std::vector<StoredContestant> contestants;
   std::vector<StoredRun> runs;
+  /// Records of runs that were not asked for (planning/asked_request.h): these are missing, and not
+  /// among `runs`.
+  int num_not_asked = 0;
+  ReasonCount why_not_asked;
 };
 
 struct StoredSessions {

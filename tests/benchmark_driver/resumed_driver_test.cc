@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "messaging/asked_runs.h"
 #include "results/entrants.h"
 #include "results/reproduce.h"
 #include "tests/benchmark_driver/driver_fixture.h"
@@ -109,14 +110,20 @@ class OtherFlagsTest : public DriverTest {
       if (session.run_id == "run") earlier_.sessions.push_back(session);
     }
     for (const RunRecordMessage& record : logger.records().messages()) {
-      const auto is_it = [&](const auto& one) { return one.request_id == record.request_id; };
-      if (std::none_of(earlier_.runs.begin(), earlier_.runs.end(), is_it)) {
+      const auto known =
+          std::find_if(earlier_.runs.begin(), earlier_.runs.end(),
+                       [&](const auto& one) { return one.request_id == record.request_id; });
+      if (known == earlier_.runs.end()) {
         earlier_.runs.push_back(record);
+      } else if (Replaces(record, *known)) {
+        *known = record;
       }
     }
     told_ = earlier_.sessions.back();
     EXPECT_EQ(told_.finished, num_owed == 0 && driver->awaited_shards().empty());
-    EXPECT_EQ(told_.num_runs, static_cast<int>(earlier_.runs.size()) + num_owed);
+    const auto num_made = std::count_if(earlier_.runs.begin(), earlier_.runs.end(), WasAsked);
+    EXPECT_EQ(told_.num_runs, static_cast<int>(num_made) + num_owed);
+    EXPECT_EQ(driver->runs().size(), static_cast<std::size_t>(num_made));
     EXPECT_EQ(told_.conditions.contestants.size(), 2u);
     EXPECT_EQ(std::count_if(told_.nodes.begin(), told_.nodes.end(),
                             [](const auto& node) { return node.kind == NodeKind::kPlanner; }),
@@ -164,6 +171,29 @@ TEST_F(OtherFlagsTest, AFinishedOneResumedWithFewerContestantsIsWhatItWas) {
   Make({"arm"}, 1, 0);
   EXPECT_EQ(earlier_.runs.size(), 5u);
   EXPECT_EQ(command_, Command("arm,leg", 1));
+}
+
+TEST_F(OtherFlagsTest, ARunThatWasNotAskedForIsOwedUntilItsPlannerTakesPart) {
+  Make({"arm", "leg"}, 1, 0);
+  // As if the leg had been given up before problem 2.
+  for (RunRecordMessage& record : earlier_.runs) {
+    if (record.request_id != "run/cans/2/leg/forward/1") continue;
+    record.status = PlanStatus::kNoAnswer;
+    record.roundtrip_time_s = 0;
+    record.result = {};
+    record.message = "given up: it died";
+  }
+  ASSERT_EQ(std::count_if(earlier_.runs.begin(), earlier_.runs.end(), WasAsked), 4);
+  for (const bool plan_is_known : {true, false}) {
+    if (!plan_is_known) {
+      for (SessionMessage& session : earlier_.sessions) session.settings.erase(kEntrants);
+    }
+    Make({"arm"}, 1, 1);  // the backward one may not be needed
+    EXPECT_FALSE(told_.finished);
+  }
+  Make({"leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+  EXPECT_TRUE(told_.finished);
 }
 
 TEST_F(OtherFlagsTest, OneThatWasMadeInSeveralWaysTellsOfAll) {
@@ -343,8 +373,11 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   Driver of_others(&bus_, options, LineUp({"arm"}), {}, earlier);
   of_others.Discover(true, Idle);
   EXPECT_TRUE(of_others.Run(Never, Idle));
-  EXPECT_EQ(of_others.runs().size(), 2u);
+  EXPECT_EQ(of_others.runs().size(), 1u);
+  EXPECT_EQ(of_others.num_runs(), 2);
   EXPECT_EQ(of_others.num_not_asked(), 0) << "the same flags would not make it";
+  EXPECT_EQ(of_others.num_owed(), 1);
+  EXPECT_FALSE(logger.sessions().messages().back().finished);
 }
 
 TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedSession) {

@@ -211,6 +211,35 @@ TEST(TablesTest, AFailureWhoseOtherDirectionIsMissingIsMissing) {
   EXPECT_THAT(MakeTables(Conditions(), alone, {}, 1).brief, EndsWith("No runs.\n"));
 }
 
+TEST(TablesTest, ARunThatWasNotAskedForIsMissing) {
+  const auto not_asked = [](RunRecordMessage record) {
+    record.roundtrip_time_s = 0;
+    record.message = "given up: it died";
+    return record;
+  };
+  RunRows rows;
+  rows.Add(OfProblem(1, AttemptOf(PlanStatus::kSolved, 1)));
+  rows.Add(not_asked(OfProblem(2, AttemptOf(PlanStatus::kNoAnswer, 0))));
+  rows.Add(OfProblem(3, AttemptOf(PlanStatus::kTimedOut, 60)), true);
+  rows.Add(not_asked(OfProblem(3, Backward(PlanStatus::kNoAnswer, 0))));
+  rows.Add(OfProblem(4, AttemptOf(PlanStatus::kNoAnswer, 1)));  // it died of it
+  const SessionTables tables = MakeTables(Conditions(), rows, {}, 1);
+  EXPECT_THAT(Row(tables.brief, kSuccess, "ARA*"), StartsWith("2 1 1 50.0 ["));
+  EXPECT_THAT(tables.brief, StartsWith("3 OF 6 RUNS ARE MISSING"));
+  const std::vector<std::string> failed = Table(tables.full, kFailed);
+  EXPECT_EQ(
+      std::count_if(failed.begin(), failed.end(),
+                    [](const std::string& line) { return line.find("NO_ANSWER") != line.npos; }),
+      1);
+  std::string in_one_line = tables.brief;
+  std::replace(in_one_line.begin(), in_one_line.end(), '\n', ' ');
+  EXPECT_THAT(in_one_line, HasSubstr("2 of them could not be asked for (mostly: given up: it "
+                                     "died). 1 more found nothing in one direction"));
+  RunRows none;
+  none.Add(not_asked(AttemptOf(PlanStatus::kNoAnswer, 0)));
+  EXPECT_THAT(MakeTables(Conditions(), none).brief, StartsWith("1 OF 1 RUNS ARE MISSING"));
+}
+
 TEST(TablesTest, AllPairsAreInTheFullTables) {
   auto records = FourProblems();
   auto more = OfProblem(1, AttemptOf(PlanStatus::kSolved, 1));

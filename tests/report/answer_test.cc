@@ -236,6 +236,41 @@ TEST_F(ReportTest, WhoTriedOtherProblemsRanksByTheCommonOnes) {
             "them tried.");
 }
 
+TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
+  const MadeRun not_asked = {.contestant = "B",
+                             .status = PlanStatus::kNoAnswer,
+                             .reason = "given up: it died",
+                             .asked = false};
+  MadeRun of_another = not_asked;
+  of_another.contestant = "C";
+  const TemporaryFolder folder;
+  WriteSession(folder / "example",
+               {{.contestant = "A"},
+                {.contestant = "B", .problem = 2, .status = PlanStatus::kNoAnswer},
+                not_asked,
+                of_another},
+               ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  const ComparedSessions compared(sessions);
+  EXPECT_EQ(compared.pooled().at("B").num_runs(), 1) << "that of which it died";
+  const std::string line =
+      "example: 2 more runs could not be asked for (mostly: given up: it died): counted as "
+      "missing, "
+      "not as failed; --resume makes them.";
+  std::vector<std::string> cautions = Cautions(compared);
+  EXPECT_THAT(cautions, testing::Contains(line));
+  EXPECT_THAT(cautions, testing::Contains("C: no run counts."));
+  EXPECT_THAT(cautions, testing::Not(testing::Contains(testing::HasSubstr("recorded"))));
+  sessions[0].finished = false;
+  cautions = Cautions(ComparedSessions(sessions));
+  EXPECT_THAT(cautions, testing::Contains("example: did not finish: 2 of 4 runs are recorded."));
+  EXPECT_THAT(cautions, testing::Contains(line));
+  sessions[0].finished = true;
+  sessions[0].num_runs = 5;
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)),
+              testing::Contains("example: 1 of 5 runs are not recorded."));
+}
+
 TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();

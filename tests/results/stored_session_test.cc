@@ -29,23 +29,27 @@ TEST_F(ReadSessionsTest, ReadsWhatTheLoggerWrote) {
   message.robot_name = "fetch";
   message.conditions.request.seed = 18'446'744'073'709'551'615u;
   message.settings = {{"time", "10"}, {"launch", "true"}};
-  WriteSession(folder_ / "one",
-               {{.contestant = "A", .problem = 7, .trial = 2, .time_s = 0.25},
-                {.contestant = "B", .status = PlanStatus::kInvalidPath, .reason = "hits board"},
-                {.contestant = "A", .status = PlanStatus::kNoAnswer, .time_s = 3}},
-               message);
+  WriteSession(
+      folder_ / "one",
+      {{.contestant = "A", .problem = 7, .trial = 2, .time_s = 0.25},
+       {.contestant = "B", .status = PlanStatus::kInvalidPath, .reason = "hits board"},
+       {.contestant = "A", .status = PlanStatus::kNoAnswer, .time_s = 3},
+       {.contestant = "C", .status = PlanStatus::kNoAnswer, .reason = "given up", .asked = false}},
+      message);
   const StoredSessions stored = ReadSessions(folder_ / "one");
   ASSERT_EQ(stored.sessions.size(), 1u);
   const StoredSession& session = stored.sessions.front();
   EXPECT_EQ(session.run_id, "one");
   EXPECT_TRUE(session.described);
   EXPECT_TRUE(session.finished);
-  EXPECT_EQ(session.num_runs, 3);
+  EXPECT_EQ(session.num_runs, 4);
   EXPECT_EQ(session.commit, "abc");
   EXPECT_EQ(session.seed, "18446744073709551615");
   EXPECT_EQ(session.flags.at("time"), "10");
-  ASSERT_EQ(session.contestants.size(), 2u);
+  ASSERT_EQ(session.contestants.size(), 3u);
   ASSERT_EQ(session.runs.size(), 3u);
+  EXPECT_EQ(session.num_not_asked, 1);
+  EXPECT_EQ(session.why_not_asked.Summary(), "mostly: given up");
 
   const StoredRun& solved = session.runs[0];
   EXPECT_EQ(session.contestants[solved.contestant].name, "A");
