@@ -69,7 +69,9 @@ void OpenEdges(benchmark::State& state) {
   for (EdgeHeap::Entry& entry : entries) entry = {unit(random), unit(random), 0, 1, 2};
   for ([[maybe_unused]] auto _ : state) {
     EdgeHeap heap;
-    heap.Rebuild(100, EdgeOrder::kHeuristic, {}, [](const EdgeHeap::Entry&) { return true; });
+    heap.Rebuild(
+        100, EdgeOrder::kHeuristic, {}, [](const EdgeHeap::Entry&) { return true; },
+        [] { return false; });
     std::size_t next = 0;
     for (int expansion = 0; expansion < state.range(0); ++expansion) {
       for (int i = 0; i < 30; ++i) heap.Push(entries[next++ % entries.size()]);

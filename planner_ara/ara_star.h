@@ -9,6 +9,7 @@
 #include "common/numbers.h"
 #include "planner_ara/chunked_array.h"
 #include "planner_ara/edge_heap.h"
+#include "planning/proven_bound.h"
 
 namespace planbench {
 
@@ -78,7 +79,8 @@ class AraStar {
 
   /// Searches until best_cost() is proven to be at most `epsilon` (>= 1) times the optimum. A new
   /// value of epsilon, or another order, begins a new iteration. `should_stop` is asked before
-  /// every evaluation of an edge.
+  /// an edge is evaluated, before a state is expanded again, and every few thousand edges where
+  /// OPEN is put in another order. (That begins anew after a stop.)
   ///
   /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and an
   /// iteration ends at its first path, if there is one better than those before. Whatever the order
@@ -87,7 +89,10 @@ class AraStar {
   template <std::predicate StopFunction>
   ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop,
                              EdgeOrder order = EdgeOrder::kHeuristic) {
-    if (epsilon != epsilon_ || order != order_) BeginIteration(epsilon, order);
+    if (!TakeInLaterEdges(should_stop)) return ImproveOutcome::kStopped;
+    if ((epsilon != epsilon_ || order != order_) && !BeginIteration(epsilon, order, should_stop)) {
+      return ImproveOutcome::kStopped;
+    }
     const bool ends_at_first = order == EdgeOrder::kGuide;
     ImproveOutcome outcome = ImproveOutcome::kConverged;
     while (!open_.empty() &&
@@ -104,14 +109,13 @@ class AraStar {
     return outcome;
   }
 
-  /// Takes in the edges that the graph has got since its states were expanded. What was proven of
-  /// the optimum does not hold any more; a new iteration begins.
+  /// Has the next ImprovePath take in the edges that the graph has got since its states were
+  /// expanded, and begin a new iteration. What was proven of the optimum does not hold any more.
   void ExpandAgain() {
     lower_bound_ = 0;
     epsilon_ = 0;
-    for (StateId state = 0; state < nodes_.size(); ++state) {
-      if (nodes_[state].closed_in != 0) PushEdges(state);
-    }
+    expand_again_at_ = 0;
+    expand_again_end_ = static_cast<StateId>(nodes_.size());
   }
 
   /// Says that a path of this cost is known from elsewhere: from now on edges that cannot lie on a
@@ -127,16 +131,12 @@ class AraStar {
   /// h of OPEN and INCONS, or best_cost() over the epsilon last converged at where that is greater.
   /// Never falls. Takes time linear in OPEN.
   double ProveLowerBound() {
-    if (started_) RaiseLowerBound(SmallestOpenCost());
+    if (started_ && !lacks_edges()) RaiseLowerBound(SmallestOpenCost());
     return std::min(lower_bound_, best_cost());
   }
   /// Proven bound of goal_cost() / optimum. Never rises while goal_cost() stays. Infinity without a
   /// path or a bound.
-  double ProveBound() {
-    if (goal_cost() == kInfinity) return kInfinity;
-    const double lower_bound = ProveLowerBound();
-    return goal_cost() <= lower_bound ? 1 : goal_cost() / lower_bound;
-  }
+  double ProveBound() { return ProvenBound(goal_cost(), ProveLowerBound()); }
   /// Cost of the best way known to a state that has been expanded.
   double CostTo(StateId state) const { return nodes_[state].g; }
   /// The best path known, start to goal; empty without one.
@@ -178,16 +178,35 @@ class AraStar {
 
   bool CanImproveGoal(const EdgeHeap::Entry& edge) const { return edge.g + edge.h < best_cost(); }
 
-  void BeginIteration(double epsilon, EdgeOrder order) {
+  // False if it was stopped before it could begin.
+  template <std::predicate StopFunction>
+  bool BeginIteration(double epsilon, EdgeOrder order, StopFunction& should_stop) {
+    epsilon_ = 0;  // should it be stopped
+    const bool is_ordered = open_.Rebuild(
+        epsilon, order, incons_,
+        [this](const EdgeHeap::Entry& edge) { return CanImproveGoal(edge); }, should_stop);
+    incons_.clear();
+    if (!is_ordered) return false;
     epsilon_ = epsilon;
     order_ = order;
     cost_before_ = goal_cost();
     ++iteration_;
-    open_.Rebuild(epsilon, order, incons_,
-                  [this](const EdgeHeap::Entry& edge) { return CanImproveGoal(edge); });
-    incons_.clear();
     if (!started_ && start_ != goal_) Expand(start_);
     started_ = true;
+    return true;
+  }
+
+  // Between ExpandAgain and the end of this OPEN lacks edges.
+  bool lacks_edges() const { return expand_again_at_ < expand_again_end_; }
+  // False if it was stopped before all were taken in.
+  template <std::predicate StopFunction>
+  bool TakeInLaterEdges(StopFunction& should_stop) {
+    for (; lacks_edges(); ++expand_again_at_) {
+      if (nodes_[expand_again_at_].closed_in == 0) continue;
+      if (should_stop()) return false;
+      PushEdges(expand_again_at_);
+    }
+    return true;
   }
 
   void Evaluate(const EdgeHeap::Entry& edge) {
@@ -251,6 +270,9 @@ class AraStar {
   double lower_bound_ = 0;          // of the optimal cost
   double upper_bound_ = kInfinity;  // cost of a path known from elsewhere
   StateId last_expanded_;
+  // The states that are still to be expanded again.
+  StateId expand_again_at_ = 0;
+  StateId expand_again_end_ = 0;
   std::int64_t num_expansions_ = 0;
   std::int64_t num_edges_generated_ = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,9 @@ namespace planbench {
 
 /// Dense identifier of a search state, counted from 0.
 using StateId = std::uint32_t;
+
+/// Passes over all of OPEN ask whether to stop after so many entries.
+inline constexpr std::int64_t kStepsBetweenStops = 4096;
 
 /// What EdgeHeap multiplies by epsilon.
 enum class EdgeOrder {
@@ -58,14 +62,31 @@ class EdgeHeap {
   }
 
   /// Sets epsilon and order, takes in `more`, keeps only entries that `keep` accepts, and orders
-  /// the rest; linear time.
-  template <typename Predicate>
-  void Rebuild(double epsilon, EdgeOrder order, std::span<const Entry> more, Predicate keep) {
+  /// the rest; linear time. False if `should_stop` said so, which is asked now and then: all
+  /// entries are there then, but without order, and the heap has to be rebuilt before it is used
+  /// again.
+  template <typename Predicate, std::predicate StopFunction>
+  bool Rebuild(double epsilon, EdgeOrder order, std::span<const Entry> more, Predicate keep,
+               StopFunction&& should_stop) {
     epsilon_ = epsilon;
     by_guide_ = order == EdgeOrder::kGuide;
     entries_.insert(entries_.end(), more.begin(), more.end());
-    std::erase_if(entries_, [&](const Entry& entry) { return !keep(entry); });
-    for (std::size_t i = entries_.size(); i-- > 0;) SiftDown(i, Entry(entries_[i]));
+    std::int64_t steps = 0;
+    const auto must_stop = [&] { return ++steps % kStepsBetweenStops == 0 && should_stop(); };
+    for (std::size_t i = 0; i < entries_.size();) {
+      if (must_stop()) return false;
+      if (keep(entries_[i])) {
+        ++i;
+      } else {
+        entries_[i] = entries_.back();
+        entries_.pop_back();
+      }
+    }
+    for (std::size_t i = entries_.size(); i-- > 0;) {
+      if (must_stop()) return false;
+      SiftDown(i, Entry(entries_[i]));
+    }
+    return true;
   }
 
   std::size_t bytes() const { return entries_.capacity() * sizeof(Entry); }

@@ -70,6 +70,34 @@ TEST(AraStar, TakesInEdgesThatCameLater) {
   EXPECT_GT(num_solved_later, kNumGraphs / 10);
 }
 
+// A start with many neighbours, each of which gets an edge to the goal later.
+TEST(AraStar, CanBeStoppedBetweenIterations) {
+  constexpr StateId kNumStates = 3 * kStepsBetweenStops;
+  // The states expanded again, one by one, then OPEN.
+  constexpr int kNumStatesAgain = kNumStates - 1;
+  for (const int num_asked : {1, 5000, kNumStatesAgain, kNumStatesAgain + 1, kNumStatesAgain + 9}) {
+    SCOPED_TRACE(num_asked);
+    ExplicitGraph graph(kNumStates);
+    for (StateId s = 2; s < kNumStates; ++s) graph.Add(kStart, s, 1);
+    AraStar<ExplicitGraph> search(&graph, kStart, kGoal);
+    ASSERT_EQ(search.ImprovePath(1, kNever), ImproveOutcome::kExhausted);
+    const int num_iterations = search.num_iterations();
+    for (StateId s = 2; s < kNumStates; ++s) graph.Add(s, kGoal, 1 + s % 7);
+    graph.expanded.clear();
+    search.ExpandAgain();
+    int budget = num_asked;
+    ASSERT_EQ(search.ImprovePath(1, [&] { return --budget == 0; }), ImproveOutcome::kStopped);
+    EXPECT_EQ(search.num_iterations(), num_iterations);
+    EXPECT_LE(search.ProveLowerBound(), 2);
+    EXPECT_EQ(static_cast<int>(graph.expanded.size()), std::min(num_asked - 1, kNumStatesAgain));
+    EXPECT_EQ(search.ProveLowerBound() > 0, num_asked > kNumStatesAgain) << "OPEN lacks edges";
+    EXPECT_EQ(search.ImprovePath(1, kNever), ImproveOutcome::kConverged);
+    EXPECT_EQ(search.goal_cost(), 2);
+    EXPECT_EQ(search.ProveBound(), 1);
+    ExpectNoneTwice(graph.expanded);
+  }
+}
+
 TEST(AraStar, KeepsItsPromiseAtEveryEpsilon) {
   int num_solvable = 0;
   int num_improved = 0;

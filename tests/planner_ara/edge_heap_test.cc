@@ -18,6 +18,7 @@ Rank RankOf(const Entry& entry, double epsilon) {
           entry.action};
 }
 const auto kAll = [](const Entry&) { return true; };
+const auto kNever = [] { return false; };
 
 // Few values, so that keys and ties meet; no two entries are equal.
 Entry RandomEntry(std::mt19937* random, int number) {
@@ -44,7 +45,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
     std::mt19937 random(seed);
     const double epsilon = 1 + seed % 5;
     EdgeHeap heap;
-    heap.Rebuild(epsilon, EdgeOrder::kHeuristic, {}, kAll);
+    heap.Rebuild(epsilon, EdgeOrder::kHeuristic, {}, kAll, kNever);
     std::vector<Entry> model;
     for (int step = 0; step < 2000; ++step) {
       if (random() % 3 != 0 || model.empty()) {
@@ -67,7 +68,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
 TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
   std::mt19937 random(1);
   EdgeHeap heap;
-  heap.Rebuild(10, EdgeOrder::kHeuristic, {}, kAll);
+  heap.Rebuild(10, EdgeOrder::kHeuristic, {}, kAll, kNever);
   std::vector<Entry> expected;
   std::vector<Entry> more;
   const auto keep = [](const Entry& entry) { return entry.g < 7; };
@@ -80,8 +81,33 @@ TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
     }
     if (keep(entry)) expected.push_back(entry);
   }
-  heap.Rebuild(1.5, EdgeOrder::kHeuristic, more, keep);
+  heap.Rebuild(1.5, EdgeOrder::kHeuristic, more, keep, kNever);
   ExpectPopsInOrder(&heap, expected, 1.5);
+}
+
+TEST(EdgeHeap, ARebuildThatIsStoppedLosesNothing) {
+  std::mt19937 random(3);
+  const auto keep = [](const Entry& entry) { return entry.g < 7; };
+  int num_stops = 0;
+  for (int num_asked = 1;; ++num_asked) {
+    EdgeHeap heap;
+    std::vector<Entry> expected;
+    std::vector<Entry> more;
+    for (int i = 0; i < 5 * kStepsBetweenStops; ++i) {
+      more.push_back(RandomEntry(&random, i));
+      if (keep(more.back())) expected.push_back(more.back());
+    }
+    int budget = num_asked;
+    const bool done =
+        heap.Rebuild(3, EdgeOrder::kHeuristic, more, keep, [&] { return --budget == 0; });
+    if (!done) {
+      ASSERT_TRUE(heap.Rebuild(3, EdgeOrder::kHeuristic, {}, keep, kNever));
+    }
+    ExpectPopsInOrder(&heap, expected, 3);
+    if (done) break;
+    ++num_stops;
+  }
+  EXPECT_GT(num_stops, 5) << "in both passes";
 }
 
 TEST(EdgeHeap, RebuildCanOrderByTheGuide) {
@@ -92,7 +118,7 @@ TEST(EdgeHeap, RebuildCanOrderByTheGuide) {
     entry.guide = static_cast<float>((i * 37) % 301);  // all different
     heap.Push(entry);
   }
-  heap.Rebuild(4, EdgeOrder::kGuide, {}, kAll);
+  heap.Rebuild(4, EdgeOrder::kGuide, {}, kAll, kNever);
   double last = 0;
   while (!heap.empty()) {
     EXPECT_EQ(heap.top_key(), heap.top().g + 4 * static_cast<double>(heap.top().guide));
