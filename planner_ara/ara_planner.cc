@@ -2,22 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/content_hash.h"
 #include "common/error.h"
+#include "common/numbers.h"
 #include "common/read_text.h"
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/manipulation_graph.h"
 #include "planner_ara/two_way_search.h"
 #include "planning/experience.h"
+#include "planning/proven_bound.h"
 
 namespace planbench {
 namespace {
@@ -91,27 +94,28 @@ class AraPlanner : public Planner {
     };
 
     // Proven before the limit came within an edge, if it did: without that edge nothing is.
-    double bound = std::numeric_limits<double>::infinity();
-    // 0 where nothing is proven: without wrapping, and before both directions have begun.
-    const auto epsilon_proven = [&] {
-      return settings.wrap_heuristic && std::isfinite(bound) ? bound : 0;
-    };
+    double lower_bound = 0;
+    // Without wrapping nothing is proven.
+    const auto told_lower_bound = [&] { return settings.wrap_heuristic ? lower_bound : 0; };
     bool reported = false;
     const auto report = [&](double proven) {
-      query.HoldPath();
+      if (search.cost() < query.known_cost()) query.HoldPath();
       if (query.edges().Stopped()) return;
-      bound = proven;
+      lower_bound = proven;
       reported = true;
-      query.ReportSolution(epsilon_proven(), search.cost(), search.counts().expansions);
+      query.ReportSolution(told_lower_bound(), search.cost(), search.counts().expansions);
     };
+    search.SetKnownCost(query.known_cost());
     ImproveOutcome outcome = ImproveOutcome::kStopped;
     std::optional<double> epsilon = settings.epsilon.initial;
     while (epsilon) {
       outcome = search.Improve(*epsilon, should_stop, report);
-      if (search.path().empty()) break;
-      if (const double proven = search.ProveBound(); !reported || proven < bound) report(proven);
+      if (search.best_cost() == kInfinity) break;
+      if (const double proven = search.ProveLowerBound(); !reported || proven > lower_bound) {
+        report(proven);
+      }
       if (outcome != ImproveOutcome::kConverged || !query.anytime()) break;
-      epsilon = settings.epsilon.Next(*epsilon, bound);
+      epsilon = settings.epsilon.Next(*epsilon, ProvenBound(search.best_cost(), lower_bound));
     }
 
     SearchResult result;
@@ -129,14 +133,24 @@ class AraPlanner : public Planner {
     if (experience_) {
       result.counters["recalled_edges"] = static_cast<double>(counts.recalled_edges);
     }
+    result.lower_bound = told_lower_bound();
+    // A first solution is not held up where nothing can be proven.
+    if (query.anytime()) {
+      result.wanted_epsilon = settings.epsilon.final;
+    } else if (settings.wrap_heuristic) {
+      result.wanted_epsilon = settings.epsilon.initial;
+    }
     if (!search.path().empty()) {
       result.status = PlanStatus::kSolved;
       result.path = search.path();
-      result.epsilon = epsilon_proven();
       result.cost = search.cost();
     } else if (outcome == ImproveOutcome::kExhausted) {
       result.status = PlanStatus::kExhausted;
       result.message = "the lattice holds no path to the goal";
+      if (!query.edges().Stopped()) result.lower_bound = kInfinity;
+    } else if (outcome == ImproveOutcome::kConverged) {
+      result.status = PlanStatus::kExhausted;
+      result.message = "the lattice holds no cheaper path than that to another goal";
     } else if (out_of_memory) {
       result.status = PlanStatus::kMemoryLimit;
       result.message = "the search reached memory_limit_mb";
@@ -148,6 +162,22 @@ class AraPlanner : public Planner {
       result.message = "the time limit came before a path was found";
     }
     return result;
+  }
+
+  std::vector<double> LowerBounds(const SearchQuery& query, const Configuration& q,
+                                  std::span<const GoalBox> ends) override {
+    std::vector<double> bounds(ends.size(), 0.0);
+    const AraSettings settings = SettingsFor(query);
+    if (!settings.wrap_heuristic) return bounds;
+    const PlanningGroup& group = query.edges().checker().group();
+    const ManipulationGraph graph(
+        &query.edges(), q, ends.front(),
+        query.parameters().empty()
+            ? OptionsFor(group)
+            : ResolveOptions(settings, robot(), group, "request parameters"));
+    std::transform(ends.begin(), ends.end(), bounds.begin(),
+                   [&](const GoalBox& end) { return graph.LeastCostTo(end); });
+    return bounds;
   }
 
   std::optional<EdgeSampling> OwnEdgeSampling(const PlanningGroup& group, EdgeCheck method,

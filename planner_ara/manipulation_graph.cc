@@ -229,6 +229,12 @@ double ManipulationGraph::Heuristic(StateId state) const {
                                                turns_ ? turns_->Record(point) : nullptr));
 }
 
+double ManipulationGraph::LeastCostTo(const GoalBox& goal) const {
+  Configuration start(from_.size());
+  ConfigurationOf(kStart, start);
+  return CostOf(GoalDistance(edges_->space(), goal, options_.weights)(start));
+}
+
 std::uint32_t ManipulationGraph::TargetPoint(StateId source, const Move& move, int times) {
   const std::uint32_t point = points_.FindOrAdd(target_);
   if (!turns_ || point < turns_->size()) return point;

@@ -83,6 +83,8 @@ class ManipulationGraph {
   void AddPaths(std::span<const Path> paths);
   /// Joint distance to the goal box in the unit of the costs.
   double Heuristic(StateId state) const;
+  /// What paths from the start to any goal cost at least. The heuristic must wrap.
+  double LeastCostTo(const GoalBox& goal) const;
 
   const Lattice& lattice() const { return lattice_; }
   /// Configuration of a lattice point (not of kGoal), n joints.

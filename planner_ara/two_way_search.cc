@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/numbers.h"
+#include "planning/proven_bound.h"
 #include "planning/shortcut.h"
 
 namespace planbench {
@@ -116,6 +117,11 @@ void TwoWaySearch::AddPaths(std::span<const Path> paths) {
   for (const auto& side : sides_) side->graph.AddPaths(paths);
 }
 
+void TwoWaySearch::SetKnownCost(double cost) {
+  known_cost_ = cost;
+  for (const auto& side : sides_) side->search.SetUpperBound(cost);
+}
+
 TwoWaySearch::Side* TwoWaySearch::NextSide() const {
   Side* first = sides_.front().get();
   Side* last = sides_.back().get();
@@ -133,14 +139,14 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
   if (phase_ == Phase::kFirst && !guided) phase_ = Phase::kProof;
   BeginPhase(phase_ == Phase::kFirst && cost_ < kInfinity ? Phase::kBetter : phase_);
   const auto reaches_epsilon = [&] {
-    const double bound = ProveBound();
-    on_solution(bound);
-    return bound <= epsilon;
+    const double lower_bound = ProveLowerBound();
+    on_solution(lower_bound);
+    return ProvenBound(best_cost(), lower_bound) <= epsilon;
   };
   if (ShortenPath(should_stop) && reaches_epsilon()) return ImproveOutcome::kConverged;
   while (true) {
     Side* side = NextSide();
-    if (side == nullptr && phase_ == Phase::kBetter) {
+    if (side == nullptr && phase_ != Phase::kProof && best_cost() < kInfinity) {
       BeginPhase(Phase::kProof);
       continue;
     }
@@ -177,7 +183,7 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
       BeginPhase(phase_ == Phase::kFirst ? Phase::kBetter : Phase::kProof);
     }
   }
-  return cost_ < kInfinity ? ImproveOutcome::kConverged : ImproveOutcome::kExhausted;
+  return best_cost() < kInfinity ? ImproveOutcome::kConverged : ImproveOutcome::kExhausted;
 }
 
 void TwoWaySearch::BeginPhase(Phase phase) {
@@ -301,13 +307,15 @@ bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& sho
   return true;
 }
 
-double TwoWaySearch::ProveBound() {
+double TwoWaySearch::ProveLowerBound() {
   double lower_bound = kInfinity;
   for (const auto& side : sides_) {
     lower_bound = std::min(lower_bound, side->search.ProveLowerBound());
   }
-  return cost_ <= lower_bound ? 1 : cost_ / lower_bound;
+  return lower_bound;
 }
+
+double TwoWaySearch::ProveBound() { return ProvenBound(best_cost(), ProveLowerBound()); }
 
 TwoWaySearch::Counts TwoWaySearch::counts() const {
   Counts counts = bridge_counts_;

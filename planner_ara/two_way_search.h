@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -52,18 +53,26 @@ class TwoWaySearch {
   /// Before the first Improve: both lattices get the edges of these paths (RecalledPaths).
   void AddPaths(std::span<const Path> paths);
 
+  /// Before the first Improve: a path of this cost is known from elsewhere. Only cheaper ones are
+  /// searched for, and that none is there is proof as good as a path.
+  void SetKnownCost(double cost);
+
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
   /// lattice. A path that is not good enough is first shortened, if the options say so.
-  /// `should_stop` is asked before every evaluation of an edge; `on_solution` is called at each
-  /// better path with its proven bound.
+  /// `should_stop` is asked as AraStar does; `on_solution` is called at each better path with what
+  /// ProveLowerBound says.
   ImproveOutcome Improve(double epsilon, const std::function<bool()>& should_stop,
                          const std::function<void(double)>& on_solution);
 
-  /// Cost of the best path, infinity without one.
+  /// Cost of the best path found, infinity without one.
   double cost() const { return cost_; }
+  /// That, or what is known from elsewhere if it is less.
+  double best_cost() const { return std::min(cost_, known_cost_); }
   /// The best path, start to goal; empty without one.
   const Path& path() const { return path_; }
-  /// Proven bound of cost() against the optimum of either lattice; never rises.
+  /// Proven lower bound of the optimum of either lattice, or of best_cost() if that is smaller.
+  double ProveLowerBound();
+  /// Proven bound of best_cost() against the optimum of either lattice; never rises.
   double ProveBound();
   /// True if the best path was found from the goal.
   bool found_backward() const { return found_backward_; }
@@ -107,6 +116,7 @@ class TwoWaySearch {
   std::vector<std::unique_ptr<Side>> sides_;
   Phase phase_ = Phase::kFirst;
   double cost_ = std::numeric_limits<double>::infinity();
+  double known_cost_ = std::numeric_limits<double>::infinity();
   Path path_;
   bool found_backward_ = false;
   bool is_bridged_ = false;

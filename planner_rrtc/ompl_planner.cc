@@ -200,7 +200,7 @@ class OmplPlanner::Workspace {
         [&](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
           if (!(cost.value() < best)) return;
           best = cost.value();
-          query.ReportSolution(/*epsilon=*/0, best, space_->num_samples());
+          query.ReportSolution(/*lower_bound=*/0, best, space_->num_samples());
         });
     const ob::PlannerPtr planner = MakePlanner(settings, "settings");
     planner->setProblemDefinition(problem);
@@ -215,7 +215,7 @@ class OmplPlanner::Workspace {
       if (settings.ompl_algorithm->anytime) {
         result.cost = problem->getSolutionPath()->length();
         if (result.cost < best) {
-          query.ReportSolution(/*epsilon=*/0, result.cost, space_->num_samples());
+          query.ReportSolution(/*lower_bound=*/0, result.cost, space_->num_samples());
         }
       }
     } else {

@@ -101,7 +101,7 @@ class TrajectorySearch {
     }
     path_ = path;
     length_ = Length(Corners(query_->space(), path));
-    query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+    query_->ReportSolution(/*lower_bound=*/0, length_, num_iterations_);
   }
 
   void Optimise(Trajectory* trajectory) {
@@ -128,7 +128,7 @@ class TrajectorySearch {
     if (!IsFree(trajectory)) return;
     path_ = PathOf(query_->space(), trajectory);
     length_ = length;
-    query_->ReportSolution(/*epsilon=*/0, length_, num_iterations_);
+    query_->ReportSolution(/*lower_bound=*/0, length_, num_iterations_);
   }
 
   /// The edges that are likeliest blocked are checked first.

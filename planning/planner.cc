@@ -8,13 +8,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <numeric>
 #include <utility>
 #include <variant>
 
 #include "collision/rigid_bodies.h"
 #include "common/error.h"
+#include "common/numbers.h"
 #include "planning/free_goal.h"
 #include "planning/peak_memory.h"
+#include "planning/proven_bound.h"
 #include "planning/resolve.h"
 #include "planning/shortcut.h"
 
@@ -221,52 +224,102 @@ PlanResult Planner::Plan(const PlanRequest& request, const Scene& scene, PlanCon
 SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
                                    bool backward, SearchQuery* query) {
   const std::vector<GoalBox>& goals = resolved.goals;
-  const Path& initial = resolved.initial_path;
-  EdgeChecker& edges = query->edges();
-  SearchResult found;
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    const std::size_t num_left = goals.size() - i;
-    query->start_ = backward ? goals[i].nominal : resolved.start;
-    query->goal_ = backward ? PointGoal(resolved.start) : goals[i];
-    query->initial_path_ = {};
-    if (!initial.empty() && goals[i].Contains(edges.space(), initial.back())) {
-      query->initial_path_ = initial;
-      if (backward) {
-        query->start_ = initial.back();
-        std::reverse(query->initial_path_.begin(), query->initial_path_.end());
-      }
+  std::vector<double> lower_bounds(goals.size(), 0.0);  // of the costs of paths to the goals
+  std::vector<std::size_t> waiting(goals.size());
+  std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+  if (goals.size() > 1) {
+    std::vector<GoalBox> ends = goals;
+    if (backward) {
+      for (GoalBox& end : ends) end = PointGoal(end.nominal);
+    }
+    lower_bounds = LowerBounds(*query, resolved.start, ends);
+    std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
+      return lower_bounds[a] < lower_bounds[b];
+    });
+  }
+
+  SearchResult found;  // the best path or, without one, what came of the goals so far
+  bool has_path = false;
+  bool is_first = true;
+  std::vector<std::size_t> given_up;  // for want of time
+  while (!waiting.empty()) {
+    const std::size_t num_left = waiting.size();
+    const std::size_t turn = waiting.front();
+    waiting.erase(waiting.begin());
+    query->known_cost_ = has_path ? found.cost : kInfinity;
+    query->lower_bound_ = std::exchange(lower_bounds[turn], kInfinity);
+    query->lower_bound_of_others_ = *std::min_element(lower_bounds.begin(), lower_bounds.end());
+    if (const auto count = found.counters.find("expansions"); count != found.counters.end()) {
+      query->expansions_before_ = static_cast<std::int64_t>(count->second);
     }
     if (num_left > 1) {
       query->turn_ends_s_ = query->time_limit_s_ - query->RemainingSeconds() *
                                                        static_cast<double>(num_left - 1) /
                                                        static_cast<double>(num_left);
     }
-    edges.StopWhen([query] { return query->ShouldStop(); });
-    SearchResult next = Search(*query);
-    query->turn_ends_s_.reset();
-    RequireSearchStatus(algorithm, next.status);
-    const bool cut_short = edges.Stopped() || (num_left > 1 && query->ShouldStop());
+    SearchResult next = SearchFor(algorithm, goals[turn], resolved, backward, query);
+    lower_bounds[turn] = std::max(query->lower_bound_, next.lower_bound);
+    const bool cut_short = query->edges().Stopped() || (num_left > 1 && query->ShouldStop());
     if (cut_short && next.status == PlanStatus::kExhausted) {
       // Of a space that lacks the edge given up, or of some of the goals.
       next.status = query->Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
     }
     for (const auto& [name, count] : found.counters) next.counters[name] += count;
     next.guidance_ticks += found.guidance_ticks;
-    if (i > 0 && found.status == PlanStatus::kTimedOut && next.status == PlanStatus::kExhausted) {
-      next.status = found.status;
-      next.message = std::move(found.message);
+    if (has_path && !(next.status == PlanStatus::kSolved && next.cost < found.cost)) {
+      found.counters = std::move(next.counters);
+      found.guidance_ticks = next.guidance_ticks;
+      found.remains = std::move(next.remains);
+    } else {
+      if (!is_first && found.status == PlanStatus::kTimedOut &&
+          next.status == PlanStatus::kExhausted) {
+        next.status = found.status;
+        next.message = std::move(found.message);
+      }
+      found = std::move(next);
     }
-    found = std::move(next);
+    is_first = false;
     if (found.status == PlanStatus::kSolved) {
-      AcceptPath(*query, algorithm, &found.path);
-      if (backward) std::reverse(found.path.begin(), found.path.end());
+      if (!has_path) waiting.insert(waiting.end(), given_up.begin(), given_up.end());
+      has_path = true;
+      std::erase_if(waiting, [&](std::size_t i) {
+        return found.wanted_epsilon == 0 || found.cost <= found.wanted_epsilon * lower_bounds[i];
+      });
+    } else if (found.status == PlanStatus::kExhausted || found.status == PlanStatus::kTimedOut) {
+      given_up.push_back(turn);
+    } else {
+      break;
     }
-    const bool may_go_on =
-        found.status == PlanStatus::kExhausted || found.status == PlanStatus::kTimedOut;
-    if (!may_go_on || query->ShouldStop()) break;
-    found.remains.reset();  // makes room for the next goal's search
+    if (query->ShouldStop()) break;
+    if (!waiting.empty()) found.remains.reset();  // makes room for the next goal's search
   }
+  found.lower_bound = *std::min_element(lower_bounds.begin(), lower_bounds.end());
   return found;
+}
+
+SearchResult Planner::SearchFor(const std::string& algorithm, const GoalBox& goal,
+                                const ResolvedQuery& resolved, bool backward, SearchQuery* query) {
+  EdgeChecker& edges = query->edges();
+  query->start_ = backward ? goal.nominal : resolved.start;
+  query->goal_ = backward ? PointGoal(resolved.start) : goal;
+  query->initial_path_ = {};
+  const Path& initial = resolved.initial_path;
+  if (!initial.empty() && goal.Contains(edges.space(), initial.back())) {
+    query->initial_path_ = initial;
+    if (backward) {
+      query->start_ = initial.back();
+      std::reverse(query->initial_path_.begin(), query->initial_path_.end());
+    }
+  }
+  edges.StopWhen([query] { return query->ShouldStop(); });
+  SearchResult result = Search(*query);
+  query->turn_ends_s_.reset();
+  RequireSearchStatus(algorithm, result.status);
+  if (result.status == PlanStatus::kSolved) {
+    AcceptPath(*query, algorithm, &result.path);
+    if (backward) std::reverse(result.path.begin(), result.path.end());
+  }
+  return result;
 }
 
 EdgeChecker Planner::EdgesOf(const PlanningGroup& group, const PlanRequest& request) {
@@ -347,7 +400,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
     return;
   }
   result->path = std::move(found.path);
-  result->epsilon = found.epsilon;
+  result->epsilon = ToldEpsilon(found.cost, found.lower_bound);
   result->cost = found.cost;
   if (!request.simplify) return;
   const Stopwatch simplification;

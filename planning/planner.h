@@ -63,6 +63,13 @@ class Planner {
 
   /// Throws InputError for bad parameters.
   virtual SearchResult Search(SearchQuery& query) = 0;
+  /// By end, what is known before any search: a lower bound of what paths between `q` and that goal
+  /// cost, in the unit of SearchResult::cost, as SearchResult::lower_bound means it; 0: nothing.
+  /// Asked of several goals. `query` lacks start and goal. Throws InputError for bad parameters.
+  virtual std::vector<double> LowerBounds(const SearchQuery& /*query*/, const Configuration& /*q*/,
+                                          std::span<const GoalBox> ends) {
+    return std::vector<double>(ends.size(), 0.0);
+  }
   /// How edges are sampled, for a planner that reproduces another system's way; nothing: as the
   /// request says, by `method` and at `resolution_m`. A setting tells of it
   /// (planning/told_edges.h).
@@ -86,10 +93,16 @@ class Planner {
   void PlanInScene(const PlanRequest& request, ResolvedQuery resolved, const Scene& scene,
                    PlanControl* control, const Stopwatch& clock, EdgeChecker* edges,
                    PlanResult* result);
-  /// Searches for goals, all with valid nominal points, one after the other until one is reached.
-  /// Of k that are left each has a k-th of the time that is left; with a path in hand, all of it.
+  /// Searches for goals, all with valid nominal points, one after the other until one is reached,
+  /// those first to which paths may be the cheapest. Of k that are left each has a k-th of the time
+  /// that is left, with a path to it in hand all of it. As long as the search wants a better bound
+  /// (SearchResult::wanted_epsilon) than is proven over all goals, the turns go on with the goals
+  /// that stand against it.
   SearchResult SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
                             bool backward, SearchQuery* query);
+  /// One turn of these: sets the ends of the query, and searches.
+  SearchResult SearchFor(const std::string& algorithm, const GoalBox& goal,
+                         const ResolvedQuery& resolved, bool backward, SearchQuery* query);
   /// Has a checker compiled for what it keeps from one scene to the next.
   void Compile(const PlanningGroup& group, CollisionModel model, const Scene& scene,
                std::span<const double> base_positions);

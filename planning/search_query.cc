@@ -1,26 +1,37 @@
 #include "planning/search_query.h"
 
+#include <algorithm>
 #include <atomic>
+
+#include "planning/proven_bound.h"
 
 namespace planbench {
 
 bool SearchQuery::Cancelled() const { return control_->cancelled.load(std::memory_order_relaxed); }
 
 double SearchQuery::RemainingSeconds() const {
-  const double end_s = path_held_s_ ? time_limit_s_ : turn_ends_s_.value_or(time_limit_s_);
-  return end_s - clock_.seconds();
+  return turn_ends_s_.value_or(time_limit_s_) - clock_.seconds();
 }
 
 bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() <= 0; }
 
-void SearchQuery::ReportSolution(double epsilon, double cost, std::int64_t expansions) {
-  HoldPath();
+void SearchQuery::ReportSolution(double lower_bound, double cost, std::int64_t expansions) {
+  if (cost < known_cost_) HoldPath();
   if (!anytime_) return;
-  progress_.push_back({clock_.seconds(), epsilon, cost, expansions});
+  cost = std::min(cost, known_cost_);
+  const double epsilon =
+      ToldEpsilon(cost, std::min(std::max(lower_bound, lower_bound_), lower_bound_of_others_));
+  if (!progress_.empty()) {
+    const PlanProgress& last = progress_.back();
+    const bool proves_more = epsilon > 0 && (last.epsilon == 0 || epsilon < last.epsilon);
+    if (cost >= last.cost && !proves_more) return;
+  }
+  progress_.push_back({clock_.seconds(), epsilon, cost, expansions_before_ + expansions});
   if (control_->on_progress) control_->on_progress(progress_.back());
 }
 
 void SearchQuery::HoldPath() {
+  turn_ends_s_.reset();
   if (!path_held_s_) path_held_s_ = clock_.seconds();
 }
 

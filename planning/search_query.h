@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,9 +40,13 @@ class SearchQuery {
   bool ShouldStop() const;
   bool Cancelled() const;
   double RemainingSeconds() const;
-  /// Reports a solution of an anytime search the moment it is ready: the first stops the planning
-  /// clock, if the request is anytime. If it is not, this is HoldPath.
-  void ReportSolution(double epsilon, double cost, std::int64_t expansions);
+  /// Of several goals: the cost of the best path to one that was searched for before, infinity
+  /// without one. Only cheaper paths are of use then.
+  double known_cost() const { return known_cost_; }
+  /// Reports a solution of an anytime search the moment it is ready, and each better proof: the
+  /// first stops the planning clock, if the request is anytime. If it is not, this is HoldPath.
+  /// `lower_bound`: as in SearchResult. What is told of it holds for all goals.
+  void ReportSolution(double lower_bound, double cost, std::int64_t expansions);
   /// Says that there is a path to return, should the limit come before the search has reached the
   /// bound it wants.
   void HoldPath();
@@ -61,8 +66,13 @@ class SearchQuery {
   PlanControl* control_ = nullptr;
   Stopwatch clock_;
   double time_limit_s_ = 0;
-  /// Of several goals, when it is the next one's turn, unless there is a path by then.
+  /// Of several goals, when it is the next one's turn, unless this one's has led to a path.
   std::optional<double> turn_ends_s_;
+  double known_cost_ = std::numeric_limits<double>::infinity();
+  /// What was known of the costs of paths to this goal and to the others when its turn began.
+  double lower_bound_ = 0;
+  double lower_bound_of_others_ = std::numeric_limits<double>::infinity();
+  std::int64_t expansions_before_ = 0;  ///< By searches for other goals.
   std::vector<PlanProgress> progress_;
   std::optional<double> path_held_s_;  ///< When there was a path first, if it was said.
 };

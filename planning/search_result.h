@@ -17,8 +17,13 @@ struct SearchResult {
   std::string message;
   Path path;  ///< Query start to a point of the goal box; waypoints' edges all found valid by
               ///< SearchQuery::edges().
-  double epsilon = 0;
   double cost = 0;
+  /// Proven: no path to this goal costs less, whether one was found or not; infinity: there is
+  /// none. 0: nothing is proven.
+  double lower_bound = 0;
+  /// Of several goals: paths to the others are searched for, too, until this one is proven to cost
+  /// at most so many times the optimum over all of them. 0: one path to one goal will do.
+  double wanted_epsilon = 0;
   std::uint64_t guidance_ticks = 0;  ///< Time spent on heuristic or nearest neighbours (Ticks), if
                                      ///< measured; without collision checking.
   std::map<std::string, double> counters;

@@ -62,7 +62,7 @@ class PlannerNodeTest : public testing::Test {
       cancelled.message = "cancelled";
       return cancelled;
     }
-    if (query.anytime()) query.ReportSolution(3, 17, 5);
+    if (query.anytime()) query.ReportSolution(6, 18, 5);
     return StraightLine(query);
   }
 
@@ -322,7 +322,7 @@ TEST_F(PlannerNodeTest, ProgressIsPublished) {
   EXPECT_EQ(heard[0].planner, "arm");
   EXPECT_EQ(heard[0].request_id, "a");
   EXPECT_EQ(heard[0].progress.epsilon, 3);
-  EXPECT_EQ(heard[0].progress.cost, 17);
+  EXPECT_EQ(heard[0].progress.cost, 18);
   EXPECT_EQ(heard[0].progress.expansions, 5);
   EXPECT_EQ(ResultOf("a").result.progress.size(), 1u);
 }

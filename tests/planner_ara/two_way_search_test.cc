@@ -231,14 +231,34 @@ TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
 TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
   TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
   std::vector<double> costs;
-  const auto note = [&](double bound) {
+  const auto note = [&](double lower_bound) {
     costs.push_back(search.cost());
-    EXPECT_EQ(bound, search.ProveBound());
+    EXPECT_EQ(lower_bound, search.ProveLowerBound());
   };
   for (const double epsilon : {50.0, 2.0, 1.0}) search.Improve(epsilon, kGoOn, note);
   ASSERT_FALSE(costs.empty());
   for (std::size_t i = 1; i < costs.size(); ++i) EXPECT_LT(costs[i], costs[i - 1]);
   EXPECT_EQ(costs.back(), search.cost());
+}
+
+TEST_F(TwoWaySearchTest, WhatIsKnownFromElsewhereEndsTheSearchOfDearerPaths) {
+  options_.shorten = false;
+  const double optimum = std::min(Optimum(kLeft_, kRight_), Optimum(kRight_, kLeft_));
+  for (const double crowding : {0.0, 0.1}) {
+    options_.crowding = crowding;
+    for (const double factor : {0.8, 1.2}) {
+      SCOPED_TRACE(fmt::format("crowding {}, {} times the optimum", crowding, factor));
+      TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+      search.SetKnownCost(factor * optimum);
+      for (const double epsilon : {50.0, 1.5, 1.0}) {
+        ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
+        EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
+        EXPECT_LE(search.ProveLowerBound(), optimum + 1e-9);
+      }
+      EXPECT_NEAR(search.best_cost(), std::min(1.0, factor) * optimum, 1e-9);
+      EXPECT_EQ(search.path().empty(), factor < 1);
+    }
+  }
 }
 
 TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {

@@ -148,8 +148,8 @@ TEST_F(PlannerTest, PhasesAddUpToTheTotalTime) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         found.guidance_ticks = Ticks::Since(begin);
         found.counters["expansions"] = 12;
-        found.epsilon = 3;
-        found.cost = 4;
+        found.cost = 12;
+        found.lower_bound = 4;
         return found;
       },
       Request());
@@ -165,7 +165,7 @@ TEST_F(PlannerTest, PhasesAddUpToTheTotalTime) {
   EXPECT_EQ(result.counters.at("edges_checked"), 1);
   EXPECT_GT(result.counters.at("configurations_checked"), 2);
   EXPECT_EQ(result.epsilon, 3);
-  EXPECT_EQ(result.cost, 4);
+  EXPECT_EQ(result.cost, 12);
   EXPECT_GT(result.peak_memory_mb, 1);
 }
 
@@ -195,9 +195,10 @@ TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
   const PlanResult result = Plan(
       [](SearchQuery& query) {
         EXPECT_TRUE(query.anytime());
-        query.ReportSolution(10, 500, 7);
+        query.ReportSolution(50, 500, 7);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        query.ReportSolution(1, 400, 70);
+        query.ReportSolution(400, 400, 70);
+        query.ReportSolution(400, 400, 80);  // no news
         return StraightLine(query);
       },
       request, EmptyPlanarScene(), &control);
@@ -216,7 +217,7 @@ TEST_F(PlannerTest, WithoutAnytimeTheEndOfTheSearchStopsThePlanningClock) {
   control.on_progress = [&told](const PlanProgress&) { told = true; };
   const PlanResult result = Plan(
       [](SearchQuery& query) {
-        query.ReportSolution(10, 500, 7);
+        query.ReportSolution(50, 500, 7);
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         return StraightLine(query);
       },

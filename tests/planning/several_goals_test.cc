@@ -1,8 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "common/numbers.h"
 #include "planning/planner.h"
 #include "support/planning_problems.h"
 #include "support/scripted_planner.h"
@@ -103,6 +108,103 @@ TEST_F(SeveralGoals, ShareTheTime) {
       request);
   EXPECT_EQ(solved.status, PlanStatus::kSolved) << solved.message;
   EXPECT_EQ(num_searches_, 1);
+}
+
+/// Proves for goals in the order of their costs, which are 2 a rad of the first joint.
+class ProvingPlanner : public Planner {
+ public:
+  ProvingPlanner(const Robot& robot, ScriptedPlanner::Script script)
+      : Planner(robot), script_(std::move(script)) {}
+  PlannerDescription Describe() const override { return ScriptedPlanner::Able(); }
+
+  std::vector<double> tried;  // first joint of the goals
+  std::vector<double> known;  // costs
+
+ protected:
+  SearchResult Search(SearchQuery& query) override {
+    tried.push_back(query.goal().nominal[0]);
+    known.push_back(query.known_cost());
+    return script_(query);
+  }
+  std::vector<double> LowerBounds(const SearchQuery&, const Configuration& q,
+                                  std::span<const GoalBox> ends) override {
+    std::vector<double> bounds;
+    for (const GoalBox& end : ends) bounds.push_back(2 * std::abs(end.nominal[0] - q[0]));
+    return bounds;
+  }
+
+ private:
+  ScriptedPlanner::Script script_;
+};
+
+TEST_F(SeveralGoals, AreSearchedForUntilTheBoundHoldsForAll) {
+  // At least 8, 2, 4 and 6. In joint distance the third is nearer than the second.
+  PlanRequest request =
+      RequestFor({{0.6 - 4, 0, 0}, {0.6 - 1, 2, 0}, {0.6 + 2, 0, 0}, {0.6 - 3, 0, 0}});
+  request.anytime = true;
+  struct Case {
+    double wanted;
+    std::vector<double> tried;
+    double cost;
+    double epsilon;
+    std::size_t num_told;
+  };
+  const std::vector<Case> cases = {
+      {0, {-0.4}, 7, 7.0 / 4, 1},
+      {1.75, {-0.4}, 7, 7.0 / 4, 1},
+      {1.5, {-0.4, 2.6}, 6.5, 6.5 / 6, 2},
+      // That the last one's best path costs no less than 6.5 is proof enough.
+      {1, {-0.4, 2.6, -2.4}, 6.5, 6.5 / 6.2, 3}};
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.wanted);
+    ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+      const double goal = query.goal().nominal[0];
+      SearchResult result = StraightLine(query);
+      result.wanted_epsilon = each.wanted;
+      result.counters = {{"expansions", 10}};
+      result.cost = goal == 0.6 - 1 ? 7 : goal == 0.6 + 2 ? 6.5 : 9;
+      result.lower_bound = std::min(query.known_cost(), goal == 0.6 + 2 ? 6.2 : result.cost);
+      query.ReportSolution(result.lower_bound, result.cost, 10);
+      return result;
+    });
+    const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    ASSERT_EQ(planner.tried.size(), each.tried.size());
+    for (std::size_t i = 0; i < each.tried.size(); ++i) {
+      EXPECT_NEAR(planner.tried[i], each.tried[i], 1e-9);
+      EXPECT_EQ(planner.known[i], i == 0 ? kInfinity : i == 1 ? 7 : 6.5);
+    }
+    EXPECT_EQ(result.cost, each.cost);
+    EXPECT_NEAR(result.epsilon, each.epsilon, 1e-9);
+    EXPECT_EQ(result.counters.at("expansions"), 10 * static_cast<double>(each.tried.size()));
+    for (const PlanProgress& progress : result.progress) {
+      EXPECT_GE(progress.epsilon, result.epsilon);
+      EXPECT_GE(progress.cost, result.cost);
+    }
+    ASSERT_EQ(result.progress.size(), each.num_told);
+    EXPECT_EQ(result.progress.back().expansions, result.counters.at("expansions"));
+    EXPECT_EQ(result.progress.back().cost, result.cost);
+    EXPECT_EQ(result.progress.back().epsilon, result.epsilon);
+  }
+}
+
+TEST_F(SeveralGoals, WhatWasGivenUpForWantOfTimeIsTakenUpWithAPath) {
+  PlanRequest request = RequestFor({{0.6 - 1, 0, 0}, {0.6 - 2, 0, 0}, {0.6 - 4, 0, 0}});
+  request.anytime = true;
+  int num_searches = 0;
+  ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+    if (++num_searches == 1) return Ended(PlanStatus::kTimedOut);
+    SearchResult result = StraightLine(query);
+    result.wanted_epsilon = 1;
+    result.cost = num_searches == 2 ? 6 : 3;
+    result.lower_bound = result.cost;
+    return result;
+  });
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(num_searches, 3) << "none for the third goal";
+  EXPECT_EQ(result.cost, 3);
+  EXPECT_EQ(result.epsilon, 1);
+  EXPECT_EQ(result.path, (Path{start_, {0.6 - 1, 0, 0}}));
 }
 
 }  // namespace
