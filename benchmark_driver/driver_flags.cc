@@ -11,6 +11,7 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/name_value.h"
 #include "results/recorded_flags.h"
 
@@ -124,6 +125,21 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
   with_launch(app->add_option_function<Texts>(
       "--set", [=](const Texts& texts) { TakeSettings(texts, &options->line_up); },
       "NAME.KEY=VALUE: setting KEY of planner NAME; repeatable"));
+}
+
+/// A value of a flag as it is recorded: files and folders hold from wherever the command is given
+/// again. Files that settings of planners name begin at the robot's folder, not here.
+std::string Recorded(const std::string& flag, const std::string& value) {
+  static const std::set<std::string> kPaths = {"lineup", "out",    "problems", "referee-robot",
+                                               "replay", "resume", "robot",    "spheres"};
+  static const std::set<std::string> kNamedPaths = {"package-path", "reference"};
+  const bool is_named = kNamedPaths.contains(flag);
+  if (!is_named && !kPaths.contains(flag)) return value;
+  const std::size_t begin = is_named ? value.find('=') + 1 : 0;
+  const std::filesystem::path path = value.substr(begin);
+  const bool is_shipped_robot = flag == "robot" && !IsFolder(path);
+  if (path.empty() || is_shipped_robot) return value;
+  return value.substr(0, begin) + std::filesystem::absolute(path).lexically_normal().string();
 }
 
 }  // namespace
@@ -276,8 +292,10 @@ std::map<std::string, std::string> FlagsOf(const CLI::App& app) {
     } else if (!given) {
       flags[name] = option->get_default_str();
     } else {
-      flags[name] = TakesSeveralValues(name) ? JoinFlagValues(option->results())
-                                             : fmt::format("{}", fmt::join(option->results(), ","));
+      std::vector<std::string> values = option->results();
+      for (std::string& value : values) value = Recorded(name, value);
+      flags[name] = TakesSeveralValues(name) ? JoinFlagValues(values)
+                                             : fmt::format("{}", fmt::join(values, ","));
     }
   }
   return flags;

@@ -16,7 +16,8 @@ namespace planbench {
 /// both naming the flag.
 void AddDriverFlags(CLI::App* app, DriverOptions* options);
 
-/// Flags of a parsed command line and their values, defaults included, for the record.
+/// Flags of a parsed command line and their values, defaults included, for the record: files and
+/// folders are absolute, names of robots that ship stay as they are.
 std::map<std::string, std::string> FlagsOf(const CLI::App& app);
 
 /// "1-20", "3", "1-5,8,10-12" -> indices, ascending, without repetitions; throws InputError.

@@ -5,11 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "common/error.h"
 #include "results/recorded_flags.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -187,8 +189,7 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
 
   EXPECT_EQ(flags.at("time"), "2.5");
   EXPECT_EQ(flags.at("problems-range"), "1-2");
-  EXPECT_EQ(flags.at("problems"), "p,q");
-  EXPECT_EQ(flags.at("set"), "x.ompl.step=3,x.name=a=b");
+EXPECT_EQ(flags.at("set"), "x.ompl.step=3,x.name=a=b");
   EXPECT_EQ(flags.at("anytime"), "true");
   EXPECT_EQ(flags.at("no-simplify"), "true");
 }
@@ -202,8 +203,10 @@ TEST(DriverFlagsTest, ValuesOfFlagsThatTakeSeveralAreToldApart) {
     EXPECT_EQ(TakesSeveralValues(option->get_single_name()), repeats) << option->get_name();
   }
   std::map<std::string, std::string> flags;
-  ParseFlags(Launch({"--problems", "c,d", "--set", "x.y=a,b=c"}), &flags);
-  EXPECT_EQ(SplitFlagValues(flags.at("problems")), (std::vector<std::string>{"p", "c,d"}));
+  ParseFlags(
+      {"--launch", "--robot", "r", "--problems", "/p", "--problems", "/c,d", "--set", "x.y=a,b=c"},
+      &flags);
+  EXPECT_EQ(SplitFlagValues(flags.at("problems")), (std::vector<std::string>{"/p", "/c,d"}));
   EXPECT_EQ(SplitFlagValues(flags.at("set")), std::vector<std::string>{"x.y=a,b=c"});
 }
 
@@ -218,6 +221,57 @@ TEST(DriverFlagsTest, RecordsWhatWasNotGivenToo) {
   EXPECT_EQ(flags.at("edge-resolution"), "");
   EXPECT_EQ(flags.at("anytime"), "false");
   EXPECT_FALSE(flags.contains("help"));
+}
+
+TEST(DriverFlagsTest, FilesAndFoldersAreRecordedSoThatTheyHoldFromElsewhere) {
+  const TemporaryFolder folder;
+  folder.Write("robots/mine/robot.yaml", "");
+  const std::filesystem::path robot =
+      (folder / "robots/mine").lexically_relative(std::filesystem::current_path());
+  ASSERT_TRUE(robot.is_relative());
+  std::map<std::string, std::string> flags;
+  ParseFlags(Launch({"--problems",
+                     "./x/../q,1",
+                     "--referee-robot",
+                     "m",
+                     "--spheres",
+                     "s.yaml",
+                     "--package-path",
+                     "f=../a",
+                     "--lineup",
+                     "l.yaml",
+                     "--reference",
+                     "Planner A=b=c.csv",
+                     "--out",
+                     "o",
+                     "--set",
+                     "x.primitives=p.yaml",
+                     "--planners",
+                     "x,y",
+                     "--planner-command",
+                     "y=./y"}),
+             &flags);
+  const std::filesystem::path here = std::filesystem::current_path();
+  const auto from_here = [&](const char* path) { return (here / path).string(); };
+  EXPECT_EQ(flags.at("robot"), "r") << "the name of one that ships, for all that is known here";
+  EXPECT_EQ(SplitFlagValues(flags.at("problems")),
+            (std::vector<std::string>{from_here("p"), from_here("q,1")}));
+  EXPECT_EQ(flags.at("referee-robot"), from_here("m"));
+  EXPECT_EQ(flags.at("spheres"), from_here("s.yaml"));
+  EXPECT_EQ(flags.at("package-path"), "f=" + (here.parent_path() / "a").string());
+  EXPECT_EQ(flags.at("lineup"), from_here("l.yaml"));
+  EXPECT_EQ(flags.at("reference"), "Planner A=" + from_here("b=c.csv"));
+  EXPECT_EQ(flags.at("out"), from_here("o"));
+  EXPECT_EQ(flags.at("set"), "x.primitives=p.yaml") << "which begins at the robot's folder";
+  EXPECT_EQ(flags.at("planner-command"), "y=./y");
+  EXPECT_EQ(flags.at("planners"), "x,y");
+
+  const DriverOptions options = ParseFlags(
+      {"--launch", "--robot", robot.string(), "--problems", "/p", "--resume", "../s"}, &flags);
+  EXPECT_EQ(flags.at("robot"), (folder / "robots/mine").string());
+  EXPECT_EQ(flags.at("problems"), "/p");
+  EXPECT_EQ(flags.at("resume"), (here.parent_path() / "s").string());
+  EXPECT_EQ(options.robot.folder, robot) << "what is done does not depend on what is recorded";
 }
 
 TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {
