@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "messaging/record_log.h"
+#include "report/session_robot.h"
 
 namespace planbench {
 namespace {
@@ -16,30 +17,25 @@ namespace {
 /// Of a path in a report, where many share the room.
 constexpr int kFramesEmbedded = 40;
 
-std::filesystem::path RobotFolder(const StoredSession& session,
-                                  const std::filesystem::path& given) {
-  if (!given.empty()) return given;
-  const auto flag = session.flags.find("robot");
-  if (flag == session.flags.end() || flag->second.empty()) {
-    throw InputError("the session does not name its robot folder");
+/// What the log tells last of the session with that run id; of one that it does not tell of,
+/// nothing but that id.
+SessionMessage LastWords(const RecordedSession& recorded, const std::string& run_id) {
+  SessionMessage last;
+  last.run_id = run_id;
+  for (const SessionMessage& session : recorded.sessions) {
+    if (session.run_id == run_id) last = session;
   }
-  return flag->second;
-}
-
-/// Empty: the robot folder's.
-std::filesystem::path SpheresFile(const StoredSession& session) {
-  const auto flag = session.flags.find("spheres");
-  return flag == session.flags.end() ? "" : flag->second;
+  return last;
 }
 
 }  // namespace
 
 RecordedViews::RecordedViews(const StoredSession& session,
                              const std::filesystem::path& robot_folder)
-    : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())),
-      robot_(LoadRobot(RobotFolder(session, robot_folder), {}, SpheresFile(session))),
-      scenes_(ReadScenes(log_, &passed_over_)) {
+    : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())) {
   RecordedSession recorded = ReadRecords(log_);
+  robot_ = LoadSessionRobot(LastWords(recorded, session.run_id), robot_folder);
+  scenes_ = ReadScenes(log_, &passed_over_);
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {
     if (record.run_id == session.run_id) records_.emplace(record.request_id, std::move(record));
@@ -77,6 +73,7 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
 
   EmbeddedViews embedded;
   std::vector<std::unique_ptr<RecordedViews>> sessions(compared.sessions().size());
+  bool knows_robots = true;
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     if (compared.sessions()[s].imported) continue;
     try {
@@ -84,6 +81,7 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
       for (const std::string& line : sessions[s]->passed_over())
         embedded.notes.push_back(line + ".");
     } catch (const InputError& error) {
+      knows_robots = knows_robots && dynamic_cast<const UnknownRobot*>(&error) == nullptr;
       embedded.notes.push_back(
           fmt::format("{}: no 3D views: {}.", compared.session_names()[s], error.what()));
     }
@@ -104,10 +102,10 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
     }
   }
   if (embedded.by_attempt.size() < candidates.size()) {
-    embedded.notes.push_back(
-        fmt::format("The page holds the 3D views of {} of {} attempts; view --session FOLDER --run "
-                    "RUN shows any.",
-                    embedded.by_attempt.size(), candidates.size()));
+    embedded.notes.push_back(fmt::format(
+        "The page holds the 3D views of {} of {} attempts; view --session FOLDER --run "
+        "RUN{} shows any.",
+        embedded.by_attempt.size(), candidates.size(), knows_robots ? "" : " --robot DIR"));
   }
   return embedded;
 }

@@ -14,8 +14,8 @@ namespace planbench {
 /// 3D views of a session's runs, made of its event log and its robot.
 class RecordedViews {
  public:
-  /// `robot_folder`: empty: the one that the session's flags name. Throws InputError if the log or
-  /// the robot cannot be read.
+  /// `robot_folder`, and errors of the robot, as of LoadSessionRobot. Throws InputError if the log
+  /// cannot be read.
   RecordedViews(const StoredSession& session, const std::filesystem::path& robot_folder);
 
   /// `num_frames` as of RunView. Throws InputError if the log lacks the run or its scene, or the

@@ -243,8 +243,9 @@ class View {
 View ViewOfRequest(const Robot& robot, const Scene& scene, const RunRecordMessage& run) {
   const PlanRequest& request = run.request;
   if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
-    throw InputError(fmt::format("{} is not the robot of run {}, whose content is {}",
-                                 robot.folder.string(), run.request_id, request.robot_id));
+    throw InputError(
+        fmt::format("{} is not the robot of run {}, whose content is {}: give it with --robot DIR",
+                    robot.folder.string(), run.request_id, request.robot_id));
   }
   return {robot,         scene,        request.group,
           request.start, request.goal, ModelSpheres(robot, request.collision_model)};

@@ -11,6 +11,7 @@
 #include "messaging/record_log.h"
 #include "report/page.h"
 #include "report/recorded_views.h"
+#include "report/session_robot.h"
 #include "results/stored_session.h"
 #include "scene/moveit_yaml.h"
 
@@ -66,19 +67,11 @@ Json ViewOfLog(const Flags& flags) {
   if (scene == scenes.end()) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
-  std::string robot = flags.robot;
-  std::string spheres;
-  for (const SessionMessage& session : recorded.sessions) {
-    if (session.run_id != run.run_id) continue;
-    const auto setting = [&](const char* name) {
-      const auto flag = session.settings.find(name);
-      return flag == session.settings.end() ? "" : flag->second;
-    };
-    if (robot.empty()) robot = setting("robot");
-    spheres = setting("spheres");
+  SessionMessage session;
+  for (const SessionMessage& told : recorded.sessions) {
+    if (told.run_id == run.run_id) session = told;
   }
-  if (robot.empty()) throw InputError(flags.log + " does not name the robot's folder: --robot DIR");
-  return RunView(LoadRobot(robot, {}, spheres), scene->second, run, kFrames);
+  return RunView(LoadSessionRobot(session, flags.robot), scene->second, run, kFrames);
 }
 
 Json ViewOfProblem(const Flags& flags) {

@@ -9,6 +9,7 @@
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/node_registry.h"
+#include "report/session_robot.h"
 #include "report/view_data.h"
 
 namespace planbench {
@@ -185,13 +186,9 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
 
 const Robot& LiveSession::LoadedRobot() const {
   if (robot_) return *robot_;
-  std::filesystem::path folder = robot_folder_;
-  if (folder.empty() && session_) {
-    const auto flag = session_->settings.find("robot");
-    if (flag != session_->settings.end()) folder = flag->second;
-  }
-  if (folder.empty()) throw InputError("name the robot's folder: --robot DIR");
-  robot_ = std::make_unique<const Robot>(LoadRobot(folder));
+  SessionMessage session = session_.value_or(SessionMessage());
+  for (const auto& [key, node] : nodes_) session.nodes.push_back(node.status);
+  robot_ = std::make_unique<const Robot>(LoadSessionRobot(session, robot_folder_));
   return *robot_;
 }
 

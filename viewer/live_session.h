@@ -25,7 +25,7 @@ class LiveSession {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// `robot_folder`: empty: the one that the session's flags name.
+  /// `robot_folder`: empty: the one that the session or its scene server names.
   explicit LiveSession(std::filesystem::path robot_folder);
 
   /// Takes a message that came at `now`; one that cannot be decoded is counted.

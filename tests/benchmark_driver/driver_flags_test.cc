@@ -189,7 +189,7 @@ TEST(DriverFlagsTest, ReadsEveryFlag) {
 
   EXPECT_EQ(flags.at("time"), "2.5");
   EXPECT_EQ(flags.at("problems-range"), "1-2");
-EXPECT_EQ(flags.at("set"), "x.ompl.step=3,x.name=a=b");
+  EXPECT_EQ(flags.at("set"), "x.ompl.step=3,x.name=a=b");
   EXPECT_EQ(flags.at("anytime"), "true");
   EXPECT_EQ(flags.at("no-simplify"), "true");
 }

@@ -12,6 +12,7 @@
 #include "messaging/event_log.h"
 #include "tests/report/example_session.h"
 #include "tests/support/child_process.h"
+#include "tests/support/planar_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -258,6 +259,54 @@ TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {
   const std::string page = ReadText(folder_ / "view.html");
   EXPECT_THAT(page, HasSubstr("\"title\":\"shelf_demo 3\""));
   EXPECT_THAT(page, HasSubstr("\"name\":\"torso_lift_link\""));
+}
+
+TEST_F(ReportProgramTest, ASessionByHandIsShownWithItsSceneServersRobot) {
+  PlanarSession by_hand;
+  NodeStatusMessage server;
+  server.kind = NodeKind::kSceneServer;
+  server.name = "scene_server";
+  server.instance = std::string(16, 'a');
+  const auto write = [&](const std::string& name, const std::string& flag,
+                         const std::string& of_server) {
+    by_hand.session.settings["robot"] = flag;
+    server.settings["robot"] = of_server;
+    by_hand.session.nodes = {server};
+    std::filesystem::create_directories(folder_ / name);
+    EventLog log(folder_ / name / (name + ".lcmlog"), EventLog::Mode::kNew);
+    log.Write(PlanarSession::Received(channel::kSession, by_hand.session));
+    log.Write(PlanarSession::Received(channel::kScene, by_hand.scene));
+    log.Write(PlanarSession::Received(channel::kRunRecord, by_hand.record));
+    ResultsDatabase database(folder_ / name / "results.sqlite");
+    database.Store(by_hand.session);
+    database.Store(by_hand.record);
+  };
+  const std::string robot = std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3";
+  // Nor is a flag that holds from another folder alone in the way.
+  write("by_hand", "", robot);
+  write("moved", "no/such/folder", robot);
+  for (const char* name : {"by_hand", "moved"}) {
+    EXPECT_EQ(Run({"--session", Path(name), "--run", "1", "--out", Path("view.html")}, "view"),
+              kExitOk)
+        << errors_;
+    EXPECT_EQ(
+        Run({"--log", Path(name) + "/" + name + ".lcmlog", "--out", Path("view.html")}, "view"),
+        kExitOk)
+        << errors_;
+    EXPECT_EQ(Run({Path(name), "--out", Path("page.html")}), kExitOk) << errors_;
+    EXPECT_THAT(ReadText(folder_ / "page.html"), testing::Not(HasSubstr("3D views of 0 of 1")));
+  }
+  write("lost", "", "/no/such/robot");
+  EXPECT_EQ(Run({Path("lost"), "--out", Path("page.html")}), kExitOk) << errors_;
+  EXPECT_THAT(ReadText(folder_ / "page.html"),
+              HasSubstr("view --session FOLDER --run RUN --robot DIR shows any"));
+  std::vector<std::string> view = {"--session", Path("lost"), "--run",
+                                   "1",         "--out",      Path("view.html")};
+  EXPECT_EQ(Run(view, "view"), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("/no/such/robot, is not here: give it with --robot DIR"));
+  EXPECT_EQ(std::count(errors_.begin(), errors_.end(), '\n'), 1) << errors_;
+  view.insert(view.end(), {"--robot", robot});
+  EXPECT_EQ(Run(view, "view"), kExitOk) << errors_;
 }
 
 TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {

@@ -4,7 +4,7 @@
 #include <httplib.h>
 
 #include "tests/support/expect_input_error.h"
-#include "tests/viewer/planar_session.h"
+#include "tests/support/planar_session.h"
 
 namespace planbench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/viewer/planar_session.h"
+#include "tests/support/planar_session.h"
 
 namespace planbench {
 namespace {
@@ -143,10 +143,23 @@ TEST_F(LiveSessionTest, WhatCannotBeReadIsCountedAndWhatCannotBeShownSaysWhy) {
   EXPECT_EQ(State()["undecodable"], 1);
   Hear(channel::kScene, bus_.scene);
   Hear("PLAN_REQUEST_ARA", bus_.request);
-  EXPECT_EQ((*live_.View())["message"], "name the robot's folder: --robot DIR");
+  EXPECT_EQ((*live_.View())["message"],
+            "the session does not name its robot's folder: give it with --robot DIR");
   bus_.session.settings["robot"] = "/none";
   Hear(channel::kSession, bus_.session);
   EXPECT_NE(std::string((*live_.View())["message"]).find("/none"), std::string::npos);
+}
+
+TEST_F(LiveSessionTest, TheSceneServersRobotIsShownWhereNobodyElseNamesOne) {
+  Hear(channel::kScene, bus_.scene);
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  NodeStatusMessage server;
+  server.kind = NodeKind::kSceneServer;
+  server.name = "scene_server";
+  server.instance = std::string(16, 'a');
+  server.settings["robot"] = bus_.session.settings.at("robot");
+  Hear(channel::kNodeStatus, server);
+  EXPECT_FALSE(live_.View()->contains("message")) << *live_.View();
 }
 
 }  // namespace

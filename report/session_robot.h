@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+#include "common/error.h"
+#include "messaging/messages.h"
+#include "robot_model/robot_folder.h"
+
+namespace planbench {
+
+/// No folder of a session's robot is named, or there is none where one is named.
+class UnknownRobot : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// The robot of a session: that of `robot_folder`, or, if that is empty, of the folder or the robot
+/// that ships which the driver's flags name, or else, as of processes that were started by hand, of
+/// the folder that the scene server tells of. The flags' `spheres` hold for all of them. Whether it
+/// is the session's, its content id tells. Throws UnknownRobot, and InputError if it cannot be
+/// read.
+Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder);
+
+}  // namespace planbench
