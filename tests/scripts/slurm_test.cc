@@ -34,7 +34,8 @@ std::vector<std::string> Lines(const fs::path& path) {
 }
 
 /// scripts/planbench_slurm with stand-ins for sbatch, which runs the tasks at once, and for the
-/// driver, which notes its arguments and, unless it is told to die, says that it has finished.
+/// driver, which notes its arguments, begins a log and, unless it is told to die, says that it has
+/// finished, and for report, which makes a session that holds the logs of its parts.
 class SlurmTest : public testing::Test {
  protected:
   SlurmTest() {
@@ -44,14 +45,20 @@ class SlurmTest : public testing::Test {
         "esac; script=$a; done\n"
         "echo \"$@\" >> $NOTES/sbatch\n"
         "if [ -n \"${tasks-}\" ]; then for t in $tasks; do SLURM_ARRAY_TASK_ID=$t bash "
-        "$script || true; done; else bash $script; fi >> $NOTES/log 2>&1\necho 17\n");
+        "$script || true; done; else bash $script || true; fi >> $NOTES/log 2>&1\necho 17\n");
+    WriteProgram("programs/benchmark_driver",
+                 "echo \"$@\" >> $NOTES/driver\n"
+                 "while [ $# -gt 1 ]; do case $1 in --out | --resume) out=$2;; esac; shift; done\n"
+                 "mkdir -p $out; echo $out > $out/log.lcmlog; case $out in */${DIES-none}) echo "
+                 "'{\"finished\": false}' ;; *) echo "
+                 "'{\"finished\": true}';; esac > $out/run.json\n");
     WriteProgram(
-        "programs/benchmark_driver",
-        "echo \"$@\" >> $NOTES/driver\n"
-        "while [ $# -gt 1 ]; do case $1 in --out | --resume) out=$2;; esac; shift; done\n"
-        "mkdir -p $out; case $out in */${DIES-none}) echo '{\"finished\": false}' ;; *) echo "
-        "'{\"finished\": true}';; esac > $out/run.json\n");
-    WriteProgram("programs/report", "echo \"$@\" >> $NOTES/report\n");
+        "programs/report",
+        "echo \"$@\" >> $NOTES/report\n"
+        "[ \"$1 $3\" = '--merge --out' ] || exit 2\n"
+        "[ ! -e $2 ] && [ ! -e $NOTES/refuses ] || exit 2\n"
+        "mkdir $2; page=$4; out=$2; shift 4; parts=(\"$@\")\n"
+        "cat \"${parts[@]/%//log.lcmlog}\" | sort -u > $out/log.lcmlog; echo page > $page\n");
   }
 
   void WriteProgram(const std::string& name, const std::string& body) {
@@ -90,7 +97,10 @@ TEST_F(SlurmTest, RunsEveryShardAndMergesThem) {
                                                      flags + "3/3 --out " + out_ + "/shards/3"))
       << Read(folder_ / "log");
   EXPECT_THAT(Lines(folder_ / "report"),
-              ElementsAre("--merge merged --out report.html shards/1 shards/2 shards/3"));
+              ElementsAre("--merge merging/merged --out merging/report.html shards/1 shards/2 "
+                          "shards/3"));
+  EXPECT_EQ(Read(out_ + "/report.html"), "page\n");
+  EXPECT_FALSE(fs::exists(out_ + "/merging"));
   const std::vector<std::string> submitted = Lines(folder_ / "sbatch");
   ASSERT_EQ(submitted.size(), 2u);
   EXPECT_THAT(submitted[0], HasSubstr("--array=1,2,3 --partition=cpu --exclusive"));
@@ -114,6 +124,43 @@ TEST_F(SlurmTest, WhatDiedIsResumedAndWhatIsFinishedIsLeft) {
   ASSERT_EQ(Submit(command), 0) << errors_;
   EXPECT_FALSE(fs::exists(folder_ / "driver"));
   EXPECT_EQ(Lines(folder_ / "report").size(), 4u);
+}
+
+TEST_F(SlurmTest, AShardWithoutALogIsNamedAndWhatWasMergedBeforeStays) {
+  const std::vector<std::string> command = {"--tasks", "3", "--out", out_};
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  // Killed when it had made its folder, and again when it is submitted again.
+  WriteProgram("programs/benchmark_driver", "exit 1\n");
+  fs::remove(folder_ / "report");
+  fs::remove_all(out_ + "/merged");
+  fs::remove_all(out_ + "/shards/3");
+  fs::create_directories(out_ + "/shards/3/logs");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  const std::string merge = "--merge merging/merged --out merging/report.html ";
+  EXPECT_THAT(Lines(folder_ / "report"), ElementsAre(merge + "shards/1 shards/2"));
+  EXPECT_THAT(Read(folder_ / "log"), HasSubstr("shards/3 holds no event log and is left out"));
+  // The last shard is made in what was merged, which is merged once more.
+  std::ofstream(out_ + "/merged/log.lcmlog", std::ios::app) << "the third\n";
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_EQ(Lines(folder_ / "report").back(), merge + "merged shards/1 shards/2");
+  EXPECT_THAT(Read(out_ + "/merged/log.lcmlog"), HasSubstr("the third"));
+  // A merge that fails, or was killed before it had put the new in the place of the old.
+  const std::string refuses = folder_.Write("refuses", "");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_THAT(Read(out_ + "/merged/log.lcmlog"), HasSubstr("the third"));
+  fs::rename(out_ + "/merged", out_ + "/merging/before");
+  fs::remove(refuses);
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_EQ(Lines(folder_ / "report").back(), merge + "merged shards/1 shards/2");
+  EXPECT_THAT(Read(out_ + "/merged/log.lcmlog"), HasSubstr("the third"));
+  EXPECT_FALSE(fs::exists(out_ + "/merging"));
+  // Nothing to merge at all.
+  fs::remove_all(out_ + "/merged");
+  fs::remove_all(out_ + "/shards");
+  fs::remove(folder_ / "report");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_FALSE(fs::exists(folder_ / "report"));
+  EXPECT_THAT(Read(folder_ / "log"), HasSubstr("no shard holds an event log"));
 }
 
 TEST_F(SlurmTest, RefusesBadUseInOneLine) {
