@@ -133,7 +133,7 @@ void CopyMeshes(const MeshFiles& meshes, const fs::path& folder) {
     if (!error) {
       fs::copy_file(file.source, target, fs::copy_options::overwrite_existing, error);
     }
-    if (error) throw InputError("cannot write " + target.string());
+    if (error) throw InputError("cannot write " + target.string() + ": " + error.message());
   }
 }
 

@@ -99,7 +99,8 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({}, "session is required");
   expect_refused({Path("nowhere")}, "does not exist");
   expect_refused({Path("empty")}, "is no results database");
-  expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")}, "cannot write");
+  expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")},
+                 "page.html: No such file or directory");
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
 }
 

@@ -159,7 +159,7 @@ TEST_F(MakeSpheresTest, RefusesInOneLine) {
   flags_.outer = folder_ / "no/folder.yaml";
   folder_.Write("ringer.urdf", kRingerUrdf);
   Ring(TorusMesh(0.3, 0.1, 30, 20));
-  ExpectInputError([&] { Make(); }, {"cannot write", "no/folder.yaml"});
+  ExpectInputError([&] { Make(); }, {"cannot write", "no/folder.yaml: No such file or directory"});
 }
 
 }  // namespace
