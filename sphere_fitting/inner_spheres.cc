@@ -44,7 +44,7 @@ std::vector<Ball> FitInnerSpheres(const LinkBody& link, int most) {
     candidates.emplace_back(left[i], link.CoreDepth(left[i]));
   }
   const double least = kLeastGain * static_cast<double>(left.size());
-  for (int n = 0; n < most; ++n) {
+  while (balls.size() < static_cast<std::size_t>(most)) {
     Vector3d center = Vector3d::Zero();
     double depth = 0;
     double gain = 0;

@@ -183,7 +183,10 @@ TEST(FitOuterSpheres, CylindersAndSpheresOfALink) {
     EXPECT_TRUE(
         InOne(balls, SomePose() * Vector3d(rho * std::cos(angle), rho * std::sin(angle), z)));
   }
-  for (const Ball& ball : FitInnerSpheres(body, 4)) {
+  const std::vector<Ball> inner = FitInnerSpheres(body, 4);
+  EXPECT_EQ(inner.size(), 4u) << "its own sphere is one of them";
+  EXPECT_EQ(inner.front().radius, 0.1);
+  for (const Ball& ball : inner) {
     if (ball.radius == 0.1) continue;
     const Vector3d p = SomePose().inverse() * ball.center;
     EXPECT_LE(p.head<2>().norm() + ball.radius, 0.08);
