@@ -140,6 +140,17 @@ std::string Dae(const TriangleMesh& mesh, const DaeOptions& options = {}) {
                      mesh.vertices.size(), mesh.triangles.size(), indices, options.transform);
 }
 
+// One of the formats that are assimp's alone.
+std::string Ply(const TriangleMesh& mesh) {
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  for (const Vector3d& v : mesh.vertices) text += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+  for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {}\n", a, b, c);
+  return text;
+}
+
 class LoadMeshTest : public testing::Test {
  protected:
   TemporaryFolder folder_;
@@ -150,7 +161,8 @@ TEST_F(LoadMeshTest, EveryFormatGivesTheSameTriangles) {
   const std::vector<std::pair<std::string, std::string>> files = {{"ascii.stl", AsciiStl(box)},
                                                                   {"binary.STL", BinaryStl(box)},
                                                                   {"box.obj", Obj(box)},
-                                                                  {"box.dae", Dae(box)}};
+                                                                  {"box.dae", Dae(box)},
+                                                                  {"box.ply", Ply(box)}};
   for (const auto& [name, content] : files) {
     SCOPED_TRACE(name);
     const TriangleMesh mesh = LoadMesh(folder_.Write(name, content));
