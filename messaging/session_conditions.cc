@@ -56,6 +56,9 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
     return std::none_of(others.begin(), others.end(),
                         [&](const Contestant& o) { return o.planner == contestant.planner; });
   });
+  for (Contestant& contestant : session.conditions.contestants) {
+    contestant.about = contestant.published = "";  // what tables say beside it
+  }
   std::sort(session.conditions.contestants.begin(), session.conditions.contestants.end(),
             [](const auto& a, const auto& b) { return a.planner < b.planner; });
 
