@@ -21,7 +21,6 @@
 #include "common/version.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
-#include "results/entrants.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -45,6 +44,21 @@ void RequireSameBuild(const NodeStatusMessage& node) {
 /// Planbench's own, not one that a command starts, or somebody else's.
 bool IsOwn(const LineUpEntry& entry) {
   return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
+}
+
+/// Runs of a plan but those of problems that the session left out.
+std::vector<ScheduledRun> RunsOf(const SessionPlan& plan, const SessionMessage& session) {
+  std::vector<ScheduledRun> runs;
+  for (const PlannedCall& call : plan) {
+    std::vector<ScheduledRun> of_call = MakeSchedule(call, session.conditions.request);
+    for (ScheduledRun& run : of_call) {
+      if (session.left_out.contains(fmt::format("{} {}", run.problem_set, run.problem_index))) {
+        continue;
+      }
+      runs.push_back(std::move(run));
+    }
+  }
+  return runs;
 }
 
 }  // namespace
@@ -89,7 +103,8 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   }
   served_ = *registry_.ProblemSets();
   CompleteConditions();
-  schedule_ = MakeSchedule(options_, Entrants(), served_);
+  const PlannedCall call = PlanCall(options_, PlannedPlanners(), served_);
+  schedule_ = MakeSchedule(call, options_.conditions.request);
   std::set<std::string> sets;
   for (const ScheduledRun& run : schedule_) sets.insert(run.problem_set);
   for (const ProblemSetSummary& set : served_.sets) {
@@ -98,12 +113,11 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   for (const SessionMessage& session : earlier_.sessions) {
     RequireSameConditions(session, Session(false));
   }
-  if (!flags_.empty()) flags_[kEntrants] = EntrantsText(Entrants());
   std::set<ProblemKey> met;
   for (const RunRecordMessage& record : earlier_.runs) {
     met.emplace(record.problem_set, record.problem_index);
   }
-  TakeUp(std::exchange(earlier_, {}));
+  TakeUp(std::exchange(earlier_, {}), call);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
   CheckProblems(met, watch);
   // A resumed session may be given other sets or problems than before. What a first attempt makes
@@ -111,73 +125,52 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   num_runs_ = static_cast<int>(runs_.size() + schedule_.size()) + num_owed_;
 }
 
-void Driver::TakeUp(EarlierSession earlier) {
-  std::vector<ScheduledRun> before = EarlierPlan(earlier.sessions, served_);
-  std::set<std::string> scheduled;
+void Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
+  const bool is_resumed = !earlier.sessions.empty();
+  const SessionMessage last = is_resumed ? earlier.sessions.back() : SessionMessage();
+  std::optional<SessionPlan> plan = is_resumed ? EarlierPlan(last, call) : SessionPlan();
+  std::optional<std::vector<ScheduledRun>> before;
+  if (plan) {
+    before = RunsOf(*plan, last);
+    AddCalls({call}, &*plan);
+  }
+  RunIds ids;
   std::set<std::string> problems;
   for (const ScheduledRun& run : schedule_) {
-    scheduled.insert(run.request_id);
+    ids.scheduled.insert(run.request_id);
     problems.insert(fmt::format("{} {}", run.problem_set, run.problem_index));
   }
-  for (const std::vector<ScheduledRun>* plan : {&schedule_, &before}) {
-    for (const ScheduledRun& run : *plan) {
+  for (const std::vector<ScheduledRun>* runs : {&schedule_, before ? &*before : nullptr}) {
+    if (runs == nullptr) continue;
+    for (const ScheduledRun& run : *runs) {
       if (run.unless_solved) suffices_[*run.unless_solved] = false;
       if (run.is_one_of_two) one_of_two_.insert(run.request_id);
     }
   }
-  std::set<std::string> done;
-  std::set<std::string> owed;
-  bool all_scheduled = true;
   for (const RunRecordMessage& record : earlier.runs) {
-    const bool is_scheduled = scheduled.contains(record.request_id);
-    all_scheduled = all_scheduled && is_scheduled;
+    const bool is_scheduled = ids.scheduled.contains(record.request_id);
+    ids.all_scheduled = ids.all_scheduled && is_scheduled;
     if (!WasAsked(record)) {  // it is to be made, now or later
       if (is_scheduled) continue;
-      owed.insert(record.request_id);
+      ids.not_asked.insert(record.request_id);
       const auto attempt = suffices_.find(record.request_id);
       if (attempt != suffices_.end()) attempt->second = true;
       continue;
     }
-    done.insert(record.request_id);
+    ids.done.insert(record.request_id);
     Keep(record);
   }
-  const auto is_to_do = [&](const ScheduledRun& run) {
-    return !done.contains(run.request_id) &&
-           !(run.unless_solved && suffices_.at(*run.unless_solved));
-  };
-  std::erase_if(schedule_, [&](const ScheduledRun& run) { return done.contains(run.request_id); });
-  if (earlier.sessions.empty()) return;
-
-  const SessionMessage& last = earlier.sessions.back();
-  std::set<std::string> planned;
-  for (const ScheduledRun& run : before) {
-    planned.insert(run.request_id);
-    if (!last.finished && !scheduled.contains(run.request_id) && is_to_do(run)) {
-      owed.insert(run.request_id);
-    }
+  std::erase_if(schedule_,
+                [&](const ScheduledRun& run) { return ids.done.contains(run.request_id); });
+  if (is_resumed) {
+    awaited_shards_ = AwaitedShards(last, plan);
+    Owe(last, before, ids);
+    if (!plan && !awaited_shards_.empty()) flags_[kShardFlag] = last.settings.at(kShardFlag);
   }
-  num_owed_ = static_cast<int>(owed.size());
-  if (before.empty() && !last.finished) {  // how many they were is known all the same
-    const auto may_be_of_it = [&had = last.conditions](const ScheduledRun& run) {
-      return had.problem_sets.contains(run.problem_set) &&
-             std::any_of(had.contestants.begin(), had.contestants.end(),
-                         [&](const Contestant& one) { return one.planner == run.planner; });
-    };
-    const auto num_left =
-        static_cast<int>(done.size()) +
-        static_cast<int>(std::count_if(schedule_.begin(), schedule_.end(), may_be_of_it));
-    num_owed_ = std::max(num_owed_, last.num_runs - num_left);
+  if (!flags_.empty()) {
+    flags_.erase(kPlanSetting);
+    if (plan) flags_[kPlanSetting] = PlanText(*plan);
   }
-  const bool all_planned = std::all_of(
-      schedule_.begin(), schedule_.end(),
-      [&](const ScheduledRun& run) { return planned.contains(run.request_id) || !is_to_do(run); });
-  std::vector<std::string> sets;
-  for (const auto& [set, content] : options_.conditions.problem_sets) sets.push_back(set);
-  flags_ = FlagsOfResumed(last.settings, std::move(flags_),
-                          all_scheduled && num_owed_ == 0 ? PlanScope::kAll
-                          : all_planned                   ? PlanScope::kPart
-                                                          : PlanScope::kOther,
-                          sets);
   AddEarlier(earlier.sessions, &options_.conditions);
   for (const SessionMessage& session : earlier.sessions) {
     for (const NodeStatusMessage& node : session.nodes) {
@@ -188,6 +181,55 @@ void Driver::TakeUp(EarlierSession earlier) {
   for (const auto& [problem, reason] : last.left_out) {
     if (!problems.contains(problem)) left_out_.emplace(problem, reason);
   }
+}
+
+void Driver::Owe(const SessionMessage& last, const std::optional<std::vector<ScheduledRun>>& before,
+                 const RunIds& ids) {
+  const auto is_to_do = [&](const ScheduledRun& run) {
+    return !ids.done.contains(run.request_id) &&
+           !(run.unless_solved && suffices_.at(*run.unless_solved));
+  };
+  std::set<std::string> planned;
+  std::set<std::string> owed = ids.not_asked;
+  if (before) {
+    for (const ScheduledRun& run : *before) {
+      planned.insert(run.request_id);
+      if (!last.finished && !ids.scheduled.contains(run.request_id) && is_to_do(run)) {
+        owed.insert(run.request_id);
+      }
+    }
+  }
+  num_owed_ = static_cast<int>(owed.size());
+  if (!before) {  // how many they were is known all the same
+    const SessionConditions& had = last.conditions;
+    const SessionConditions& has = options_.conditions;  // of this call alone
+    const auto is_among = [](const std::vector<Contestant>& contestants, const std::string& name) {
+      return std::any_of(contestants.begin(), contestants.end(),
+                         [&](const Contestant& one) { return one.planner == name; });
+    };
+    const bool may_be_all =
+        std::all_of(
+            had.contestants.begin(), had.contestants.end(),
+            [&](const Contestant& one) { return is_among(has.contestants, one.planner); }) &&
+        std::all_of(had.problem_sets.begin(), had.problem_sets.end(),
+                    [&](const auto& set) { return has.problem_sets.contains(set.first); });
+    // The number may include backward searches that have become needless.
+    const auto may_be_of_it = [&](const ScheduledRun& run) {
+      return had.problem_sets.contains(run.problem_set) && is_among(had.contestants, run.planner) &&
+             (may_be_all || is_to_do(run));
+    };
+    const auto num_left =
+        static_cast<int>(ids.done.size()) +
+        static_cast<int>(std::count_if(schedule_.begin(), schedule_.end(), may_be_of_it));
+    num_owed_ = std::max(num_owed_, last.num_runs - num_left);
+  }
+  const bool all_planned = std::all_of(
+      schedule_.begin(), schedule_.end(),
+      [&](const ScheduledRun& run) { return planned.contains(run.request_id) || !is_to_do(run); });
+  flags_ = FlagsOfResumed(last.settings, std::move(flags_),
+                          ids.all_scheduled && num_owed_ == 0 ? PlanScope::kAll
+                          : all_planned                       ? PlanScope::kPart
+                                                              : PlanScope::kOther);
 }
 
 void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch) {
@@ -301,13 +343,13 @@ void Driver::AddContestant(const LineUpEntry& entry) {
   planners_[name] = *planner;
 }
 
-std::vector<Entrant> Driver::Entrants() const {
-  std::vector<Entrant> entrants;
+std::vector<PlannedPlanner> Driver::PlannedPlanners() const {
+  std::vector<PlannedPlanner> planned;
   for (const LineUpEntry& entry : line_up_) {
-    entrants.push_back(
-        MakeEntrant(entry.contestant, entry.directions.value_or(options_.directions), planners_));
+    planned.push_back(PlanPlanner(entry.contestant, entry.directions.value_or(options_.directions),
+                                  options_.trials, planners_));
   }
-  return entrants;
+  return planned;
 }
 
 SessionMessage Driver::Session(bool finished) const {
@@ -343,7 +385,7 @@ const RunRow& Driver::Keep(const RunRecordMessage& record) {
   bool needs_other =
       one_of_two_.contains(record.request_id) && record.status != PlanStatus::kSolved;
   if (attempt != suffices_.end()) {
-    attempt->second = record.result.result.Solves() || !WasAsked(record);
+    attempt->second = Suffices(record);
     needs_other = !attempt->second;
   }
   return runs_.Add(record, needs_other);
@@ -486,8 +528,7 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(
-      Session(complete && num_owed_ + num_not_asked_ == 0 && awaited_shards().empty()));
+  recorder_.Record(Session(complete && num_owed_ + num_not_asked_ == 0 && awaited_shards_.empty()));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
   return recorded;

@@ -20,7 +20,7 @@
 #include "benchmark_driver/schedule.h"
 #include "messaging/bus.h"
 #include "messaging/node_registry.h"
-#include "results/shards.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 
@@ -53,7 +53,8 @@ class Driver {
   /// Of them those that the resumed session was to make and this call is not.
   int num_owed() const { return num_owed_; }
   /// Shards that the session, once merged of others, does not hold: it is not finished without.
-  std::set<std::string> awaited_shards() const { return AwaitedShards(flags_); }
+  /// In lines.
+  const std::vector<std::string>& awaited_shards() const { return awaited_shards_; }
   /// Of this call's runs those of which no request was sent (messaging/asked_runs.h): made when the
   /// session is resumed with the same flags. Others of the resumed session are owed.
   int num_not_asked() const { return num_not_asked_; }
@@ -76,9 +77,20 @@ class Driver {
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);
-  std::vector<Entrant> Entrants() const;
+  std::vector<PlannedPlanner> PlannedPlanners() const;
   /// Takes over what was told and made of the resumed session, and leaves to do what it lacks.
-  void TakeUp(EarlierSession earlier);
+  void TakeUp(EarlierSession earlier, const PlannedCall& call);
+  /// Request ids of a session that is resumed.
+  struct RunIds {
+    std::set<std::string> scheduled;  ///< Of this call, those done included.
+    std::set<std::string> done;
+    std::set<std::string> not_asked;  ///< Of records, but for what is scheduled.
+    bool all_scheduled = true;        ///< Whatever has a record.
+  };
+  /// Counts what the resumed session was to make and this call is not, and says how all of it is
+  /// made. `before`: that session's runs by its plan, nothing if that is not known.
+  void Owe(const SessionMessage& last, const std::optional<std::vector<ScheduledRun>>& before,
+           const RunIds& ids);
   SessionMessage Session(bool finished) const;
   /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
@@ -103,6 +115,7 @@ class Driver {
   std::vector<ScheduledRun> schedule_;  // what is left to do
   int num_runs_ = 0;                    // of the session, those done earlier included
   int num_owed_ = 0;                    // of those the resumed session's that are not to do
+  std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::unique_ptr<RunExecutor> executor_;
 

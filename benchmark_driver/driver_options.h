@@ -10,14 +10,9 @@
 #include "benchmark_driver/machine.h"
 #include "messaging/messages.h"
 #include "messaging/robot_flags.h"
+#include "results/session_plan.h"
 
 namespace planbench {
-
-/// One of `count` parts of a session, from 1.
-struct Shard {
-  int index = 1;
-  int count = 1;
-};
 
 /// What the driver was asked to do.
 struct DriverOptions {

@@ -1,25 +1,24 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "benchmark_driver/resume.h"
-#include "benchmark_driver/schedule.h"
 #include "messaging/messages.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 
-/// For the record of a session (kEntrants): which planners a call of the driver asks, and in which
-/// directions.
-std::string EntrantsText(const std::vector<Entrant>& entrants);
+/// What a session that is resumed was to make before; nothing if that is not known, of a session of
+/// an earlier version that was not finished. Throws InputError for a plan that cannot be read, and
+/// if `call` asks a planner in other directions than before.
+std::optional<SessionPlan> EarlierPlan(const SessionMessage& last, const PlannedCall& call);
 
-/// All runs that a session was to make before it is resumed, each once, those made included: by the
-/// flags, contestants and planners that it told of each time it was begun or resumed. What cannot
-/// be known is left out: of a session that does not tell of its flags, and of sets that are not
-/// served any more, or not as they were.
-std::vector<ScheduledRun> EarlierPlan(const std::vector<SessionMessage>& earlier,
-                                      const ProblemSetsMessage& served);
+/// The shards that it lacks with that plan, in lines; a part by itself, which was not merged of
+/// any, waits for none. `plan`: nothing if it is not known.
+std::vector<std::string> AwaitedShards(const SessionMessage& last,
+                                       const std::optional<SessionPlan>& plan);
 
 /// Adds to conditions what a session had beside them before it was resumed: sets and contestants,
 /// its own first. Throws InputError if a contestant has another's name.
@@ -33,10 +32,9 @@ enum class PlanScope {
 };
 
 /// The flags by which a resumed session is made again: those of the call, or those of before, or
-/// with the commands of both (kMergedCommands) and the shards of both. `sets`: those of the call.
+/// with the commands of both (kMergedCommands).
 std::map<std::string, std::string> FlagsOfResumed(const std::map<std::string, std::string>& before,
                                                   std::map<std::string, std::string> now,
-                                                  PlanScope scope,
-                                                  const std::vector<std::string>& sets);
+                                                  PlanScope scope);
 
 }  // namespace planbench

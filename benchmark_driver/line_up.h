@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "messaging/messages.h"
-#include "results/entrants.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 

@@ -17,7 +17,7 @@
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
 #include "results/reproduce.h"
-#include "results/shards.h"
+#include "results/session_plan.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {
@@ -92,8 +92,8 @@ void RequireLogged(StoredIds stored, const RecordedSession& logged,
 }
 
 std::string ShardText(const SessionMessage& session) {
-  const auto shards = ShardsOf(session.settings);
-  return shards.empty() ? "no --shard" : "--shard " + JoinShards(shards);
+  const std::string& shard = session.settings.at(kShardFlag);
+  return shard.empty() ? "no --shard" : "--shard " + shard;
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now) {
   const bool both_tell = before.settings.contains(kShardFlag) && now.settings.contains(kShardFlag);
   const bool is_merged = before.settings.contains(kMergedCommands);
-  if (both_tell && !is_merged && ShardsOf(before.settings) != ShardsOf(now.settings)) {
+  if (both_tell && !is_merged && ShardText(before) != ShardText(now)) {
     throw InputError(fmt::format("--resume: the session was begun with {} and goes on with {} now",
                                  ShardText(before), ShardText(now)));
   }

@@ -36,7 +36,6 @@
 #include "results/compared_sessions.h"
 #include "results/imported_results.h"
 #include "results/reproduce.h"
-#include "results/shards.h"
 #include "robot_model/robot_folder.h"
 #include "robot_model/shipped_robots.h"
 
@@ -257,8 +256,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
                  number == 1 ? "1 run was" : fmt::format("{} runs were", number),
                  ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume)));
   }
-  if (const std::set<std::string> awaited = driver.awaited_shards(); !awaited.empty()) {
-    spdlog::warn("the session is not finished; shards missing: {}", JoinShards(awaited));
+  if (const std::vector<std::string>& awaited = driver.awaited_shards(); !awaited.empty()) {
+    spdlog::warn("the session is not finished; shards missing: {}", fmt::join(awaited, "; "));
   }
   return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -65,25 +66,23 @@ std::uint64_t Derive(std::uint64_t seed, const Parts&... parts) {
   return value >> 1;
 }
 
-/// A permutation of `entrants`. (std::shuffle differs from library to library.)
-std::vector<Entrant> Shuffled(std::vector<Entrant> entrants, std::uint64_t seed) {
+/// A permutation. (std::shuffle differs from library to library.)
+std::vector<PlannedPlanner> Shuffled(std::vector<PlannedPlanner> planners, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  for (std::size_t i = entrants.size(); i > 1; --i)
-    std::swap(entrants[i - 1], entrants[random() % i]);
-  return entrants;
+  for (std::size_t i = planners.size(); i > 1; --i)
+    std::swap(planners[i - 1], planners[random() % i]);
+  return planners;
 }
 
-std::vector<Direction> AttemptsOf(const Entrant& entrant) {
+std::vector<Direction> AttemptsOf(Directions directions) {
   using enum Direction;
-  switch (entrant.directions) {
+  switch (directions) {
     case Directions::kForward:
       return {kForward};
     case Directions::kBackward:
       return {kBackward};
     case Directions::kBoth:
-      return {kForward, kBackward};
     case Directions::kAuto:
-      if (entrant.IsAskedOnce()) return {kForward};
       return {kForward, kBackward};
   }
   return {};
@@ -91,19 +90,37 @@ std::vector<Direction> AttemptsOf(const Entrant& entrant) {
 
 }  // namespace
 
-Entrant MakeEntrant(const Contestant& contestant, Directions directions,
-                    const std::map<std::string, NodeStatusMessage>& planners) {
+PlannedPlanner PlanPlanner(const Contestant& contestant, Directions directions, int trials,
+                           const std::map<std::string, NodeStatusMessage>& planners) {
   const NodeStatusMessage& planner = planners.at(contestant.planner);
-  Entrant entrant = {planner.name, directions, planner.can_backward, planner.bidirectional,
-                     planner.deterministic};
+  bool can_backward = planner.can_backward;
+  bool bidirectional = planner.bidirectional;
+  bool deterministic = planner.deterministic;
   if (!contestant.first_path_of.empty()) {
-    // Whether there is a path at all is the other's matter.
     const NodeStatusMessage& first = planners.at(contestant.first_path_of);
-    entrant.can_backward = entrant.can_backward && first.can_backward;
-    entrant.bidirectional = first.bidirectional;
-    entrant.deterministic = entrant.deterministic && first.deterministic;
+    can_backward = can_backward && first.can_backward;
+    bidirectional = first.bidirectional;
+    deterministic = deterministic && first.deterministic;
   }
-  return entrant;
+  const bool is_forward = directions == Directions::kAuto && (bidirectional || !can_backward);
+  return {planner.name, is_forward ? Directions::kForward : directions, deterministic ? 1 : trials};
+}
+
+PlannedCall PlanCall(const DriverOptions& options, std::vector<PlannedPlanner> planners,
+                     const ProblemSetsMessage& served) {
+  PlannedCall call;
+  call.planners = std::move(planners);
+  call.shard = options.shard;
+  for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
+    call.sets.push_back({set->name, SelectProblems(*set, options.problem_indices)});
+  }
+  const std::size_t num_parts = call.NumProblems() * static_cast<std::size_t>(call.MostTrials());
+  if (static_cast<std::size_t>(call.shard.index) > num_parts && call.shard.count > 1) {
+    throw InputError(
+        fmt::format("--shard {}/{}: there are no more than {} parts, trials of problems",
+                    call.shard.index, call.shard.count, num_parts));
+  }
+  return call;
 }
 
 std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
@@ -111,58 +128,22 @@ std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set
   return Derive(session_seed, problem_set, problem_index, EnumName(direction), trial);
 }
 
-std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
-                                       const std::vector<Entrant>& entrants,
-                                       const ProblemSetsMessage& served) {
-  const PlanRequest& request = options.conditions.request;
+std::vector<ScheduledRun> MakeSchedule(const PlannedCall& call, const PlanRequest& request) {
   std::vector<ScheduledRun> schedule;
-  const auto add = [&](const std::string& set, int index, const Entrant& entrant, int trial) {
-    std::optional<std::string> other;
-    for (const Direction direction : AttemptsOf(entrant)) {
-      ScheduledRun& run = schedule.emplace_back();
-      run = {entrant.planner,
-             set,
-             index,
-             direction,
-             trial,
-             RunSeed(request.seed, set, index, direction, trial),
-             fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set, index, entrant.planner,
-                         EnumName(direction), trial),
-             other,
-             entrant.directions == Directions::kBoth};
-      if (entrant.directions == Directions::kAuto) other = run.request_id;
-    }
-  };
-  const bool any_seeds_matter = std::any_of(entrants.begin(), entrants.end(),
-                                            [](const Entrant& e) { return !e.deterministic; });
-  const int num_trials = any_seeds_matter ? options.trials : 1;
-  std::vector<std::pair<std::string, int>> problems;
-  for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
-    for (const int index : SelectProblems(*set, options.problem_indices)) {
-      problems.emplace_back(set->name, index);
-    }
-  }
-  // Counted trial by trial, so that each shard has its share of the first one, which is all that
-  // deterministic contestants make, and that who they are changes nothing.
-  const auto is_of_shard = [&](std::size_t problem, int trial) {
-    const std::size_t part = static_cast<std::size_t>(trial - 1) * problems.size() + problem;
-    return part % static_cast<std::size_t>(options.shard.count) ==
-           static_cast<std::size_t>(options.shard.index - 1);
-  };
-  for (std::size_t problem = 0; problem < problems.size(); ++problem) {
-    const auto& [set, index] = problems[problem];
-    for (int trial = 1; trial <= num_trials; ++trial) {
-      if (!is_of_shard(problem, trial)) continue;
-      const std::uint64_t order = Derive(request.seed, "order", set, index, trial);
-      for (const Entrant& entrant : Shuffled(entrants, order)) {
-        if (trial == 1 || !entrant.deterministic) add(set, index, entrant, trial);
+  for (const auto& [set, index, trial] : call.Trials()) {
+    const std::uint64_t order = Derive(request.seed, "order", set, index, trial);
+    for (const PlannedPlanner& planner : Shuffled(call.planners, order)) {
+      if (trial > planner.trials) continue;
+      std::optional<std::string> other;
+      for (const Direction direction : AttemptsOf(planner.directions)) {
+        schedule.push_back({planner.name, set, index, direction, trial,
+                            RunSeed(request.seed, set, index, direction, trial),
+                            fmt::format("{}/{}/{}/{}/{}/{}", request.run_id, set, index,
+                                        planner.name, EnumName(direction), trial),
+                            other, planner.directions == Directions::kBoth});
+        if (planner.directions == Directions::kAuto) other = schedule.back().request_id;
       }
     }
-  }
-  if (schedule.empty() && options.shard.count > 1) {
-    throw InputError(fmt::format(
-        "--shard {}/{}: there are no more than {} parts, trials of problems", options.shard.index,
-        options.shard.count, problems.size() * static_cast<std::size_t>(num_trials)));
   }
   return schedule;
 }

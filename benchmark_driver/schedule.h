@@ -8,6 +8,7 @@
 
 #include "benchmark_driver/driver_options.h"
 #include "messaging/messages.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 
@@ -27,37 +28,27 @@ struct ScheduledRun {
   bool is_one_of_two = false;
 };
 
-/// A contestant as the schedule sees it.
-struct Entrant {
-  std::string planner;
-  Directions directions = Directions::kAuto;
-  bool can_backward = true;
-  bool bidirectional = false;  ///< Searches from both ends at once: auto is one run.
-  bool deterministic =
-      false;  ///< Whatever the seed, the answer is the same: further trials are not run.
+/// A contestant that is asked in these directions and trials, by what planners say of themselves:
+/// its own, and the one whose path it improves, if there is one. Whether there is a path at all is
+/// that one's matter.
+PlannedPlanner PlanPlanner(const Contestant& contestant, Directions directions, int trials,
+                           const std::map<std::string, NodeStatusMessage>& planners);
 
-  /// Whether auto is the forward search alone.
-  bool IsAskedOnce() const { return bidirectional || !can_backward; }
-};
-
-/// A contestant that is asked in these directions, by what planners say of themselves: its own, and
-/// the one whose path it improves, if there is one.
-Entrant MakeEntrant(const Contestant& contestant, Directions directions,
-                    const std::map<std::string, NodeStatusMessage>& planners);
+/// What the options select of the sets that are served, for these planners. Throws InputError for a
+/// set that is not served (naming those that are), a range that selects no problem of a set, and a
+/// shard without runs.
+PlannedCall PlanCall(const DriverOptions& options, std::vector<PlannedPlanner> planners,
+                     const ProblemSetsMessage& served);
 
 /// The seed of a run: a hash, so that neither problems, directions, trials nor sessions share
 /// sequences of samples. Below 2^63.
 std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
                       Direction direction, int trial);
 
-/// Every run of a session, in order: problem by problem and trial by trial, the contestants in an
+/// Every run of a call, in order: problem by problem and trial by trial, the contestants in an
 /// order drawn anew each time (by the session's seed), so that all meet a problem under like
-/// conditions of the machine and none always comes first; forward before backward. A shard has
-/// every count-th trial of a problem, counted over the first trials of all, then the second, with
-/// all contestants, whoever they are. Throws InputError for a set that is not served (naming those
-/// that are), a range that selects no problem of a set, and a shard without runs.
-std::vector<ScheduledRun> MakeSchedule(const DriverOptions& options,
-                                       const std::vector<Entrant>& entrants,
-                                       const ProblemSetsMessage& served);
+/// conditions of the machine and none always comes first; forward before backward. `request`: with
+/// the session's run id and seed.
+std::vector<ScheduledRun> MakeSchedule(const PlannedCall& call, const PlanRequest& request);
 
 }  // namespace planbench

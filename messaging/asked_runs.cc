@@ -8,6 +8,10 @@ bool WasAsked(const RunRecordMessage& run) {
   return TellsOfRequest(run.roundtrip_time_s, run.status, !run.request.scene_id.empty());
 }
 
+bool Suffices(const RunRecordMessage& forward) {
+  return forward.result.result.Solves() || !WasAsked(forward);
+}
+
 RunStanding StandingOf(const RunRecordMessage& run) { return {WasAsked(run), run.start_utime}; }
 
 bool Replaces(const RunStanding& record, const RunStanding& known) {

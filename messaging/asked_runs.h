@@ -11,6 +11,10 @@ namespace planbench {
 /// missing: no figure counts it, the session is not finished without, --resume makes it.
 bool WasAsked(const RunRecordMessage& run);
 
+/// Whether a backward search that is to be made only if this forward one found no path is not made:
+/// the planner claims one, or could not be asked, so that nobody knows yet whether it is needed.
+bool Suffices(const RunRecordMessage& forward);
+
 /// Of a run's record, what tells which of several stands.
 struct RunStanding {
   bool was_asked = false;

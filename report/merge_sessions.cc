@@ -10,6 +10,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -27,9 +28,8 @@
 #include "messaging/session_conditions.h"
 #include "report/session_shares.h"
 #include "results/bus_json.h"
-#include "results/entrants.h"
 #include "results/reproduce.h"
-#include "results/shards.h"
+#include "results/session_plan.h"
 #include "results/shell_quoted.h"
 #include "results/stored_session.h"
 
@@ -88,11 +88,14 @@ struct Part {
     }
     return std::max(0, num_runs - static_cast<int>(request_ids.size()));
   }
-  /// Whether nothing is to come; a merged session may have been waiting for shards alone.
   bool finished() const {
-    return std::all_of(told.begin(), told.end(), [&](const SessionMessage& one) {
-      return one.finished || !Counts(one) ||
-             (num_missing() == 0 && !AwaitedShards(one.settings).empty());
+    return std::all_of(told.begin(), told.end(),
+                       [&](const SessionMessage& one) { return one.finished || !Counts(one); });
+  }
+  /// Whether it is of an earlier version, which did not record its plan.
+  bool IsWithoutPlan() const {
+    return std::any_of(told.begin(), told.end(), [&](const SessionMessage& one) {
+      return Counts(one) && !one.settings.contains(kPlanSetting);
     });
   }
 
@@ -221,7 +224,7 @@ class Merge {
     }
     num_repeated_ = runs_.size() - united.size();
     runs_ = std::move(united);
-    session_.num_runs += static_cast<int>(runs_.size());
+    CountRuns();
   }
 
   void Write(const fs::path& file) {
@@ -252,7 +255,7 @@ class Merge {
                        num_repeated_,
                        missing_shards_.empty()
                            ? ""
-                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, ", ")),
+                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, "; ")),
                        without_bus_.empty()
                            ? ""
                            : fmt::format("; without run.json, so that what was lost on the bus is "
@@ -272,6 +275,7 @@ class Merge {
     }
     try {
       shares_.Add(told, bus);
+      for (const SessionMessage& session : told) ReadPlan(session.settings);
     } catch (const InputError& error) {
       throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
     }
@@ -307,14 +311,24 @@ class Merge {
     SessionMessage renamed = second.session();
     renamed.run_id = first.session().run_id;
     renamed.conditions.request.run_id = first.session().conditions.request.run_id;
-    const auto difference = FindConditionDifference(first.session(), renamed);
-    if (!difference) return;
-    throw InputError(fmt::format("--merge: {} is {} in {} and {} in {}", difference->field,
-                                 difference->first, first.folder, difference->second,
-                                 second.folder));
+    const auto refuse = [&](const std::string& field, std::string_view of_first,
+                            std::string_view of_second) {
+      return InputError(fmt::format("--merge: {} is {} in {} and {} in {}", field, of_first,
+                                    first.folder, of_second, second.folder));
+    };
+    if (const auto difference = FindConditionDifference(first.session(), renamed)) {
+      throw refuse(difference->field, difference->first, difference->second);
+    }
+    const auto of_first = ReadPlan(first.session().settings);
+    const auto of_second = ReadPlan(second.session().settings);
+    if (!of_first || !of_second) return;
+    if (const auto difference = FindDirectionsDifference(*of_first, *of_second)) {
+      throw refuse(fmt::format("contestant[{}].directions", difference->planner),
+                   EnumName(difference->first), EnumName(difference->second));
+    }
   }
 
-  /// Its number of runs is that of the runs that are missing.
+  /// All but its number of runs and whether it is finished.
   void MakeSession() {
     std::vector<const Part*> parts;
     for (const auto& [run_id, part] : parts_) parts.push_back(&part);
@@ -322,30 +336,62 @@ class Merge {
       return a->session().start_utime < b->session().start_utime;
     });
     session_ = parts.front()->session();
-    session_.finished = true;
     session_.total_time_s = shares_.total_time_s();
-    session_.num_runs = 0;
     Texts texts;
     for (const Part* part : parts) {
-      session_.finished = session_.finished && part->finished();
-      session_.num_runs += part->num_missing();
       for (const SessionMessage& told : part->told) Add(told, &texts);
     }
     session_.host = Joined(texts.hosts, ", ");
     session_.cpu = Joined(texts.processors, ", ");
-    missing_shards_ = MissingShards(texts.shards);
-    session_.finished = session_.finished && missing_shards_.empty();
-    if (!texts.shards.empty()) session_.settings[kShardFlag] = JoinShards(texts.shards);
-    session_.settings.erase(kAskedShard);
-    if (!texts.entrants.empty()) session_.settings[kEntrants] = Joined(texts.entrants, " ");
     const std::string command = JoinCommands(texts.commands);
     if (!command.empty()) session_.settings[kMergedCommands] = command;
     session_.settings[kMergedParts] = shares_.Text();
   }
 
+  /// What is owed, by the plan of all parts; of parts without one the number of runs is known.
+  void CountRuns() {
+    SessionPlan plan;
+    int num_missing = 0;
+    std::vector<std::string> unknown_shards;
+    bool is_known = true;
+    bool finished = true;
+    for (const auto& [run_id, part] : parts_) {
+      for (const SessionMessage& told : part.told) {
+        AddCalls(ReadPlan(told.settings).value_or(SessionPlan()), &plan);
+      }
+      if (!part.IsWithoutPlan()) continue;
+      num_missing += part.num_missing();
+      finished = finished && part.finished();
+      for (const SessionMessage& told : part.told) {
+        const auto shard = told.settings.find(kShardFlag);
+        if (shard != told.settings.end()) unknown_shards.push_back(shard->second);
+      }
+      is_known = is_known && part.finished() && part.num_missing() == 0;
+    }
+    const std::string shards = Joined(unknown_shards, ", ");
+    is_known = is_known && shards.empty();
+    std::map<PlannedRun, bool> made;
+    for (const Run& run : runs_) {
+      const RunRecordMessage& record = run.record;
+      made[{{record.problem_set, record.problem_index, record.trial},
+            record.planner,
+            record.request.direction}] = Suffices(record);
+      finished = finished && WasAsked(record);
+    }
+    const int num_owed = CountOwed(plan, made, session_.left_out);
+    missing_shards_ = MissingShards(plan);
+    if (!shards.empty()) {
+      missing_shards_.emplace_back(kUnknownShards);
+      session_.settings[kShardFlag] = shards;
+    }
+    session_.num_runs = static_cast<int>(runs_.size()) + num_missing + num_owed;
+    session_.finished = finished && num_owed == 0 && missing_shards_.empty();
+    session_.settings.erase(kPlanSetting);
+    if (is_known) session_.settings[kPlanSetting] = PlanText(plan);
+  }
+
   struct Texts {
-    std::vector<std::string> hosts, processors, commands, entrants;
-    std::set<std::string> shards;
+    std::vector<std::string> hosts, processors, commands;
   };
 
   /// What one telling of a part adds to the session and its texts.
@@ -353,11 +399,6 @@ class Merge {
     AddTexts(told, told.host, ", ", &texts->hosts);
     AddTexts(told, told.cpu, ", ", &texts->processors);
     texts->commands.push_back(ReproducingCommand(told.settings));
-    texts->shards.merge(ShardsOf(told.settings));
-    if (const auto asked = told.settings.find(kEntrants); asked != told.settings.end()) {
-      const std::vector<std::string> entrants = Split(asked->second, " ");
-      texts->entrants.insert(texts->entrants.end(), entrants.begin(), entrants.end());
-    }
     session_.left_out.insert(told.left_out.begin(), told.left_out.end());
     session_.conditions.problem_sets.insert(told.conditions.problem_sets.begin(),
                                             told.conditions.problem_sets.end());
@@ -384,7 +425,7 @@ class Merge {
   std::map<std::string, Part> parts_;  ///< By run id.
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
-  std::set<std::string> missing_shards_;
+  std::vector<std::string> missing_shards_;  ///< In lines.
   SessionShares shares_;
   std::vector<std::string> without_bus_;  ///< Folders that do not tell.
   std::vector<std::string> passed_over_;  ///< RecordedSession's, of all logs.

@@ -1,13 +1,16 @@
 #include "results/awaited_attempts.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "results/entrants.h"
+#include "common/error.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 namespace {
@@ -31,13 +34,26 @@ std::string PlannerOf(const std::string& request_id) {
   return begin == std::string::npos ? "" : request_id.substr(begin + 1, end - begin);
 }
 
-/// Whether the other direction is made besides this attempt.
-bool NeedsOther(const StoredRun& run, const AskedDirections& asked) {
+/// Whether a call of the plan makes the other direction besides this attempt.
+bool NeedsOther(const StoredRun& run, const SessionPlan& plan) {
   const std::string planner = PlannerOf(run.request_id);
-  if (IsAsked(asked, planner, Directions::kBoth)) return !run.confirmed();
-  // Backward is asked only after forward, unless that claimed a path or could not be made at all.
-  return IsAsked(asked, planner, Directions::kAuto) && run.direction == Direction::kForward &&
-         !run.claimed && run.roundtrip_time_s > 0;
+  const PlannedTrial trial = {run.problem_set, run.problem_index, run.trial};
+  return std::any_of(plan.begin(), plan.end(), [&](const PlannedCall& call) {
+    const std::optional<Directions> asked = call.DirectionsOf(planner, trial);
+    if (asked == Directions::kBoth) return !run.confirmed();
+    // Backward is asked only after forward, unless that claimed a path or could not be made at all.
+    return asked == Directions::kAuto && run.direction == Direction::kForward && !run.claimed &&
+           run.roundtrip_time_s > 0;
+  });
+}
+
+/// Throws InputError naming the session's file.
+std::optional<SessionPlan> PlanOf(const StoredSession& session) {
+  try {
+    return ReadPlan(session.flags);
+  } catch (const InputError& error) {
+    throw InputError(session.file.string() + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -45,15 +61,15 @@ bool NeedsOther(const StoredRun& run, const AskedDirections& asked) {
 int LeaveOutAwaiting(StoredSession* session) {
   const bool complete =
       session->finished && static_cast<int>(session->runs.size()) >= session->num_runs;
-  const auto setting = session->flags.find(kEntrants);
-  if (session->imported || complete || setting == session->flags.end()) return 0;
-  const AskedDirections asked = ParseEntrants(setting->second);
+  if (session->imported || complete) return 0;
+  const std::optional<SessionPlan> plan = PlanOf(*session);
+  if (!plan) return 0;
   std::set<AttemptKey> made;
   for (const StoredRun& run : session->runs) made.insert(KeyOf(run, run.direction));
   const auto num_left_out = std::erase_if(session->runs, [&](const StoredRun& run) {
     const Direction other =
         run.direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
-    return NeedsOther(run, asked) && !made.contains(KeyOf(run, other));
+    return NeedsOther(run, *plan) && !made.contains(KeyOf(run, other));
   });
   return static_cast<int>(num_left_out);
 }

@@ -6,8 +6,9 @@ namespace planbench {
 
 /// Leaves out of a session that is not complete the attempts without a confirmed path whose other
 /// direction was to follow and is not recorded: what becomes of their trials is not known. Returns
-/// how many. In which directions a planner is asked the session's flags tell (kEntrants); of one
-/// that they do not name, as in sessions of earlier versions, nothing is left out.
+/// how many. In which directions a planner is asked for a trial the session's plan tells
+/// (results/session_plan.h); without one, as in sessions of earlier versions, nothing is left out.
+/// Throws InputError for a plan that cannot be read.
 int LeaveOutAwaiting(StoredSession* session);
 
 }  // namespace planbench

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "results/entrants.h"
 #include "results/recorded_flags.h"
+#include "results/session_plan.h"
 #include "results/shell_quoted.h"
 
 namespace planbench {
@@ -36,7 +36,7 @@ std::vector<std::string> SplitCommands(const std::string& joined) {
 }  // namespace
 
 bool IsFlag(std::string_view setting) {
-  const auto others = {kMergedCommands, kMergedParts, kHeldParts, kEntrants, kAskedShard};
+  const auto others = {kMergedCommands, kMergedParts, kHeldParts, kPlanSetting};
   return std::find(others.begin(), others.end(), setting) == others.end();
 }
 

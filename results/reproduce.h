@@ -18,11 +18,8 @@ inline constexpr char kMergedParts[] = "merged_parts";
 /// Among them too, of a merged session that was resumed: the kMergedParts that it had.
 inline constexpr char kHeldParts[] = "held_parts";
 
-/// Among them too, where a session that is resumed holds others beside it (results/shards.h): which
-/// shard was asked for, "" for the whole.
-inline constexpr char kAskedShard[] = "asked_shard";
-
-/// Whether what stands among a session's flags is one, and none of the above.
+/// Whether what stands among a session's flags is one, and none of the above, nor its plan
+/// (results/session_plan.h).
 bool IsFlag(std::string_view setting);
 
 /// The command that runs a session again, from the driver's flags as it recorded them, quoted for a

@@ -7,12 +7,13 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "messaging/asked_runs.h"
-#include "results/entrants.h"
 #include "results/reproduce.h"
+#include "results/session_plan.h"
 #include "tests/benchmark_driver/driver_fixture.h"
 
 namespace planbench {
@@ -92,7 +93,15 @@ class OtherFlagsTest : public DriverTest {
       options.shard = shard_;
       flags["shard"] = fmt::format("{}/{}", shard_.index, shard_.count);
     }
-    return std::make_unique<Driver>(&bus_, options, LineUp(planners), flags, earlier_);
+    std::vector<LineUpEntry> line_up = LineUp(planners);
+    line_up.front().directions = first_directions_;
+    line_up.front().contestant.about = first_about_;
+    return std::make_unique<Driver>(&bus_, options, line_up, flags, earlier_);
+  }
+
+  /// A call for both.
+  static PlannedCall Call(const std::vector<PlannedSet>& sets, int trials, Shard shard = {}) {
+    return {sets, {{"arm", Directions::kAuto, trials}, {"leg", Directions::kAuto, trials}}, shard};
   }
 
   /// Makes what `planners` lack of the session, and keeps what is told and recorded of it.
@@ -150,7 +159,10 @@ class OtherFlagsTest : public DriverTest {
   FakePlanner leg_{&bus_, "leg"};
   const FakeSceneServer server_{&bus_};
   EarlierSession earlier_;
-  Shard shard_;          // of the next call
+  // Of the next call:
+  Shard shard_;
+  std::optional<Directions> first_directions_;  ///< Of its first contestant.
+  std::string first_about_;
   SessionMessage told_;  // last
   std::string command_;
 };
@@ -186,7 +198,7 @@ TEST_F(OtherFlagsTest, ARunThatWasNotAskedForIsOwedUntilItsPlannerTakesPart) {
   ASSERT_EQ(std::count_if(earlier_.runs.begin(), earlier_.runs.end(), WasAsked), 4);
   for (const bool plan_is_known : {true, false}) {
     if (!plan_is_known) {
-      for (SessionMessage& session : earlier_.sessions) session.settings.erase(kEntrants);
+      for (SessionMessage& session : earlier_.sessions) session.settings.erase(kPlanSetting);
     }
     Make({"arm"}, 1, 1);  // the backward one may not be needed
     EXPECT_FALSE(told_.finished);
@@ -210,11 +222,67 @@ TEST_F(OtherFlagsTest, OneThatWasMadeInSeveralWaysTellsOfAll) {
   EXPECT_EQ(command_, Command("arm,leg", 2));
 }
 
-TEST_F(OtherFlagsTest, OfAPlanThatCannotBeMadeOutTheNumberCounts) {
+TEST_F(OtherFlagsTest, OfAPlanThatIsNotKnownTheNumberCounts) {
   Make({"arm", "leg"}, 1, 0);
   Kill();
-  earlier_.sessions.front().conditions.problem_sets["gone"] = "gone-1";
-  Make({"arm"}, 1, 4);
+  earlier_.sessions.front().settings.erase(kPlanSetting);
+  for (int time = 1; time <= 2; ++time) {
+    Make({"arm"}, 1, 5);  // the leg's, and one that had become needless
+    EXPECT_FALSE(told_.settings.contains(kPlanSetting)) << "that of one call is not all";
+  }
+  Make({"leg"}, 1, 1);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+  Make({"arm", "leg"}, 1, 0);  // a call that may be for all
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+}
+
+TEST_F(OtherFlagsTest, WhatIsNotServedAnyMoreIsStillOwed) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  SessionMessage& session = earlier_.sessions.front();
+  session.conditions.problem_sets["other"] = "other-1";
+  const SessionPlan plan = {Call({{"cans", {1, 2}}, {"other", {1, 2}}}, 1)};
+  session.settings[kPlanSetting] = PlanText(plan);
+  for (int time = 1; time <= 2; ++time) {
+    Make({"arm", "leg"}, 1, 8);
+    EXPECT_EQ(earlier_.runs.size(), 5u);
+    EXPECT_EQ(command_, Command("arm,leg", 1));
+    EXPECT_TRUE(told_.conditions.problem_sets.contains("other"));
+    EXPECT_EQ(ReadPlan(told_.settings)->front(), plan.front());
+  }
+}
+
+TEST_F(OtherFlagsTest, ThePlanIsThatOfAllCallsEachOnce) {
+  const PlannedCall both = Call({{"cans", {1, 2}}}, 1);
+  PlannedCall legs = both;
+  legs.planners.erase(legs.planners.begin());
+  Make({"arm", "leg"}, 1, 0);
+  EXPECT_EQ(ReadPlan(told_.settings), SessionPlan{both});
+  Kill();
+  for (int time = 1; time <= 2; ++time) {
+    Make({"leg"}, 1, 2);  // the arm's, on problem 2
+    EXPECT_EQ(ReadPlan(told_.settings), (SessionPlan{both, legs}));
+  }
+}
+
+TEST_F(OtherFlagsTest, DirectionsOfAContestantMayNotChangeButWhatIsSaidOfItMay) {
+  Make({"arm", "leg"}, 1, 0);
+  first_directions_ = Directions::kForward;
+  ExpectInputError(
+      [&] {
+        Resume({"arm", "leg"}, 1)->Discover(false, Idle);
+      },
+      {"--resume", "'arm'", "auto", "forward"});
+  first_directions_ = Directions::kAuto;
+  first_about_ = "worded otherwise";
+  Make({"arm", "leg"}, 1, 0);
+}
+
+TEST_F(OtherFlagsTest, APlanThatCannotBeReadIsNamed) {
+  Make({"arm", "leg"}, 1, 0);
+  earlier_.sessions.back().settings[kPlanSetting] = "[5]";
+  ExpectInputError([&] { Resume({"arm"}, 1)->Discover(false, Idle); },
+                   {"--resume", "the setting plan"});
 }
 
 TEST_F(OtherFlagsTest, WhatTheSessionCannotHaveBeenToMakeDoesNotCountForIt) {
@@ -224,7 +292,7 @@ TEST_F(OtherFlagsTest, WhatTheSessionCannotHaveBeenToMakeDoesNotCountForIt) {
   SessionMessage& session = earlier_.sessions.front();  // the leg's
   std::erase_if(session.conditions.contestants, [](const auto& c) { return c.planner == "arm"; });
   session.num_runs = 4;
-  session.conditions.problem_sets["gone"] = "gone-1";
+  session.settings.erase(kPlanSetting);
   Make({"arm"}, 1, 4);
 }
 
@@ -233,7 +301,8 @@ TEST_F(OtherFlagsTest, AMergedSessionIsGivenShardsUntilItHasAll) {
   Make({"arm", "leg"}, 2, 0);
   const auto is_second_trial = [](const auto& record) { return record.trial == 2; };
   std::erase_if(earlier_.runs, is_second_trial);
-  told_.settings["shard"] = "1/4, 2/4";
+  const std::vector<PlannedSet> sets = {{"cans", {1, 2}}};
+  told_.settings[kPlanSetting] = PlanText({Call(sets, 2, {1, 4}), Call(sets, 2, {2, 4})});
   told_.settings[kMergedCommands] = "one && two";
   told_.settings[kMergedParts] = R"({"part": {"total_time_s": 1, "bus": ""}})";
   told_.finished = false;
@@ -248,24 +317,23 @@ TEST_F(OtherFlagsTest, AMergedSessionIsGivenShardsUntilItHasAll) {
     Make({"arm", "leg"}, 2, 0);
     EXPECT_EQ(earlier_.runs.size(), 7u);
     EXPECT_FALSE(told_.finished);
-    EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4");
+    EXPECT_EQ(ReadPlan(told_.settings)->size(), 3u);
     EXPECT_EQ(command_, "one && two && " + call);
     EXPECT_FALSE(told_.settings.contains(kMergedParts));
     EXPECT_THAT(told_.settings[kHeldParts], testing::HasSubstr("part"));
     std::erase_if(earlier_.runs, is_second_trial);  // as if it had been interrupted
   }
-  // Nothing is known of what was to be made, but the shards that there are.
+  // Nothing is known of what was to be made, but that it has shards.
   std::vector<SessionMessage> known = earlier_.sessions;
-  for (SessionMessage& session : earlier_.sessions) session.settings.erase(kEntrants);
+  for (SessionMessage& session : earlier_.sessions) session.settings.erase(kPlanSetting);
   Make({"arm", "leg"}, 2, 0);
-  EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4");
+  EXPECT_FALSE(told_.finished);
 
   earlier_.sessions = std::move(known);
   shard_ = {4, 4};
   Make({"arm", "leg"}, 2, 0);
   EXPECT_EQ(earlier_.runs.size(), 10u);
   EXPECT_TRUE(told_.finished);
-  EXPECT_EQ(told_.settings.at("shard"), "1/4, 2/4, 3/4, 4/4");
 }
 
 TEST_F(OtherFlagsTest, NoContestantTakesTheNameOfAnother) {

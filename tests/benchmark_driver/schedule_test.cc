@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 
-#include "benchmark_driver/earlier_plan.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -31,11 +30,19 @@ DriverOptions OneProblem() {
   return options;
 }
 
-Entrant Of(const std::string& planner, Directions directions = Directions::kForward) {
-  Entrant entrant;
-  entrant.planner = planner;
-  entrant.directions = directions;
-  return entrant;
+/// Makes all trials, unless it is told otherwise.
+PlannedPlanner Of(const std::string& planner, Directions directions = Directions::kForward,
+                  int trials = 0) {
+  return {planner, directions, trials};
+}
+
+std::vector<ScheduledRun> Schedule(const DriverOptions& options,
+                                   std::vector<PlannedPlanner> planners,
+                                   const ProblemSetsMessage& served = Served()) {
+  for (PlannedPlanner& planner : planners) {
+    if (planner.trials == 0) planner.trials = options.trials;
+  }
+  return MakeSchedule(PlanCall(options, planners, served), options.conditions.request);
 }
 
 std::vector<std::string> Ids(const std::vector<ScheduledRun>& schedule) {
@@ -48,7 +55,7 @@ TEST(ScheduleTest, EveryContestantMeetsEveryProblemInEveryTrial) {
   DriverOptions options;
   options.conditions.request.run_id = "run";
   options.trials = 2;
-  const auto schedule = MakeSchedule(options, {Of("ara"), Of("rrtc", Directions::kBoth)}, Served());
+  const auto schedule = Schedule(options, {Of("ara"), Of("rrtc", Directions::kBoth)});
   const std::vector<std::string> ids = Ids(schedule);
   EXPECT_EQ(ids.size(), 5u * 2 * 3);
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
@@ -59,20 +66,34 @@ TEST(ScheduleTest, EveryContestantMeetsEveryProblemInEveryTrial) {
   }));
 }
 
-TEST(EntrantsTextTest, SaysForwardWhereAutoIsThatAlone) {
+TEST(PlanPlannerTest, IsWhatThePlannersSayOfThemselves) {
   using enum Directions;
-  Entrant both_ends = Of("rrtc", kAuto), one_way = Of("chomp", kAuto);
-  both_ends.bidirectional = true;
-  one_way.can_backward = false;
-  EXPECT_EQ(EntrantsText({Of("ara", kAuto), both_ends, one_way, Of("b", kBackward)}),
-            "ara=auto rrtc=forward chomp=forward b=backward");
+  std::map<std::string, NodeStatusMessage> planners;
+  for (const char* name : {"ara", "rrtc", "chomp"}) {
+    planners[name].name = name;
+    planners[name].can_backward = true;
+  }
+  planners["ara"].deterministic = planners["chomp"].deterministic = true;
+  planners["rrtc"].bidirectional = true;
+  const auto plan = [&](const char* name, Directions directions, const char* first_path_of = "") {
+    Contestant contestant;
+    contestant.planner = name;
+    contestant.first_path_of = first_path_of;
+    return PlanPlanner(contestant, directions, 5, planners);
+  };
+  EXPECT_EQ(plan("ara", kAuto), Of("ara", kAuto, 1));
+  EXPECT_EQ(plan("rrtc", kAuto), Of("rrtc", kForward, 5));
+  EXPECT_EQ(plan("rrtc", kBackward), Of("rrtc", kBackward, 5));
+  EXPECT_EQ(plan("chomp", kAuto, "rrtc"), Of("chomp", kForward, 5));
+  planners["chomp"].can_backward = false;
+  EXPECT_EQ(plan("chomp", kAuto), Of("chomp", kForward, 1));
 }
 
 TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {
   using enum Directions;
-  const auto ids = [](const Entrant& entrant) {
+  const auto ids = [](const PlannedPlanner& planner) {
     std::vector<std::string> made;
-    for (const ScheduledRun& run : MakeSchedule(OneProblem(), {entrant}, Served())) {
+    for (const ScheduledRun& run : Schedule(OneProblem(), {planner})) {
       made.push_back(std::string(EnumName(run.direction)) +
                      (run.unless_solved ? " if failed" : "") + (run.is_one_of_two ? " too" : ""));
     }
@@ -82,16 +103,10 @@ TEST(ScheduleTest, DirectionsAreThoseOfTheContestant) {
   EXPECT_THAT(ids(Of("a", kBackward)), ElementsAre("backward"));
   EXPECT_THAT(ids(Of("a", kBoth)), ElementsAre("forward too", "backward too"));
   EXPECT_THAT(ids(Of("a", kAuto)), ElementsAre("forward", "backward if failed"));
-  Entrant bidirectional = Of("a", kAuto);
-  bidirectional.bidirectional = true;
-  EXPECT_THAT(ids(bidirectional), ElementsAre("forward"));
-  Entrant one_way = Of("a", kAuto);
-  one_way.can_backward = false;
-  EXPECT_THAT(ids(one_way), ElementsAre("forward"));
 }
 
 TEST(ScheduleTest, TheSecondAttemptKnowsTheFirst) {
-  const auto schedule = MakeSchedule(OneProblem(), {Of("a", Directions::kAuto)}, Served());
+  const auto schedule = Schedule(OneProblem(), {Of("a", Directions::kAuto)});
   ASSERT_EQ(schedule.size(), 2u);
   EXPECT_EQ(schedule[0].unless_solved, std::nullopt);
   EXPECT_EQ(schedule[1].unless_solved, schedule[0].request_id);
@@ -100,9 +115,8 @@ TEST(ScheduleTest, TheSecondAttemptKnowsTheFirst) {
 TEST(ScheduleTest, DeterministicContestantsMakeOneTrial) {
   DriverOptions options = OneProblem();
   options.trials = 3;
-  Entrant deterministic = Of("a");
-  deterministic.deterministic = true;
-  EXPECT_THAT(Ids(MakeSchedule(options, {deterministic, Of("b")}, Served())),
+  const PlannedPlanner deterministic = Of("a", Directions::kForward, 1);
+  EXPECT_THAT(Ids(Schedule(options, {deterministic, Of("b")})),
               UnorderedElementsAre("run/cage/2/a/forward/1", "run/cage/2/b/forward/1",
                                    "run/cage/2/b/forward/2", "run/cage/2/b/forward/3"));
 }
@@ -111,8 +125,7 @@ TEST(ScheduleTest, SeedsAreOfTheRunAndTheSameForAllContestants) {
   DriverOptions options;
   options.trials = 4;
   options.conditions.request.seed = 10;
-  const auto schedule =
-      MakeSchedule(options, {Of("a", Directions::kBoth), Of("b", Directions::kBoth)}, Served());
+  const auto schedule = Schedule(options, {Of("a", Directions::kBoth), Of("b", Directions::kBoth)});
   std::map<std::uint64_t, int> uses;
   for (const ScheduledRun& run : schedule) {
     EXPECT_EQ(run.seed, RunSeed(10, run.problem_set, run.problem_index, run.direction, run.trial));
@@ -132,26 +145,26 @@ TEST(ScheduleTest, SeedsDoNotChangeFromVersionToVersion) {
 TEST(ScheduleTest, EveryContestantComesFirstAboutEquallyOften) {
   DriverOptions options = OneProblem();
   options.trials = 3000;
-  const auto schedule = MakeSchedule(options, {Of("a"), Of("b"), Of("c")}, Served());
+  const auto schedule = Schedule(options, {Of("a"), Of("b"), Of("c")});
   std::map<std::string, int> first;
   for (std::size_t i = 0; i < schedule.size(); i += 3) ++first[schedule[i].planner];
   // 1000 +- 26 each; six standard deviations.
   for (const auto& [planner, count] : first) EXPECT_NEAR(count, 1000, 156) << planner;
   options.conditions.request.seed = 2;
-  EXPECT_NE(Ids(MakeSchedule(options, {Of("a"), Of("b"), Of("c")}, Served())), Ids(schedule));
+  EXPECT_NE(Ids(Schedule(options, {Of("a"), Of("b"), Of("c")})), Ids(schedule));
 }
 
 TEST(ScheduleTest, SetsComeInTheOrderAsked) {
   DriverOptions options;
   options.sets = {"cage", "box"};
-  EXPECT_EQ(MakeSchedule(options, {Of("a")}, Served()).front().problem_set, "cage");
+  EXPECT_EQ(Schedule(options, {Of("a")}).front().problem_set, "cage");
 }
 
 TEST(ScheduleTest, RangeSelectsWhatASetHas) {
   DriverOptions options;
   options.conditions.request.run_id = "run";
   options.problem_indices = {2, 3, 4, 5};
-  EXPECT_THAT(Ids(MakeSchedule(options, {Of("ara")}, Served())),
+  EXPECT_THAT(Ids(Schedule(options, {Of("ara")})),
               ElementsAre("run/box/2/ara/forward/1", "run/box/3/ara/forward/1",
                           "run/cage/2/ara/forward/1", "run/cage/5/ara/forward/1"));
 }
@@ -160,18 +173,17 @@ TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
   DriverOptions options;
   options.conditions.request.run_id = "run";
   options.trials = 3;
-  Entrant seedless = Of("ara");
-  seedless.deterministic = true;
-  const std::vector<Entrant> entrants = {seedless, Of("rrtc")};
-  const std::vector<std::string> whole = Ids(MakeSchedule(options, entrants, Served()));
+  const PlannedPlanner seedless = Of("ara", Directions::kForward, 1);
+  const std::vector<PlannedPlanner> entrants = {seedless, Of("rrtc")};
+  const std::vector<std::string> whole = Ids(Schedule(options, entrants));
   for (const int count : {1, 2, 4, 7}) {
     std::vector<std::string> united;
     std::size_t largest = 0;
     std::size_t smallest = whole.size();
     for (int index = 1; index <= count; ++index) {
       options.shard = {index, count};
-      const std::vector<std::string> part = Ids(MakeSchedule(options, entrants, Served()));
-      EXPECT_EQ(part, Ids(MakeSchedule(options, entrants, Served()))) << "deterministic";
+      const std::vector<std::string> part = Ids(Schedule(options, entrants));
+      EXPECT_EQ(part, Ids(Schedule(options, entrants))) << "deterministic";
       largest = std::max(largest, part.size());
       smallest = std::min(smallest, part.size());
       united.insert(united.end(), part.begin(), part.end());
@@ -180,40 +192,36 @@ TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
     EXPECT_LE(largest, smallest + 2 * whole.size() / static_cast<std::size_t>(count));
   }
   options.shard = {99, 100};
-  ExpectInputError([&] { MakeSchedule(options, entrants, Served()); },
-                   {"--shard 99/100", "no more than"});
+  ExpectInputError([&] { Schedule(options, entrants); }, {"--shard 99/100", "no more than"});
 }
 
 TEST(ScheduleTest, AShardIsThatOfTheSameProblemsWhoeverIsAsked) {
   DriverOptions options;
   options.conditions.request.run_id = "run";
   options.trials = 5;
-  Entrant seedless = Of("ara");
-  seedless.deterministic = true;
+  const PlannedPlanner seedless = Of("ara", Directions::kForward, 1);
   for (int index = 1; index <= 5; ++index) {
     options.shard = {index, 5};
-    std::vector<std::string> of_both = Ids(MakeSchedule(options, {seedless, Of("rrtc")}, Served()));
+    std::vector<std::string> of_both = Ids(Schedule(options, {seedless, Of("rrtc")}));
     std::erase_if(of_both, [](const auto& id) { return id.find("/ara/") == std::string::npos; });
-    EXPECT_EQ(Ids(MakeSchedule(options, {seedless}, Served())), of_both);
+    EXPECT_EQ(Ids(Schedule(options, {seedless})), of_both);
     EXPECT_EQ(of_both.size(), 1u) << "of five problems in five shards";
   }
   options.shard = {6, 6};
-  ExpectInputError([&] { MakeSchedule(options, {seedless}, Served()); },
-                   {"--shard 6/6", "no more than 5 parts"});
+  ExpectInputError([&] { Schedule(options, {seedless}); }, {"--shard 6/6", "no more than 5 parts"});
 }
 
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
   DriverOptions options;
   options.sets = {"kitchen"};
-  ExpectInputError([&] { MakeSchedule(options, {Of("a")}, Served()); },
-                   {"--sets", "'kitchen'", "box, cage"});
+  ExpectInputError([&] { Schedule(options, {Of("a")}); }, {"--sets", "'kitchen'", "box, cage"});
   options.sets = {"cage"};
   options.problem_indices = {3, 4};
-  ExpectInputError([&] { MakeSchedule(options, {Of("a")}, Served()); },
+  ExpectInputError([&] { Schedule(options, {Of("a")}); },
                    {"--problems-range", "'cage'", "2 from 2 to 5"});
   ProblemSetsMessage served;
   served.sets = {{"void", {}, "void-1"}};
-  ExpectInputError([&] { MakeSchedule(DriverOptions{}, {Of("a")}, served); }, {"'void'", "empty"});
+  ExpectInputError([&] { Schedule(DriverOptions{}, {Of("a")}, served); }, {"'void'", "empty"});
 }
 
 }  // namespace

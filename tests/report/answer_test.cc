@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "results/session_plan.h"
 #include "tests/report/report_fixture.h"
 
 namespace planbench {
@@ -274,7 +275,8 @@ TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
 TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
-  session.settings["entrants"] = "planner=auto";
+  session.settings[kPlanSetting] =
+      PlanText({{{{"shelf", {1, 2}}}, {{"planner", Directions::kAuto}}, {}}});
   WriteSession(folder / "example",
                {{.contestant = "A", .status = PlanStatus::kTimedOut},
                 {.contestant = "A", .direction = Direction::kBackward},

@@ -8,6 +8,7 @@
 #include "messaging/record_log.h"
 #include "results/compared_sessions.h"
 #include "results/comparison.h"
+#include "results/session_plan.h"
 #include "tests/report/example_session.h"
 #include "tests/support/child_process.h"
 #include "tests/support/temporary_folder.h"
@@ -31,6 +32,28 @@ class MergeSessionsTest : public testing::Test {
     session.num_runs = num_runs;
     session.conditions.problem_sets["shelf"] = "content";
     return session;
+  }
+
+  /// What is planned of the problems of the set for the planner of MakeRecord.
+  static PlannedCall Call(std::vector<int> problems, Shard shard = {}, int trials = 1,
+                          Directions directions = Directions::kForward) {
+    return {{{"shelf", std::move(problems)}}, {{"planner", directions, trials}}, shard};
+  }
+
+  static SessionMessage Planned(SessionMessage session, const PlannedCall& call) {
+    session.settings[kPlanSetting] = PlanText({call});
+    if (call.shard.count > 1) {
+      session.settings["shard"] = fmt::format("{}/{}", call.shard.index, call.shard.count);
+    }
+    return session;
+  }
+
+  /// Shard I of N, problem I of N, under the name "partI".
+  static SessionMessage PartOf(int index, int count) {
+    std::vector<int> problems;
+    for (int problem = 1; problem <= count; ++problem) problems.push_back(problem);
+    return Planned(Session(fmt::format("part{}", index), std::int64_t{1000} * index, 1),
+                   Call(problems, {index, count}));
   }
 
   void Write(const std::string& folder, const SessionMessage& session,
@@ -80,22 +103,76 @@ class MergeSessionsTest : public testing::Test {
 
 TEST_F(MergeSessionsTest, MissingShardsAreNamedAndTheSessionIsNotFinished) {
   for (const int shard : {1, 3}) {
-    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
-    part.settings["shard"] = fmt::format("{}/4", shard);
+    const SessionMessage part = PartOf(shard, 4);
     Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
   }
   ASSERT_EQ(Merge({"part1", "part3"}), kExitOk) << errors_;
-  EXPECT_THAT(output_ + errors_, HasSubstr("shards missing: 2/4, 4/4"));
+  EXPECT_THAT(output_ + errors_, HasSubstr("shards missing: 2/4, 4/4 of shelf 1-4 by planner"));
   const StoredSessions stored = ReadSessions(folder_ / "whole");
   ASSERT_EQ(stored.sessions.size(), 1u);
   EXPECT_FALSE(stored.sessions.front().finished);
 }
 
+TEST_F(MergeSessionsTest, ShardsOfDifferentWholesAreNotComplete) {
+  Write("one", Planned(Session("one", 1000, 2), Call({1, 2, 3, 4}, {1, 2})),
+        {{.contestant = "A", .problem = 1}, {.contestant = "A", .problem = 3}});
+  Write("two", Planned(Session("two", 2000, 2), Call({3, 4, 5, 6}, {2, 2})),
+        {{.contestant = "A", .problem = 4}, {.contestant = "A", .problem = 6}});
+  ASSERT_EQ(Merge({"one", "two"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("shards missing: 2/2 of shelf 1-4 by planner (forward, 1 trial); "
+                                 "1/2 of shelf 3-6 by planner (forward, 1 trial)"));
+  EXPECT_FALSE(ReadSessions(folder_ / "whole").sessions.front().finished);
+}
+
+TEST_F(MergeSessionsTest, ShardsOfAnEarlierVersionMayNotBeAll) {
+  for (const int shard : {1, 2}) {
+    SessionMessage part = PartOf(shard, 2);
+    part.settings.erase(kPlanSetting);
+    Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
+  }
+  ASSERT_EQ(Merge({"part1", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("shards missing: not known"));
+  const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_FALSE(whole.finished);
+  EXPECT_FALSE(whole.flags.contains(kPlanSetting));
+}
+
+TEST_F(MergeSessionsTest, AWholeAndAPartOfItAreTheWhole) {
+  // As when a merged session of one shard goes on without --shard.
+  SessionMessage whole = Planned(Session("part1", 1000, 2), Call({1, 2}));
+  whole.settings[kPlanSetting] = PlanText({Call({1, 2}, {1, 2}), Call({1, 2})});
+  whole.settings["held_parts"] = R"({"part1": {"total_time_s": 1, "bus": ""}})";
+  const std::vector<MadeRun> runs = {{.contestant = "A", .problem = 1},
+                                     {.contestant = "A", .problem = 2}};
+  Write("all", whole, runs);
+  Write("part2", PartOf(2, 2), {runs[1]});
+  ASSERT_EQ(Merge({"all", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, Not(HasSubstr("missing")));
+  const StoredSession merged = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_TRUE(merged.finished);
+  EXPECT_EQ(merged.num_runs, 2);
+}
+
+TEST_F(MergeSessionsTest, HalvesOfASessionThatAreTogetherCompleteAreFinished) {
+  SessionMessage half = Planned(Session("same", 1000, 2), Call({1, 2}));
+  half.finished = false;
+  Write("one", half, {{.contestant = "A", .problem = 1}});
+  half.total_time_s += 1;
+  Write("two", half, {{.contestant = "A", .problem = 2}});
+  ASSERT_EQ(Merge({"one", "two"}), kExitOk) << errors_;
+  const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
+  EXPECT_TRUE(whole.finished);
+  EXPECT_EQ(whole.num_runs, 2);
+  ASSERT_EQ(MergeTo("half", {"one"}), kExitOk) << errors_;
+  const StoredSession alone = ReadSessions(folder_ / "half").sessions.front();
+  EXPECT_FALSE(alone.finished);
+  EXPECT_EQ(alone.num_runs, 2);
+}
+
 TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
   for (const int shard : {1, 2, 3}) {
-    SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
+    SessionMessage part = PartOf(shard, 3);
     part.host = fmt::format("host{}", shard);
-    part.settings["shard"] = fmt::format("{}/3", shard);
     Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
   }
   ASSERT_EQ(MergeTo("of12", {"part1", "part2"}), kExitOk) << errors_;
@@ -112,7 +189,7 @@ TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
     EXPECT_TRUE(session.finished);
     EXPECT_EQ(session.runs.size(), 3u);
     EXPECT_EQ(session.num_runs, 3);
-    EXPECT_EQ(session.flags.at("shard"), "1/3, 2/3, 3/3");
+    EXPECT_EQ(ReadPlan(session.flags)->size(), 3u);
     const std::string& commands = session.flags.at("merged");
     for (const int shard : {1, 2, 3}) {
       EXPECT_THAT(session.host, HasSubstr(fmt::format("host{}", shard)));
@@ -127,35 +204,30 @@ TEST_F(MergeSessionsTest, AMergedSessionIsAPartLikeAnyOther) {
   EXPECT_TRUE(ReadSessions(folder_ / "again").sessions.front().finished);
 }
 
-TEST_F(MergeSessionsTest, AMergedSessionThatWentOnWithAShardWaitsForOthersAlone) {
-  SessionMessage part = Session("part1", 1000, 2);  // as it is resumed
-  part.settings.insert({{"shard", "1/3, 2/3"}, {"merged", "a && b"}, {"asked_shard", "2/3"}});
-  part.finished = false;
-  Write("part1", part, {{.contestant = "A", .problem = 1}, {.contestant = "A", .problem = 2}});
-  SessionMessage other = Session("part3", 3000, 1);
-  other.settings["shard"] = "3/3";
-  Write("part3", other, {{.contestant = "A", .problem = 3}});
-  ASSERT_EQ(Merge({"part1", "part3"}), kExitOk) << errors_;
+TEST_F(MergeSessionsTest, TheMergedSessionHasThePlanOfItsParts) {
+  const PlannedCall call = Call({1, 2});
+  PlannedCall others = call;
+  others.planners = {{"rrtc", Directions::kBoth, 1}};
+  const SessionMessage one = Planned(Session("one", 1000, 2), call);
+  const SessionMessage two = Planned(Session("two", 2000, 4), others);
+  Write("one", one, {{.contestant = "A", .problem = 1}, {.contestant = "A", .problem = 2}});
+  Write("two", two, {});
+  ASSERT_EQ(Merge({"one", "two", "one"}), kExitOk) << errors_;
   const StoredSession whole = ReadSessions(folder_ / "whole").sessions.front();
-  EXPECT_TRUE(whole.finished);
-  EXPECT_EQ(whole.flags.at("shard"), "1/3, 2/3, 3/3");
-  ASSERT_EQ(MergeTo("alone", {"part1"}), kExitOk) << errors_;
-  const StoredSession alone = ReadSessions(folder_ / "alone").sessions.front();
-  EXPECT_FALSE(alone.finished);
-  EXPECT_EQ(alone.flags.at("shard"), "1/3, 2/3");
-  EXPECT_FALSE(alone.flags.contains("asked_shard")) << "it is to hold all of these";
+  EXPECT_EQ(ReadPlan(whole.flags), (SessionPlan{call, others}));
+  EXPECT_EQ(whole.num_runs, 6);
+  EXPECT_FALSE(whole.finished) << "whatever its parts say, four are not recorded";
 }
 
-TEST_F(MergeSessionsTest, TheMergedSessionAsksWhomItsPartsAsked) {
-  const std::vector<std::string> entrants = {"ara=auto rrtc=forward", "rrtc=forward trajopt=both"};
-  for (const int number : {1, 2}) {
-    SessionMessage part = Session(fmt::format("part{}", number), std::int64_t{1000} * number, 1);
-    part.settings["entrants"] = entrants[static_cast<std::size_t>(number - 1)];
-    Write(part.run_id, part, {{.contestant = "A", .problem = number}});
-  }
-  ASSERT_EQ(Merge({"part1", "part2"}), kExitOk) << errors_;
-  EXPECT_EQ(ReadSessions(folder_ / "whole").sessions.front().flags.at("entrants"),
-            "ara=auto rrtc=forward trajopt=both");
+TEST_F(MergeSessionsTest, DirectionsOfAPlannerAreAConditionOfParts) {
+  Write("one", Planned(Session("one", 1000, 1), Call({1})), {{.contestant = "A", .problem = 1}});
+  Write("two", Planned(Session("two", 2000, 1), Call({2}, {}, 1, Directions::kBoth)),
+        {{.contestant = "A", .problem = 2}});
+  ExpectRefused({"one", "two"}, "contestant[planner].directions is forward in ");
+  SessionMessage broken = Session("broken", 3000, 1);
+  broken.settings[kPlanSetting] = "{";
+  Write("broken", broken, {});
+  ExpectRefused({"one", "broken"}, "broken: the setting plan");
 }
 
 TEST_F(MergeSessionsTest, WhatOfALogCannotBeDecodedIsToldOf) {
@@ -388,6 +460,8 @@ TEST_F(MergeSessionsTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
     ASSERT_EQ(session.runs.size(), 1u);
     EXPECT_TRUE(session.runs.front().confirmed());
   }
+  ASSERT_EQ(MergeTo("alone", {"one"}), kExitOk) << errors_;
+  EXPECT_FALSE(ReadSessions(folder_ / "alone").sessions.front().finished) << "it is to be made";
 }
 
 TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {

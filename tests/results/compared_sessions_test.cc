@@ -4,7 +4,9 @@
 
 #include "results/comparison.h"
 #include "results/quality.h"
+#include "results/session_plan.h"
 #include "results/training.h"
+#include "tests/support/expect_input_error.h"
 
 namespace planbench {
 namespace {
@@ -112,6 +114,11 @@ StoredRun FailedAttempt(std::size_t contestant, int problem, const std::string& 
   return run;
 }
 
+/// A call for ten problems of the set.
+PlannedCall Asking(const std::vector<PlannedPlanner>& planners) {
+  return {{{"shelf", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}}, planners, {}};
+}
+
 TEST(AwaitedAttemptsTest, AFailureWhoseOtherDirectionIsMissingIsMissing) {
   StoredRun invalid = FailedAttempt(0, 3, "ara");
   invalid.claimed = true;  // a claimed path is not followed by the other direction
@@ -122,7 +129,10 @@ TEST(AwaitedAttemptsTest, AFailureWhoseOtherDirectionIsMissingIsMissing) {
               {FailedAttempt(0, 1, "ara"), FailedAttempt(0, 1, "ara", Direction::kBackward),
                FailedAttempt(1, 1, "rrtc"), MakeRun(0, 2, 1), invalid, not_asked,
                FailedAttempt(0, 5, "ara"), FailedAttempt(0, 6, "ara"), FailedAttempt(2, 1, "rrt")});
-  session.flags = {{"directions", "auto"}, {"entrants", "rrtc=forward ara=auto rrt=auto"}};
+  using enum Directions;
+  session.flags = {{"directions", "auto"},
+                   {kPlanSetting, PlanText({Asking({{"rrtc", kForward}, {"ara", kAuto}}),
+                                            Asking({{"rrt", kAuto}})})}};
   session.described = true;
   session.num_runs = 12;
   const ComparedSessions compared({session});
@@ -144,23 +154,31 @@ TEST(AwaitedAttemptsTest, DirectionsAreThoseThatTheSessionTellsOfThePlanner) {
   StoredSession session = Session("one", {{"A", ""}}, {FailedAttempt(0, 1, "ara")});
   session.num_runs = 2;
   session.flags["directions"] = "auto";
-  const auto num_awaiting = [&](const char* entrants) {
-    session.flags["entrants"] = entrants;
+  using enum Directions;
+  const auto num_awaiting = [&](const SessionPlan& plan) {
+    session.flags[kPlanSetting] = PlanText(plan);
     return ComparedSessions({session}).num_awaiting().front();
   };
   EXPECT_EQ(ComparedSessions({session}).num_awaiting().front(), 0) << "an earlier version's";
-  EXPECT_EQ(num_awaiting("ara=forward"), 0) << "by the line-up, whatever the flag";
-  EXPECT_EQ(num_awaiting("my_ara=auto ara=forward ara2=auto"), 0);
-  EXPECT_EQ(num_awaiting("rrtc=forward ara=auto"), 1);
-  EXPECT_EQ(num_awaiting("ara=both"), 1);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kForward}})}), 0) << "by the line-up, whatever the flag";
+  EXPECT_EQ(num_awaiting({Asking({{"my_ara", kAuto}, {"ara", kForward}, {"ara2", kAuto}})}), 0);
+  EXPECT_EQ(num_awaiting({Asking({{"rrtc", kForward}, {"ara", kAuto}})}), 1);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kAuto}}), Asking({{"rrtc", kForward}})}), 1)
+      << "whatever it was resumed with";
+  PlannedCall others = Asking({{"ara", kAuto}});
+  others.sets.front().problems = {2, 3};
+  EXPECT_EQ(num_awaiting({others}), 0) << "it was asked for other problems";
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kBoth}})}), 1);
   session.runs[0].claimed = true;
-  EXPECT_EQ(num_awaiting("ara=auto"), 0);
-  EXPECT_EQ(num_awaiting("ara=both"), 1);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kAuto}})}), 0);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kBoth}})}), 1);
   session.runs[0].direction = Direction::kBackward;
-  EXPECT_EQ(num_awaiting("ara=both"), 1) << "the forward one was put off";
-  EXPECT_EQ(num_awaiting("ara=backward"), 0);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kBoth}})}), 1) << "the forward one was put off";
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kBackward}})}), 0);
+  session.flags[kPlanSetting] = "{";
+  ExpectInputError([&] { ComparedSessions({session}); }, {"results.sqlite", "the setting plan"});
   session.imported = true;
-  EXPECT_EQ(num_awaiting("ara=both"), 0);
+  EXPECT_EQ(num_awaiting({Asking({{"ara", kBoth}})}), 0);
 }
 
 TEST(ComparedSessionsTest, FailuresCountAsTheLongestLimitThatAnybodyHadOnTheProblem) {
