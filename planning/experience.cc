@@ -4,29 +4,20 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "common/content_hash.h"
-#include "common/error.h"
 #include "common/read_text.h"
 
 namespace planbench {
 
 Experience::Experience(const Robot& robot, const std::string& file) {
   const std::filesystem::path path = robot.folder / file;
-  library_ = ReadPathLibrary(path);
+  library_ = ReadPathLibrary(path, robot.groups);
   ContentHash hash;
   hash.Add(ReadText(path));
   id_ = hash.HexDigest();
-  const bool fits =
-      std::any_of(robot.groups.begin(), robot.groups.end(),
-                  [this](const PlanningGroup& group) { return library_.Fits(group.space); });
-  if (!fits) {
-    throw InputError(fmt::format("{}: its joints are not those of a group of robot '{}'",
-                                 path.string(), robot.model.name()));
-  }
   if (library_.scenes.empty()) {
     spdlog::warn(
         "{}: scenes: is missing, so that tables know by the names of problem sets alone what it "

@@ -12,8 +12,7 @@ namespace planbench {
 /// The paths that a planner's setting `experience` names.
 class Experience {
  public:
-  /// Reads `file`, absolute or from the robot folder. Throws InputError as ReadPathLibrary, and if
-  /// its joints are not those of any group.
+  /// Reads `file`, absolute or from the robot folder. Throws InputError as ReadPathLibrary.
   Experience(const Robot& robot, const std::string& file);
 
   /// The paths, null if they are of other joints.

@@ -13,6 +13,8 @@
 namespace planbench {
 namespace {
 
+constexpr char kNumPaths[] = "num_paths";
+
 struct Nearest {
   double distance = kInfinity;
   std::ptrdiff_t waypoint = 0;
@@ -25,6 +27,15 @@ Nearest NearestWaypoint(const JointSpace& space, const Path& path, std::span<con
     if (distance < nearest.distance) nearest = {distance, &waypoint - path.data()};
   }
   return nearest;
+}
+
+Configuration Waypoint(const YamlNode& node, const JointSpace& space) {
+  Configuration q = node.Doubles(space.size());
+  if (const int j = space.FirstOutsideLimits(q); j >= 0) {
+    node.At(j).Fail(fmt::format("joint '{}' at {} is outside its limits {}", space.joint(j).name,
+                                q[static_cast<std::size_t>(j)], space.DescribeLimits(j)));
+  }
+  return q;
 }
 
 std::string Row(const Configuration& q) {
@@ -79,21 +90,31 @@ std::vector<Path> PathLibrary::Recall(const JointSpace& space, std::span<const d
   return recalled;
 }
 
-PathLibrary ReadPathLibrary(const std::filesystem::path& file) {
+PathLibrary ReadPathLibrary(const std::filesystem::path& file,
+                            std::span<const PlanningGroup> groups) {
   const YamlNode node = YamlNode::LoadFile(file.string());
-  node.AllowOnly({"joints", "learned_from", "scenes", "paths"});
+  node.AllowOnly({"joints", "learned_from", "scenes", kNumPaths, "paths"});
   PathLibrary library;
-  library.joints = node.At("joints").Strings();
-  if (library.joints.empty()) node.At("joints").Fail("is empty");
+  const YamlNode joints = node.At("joints");
+  library.joints = joints.Strings();
+  if (library.joints.empty()) joints.Fail("is empty");
+  const auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const PlanningGroup& g) { return library.Fits(g.space); });
+  if (group == groups.end()) joints.Fail("are not the joints of a group of the robot, in order");
   library.learned_from = node.At("learned_from").Strings();
   if (const auto scenes = node.Find("scenes")) library.scenes = scenes->Strings();
-  for (const YamlNode& waypoints : node.At("paths").Elements()) {
+  const YamlNode paths = node.At("paths");
+  for (const YamlNode& waypoints : paths.Elements()) {
     Path path;
-    for (const YamlNode& q : waypoints.Elements()) {
-      path.push_back(q.Doubles(static_cast<int>(library.joints.size())));
-    }
+    for (const YamlNode& q : waypoints.Elements()) path.push_back(Waypoint(q, group->space));
     if (path.size() < 2) waypoints.Fail("a path has two waypoints at least");
     library.paths.push_back(std::move(path));
+  }
+  if (library.paths.empty()) paths.Fail("is empty");
+  const auto num_paths = node.Find(kNumPaths);  // Libraries of before do not say.
+  if (num_paths && num_paths->Int() != static_cast<long long>(library.paths.size())) {
+    num_paths->Fail(fmt::format("is {}, but there are {} paths: the file is not whole",
+                                num_paths->Int(), library.paths.size()));
   }
   return library;
 }
@@ -102,6 +123,8 @@ std::string ToYaml(const PathLibrary& library) {
   std::string yaml = fmt::format("joints: {}\nlearned_from: {}\n", Names(library.joints),
                                  Names(library.learned_from));
   if (!library.scenes.empty()) yaml += fmt::format("scenes: {}\n", Names(library.scenes));
+  // Tells a file that was cut between two paths.
+  yaml += fmt::format("{}: {}\n", kNumPaths, library.paths.size());
   yaml += library.paths.empty() ? "paths: []\n" : "paths:\n";
   for (const Path& path : library.paths) {
     std::vector<std::string> rows;

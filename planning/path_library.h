@@ -7,6 +7,7 @@
 
 #include "planning/plan_result.h"
 #include "robot_model/joint_space.h"
+#include "robot_model/robot_model.h"
 
 namespace planbench {
 
@@ -22,7 +23,7 @@ std::string ShortSceneId(const std::string& scene_id);
 struct PathLibrary {
   std::vector<std::string> joints;        ///< n, in the order of positions.
   std::vector<std::string> learned_from;  ///< Problem sets, sorted.
-  std::vector<Path> paths;                ///< Each of two waypoints at least, n positions each.
+  std::vector<Path> paths;  ///< One at least; each of two waypoints at least, n positions each.
   /// Content ids of the scenes that the paths were found in, sorted; empty in libraries that were
   /// made before scenes were told.
   std::vector<std::string> scenes = {};
@@ -37,8 +38,11 @@ struct PathLibrary {
                            std::span<const double> to, int count) const;
 };
 
-/// Throws InputError with file and line for what is no path library.
-PathLibrary ReadPathLibrary(const std::filesystem::path& file);
+/// Throws InputError with file and line for what is no path library, one without paths or with
+/// another number of them than it says, joints that are those of none of `groups`, and waypoints
+/// outside their limits.
+PathLibrary ReadPathLibrary(const std::filesystem::path& file,
+                            std::span<const PlanningGroup> groups);
 
 /// What ReadPathLibrary reads.
 std::string ToYaml(const PathLibrary& library);

@@ -120,7 +120,7 @@ TEST_F(AraPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
 
   PathLibrary other = same;
   other.joints.front() = "other";
-  ExpectInputError([&] { Make(with("other.yaml", other)); }, {"other.yaml", "joints", "planar3"});
+  ExpectInputError([&] { Make(with("other.yaml", other)); }, {"other.yaml:1", "joints", "group"});
   ExpectInputError([&] { Make(with("same.yaml", same) + "wrap_heuristic: false"); },
                    {"ara.yaml", "experience", "wrap_heuristic"});
 }

@@ -94,7 +94,7 @@ TEST_F(RrtcPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
   EXPECT_FALSE(description.settings.at("experience_id").empty());
 
   library.joints.front() = "other";
-  ExpectInputError([&] { Solve(with("other.yaml")); }, {"other.yaml", "joints", "planar3"});
+  ExpectInputError([&] { Solve(with("other.yaml")); }, {"other.yaml:1", "joints", "group"});
   ExpectInputError([&] { Solve("recall: 0"); }, {"rrtc.yaml:1", "recall"});
   ExpectInputError([&] { Solve("{algorithm: PRM, experience: a.yaml}"); }, {"experience", "OMPL"});
 }

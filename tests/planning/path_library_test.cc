@@ -17,6 +17,12 @@ JointSpace Space() {
   return JointSpace({{"turn", true, false, -kPi, kPi, 1}, {"bend", false, false, -2, 2, 1}});
 }
 
+std::vector<PlanningGroup> Groups() {
+  std::vector<PlanningGroup> groups(1);
+  groups.front().space = Space();
+  return groups;
+}
+
 PathLibrary Library(std::vector<Path> paths) {
   return {{"turn", "bend"}, {"set"}, std::move(paths)};
 }
@@ -32,12 +38,11 @@ TEST(PathLibrary, IsReadAsItWasWritten) {
   PathLibrary library = Library({{{0.1, -1.0 / 3}, {3, 2}, {-3, 0}}, {{0, 0}, {1, 1}}});
   library.learned_from = {"a: set", "b"};
   library.scenes = {"01234567", "1e5"};
-  const PathLibrary read = ReadPathLibrary(folder.Write("paths.yaml", ToYaml(library)));
+  const PathLibrary read = ReadPathLibrary(folder.Write("paths.yaml", ToYaml(library)), Groups());
   EXPECT_EQ(read.joints, library.joints);
   EXPECT_EQ(read.learned_from, library.learned_from);
   EXPECT_EQ(read.scenes, library.scenes);
   EXPECT_EQ(read.paths, library.paths);
-  EXPECT_TRUE(ReadPathLibrary(folder.Write("none.yaml", ToYaml(Library({})))).paths.empty());
 }
 
 TEST(PathLibrary, RecallsTheStretchBetweenTheEnds) {
@@ -88,15 +93,33 @@ TEST(PathLibrary, WhatIsNoneIsRefusedByFileAndLine) {
   const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
     SCOPED_TRACE(text);
     const auto file = folder.Write("paths.yaml", text);
-    ExpectInputError([&] { ReadPathLibrary(file); }, parts);
+    ExpectInputError([&] { ReadPathLibrary(file, Groups()); }, parts);
   };
+  const std::string head = "joints: [turn, bend]\nlearned_from: []\n";
   expect_refused("joints: []\nlearned_from: []\npaths: []\n", {"paths.yaml:1", "joints"});
   expect_refused("learned_from: []\npaths: []\n", {"paths.yaml", "joints"});
-  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1], [2, 3]]\n", {"paths.yaml:4"});
-  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1], [.nan]]\n", {"paths.yaml:4"});
-  expect_refused("joints: [a]\nlearned_from: []\npaths:\n- [[1]]\n", {"paths.yaml:4", "two"});
-  expect_refused("joints: [a]\nlearned_from: []\npath: []\n", {"paths.yaml:3", "path"});
-  ExpectInputError([&] { ReadPathLibrary(folder.path() / "none"); }, {"none"});
+  expect_refused("learned_from: []\njoints: [bend, turn]\npaths: []\n",
+                 {"paths.yaml:2: joints:", "group"});
+  expect_refused(head + "paths:\n- [[1, 0], [2, 3, 4]]\n", {"paths.yaml:4"});
+  expect_refused(head + "paths:\n- [[1, 0], [.nan, 0]]\n", {"paths.yaml:4"});
+  expect_refused(head + "paths:\n- [[1, 0]]\n", {"paths.yaml:4", "two"});
+  expect_refused(head + "path: []\n", {"paths.yaml:3", "path"});
+  expect_refused(head + "paths: []\n", {"paths.yaml:3: paths:", "empty"});
+  expect_refused(head + "paths:\n- [[1, 0],\n   [1, 99]]\n",
+                 {"paths.yaml:5: paths[0][1][1]:", "bend", "99", "[-2, 2]"});
+  ExpectInputError([&] { ReadPathLibrary(folder.path() / "none", Groups()); }, {"none"});
+}
+
+TEST(PathLibrary, OneThatWasCutBetweenTwoPathsIsRefused) {
+  const TemporaryFolder folder;
+  const std::string whole = ToYaml(Library({{{0, 0}, {1, 1}}, {{1, 1}, {0, 0}}}));
+  const std::string cut = whole.substr(0, whole.rfind("  - "));
+  ExpectInputError([&] { ReadPathLibrary(folder.Write("cut.yaml", cut), Groups()); },
+                   {"cut.yaml:3: num_paths:", "is 2", "1 paths", "not whole"});
+  const std::string line = "num_paths: 2\n";
+  std::string of_before = whole;
+  of_before.erase(of_before.find(line), line.size());
+  EXPECT_EQ(ReadPathLibrary(folder.Write("before.yaml", of_before), Groups()).paths.size(), 2u);
 }
 
 }  // namespace
