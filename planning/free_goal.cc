@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "planning/goal_sampler.h"
@@ -61,12 +62,14 @@ std::string FindFault(EdgeChecker* edges, const Configuration& q, const std::str
   return fmt::format("{} is in collision: {}", what, Describe(*contact));
 }
 
-std::string FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
+GoalFinding FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
                          const std::function<bool()>& should_stop) {
   const std::string fault = FindFault(edges, goal->nominal, "goal");
-  if (fault.empty() || goal->lower == goal->upper) return fault;
+  if (fault.empty()) return {};
   const JointSpace& space = edges->space();
-  if (FindJointOutOfReach(space, *goal) >= 0) return fault;
+  if (goal->lower == goal->upper || FindJointOutOfReach(space, *goal) >= 0) {
+    return {GoalVerdict::kInvalid, fault};
+  }
 
   GoalBox part = ReachablePart(space, *goal);
   GoalSampler sampler(space, part, kSeed);
@@ -92,10 +95,38 @@ std::string FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
       part.nominal[k] = std::clamp(part.nominal[k] + offset, part.lower[k], part.upper[k]);
     }
     *goal = std::move(part);
-    return "";
+    return {};
   }
   // The cause first: tables have room for the beginning.
-  return fmt::format("{}; no valid point among {} tried of its region", fault, num_tried);
+  return {num_tried < kGoalTries ? GoalVerdict::kUndecided : GoalVerdict::kInvalid,
+          fmt::format("{}; no valid point among {} tried of its region", fault, num_tried)};
+}
+
+GoalFinding KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
+                          std::vector<GoalBox>* goals, const std::function<bool()>& should_stop) {
+  std::vector<GoalBox> free;
+  GoalFinding first;
+  for (GoalBox& goal : *goals) {
+    GoalFinding finding = FindFreeGoal(edges, &goal, should_stop);
+    if (finding.verdict == GoalVerdict::kUndecided) return finding;
+    if (finding.verdict == GoalVerdict::kFree) {
+      free.push_back(std::move(goal));
+    } else if (first.fault.empty()) {
+      first = std::move(finding);
+    }
+  }
+  if (free.empty()) {
+    if (goals->size() > 1) {
+      first.fault += fmt::format("; none of the {} goals is valid", goals->size());
+    }
+    return first;
+  }
+  const JointSpace& space = edges->space();
+  std::stable_sort(free.begin(), free.end(), [&](const GoalBox& a, const GoalBox& b) {
+    return space.Distance(start, a.nominal) < space.Distance(start, b.nominal);
+  });
+  *goals = std::move(free);
+  return {};
 }
 
 }  // namespace planbench

@@ -99,32 +99,6 @@ void RequireSearchStatus(const std::string& algorithm, PlanStatus status) {
   }
 }
 
-/// Leaves, of several goals, those that have a valid point (see FindFreeGoal), nearest to the start
-/// first. Returns why there is none, in one line; empty if there is.
-std::string KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
-                          std::vector<GoalBox>* goals, const std::function<bool()>& should_stop) {
-  std::vector<GoalBox> free;
-  std::string first_fault;
-  for (GoalBox& goal : *goals) {
-    std::string fault = FindFreeGoal(edges, &goal, should_stop);
-    if (fault.empty()) {
-      free.push_back(std::move(goal));
-    } else if (first_fault.empty()) {
-      first_fault = std::move(fault);
-    }
-  }
-  if (free.empty() && goals->size() > 1) {
-    return fmt::format("{}; none of the {} goals is valid", first_fault, goals->size());
-  }
-  if (free.empty()) return first_fault;
-  const JointSpace& space = edges->space();
-  std::stable_sort(free.begin(), free.end(), [&](const GoalBox& a, const GoalBox& b) {
-    return space.Distance(start, a.nominal) < space.Distance(start, b.nominal);
-  });
-  *goals = std::move(free);
-  return "";
-}
-
 /// The parts of a total that do not overlap, as shares of it. What is left is the search's.
 void SetPhases(std::uint64_t total, std::uint64_t setup, std::uint64_t collision,
                std::uint64_t guidance, PlanResult* result) {
@@ -353,6 +327,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   query.time_limit_s_ = request.time_limit_s;
 
   SearchResult found;
+  GoalFinding goals;
   if (std::string fault = FindFault(edges, resolved.start, "start"); !fault.empty()) {
     found.status = PlanStatus::kStartInvalid;
     found.message = std::move(fault);
@@ -361,11 +336,16 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
              })) {
     found.status = PlanStatus::kSolved;
     found.path = {resolved.start};
-  } else if (fault = KeepFreeGoals(edges, resolved.start, &resolved.goals,
+  } else if (goals = KeepFreeGoals(edges, resolved.start, &resolved.goals,
                                    [&query] { return query.ShouldStop(); });
-             !fault.empty()) {
+             goals.verdict == GoalVerdict::kInvalid) {
     found.status = PlanStatus::kGoalInvalid;
-    found.message = std::move(fault);
+    found.message = std::move(goals.fault);
+  } else if (goals.verdict == GoalVerdict::kUndecided) {
+    const bool cancelled = query.Cancelled();
+    found.status = cancelled ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
+    found.message = std::move(goals.fault) +
+                    (cancelled ? " before the request was cancelled" : " before the time limit");
   } else {
     found = SearchInTurn(description.algorithm, resolved, backward, &query);
   }

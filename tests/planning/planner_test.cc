@@ -383,6 +383,36 @@ TEST_F(PlannerTest, AGoalRegionIsSearchedWhereItsMiddleIsBlocked) {
   }
 }
 
+TEST_F(PlannerTest, AGoalRegionThatTimeDidNotSufficeForIsNotCalledInvalid) {
+  Scene scene = EmptyPlanarScene();
+  AddBox(&scene, "post", {0.9 * std::cos(-0.6), 0.9 * std::sin(-0.6), 0}, {0.1, 0.1, 0.2});
+  PlanRequest region = Request(0.001);  // all of it in the post
+  PlanControl cancelled;
+  cancelled.cancelled = true;
+  const PlanResult stopped = Plan(StraightLine, region, scene, &cancelled);
+  EXPECT_EQ(stopped.status, PlanStatus::kCancelled);
+  EXPECT_THAT(stopped.message, AllOf(StartsWith("goal is in collision: "), HasSubstr("post"),
+                                     EndsWith("0 tried of its region before the request was "
+                                              "cancelled")));
+  // One that is certain makes no difference to one that is not, wherever it stands.
+  for (const bool certain_first : {true, false}) {
+    PlanRequest both = region;
+    const JointGoal point = Request().goal.front();
+    both.goal.insert(certain_first ? both.goal.begin() : both.goal.end(), point);
+    EXPECT_EQ(Plan(StraightLine, both, scene, &cancelled).status, PlanStatus::kCancelled);
+  }
+  region.time_limit_s = 1e-9;
+  const PlanResult late = Plan(StraightLine, region, scene);
+  EXPECT_EQ(late.status, PlanStatus::kTimedOut);
+  EXPECT_THAT(late.message, EndsWith("0 tried of its region before the time limit"));
+  EXPECT_EQ(num_searches_, 0);
+
+  // A point is decided at once.
+  PlanRequest point = Request();
+  point.time_limit_s = 1e-9;
+  EXPECT_EQ(Plan(StraightLine, point, scene).status, PlanStatus::kGoalInvalid);
+}
+
 TEST_F(PlannerTest, OfAGoalRegionThePartWithinTheLimitsCounts) {
   PlanRequest request = MakeRequest(robot_, start_, {-0.6, 2.7, 0}, 0.2);  // elbow: at most 2.6
   const PlanResult result = Plan(StraightLine, request);
