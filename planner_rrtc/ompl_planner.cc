@@ -23,6 +23,7 @@
 #include "common/error.h"
 #include "planner_rrtc/ompl_algorithms.h"
 #include "planner_rrtc/ompl_joint_space.h"
+#include "planner_rrtc/ompl_parameter.h"
 #include "planner_rrtc/stopped_search.h"
 #include "planning/goal_sampler.h"
 
@@ -257,6 +258,9 @@ class OmplPlanner::Workspace {
         parameters.getParamNames(known);
         throw InputError(fmt::format("{}: ompl.{}: {} has no such parameter; it has {}", origin,
                                      key, settings.AlgorithmName(), fmt::join(known, ", ")));
+      }
+      if (const std::string why = WhyRefused(*parameters.getParam(key), value); !why.empty()) {
+        throw InputError(fmt::format("{}: ompl.{}: {}", origin, key, why));
       }
       if (!SetParameter(&parameters, key, value)) {
         throw InputError(

@@ -125,6 +125,19 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
                  {"rrtc.yaml", "ompl.goal_bais", "RRT", "goal_bias"});
   expect_refused("algorithm: RRT\nompl: {goal_bias: often}",
                  {"rrtc.yaml", "ompl.goal_bias", "often"});
+  for (const std::string value : {"-1", "7", ".nan", "nan", "inf", "0.1x"}) {
+    expect_refused("algorithm: RRT\nompl: {goal_bias: " + value + "}",
+                   {"rrtc.yaml", "ompl.goal_bias:", value});
+  }
+  expect_refused("algorithm: RRT\nompl: {goal_bias: 7}", {"from 0 to 1"});
+  expect_refused("algorithm: PRM\nompl: {max_nearest_neighbors: -1}",
+                 {"max_nearest_neighbors", "-1"});
+  expect_refused("algorithm: BITstar\nompl: {samples_per_batch: 1.5}",
+                 {"samples_per_batch", "1.5", "whole"});
+  expect_refused("algorithm: BITstar\nompl: {use_k_nearest: never}", {"use_k_nearest", "never"});
+  expect_refused("algorithm: KPIECE1\nompl: {min_valid_path_fraction: -0.1}",
+                 {"min_valid_path_fraction", "-0.1", "from 0 to 1"});
+  expect_refused("algorithm: TRRT\nompl: {init_temperature: -inf}", {"init_temperature", "finite"});
   expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
   expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
   expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
@@ -218,6 +231,16 @@ TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
 TEST_F(RrtcPlannerTest, ParametersOfOmplsPlannersTakeEffect) {
   EXPECT_NE(Solve("{algorithm: RRT, ompl: {goal_bias: 0.05}}").counters,
             Solve("{algorithm: RRT, ompl: {goal_bias: 0.5}}").counters);
+}
+
+TEST_F(RrtcPlannerTest, DefaultsAndChoicesOfOmplsParametersAreAccepted) {
+  for (const std::string text :
+       {"{algorithm: RRT, ompl: {goal_bias: 0, intermediate_states: true}}",
+        "{algorithm: RRTstar, ompl: {goal_bias: 1, rewire_factor: 1.1, use_k_nearest: 0}}",
+        "{algorithm: BITstar, ompl: {samples_per_batch: 100, rewire_factor: 1.1}}",
+        "{algorithm: TRRT, ompl: {init_temperature: 100, temp_change_factor: 0.1}}"}) {
+    EXPECT_NO_THROW(MakeRrtcPlanner(robot_, Settings(text))) << text;
+  }
 }
 
 TEST_F(RrtcPlannerTest, EverySettingTakesEffect) {

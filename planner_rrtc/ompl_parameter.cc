@@ -1,0 +1,67 @@
+#include "planner_rrtc/ompl_parameter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace planbench {
+namespace {
+
+struct Bounds {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool integers = false;
+};
+
+std::optional<double> FiniteNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// OMPL suggests "first:last" or "first:step:last"; without a point it means integers.
+Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
+  const std::optional<double> first = FiniteNumber(suggestion.substr(0, suggestion.find(':')));
+  const std::optional<double> last = FiniteNumber(suggestion.substr(suggestion.rfind(':') + 1));
+  if (first && last && *first < *last) {
+    return {*first, *last, suggestion.find('.') == std::string::npos};
+  }
+  Bounds bounds;
+  if (name == "range") bounds.least = 0;
+  for (const char* share : {"bias", "fraction", "probability"}) {
+    if (name.find(share) != std::string::npos) bounds = {0, 1};
+  }
+  return bounds;
+}
+
+}  // namespace
+
+std::string WhyRefused(const ompl::base::GenericParam& parameter, const std::string& value) {
+  const std::string& suggestion = parameter.getRangeSuggestion();
+  if (suggestion == "0,1") {  // OMPL takes all other words for true.
+    const std::vector<std::string_view> words = {"0", "1", "false", "true"};
+    const bool known = std::find(words.begin(), words.end(), value) != words.end();
+    return known ? "" : fmt::format("'{}' is neither 0 (false) nor 1 (true)", value);
+  }
+  const std::optional<double> number = FiniteNumber(value);
+  if (!number) return fmt::format("'{}' is no finite number", value);
+  const Bounds bounds = BoundsOf(parameter.getName(), suggestion);
+  if (bounds.integers && *number != std::round(*number)) {
+    return fmt::format("{} is no whole number", value);
+  }
+  if (*number < bounds.least || *number > bounds.most) {
+    return fmt::format("{} is not from {} to {}", value, bounds.least, bounds.most);
+  }
+  return "";
+}
+
+}  // namespace planbench
