@@ -9,29 +9,44 @@
 #include "common/error.h"
 
 namespace planbench {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+// Of their size, between the limits or round the circle.
+double CellsOf(const JointSpace::Joint& joint, double discretization) {
+  return (joint.continuous ? kTwoPi : joint.upper - joint.lower) / discretization;
+}
+
+}  // namespace
+
+std::string Lattice::WhyNoAxis(const JointSpace::Joint& joint, double discretization) {
+  const double cells = CellsOf(joint, discretization);
+  if (!(cells <= kMaxCells)) {
+    return fmt::format("discretization of {}: {} gives more than {:.0f} cells", joint.name,
+                       discretization, kMaxCells);
+  }
+  if (joint.continuous && std::lround(cells) < 3) {
+    return fmt::format("discretization of {}: {} gives fewer than 3 cells", joint.name,
+                       discretization);
+  }
+  return "";
+}
 
 Lattice::Lattice(const JointSpace& space, std::span<const double> anchor,
                  std::span<const double> discretization) {
-  constexpr double kTwoPi = 2 * std::numbers::pi;
   for (int j = 0; j < space.size(); ++j) {
     const auto i = static_cast<std::size_t>(j);
     const JointSpace::Joint& joint = space.joint(j);
-    const double range = joint.continuous ? kTwoPi : joint.upper - joint.lower;
-    const double cells = range / discretization[i];
-    if (cells > kMaxCells) {
-      throw InputError(fmt::format("discretization of {}: {} gives more than {:.0f} cells",
-                                   joint.name, discretization[i], kMaxCells));
+    if (const std::string why = WhyNoAxis(joint, discretization[i]); !why.empty()) {
+      throw InputError(why);
     }
     LatticeAxis axis;
     axis.wraps = joint.continuous;
     int below = 0;  // cells on the lower side of the anchor
     int above = 0;
     if (joint.continuous) {
-      const int num = static_cast<int>(std::lround(cells));
-      if (num < 3) {
-        throw InputError(fmt::format("discretization of {}: {} gives fewer than 3 cells",
-                                     joint.name, discretization[i]));
-      }
+      const int num = static_cast<int>(std::lround(CellsOf(joint, discretization[i])));
       axis.step = kTwoPi / num;
       above = num - 1;
     } else {

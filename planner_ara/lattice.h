@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "planner_ara/chunked_array.h"
@@ -21,9 +22,12 @@ class Lattice {
   using Coordinate = std::uint16_t;
   static constexpr double kMaxCells = 65535;
 
+  /// Why a joint has no lattice axis of cells of this size (rad or m): it would have more than
+  /// kMaxCells, or, a continuous one, fewer than 3. Empty if it has.
+  static std::string WhyNoAxis(const JointSpace::Joint& joint, double discretization);
+
   /// `anchor`: n joints, within limits. `discretization`: n joints, rad or m, > 0. Throws
-  /// InputError naming the joint if a joint would have more than kMaxCells, or a continuous one
-  /// fewer than 3.
+  /// InputError as WhyNoAxis says.
   Lattice(const JointSpace& space, std::span<const double> anchor,
           std::span<const double> discretization);
 

@@ -18,6 +18,29 @@ constexpr double kLongestSpine = 0.5;
 // What a move counts at least, m: those of a joint that moves no geometry would have no end.
 constexpr double kLeastMotion = 1e-3;
 
+// Refuses moves that a graph has no room for and those of half a turn, which could be either way.
+void RequireUsable(const MotionPrimitives& primitives, const JointSpace& space,
+                   std::span<const double> discretization, const std::string& origin) {
+  if (primitives.size() == 0) throw InputError(origin + ": no motion primitive is in use");
+  if (primitives.size() > kMostPrimitives) {
+    throw InputError(fmt::format("{}: {} motion primitives; at most {} are possible", origin,
+                                 primitives.size(), kMostPrimitives));
+  }
+  for (const auto* rows : {&primitives.long_moves, &primitives.short_moves}) {
+    for (const std::vector<int>& row : *rows) {
+      for (int j = 0; j < space.size(); ++j) {
+        if (!space.joint(j).continuous) continue;
+        const auto i = static_cast<std::size_t>(j);
+        const long cells = std::lround(2 * std::numbers::pi / discretization[i]);
+        if (2L * std::abs(row[i]) < cells) continue;
+        throw InputError(fmt::format(
+            "{}: a motion primitive moves the continuous joint {} by {} cells, half a turn or more",
+            origin, space.joint(j).name, row[i]));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
@@ -35,6 +58,8 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
     const double range = joint.upper - joint.lower;
     const bool fits = settings.fit_cells && !joint.continuous;
     options.discretization.push_back(fits ? range / std::max(1.0, std::round(range / size)) : size);
+    const std::string why = Lattice::WhyNoAxis(joint, options.discretization.back());
+    if (!why.empty()) throw InputError(origin + ": " + why);
     const auto weight = settings.joint_weights.find(joint.name);
     options.weights.push_back(weight == settings.joint_weights.end() ? 1 : weight->second);
   }
@@ -45,9 +70,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
                                                   space, options.discretization);
   if (!settings.use_long_primitives) options.primitives.long_moves.clear();
   if (!settings.use_short_primitives) options.primitives.short_moves.clear();
-  if (options.primitives.long_moves.empty() && options.primitives.short_moves.empty()) {
-    throw InputError(origin + ": no motion primitive is in use");
-  }
+  RequireUsable(options.primitives, space, options.discretization, origin);
   options.long_moves_beyond = settings.long_primitives_beyond;
   options.short_moves_within = settings.short_primitives_within;
   options.cost = settings.cost;
@@ -85,9 +108,15 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       from_(start.size()),
       to_(start.size()),
       target_(start.size()) {
+  // The turns of a state are known of moves alone.
+  if (arms_.num > 1 && options_.wrap_heuristic) {
+    first_move_ = static_cast<std::uint16_t>(kArmToGoal + arms_.num);
+  }
   const MotionPrimitives& primitives = options_.primitives;
-  AddMoves(primitives.long_moves, true);
-  AddMoves(primitives.short_moves, false);
+  if (!AddMoves(primitives.long_moves, true) || !AddMoves(primitives.short_moves, false)) {
+    throw InputError(fmt::format("{} motion primitives are more than the edges of a state can be",
+                                 primitives.size()));
+  }
   finest_moves_ = primitives.long_moves.empty() ? primitives.short_moves : primitives.long_moves;
   if (options_.cost == MoveCost::kUniform) {
     double longest = 1;
@@ -105,10 +134,6 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
     goal_cells_[i] = lattice_.Nearest(j, goal_.nominal[i]);
     goal_terms_.push_back(goal_distance_.SquaredTerms(j, lattice_.values(j)));
     start_terms_.push_back(start_distance.SquaredTerms(j, lattice_.values(j)));
-  }
-  // The turns of a state are known of moves alone.
-  if (arms_.num > 1 && options_.wrap_heuristic) {
-    first_move_ = static_cast<std::uint16_t>(kArmToGoal + arms_.num);
   }
   MakeRoomForKnowledge();
   std::vector<int> place_cells(start.size(), 0);
@@ -143,12 +168,13 @@ bool ManipulationGraph::Refine() {
     halves.push_back(std::move(row));
   }
   if (halves.empty()) return false;
-  finest_moves_ = halves;
-  std::erase_if(halves, [this](const std::vector<int>& row) {
+  std::vector<std::vector<int>> added = halves;
+  std::erase_if(added, [this](const std::vector<int>& row) {
     return std::any_of(moves_.begin(), moves_.end(),
                        [&](const Move& move) { return move.cells == row; });
   });
-  AddMoves(halves, false);
+  if (!AddMoves(added, false)) return false;
+  finest_moves_ = std::move(halves);
   MakeRoomForKnowledge();
   options_.short_moves_within = kInfinity;
   moves_depend_on_place_ = options_.long_moves_beyond > 0;
@@ -175,7 +201,8 @@ double ManipulationGraph::LengthOf(const std::vector<int>& row) const {
   return std::sqrt(sum);
 }
 
-void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool are_long) {
+bool ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool are_long) {
+  if (first_move_ + moves_.size() + 2 * rows.size() > kSpine) return false;
   const JointSpace& space = edges_->space();
   const std::vector<double>& reach = edges_->checker().motion_bound().reach();
   for (const std::vector<int>& row : rows) {
@@ -183,11 +210,6 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
     for (int j = 0; j < space.size(); ++j) {
       const auto i = static_cast<std::size_t>(j);
       const double motion = row[i] * lattice_.step(j);
-      if (space.joint(j).continuous && std::abs(motion) >= std::numbers::pi) {
-        throw InputError(fmt::format(
-            "motion primitive moves the continuous joint {} by {} cells, half a turn or more",
-            space.joint(j).name, row[i]));
-      }
       motion_m += reach[i] * std::abs(motion);
     }
     std::vector<int> opposite = row;
@@ -196,6 +218,7 @@ void ManipulationGraph::AddMoves(const std::vector<std::vector<int>>& rows, bool
     moves_.push_back({row, length, motion_m, are_long});
     moves_.push_back({std::move(opposite), length, motion_m, are_long});
   }
+  return true;
 }
 
 double ManipulationGraph::SquaredDistance(const std::vector<std::vector<double>>& terms,

@@ -44,8 +44,10 @@ struct ManipulationGraphOptions {
 };
 
 /// Resolves settings against a group. Throws InputError, prefixed by `origin`, for joints of the
-/// group without a discretisation where others have one, unknown crowding joints, settings that
-/// leave no primitive, and what LoadMotionPrimitives refuses.
+/// group without a discretisation where others have one and those that no lattice can have
+/// (Lattice::WhyNoAxis), unknown crowding joints, settings that leave no primitive or more than
+/// kMostPrimitives, primitives that move a continuous joint half a turn or more, and what
+/// LoadMotionPrimitives refuses.
 ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
                                         const PlanningGroup& group, const std::string& origin);
 
@@ -65,8 +67,8 @@ class ManipulationGraph {
   static constexpr StateId kGoal = 0;
   static constexpr StateId kStart = 1;
 
-  /// `start` is valid. Throws InputError for a primitive that moves a continuous joint half a turn
-  /// or more, and what Lattice refuses. The edge checker must outlive this.
+  /// `start` is valid, `options` as ResolveOptions has them. Throws InputError for more primitives
+  /// than there are numbers of edges, and what Lattice refuses. The edge checker must outlive this.
   ManipulationGraph(EdgeChecker* edges, std::span<const double> start, const GoalBox& goal,
                     ManipulationGraphOptions options);
 
@@ -74,7 +76,8 @@ class ManipulationGraph {
   StateId Target(StateId source, std::uint16_t action);
   bool IsValidEdge(StateId source, std::uint16_t action);
   /// Gives the states further edges: short moves everywhere, and moves of half the length of the
-  /// finest. False, and nothing happens, if they are single cells already or it is not allowed.
+  /// finest. False, and nothing happens, if they are single cells already, there are no numbers
+  /// left for more, or it is not allowed.
   bool Refine();
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
@@ -122,7 +125,8 @@ class ManipulationGraph {
   };
 
   double LengthOf(const std::vector<int>& row) const;
-  void AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
+  /// And their opposites. False, and nothing happens, if there are no numbers left for so many.
+  bool AddMoves(const std::vector<std::vector<int>>& rows, bool are_long);
   void MakeRoomForKnowledge();
   /// Squared weighted distance to the goal that the heuristic is made of; `turns`: by joint, see
   /// turns_.

@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::string_view kHeader = "Motion_Primitives(degrees):";
 constexpr int kMaxMultiple = 32767;  // half the cells a lattice axis can have
-constexpr int kMaxRows = 16384;      // two actions a row, numbered in 16 bits
 
 // Integers of one line; `first_word` to be skipped has been removed.
 std::vector<int> Integers(std::string_view line, const std::string& where) {
@@ -96,8 +95,9 @@ MotionPrimitives ParseMotionPrimitives(const std::string& text, const std::strin
   const int rows = counts[0];
   const int columns = counts[1];
   const int num_short = counts[2];
-  if (rows < 1 || rows > kMaxRows) {
-    throw InputError(fmt::format("{}: {} rows; 1 to {} are possible", where(), rows, kMaxRows));
+  if (rows < 1 || rows > static_cast<int>(kMostPrimitives)) {
+    throw InputError(
+        fmt::format("{}: {} rows; 1 to {} are possible", where(), rows, kMostPrimitives));
   }
   if (num_short < 0 || num_short > rows) {
     throw InputError(fmt::format("{}: {} short primitives of {}", where(), num_short, rows));
@@ -127,6 +127,7 @@ MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& sp
   node.AllowOnly({"angle_unit", "length_unit", "long", "short"});
   const double angle = Unit(node.At("angle_unit"), "deg", std::numbers::pi / 180, "rad", 1);
   const double length = Unit(node.At("length_unit"), "m", 1, "mm", 1e-3);
+  MotionPrimitives primitives;
   const auto read_list = [&](const std::string& key, std::vector<std::vector<int>>* moves) {
     const std::optional<YamlNode> list = node.Find(key);
     if (!list) return;
@@ -148,10 +149,12 @@ MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& sp
         row[k] = static_cast<int>(std::lround(cells));
       }
       if (MovesNothing(row)) move.Fail("moves nothing");
-      if (moves->size() > kMaxRows) list->Fail(fmt::format("has more than {} moves", kMaxRows));
+      if (primitives.size() > kMostPrimitives) {
+        move.Fail(fmt::format("is one move too many: {} are possible, long and short ones together",
+                              kMostPrimitives));
+      }
     }
   };
-  MotionPrimitives primitives;
   read_list("long", &primitives.long_moves);
   read_list("short", &primitives.short_moves);
   if (primitives.long_moves.empty() && primitives.short_moves.empty()) {

@@ -79,6 +79,27 @@ TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
       {"fetch.mprim:1", "8 columns", "3 joints"});
 }
 
+TEST_F(AraPlannerTest, WhatNoLatticeCanHaveIsRefusedBeforeThereAreRequests) {
+  const auto expect_refused = [&](const std::string& settings,
+                                  const std::vector<std::string>& parts) {
+    SCOPED_TRACE(settings);
+    ExpectInputError([&] { Make(settings); }, parts);
+  };
+  for (const std::string size : {"1e-07", "1e-09", "1e-300"}) {
+    const std::string cells = "{shoulder: 0.1, elbow: " + size + ", wrist: 0.1}";
+    expect_refused("discretization: " + cells, {"ara.yaml", "discretization of elbow", "65535"});
+    expect_refused("fit_cells: true\ndiscretization: " + cells,
+                   {"ara.yaml", "discretization of elbow", "65535"});
+  }
+  expect_refused("discretization: {shoulder: 3, elbow: 0.1, wrist: 0.1}",
+                 {"ara.yaml", "discretization of shoulder: 3", "fewer than 3"});
+  const TemporaryFolder folder;
+  const auto moves = folder.Write("p.mprim", "Motion_Primitives(degrees): 1 3 0\n16 0 0\n");
+  expect_refused(
+      "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\nprimitives: " + moves.string(),
+      {"ara.yaml", "shoulder", "16 cells", "half a turn"});
+}
+
 TEST_F(AraPlannerTest, TellsWhatTheFileOfPrimitivesHolds) {
   const TemporaryFolder folder;
   const std::string settings = "primitives: " + (folder / "p.mprim").string() +

@@ -405,10 +405,21 @@ TEST_F(ManipulationGraphTest, CrowdedPlacesArePutOff) {
   }
 }
 
-TEST_F(ManipulationGraphTest, RefusesMovesOfHalfATurn) {
+TEST_F(ManipulationGraphTest, HasNoMoreMovesThanItCanNumber) {
   ManipulationGraphOptions options = Options();
-  options.primitives.long_moves = {{11, 0, 0}};
-  ExpectInputError([&] { Graph(PointGoal(kRight), options); }, {"shoulder", "11", "half a turn"});
+  // Beside 4 other edges there are numbers below 0x8000 for so many moves and their opposites.
+  options.primitives = {{{4, 0, 0}, {0, 4, 0}}, {}};
+  options.primitives.short_moves.assign(16380, {1, 0, 0});
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
+  const std::uint16_t last = EdgesOf(&graph, ManipulationGraph::kStart).back().action;
+  EXPECT_EQ(last, 0x7fff);
+  graph.IsValidEdge(ManipulationGraph::kStart, last);
+  EXPECT_EQ(edges_->counters().edges, 1) << "it was not checked";
+  EXPECT_FALSE(graph.Refine()) << "no room for halves";
+  EXPECT_EQ(EdgesOf(&graph, ManipulationGraph::kStart).back().action, last);
+
+  options.primitives.short_moves.push_back({1, 0, 0});
+  ExpectInputError([&] { Graph(PointGoal(kRight), options); }, {"16383 motion primitives"});
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ TEST(MotionPrimitives, RefusesWhatDoesNotHoldTogether) {
       {header + "0 2 0\n", {"arm.mprim:1:", "0 rows"}},
       {header + "-1 2 0\n", {"arm.mprim:1:", "-1 rows"}},
       {header + "99999999 2 0\n", {"arm.mprim:1:", "99999999 rows"}},
+      {header + "16001 2 0\n", {"arm.mprim:1:", "16001 rows", "16000"}},
       {header + "99999999999 2 0\n", {"arm.mprim:1:", "'99999999999'"}},
       {header + "1 2 2\n8 0\n", {"arm.mprim:1:", "2 short primitives of 1"}},
       {header + "1 2 -1\n8 0\n", {"arm.mprim:1:", "-1 short"}},
@@ -119,6 +120,22 @@ TEST(MotionPrimitives, YamlErrorsNameFileLineAndKey) {
         },
         test.message);
   }
+}
+
+TEST(MotionPrimitives, BothListsOfYamlTogetherHaveNoMoreMovesThanThereIsRoomFor) {
+  const auto list = [](std::size_t num) {
+    std::string text;
+    for (std::size_t i = 0; i < num; ++i) text += "{flex: 0.1}, ";
+    return text;
+  };
+  const auto read = [&](std::size_t num_long, std::size_t num_short) {
+    const std::string text = "angle_unit: rad\nlength_unit: m\nlong: [" + list(num_long) +
+                             "]\nshort: [" + list(num_short) + "]\n";
+    return ReadMotionPrimitives(YamlNode::Parse(text, "arm.yaml"), ThreeJoints(), kCells).size();
+  };
+  EXPECT_EQ(read(kMostPrimitives - 2, 2), kMostPrimitives);
+  ExpectInputError([&] { read(kMostPrimitives - 2, 3); },
+                   {"arm.yaml:4: short[2]:", "16000", "together"});
 }
 
 TEST(MotionPrimitives, TheNameOfAFileTellsItsForm) {
