@@ -30,15 +30,7 @@ class AraPlanner : public Planner {
   AraPlanner(const Robot& robot, const YamlNode& node) : Planner(robot), origin_(node.Where()) {
     settings_.Apply(node);
     settings_.Validate(origin_);
-    const auto require_known = [&](const std::string& key, const auto& by_joint) {
-      for (const auto& [joint, value] : by_joint) {
-        if (robot.model.FindJoint(joint) >= 0) continue;
-        node.At(key).At(joint).Fail("the robot has no joint of that name");
-      }
-    };
-    require_known("discretization", settings_.discretization);
-    require_known("joint_weights", settings_.joint_weights);
-    require_known("edge_weights", settings_.edge_weights);
+    RequireKnownJoints(node);
     const PlanningGroup& group = robot.Group("");
     options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
     OwnEdgeSampling(group, EdgeCheck::kFixed, 1);  // throws now rather than at the first request
@@ -196,17 +188,34 @@ class AraPlanner : public Planner {
   }
 
  private:
+  void RequireKnownJoints(const YamlNode& settings) const {
+    for (const char* key : {"discretization", "joint_weights", "edge_weights"}) {
+      const std::optional<YamlNode> by_joint = settings.Find(key);
+      if (!by_joint) continue;
+      for (const std::string& joint : by_joint->Keys()) {
+        if (robot().model.FindJoint(joint) >= 0) continue;
+        by_joint->At(joint).Fail("the robot has no joint of that name");
+      }
+    }
+  }
+
   AraSettings SettingsFor(const SearchQuery& query) const {
-    AraSettings settings = settings_;
+    if (query.parameters().empty()) return settings_;
+    YamlNode request = YamlNode::Parse("{}", "request parameters");
     for (const auto& [key, text] : query.parameters()) {
-      YamlNode node = YamlNode::Parse("", "parameter " + key);
-      node.Override(key, text, "parameter " + key);
-      settings.Apply(node);
+      request.Override(key, text, "request parameter " + key);
     }
+    // Paths have been read by then, and edges are sampled before a search is asked.
+    for (const char* key : {"experience", "edge_weights"}) {
+      const std::optional<YamlNode> value = request.Find(key);
+      if (value) value->Fail("is a setting of the planner, which a request cannot change");
+    }
+    AraSettings settings = settings_;
+    settings.Apply(request);
+    // A parameter without a value is a mistake, not a wish for the default.
+    for (const std::string& key : request.Keys()) request.At(key);
+    RequireKnownJoints(request);
     settings.Validate("request parameters");
-    if (settings.experience != settings_.experience) {
-      throw InputError("request parameter experience: paths are read before there are requests");
-    }
     return settings;
   }
 

@@ -18,13 +18,26 @@ namespace {
 constexpr std::string_view kEverywhere = "everywhere";
 constexpr std::string_view kNever = "never";
 
-void ApplyByJoint(const YamlNode& node, const std::string& key,
+// What enters costs, guides and bounds: sums of squares of it, and products of several, are numbers
+// still, and none is lost beside another.
+constexpr double kLeastFactor = 1e-6;
+constexpr double kMostFactor = 1e6;
+
+double ReadPositive(const YamlNode& node) { return node.PositiveDouble(); }
+
+double ReadFactor(const YamlNode& node) {
+  const double factor = node.PositiveDouble();
+  if (factor < kLeastFactor || factor > kMostFactor) {
+    node.Fail(fmt::format("must be from {} to {}, found {}", kLeastFactor, kMostFactor, factor));
+  }
+  return factor;
+}
+
+void ApplyByJoint(const YamlNode& node, const std::string& key, double (*read)(const YamlNode&),
                   std::map<std::string, double>* values) {
   const std::optional<YamlNode> map = node.Find(key);
   if (!map) return;
-  for (const std::string& joint : map->Keys()) {
-    (*values)[joint] = map->At(joint).PositiveDouble();
-  }
+  for (const std::string& joint : map->Keys()) (*values)[joint] = read(map->At(joint));
 }
 
 double NonNegative(const YamlNode& node, const std::string& key, double fallback) {
@@ -32,6 +45,15 @@ double NonNegative(const YamlNode& node, const std::string& key, double fallback
   if (!value) return fallback;
   if (value->Double() < 0) value->Fail("must not be negative");
   return value->Double();
+}
+
+double Factor(const YamlNode& node, const std::string& key, double fallback) {
+  const std::optional<YamlNode> value = node.Find(key);
+  return value ? ReadFactor(*value) : fallback;
+}
+
+double FactorOrZero(const YamlNode& node, const std::string& key, double fallback) {
+  return NonNegative(node, key, fallback) == 0 ? 0 : Factor(node, key, fallback);
 }
 
 double Positive(const YamlNode& node, const std::string& key, double fallback) {
@@ -43,7 +65,7 @@ double AtLeastOne(const YamlNode& node, const std::string& key, double fallback)
   const std::optional<YamlNode> value = node.Find(key);
   if (!value) return fallback;
   if (value->Double() < 1) value->Fail("must be at least 1");
-  return value->Double();
+  return ReadFactor(*value);
 }
 
 // What `read` reads, or infinity where the word for it stands.
@@ -94,8 +116,8 @@ void AraSettings::Apply(const YamlNode& node) {
                   "epsilon_decrement",
                   "epsilon_final",
                   "memory_limit_mb"});
-  ApplyByJoint(node, "discretization", &discretization);
-  ApplyByJoint(node, kEdgeWeights, &edge_weights);
+  ApplyByJoint(node, "discretization", ReadPositive, &discretization);
+  ApplyByJoint(node, kEdgeWeights, ReadFactor, &edge_weights);
   fit_cells = node.BoolOr("fit_cells", fit_cells);
   if (const std::optional<YamlNode> value = node.Find("evaluation")) {
     evaluation = value->Enum<Evaluation>();
@@ -104,7 +126,7 @@ void AraSettings::Apply(const YamlNode& node) {
   refine = node.BoolOr("refine", refine);
   shorten = node.BoolOr("shorten", shorten);
   wrap_heuristic = node.BoolOr("wrap_heuristic", wrap_heuristic);
-  ApplyByJoint(node, "joint_weights", &joint_weights);
+  ApplyByJoint(node, "joint_weights", ReadFactor, &joint_weights);
   if (const std::optional<YamlNode> value = node.Find("primitives")) {
     primitives = value->String() == "generated" ? "" : value->String();
   }
@@ -115,18 +137,18 @@ void AraSettings::Apply(const YamlNode& node) {
       OrWord(node, "short_primitives_within", kEverywhere, NonNegative, short_primitives_within);
   two_way = node.BoolOr("two_way", two_way);
   bridge_after = OrWord(node, "bridge_after", kNever, Positive, bridge_after);
-  crowding = NonNegative(node, "crowding", crowding);
+  crowding = FactorOrZero(node, "crowding", crowding);
   if (const std::optional<YamlNode> joints = node.Find("crowding_joints")) {
     crowding_joints = joints->Strings();
   }
-  tip_guide = NonNegative(node, "tip_guide", tip_guide);
+  tip_guide = FactorOrZero(node, "tip_guide", tip_guide);
   arm_by_arm = node.BoolOr("arm_by_arm", arm_by_arm);
   if (const std::optional<YamlNode> value = node.Find("cost")) cost = value->Enum<MoveCost>();
   if (const std::optional<YamlNode> file = node.Find("experience")) experience = file->String();
   if (const std::optional<YamlNode> value = node.Find("recall"))
     recall = ReadRecall(*value, experience);
   epsilon.initial = AtLeastOne(node, "epsilon_initial", epsilon.initial);
-  epsilon.decrement = Positive(node, "epsilon_decrement", epsilon.decrement);
+  epsilon.decrement = Factor(node, "epsilon_decrement", epsilon.decrement);
   epsilon.final = AtLeastOne(node, "epsilon_final", epsilon.final);
   memory_limit_mb = Positive(node, "memory_limit_mb", memory_limit_mb);
 }

@@ -30,7 +30,8 @@ struct EnumNames<Evaluation> {
   static constexpr auto kNames = std::to_array<std::string_view>({"lazy", "eager"});
 };
 
-/// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise.
+/// Settings of the ARA* planner, one field a key of `ara.yaml` unless said otherwise. Weights,
+/// `crowding`, `tip_guide` and the epsilons are from 1e-6 to 1e6 where they are not 0.
 struct AraSettings {
   /// Size of a lattice cell by joint, rad or m, > 0; every joint of the group must have one.
   /// Absent: DefaultCell.

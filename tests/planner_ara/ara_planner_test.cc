@@ -170,7 +170,11 @@ TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
         Case{"discretization", "{elbow: -1}", "discretization.elbow"},
         Case{"discretization", "{elbow: 1e-9}", "cells"},
         Case{"memory_limit_mb", "[1]", "memory_limit_mb"},
-        Case{"experience", "paths.yaml", "experience"}, Case{"recall", "0", "recall"}}) {
+        Case{"experience", "paths.yaml", "experience"}, Case{"recall", "0", "recall"},
+        Case{"edge_weights", "{shoulder: 1, elbow: 1, wrist: 1}", "cannot change"},
+        Case{"joint_weights", "{knee: 2}", "joint_weights.knee: the robot has no joint"},
+        Case{"discretization", "{knee: 0.1}", "discretization.knee: the robot has no joint"},
+        Case{"speed", "3", "speed"}, Case{"crowding", "", "crowding"}}) {
     PlanRequest request = PastThePost();
     request.parameters[test.key] = test.text;
     const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
