@@ -28,17 +28,21 @@ std::optional<double> FiniteNumber(std::string_view text) {
   return value;
 }
 
-/// OMPL suggests "first:last" or "first:step:last"; without a point it means integers.
+/// OMPL suggests "first:last" or "first:step:last", which is where to look for good values, not
+/// where others have no meaning: only its signs and shares are taken for limits. Without a point it
+/// means integers.
 Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
+  Bounds bounds;
   const std::optional<double> first = FiniteNumber(suggestion.substr(0, suggestion.find(':')));
   const std::optional<double> last = FiniteNumber(suggestion.substr(suggestion.rfind(':') + 1));
   if (first && last && *first < *last) {
-    return {*first, *last, suggestion.find('.') == std::string::npos};
+    bounds.integers = suggestion.find('.') == std::string::npos;
+    if (*first >= 0) bounds.least = 0;
+    if (*first >= 0 && *last == 1) bounds.most = 1;
   }
-  Bounds bounds;
   if (name == "range") bounds.least = 0;
   for (const char* share : {"bias", "fraction", "probability"}) {
-    if (name.find(share) != std::string::npos) bounds = {0, 1};
+    if (name.find(share) != std::string::npos) bounds = {0, 1, false};
   }
   return bounds;
 }
@@ -59,7 +63,9 @@ std::string WhyRefused(const ompl::base::GenericParam& parameter, const std::str
     return fmt::format("{} is no whole number", value);
   }
   if (*number < bounds.least || *number > bounds.most) {
-    return fmt::format("{} is not from {} to {}", value, bounds.least, bounds.most);
+    return std::isfinite(bounds.most)
+               ? fmt::format("{} is not from {} to {}", value, bounds.least, bounds.most)
+               : fmt::format("{} is negative", value);
   }
   return "";
 }
