@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t kWordKept = 60;
 
-bool IsControl(unsigned char byte) { return byte < 0x20 || byte == 0x7f; }
-
 bool IsContinuation(unsigned char byte) { return (byte & 0xc0) == 0x80; }
 
 // Length in bytes of the UTF-8 character at the beginning of `text` (not empty), 0 if there is
@@ -33,7 +31,7 @@ std::size_t CharacterLength(std::string_view text) {
   return possible ? length : 0;
 }
 
-std::string Escaped(unsigned char byte) {
+std::string EscapeOf(unsigned char byte) {
   constexpr char kDigits[] = "0123456789abcdef";
   if (byte == '\n') return "\\n";
   if (byte == '\t') return "\\t";
@@ -115,6 +113,26 @@ std::optional<std::size_t> FindInvalidUtf8(std::string_view text) {
   return std::nullopt;
 }
 
+std::size_t ControlLength(std::string_view text) {
+  const auto begins = [&](std::string_view before, unsigned char first, unsigned char last) {
+    if (text.size() <= before.size() || !text.starts_with(before)) return false;
+    const auto byte = static_cast<unsigned char>(text[before.size()]);
+    return first <= byte && byte <= last;
+  };
+  if (begins("", 0, 0x1f) || begins("", 0x7f, 0x7f)) return 1;
+  if (begins("\xc2", 0x80, 0x9f) || begins("\xd8", 0x9c, 0x9c)) return 2;
+  const bool is_mark = begins("\xe2\x80", 0x8e, 0x8f) || begins("\xe2\x80", 0xa8, 0xae) ||
+                       begins("\xe2\x81", 0xa6, 0xa9);
+  return is_mark ? 3 : 0;
+}
+
+bool HasControl(std::string_view text, std::string_view allowed) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (ControlLength(text.substr(at)) > 0 && allowed.find(text[at]) == allowed.npos) return true;
+  }
+  return false;
+}
+
 void RefuseUtf16(std::string_view text, const std::string& file) {
   const std::string name = Utf16Name(text);
   if (name.empty()) return;
@@ -122,26 +140,34 @@ void RefuseUtf16(std::string_view text, const std::string& file) {
                    file + " > " + file + ".utf8");
 }
 
-std::string Printable(std::string_view text) {
+std::string Escaped(std::string_view text) {
   std::string line;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = CharacterLength(text.substr(at));
-    const auto byte = static_cast<unsigned char>(text[at]);
-    if (length == 0 || IsControl(byte)) {
-      line += Escaped(byte);
-      ++at;
-    } else {
-      line += text.substr(at, length);
-      at += length;
-    }
+    const std::string_view rest = text.substr(at);
+    const std::size_t length = CharacterLength(rest);
+    const std::size_t escaped = length == 0 ? 1 : ControlLength(rest);
+    for (const char c : rest.substr(0, escaped)) line += EscapeOf(static_cast<unsigned char>(c));
+    if (escaped == 0) line += rest.substr(0, length);
+    at += std::max(escaped, length);
   }
-  line = WithoutLongWords(line);
+  return line;
+}
+
+std::string Shortened(std::string text, std::size_t most) {
+  constexpr std::size_t kNote = 40;  // Room for it.
+  if (text.size() <= most) return text;
+  const std::string_view kept = Beginning(text, most - kNote);
+  return std::string(kept) + "...(" + std::to_string(text.size() - kept.size()) + " bytes more)";
+}
+
+std::string Printable(std::string_view text) {
+  const std::string line = WithoutLongWords(Escaped(text));
   return line.size() <= kLongestText ? line : std::string(Beginning(line, kLongestText)) + "...";
 }
 
 std::optional<std::string> FindNameFault(std::string_view name) {
   if (FindInvalidUtf8(name)) return "is no UTF-8 text";
-  if (std::any_of(name.begin(), name.end(), IsControl)) {
+  if (HasControl(name)) {
     return "must be one line without tabs and other control characters";
   }
   return std::nullopt;

@@ -33,12 +33,8 @@ std::string ShortTag(const YAML::Node& node) {
 
 bool IsNullNode(const YAML::Node& node) { return node.IsNull() || ShortTag(node) == "!!null"; }
 
-/// Whether a text, which will be printed, holds what moves a terminal's cursor, line breaks aside.
-bool HasControl(const std::string& text) {
-  return std::any_of(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
-  });
-}
+/// The control characters that texts may hold.
+constexpr std::string_view kLineBreaks = "\n\t";
 
 bool IsMergeKey(const YAML::Node& key) {
   // In quotes it is a key like any other.
@@ -363,7 +359,8 @@ std::vector<YamlNode::Entry> YamlNode::Entries(const YAML::Node& map) const {
     for (const auto& entry : *next) {
       if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
       const std::string& key = entry.first.Scalar();
-      if (HasControl(key)) Child(entry.first, path_).Fail("a control character is in a key");
+      if (HasControl(key, kLineBreaks))
+        Child(entry.first, path_).Fail("a control character is in a key");
       if (!own.insert(key).second) {
         Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
       }
@@ -477,7 +474,7 @@ bool YamlNode::Bool() const {
 std::string YamlNode::String() const {
   if (!IsScalar()) Fail("expected text, found " + KindOf(node_));
   RequireTag({"!!str", "!!int", "!!float", "!!bool"}, "text");
-  if (HasControl(node_.Scalar())) Fail("a control character is in " + KindOf(node_));
+  if (HasControl(node_.Scalar(), kLineBreaks)) Fail("a control character is in " + KindOf(node_));
   return node_.Scalar();
 }
 

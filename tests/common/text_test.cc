@@ -35,11 +35,40 @@ TEST(Text, PrintableIsOneLine) {
   EXPECT_STREQ(InputError("a\nb").what(), "a\\nb");
 }
 
+TEST(Text, ControlCharactersAreUnicodesToo) {
+  // Ends of lines and turns of direction, first and last of each range; then their neighbours.
+  for (const std::string control :
+       {"\x1f", "\x7f", "\xc2\x80", "\xc2\x9f", "\xd8\x9c", "\xe2\x80\x8e", "\xe2\x80\x8f",
+        "\xe2\x80\xa8", "\xe2\x80\xae", "\xe2\x81\xa6", "\xe2\x81\xa9"}) {
+    EXPECT_EQ(ControlLength(control + "a"), control.size());
+    EXPECT_TRUE(HasControl("a" + control));
+    EXPECT_EQ(Printable(control).size(), 4 * control.size());
+  }
+  for (const char* other : {"", " ", "~", "\xc2\xa0", "\xd8\x9b", "\xe2\x80\x8d", "\xe2\x80\x90",
+                            "\xe2\x80\xa7", "\xe2\x80\xaf", "\xe2\x81\xa5", "\xe2\x81\xaa"}) {
+    EXPECT_EQ(ControlLength(other), 0u);
+    EXPECT_EQ(Printable(other), other);
+  }
+  EXPECT_FALSE(HasControl("a\nb\t", "\n\t"));
+  EXPECT_TRUE(HasControl("a\nb\r", "\n\t"));
+}
+
+TEST(Text, ShortenedSaysHowMuchIsLeftOut) {
+  EXPECT_EQ(Shortened(std::string(100, 'a'), 100), std::string(100, 'a'));
+  EXPECT_EQ(Shortened(std::string(101, 'a'), 100), std::string(60, 'a') + "...(41 bytes more)");
+  EXPECT_EQ(Shortened(std::string(59, 'a') + "\xc3\xa9" + std::string(60, 'b'), 100),
+            std::string(59, 'a') + "...(62 bytes more)");
+}
+
 TEST(Text, NamesThatMessagesCannotCarry) {
   for (const char* good : {"", "a b", "caf\xc3\xa9", "-x%s"})
     EXPECT_FALSE(FindNameFault(good)) << good;
   EXPECT_EQ(FindNameFault("caf\xe9"), "is no UTF-8 text");
-  for (const char* bad : {"a\tb", "a\nb", "\x7f", "a\x1b"}) {
+  for (const char* bad : {"a\tb", "a\nb", "\x7f", "a\x1b",
+                          "mi\xe2\x80\xae"
+                          "en",
+                          "a\xe2\x80\xa8"
+                          "b"}) {
     EXPECT_EQ(FindNameFault(bad), "must be one line without tabs and other control characters");
   }
 }

@@ -92,6 +92,8 @@ TEST(YamlNode, ControlCharactersAreRefused) {
               AllOf(StartsWith("file.yaml:1: a: a control character"), HasSubstr("\\x1b[2J")));
   EXPECT_THAT(ErrorOf([&] { node.At("b").String(); }), HasSubstr("file.yaml:2: b:"));
   EXPECT_EQ(node.At("c").String(), "one\ttwo\nthree");
+  EXPECT_THAT(ErrorOf([] { Parse("a: x\xe2\x80\xaey").At("a").String(); }),
+              HasSubstr("control character"));
   EXPECT_THAT(ErrorOf([] { Parse("\"k\\x01\": 1").Keys(); }), HasSubstr("control character"));
 }
 

@@ -16,6 +16,11 @@ TEST(YamlText, IsPlainForNamesAndReadsBackAsItWas) {
   }
 }
 
+TEST(YamlText, ControlCharactersAreEscaped) {
+  EXPECT_EQ(YamlText("a\x1b\x7f"), "\"a\\x1b\\x7f\"");
+  EXPECT_EQ(YamlText("\xc2\x9b\xe2\x80\xae\xc3\xa9"), "\"\\x9b\\u202e\xc3\xa9\"");
+}
+
 TEST(YamlNumber, ReadsBackAsTheSameDouble) {
   EXPECT_EQ(YamlNumber(-0.0), "0");
   for (const double value : {0.1, 1.0 / 3, -2.5e-17, 1e300}) {
