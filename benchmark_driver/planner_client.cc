@@ -91,9 +91,16 @@ void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin)
 
 void PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
                         const std::string& channel) {
-  if (!registry_->Believes(sender, NodeKind::kPlanner, planner_, channel)) return;
+  const bool is_believed = registry_->Believes(sender, NodeKind::kPlanner, planner_, channel);
   const std::scoped_lock lock(mutex_);
-  if (!asked_ || !(*asked_ == sender)) return;
+  if (!asked_) return;
+  if (!is_believed || !(*asked_ == sender)) {
+    // Once: however much a stranger sends, the planner is listened to.
+    if (std::exchange(has_refused_, true)) return;
+    event = RequestExchange::RefusedMessage{
+        fmt::format("what came on {} from {}, as '{}', which was asked, sends from {}", channel,
+                    sender.Text(), planner_, asked_->Text())};
+  }
   messages_.push_back(std::move(event));
   changed_.notify_all();
 }
@@ -165,6 +172,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     asked_ = process->sender;
     run_id_ = request.run_id;
     messages_.clear();
+    has_refused_ = false;
   }
   RequestExchange exchange(request.request_id, request.time_limit_s, Clock::now());
   RequestExchange::Event event = RequestExchange::Tick{};

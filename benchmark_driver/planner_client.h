@@ -56,7 +56,7 @@ class PlannerClient {
   std::string WhyUnusable(const PlanResultMessage& result) const;
   void OnResult(const PlanResultMessage& result, const Origin& origin);
   void OnBadResult(const MessageError& error, const Origin& origin);
-  /// For the request under way, if it is from the process asked.
+  /// For the request under way; of what is from another than the process asked, only that.
   void Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel);
   /// The next message; nothing if none has come by then.
   std::optional<RequestExchange::Event> NextMessage(TimePoint until);
@@ -72,6 +72,7 @@ class PlannerClient {
   std::condition_variable changed_;
   std::optional<PacketSender> asked_;  // while a request is under way
   std::string run_id_;                 // its
+  bool has_refused_ = false;           // somebody else's message to it
   std::optional<PlanResultMessage> last_result_;
   std::deque<RequestExchange::Event> messages_;  // since the request under way began
   Subscription acks_;

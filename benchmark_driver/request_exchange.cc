@@ -38,6 +38,7 @@ RequestExchange::Step RequestExchange::Take(TimePoint now, const Event& event) {
 RequestExchange::Answer RequestExchange::End(Outcome outcome, std::string message,
                                              TimePoint now) const {
   if (interrupted_) return {.outcome = Outcome::kInterrupted};
+  if (outcome == Outcome::kNoAnswer && !refused_.empty()) message += "; refused: " + refused_;
   return {.outcome = outcome,
           .message = std::move(message),
           .roundtrip_time_s = Seconds(std::max(now, sent_) - sent_)};
@@ -60,6 +61,8 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
       return End(Outcome::kNoAnswer, "the result cannot be used: " + unusable->why, now);
     }
     if (unusable->request_id.empty()) what_came_ = unusable->why;
+  } else if (const auto* refused = std::get_if<RefusedMessage>(&event)) {
+    if (refused_.empty()) refused_ = refused->what;
   } else if (std::holds_alternative<Interruption>(event)) {
     if (!interrupted_) {
       interrupted_ = now;

@@ -52,14 +52,19 @@ class RequestExchange {
     std::string request_id;
     std::string why;
   };
+  /// A message for the request that was not listened to, since it is from somebody else than the
+  /// process asked.
+  struct RefusedMessage {
+    std::string what;
+  };
   /// The caller wants no result any more.
   struct Interruption {};
   /// The process that had the request will not answer it.
   struct PlannerLost {
     std::string why;
   };
-  using Event =
-      std::variant<Tick, Acknowledgement, ArrivedResult, UnusableResult, Interruption, PlannerLost>;
+  using Event = std::variant<Tick, Acknowledgement, ArrivedResult, UnusableResult, RefusedMessage,
+                             Interruption, PlannerLost>;
 
   /// What to do, the sending at once.
   struct Step {
@@ -96,6 +101,7 @@ class RequestExchange {
   bool denied_ = false;        // its last word: busy with others, though it announced nothing such
   bool working_ = false;       // on this request, by its word
   std::string what_came_;      // in place of a result, last
+  std::string refused_;        // first
   std::optional<TimePoint> cancelled_;  // because it was overdue
   std::optional<TimePoint> interrupted_;
 };

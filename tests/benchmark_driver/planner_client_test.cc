@@ -173,6 +173,37 @@ TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
   EXPECT_GE(bus.contradictions().count(), 3);
 }
 
+TEST(PlannerClientOnASharedBusTest, NoAnswerTellsWhatWasRefused) {
+  const std::string url = PrivateUdpUrl();
+  Bus bus(url), planner_bus(url), second_bus(url);
+  for (Bus* one : {&bus, &planner_bus, &second_bus}) one->Start();
+  NodeRegistry registry(&bus);
+  PlannerClient client(&bus, &registry, "arm");
+  const PlannerChannels channels("arm");
+  FakePlanner planner(&planner_bus);
+  // The planner's own answer, from another connection than its announcements, until that has been
+  // heard; then one that ends the request.
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (bus.contradictions().count() > 0) {
+      PlanResult unusable = FakePlanner::SolvedResult();
+      unusable.path.clear();
+      return planner.SendResult(request.request_id, unusable);
+    }
+    second_bus.Publish(channels.ack,
+                       PlanAckMessage{"arm", request.request_id, Verdict::kWorking, ""});
+  });
+  PlanRequest request;
+  request.run_id = "run";
+  request.request_id = "a";
+  request.scene_id = "scene";
+  request.time_limit_s = 60;
+  const PlannerClient::Answer answer = client.Solve(request, [] { return false; });
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+  EXPECT_THAT(answer.message,
+              testing::AllOf(HasSubstr("but it has no path; refused: what came on PLAN_ACK_ARM "),
+                             HasSubstr(bus.contradictions().entries().at(0).sender)));
+}
+
 TEST_F(PlannerClientTest, PlannerThatDiesGivesNoAnswer) {
   FakePlanner planner(&bus_);
   planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });

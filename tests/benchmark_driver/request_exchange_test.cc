@@ -112,6 +112,21 @@ TEST(RequestExchange, SaysWhenItWantsToSend) {
   EXPECT_EQ(exchange.NextSend(), At(0.2) + Exchange::kRepeatPeriod);
 }
 
+TEST(RequestExchange, WhatWasRefusedIsToldIfNoAnswerComes) {
+  const Event refused = Exchange::RefusedMessage{"a stranger's"};
+  const Event refused_later = Exchange::RefusedMessage{"another's"};
+  Play({{0, kTick, "request"}, {0.1, refused, ""}, {0.2, Result(0.2), "result after 0.20"}});
+  Play({{0, kTick, "request"},
+        {0.1, refused, ""},
+        {0.1, refused_later, ""},
+        {0.2, kLost, "no answer after 0.20: the process died; refused: a stranger's"}});
+  Play(std::vector<Line>{{0, kTick, "request"}, {0.1, refused, ""}} +
+       Repeated(0.25, 10.25, kTick, "request") +
+       std::vector<Line>{{10.25, kTick,
+                          "no answer after 10.25: no acknowledgement within 10 s; refused: a "
+                          "stranger's"}});
+}
+
 TEST(RequestExchange, OtherRequestsAreNoConcern) {
   Play({{0, kTick, "request"},
         {0.1, Ack(PlanAckVerdict::kRefused, "former"), ""},
