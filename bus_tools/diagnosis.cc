@@ -168,15 +168,39 @@ std::vector<Finding> VersionFindings(const std::map<std::string, NodeStatusMessa
   return findings;
 }
 
+/// Processes that stand in each other's way by their names, but loggers, which may be several.
+std::vector<Finding> NameFindings(const std::map<std::string, NodeStatusMessage>& nodes) {
+  std::map<std::string, int> processes;                   // by name
+  std::map<std::string, std::set<std::string>> planners;  // by their channel
+  for (const auto& [who, status] : nodes) {
+    if (status.kind != NodeKind::kLogger) ++processes[status.name];
+    if (status.kind != NodeKind::kPlanner) continue;
+    planners[PlannerChannels(status.name).request].insert("'" + status.name + "'");
+  }
+  const std::string mend = "give each a --name of its own, or each session a port";
+  std::vector<Finding> findings;
+  for (const auto& [name, count] : processes) {
+    if (count < 2) continue;
+    findings.push_back(
+        {Kind::kFault, fmt::format("names: {} processes are called '{}'", count, name), mend});
+  }
+  for (const auto& [channel, names] : planners) {
+    if (names.size() < 2) continue;
+    findings.push_back({Kind::kFault,
+                        fmt::format("names: the planners {} share their channels ({}, ...)",
+                                    fmt::join(names, " and "), channel),
+                        mend});
+  }
+  return findings;
+}
+
 std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
   std::vector<Finding> findings;
   std::vector<std::string> lines;
-  std::map<std::string, int> names;
   int num_servers = 0;
   for (const auto& [who, status] : heard.nodes) {
     lines.push_back(fmt::format("  {} ({}), version {}", Printable(who), EnumName(status.kind),
                                 Printable(status.version)));
-    if (status.kind != NodeKind::kLogger) ++names[status.name];  // Those may be several.
     num_servers += status.kind == NodeKind::kSceneServer ? 1 : 0;
   }
   if (lines.empty()) {
@@ -188,12 +212,7 @@ std::vector<Finding> NeighbourFindings(const Listener::Heard& heard) {
          "a session of your own wants another port (--lcm-url, or the driver's "
          "--launch, which takes a free one)"});
   }
-  for (const auto& [name, count] : names) {
-    if (count < 2) continue;
-    findings.push_back({Kind::kFault,
-                        fmt::format("names: {} processes are called '{}'", count, Printable(name)),
-                        "give each a --name of its own, or each session a port"});
-  }
+  for (Finding& finding : NameFindings(heard.nodes)) findings.push_back(std::move(finding));
   if (num_servers > 1) {
     findings.push_back({Kind::kFault, fmt::format("scene servers: {} on one bus", num_servers),
                         "stop all but one: every session needs a port of its own"});

@@ -74,6 +74,10 @@ TEST(Diagnosis, NamesWhoElseIsOnThePort) {
   planner.pid = 13;
   planner.instance = std::string(16, 'c');
   planner.version = "example";
+  NodeStatusMessage homonym = planner;
+  homonym.name = "Straight";
+  homonym.pid = 15;
+  homonym.instance = std::string(16, 'e');
   std::vector<NodeStatusMessage> loggers(2, one);
   for (NodeStatusMessage& logger : loggers) {
     logger.name = "logger";
@@ -86,13 +90,14 @@ TEST(Diagnosis, NamesWhoElseIsOnThePort) {
         bus.Publish(channel::kNodeStatus, one);
         bus.Publish(channel::kNodeStatus, twin);
         bus.Publish(channel::kNodeStatus, planner);
+        bus.Publish(channel::kNodeStatus, homonym);
         for (const NodeStatusMessage& logger : loggers) bus.Publish(channel::kNodeStatus, logger);
         bus.PublishBytes("STRANGE", std::vector<std::uint8_t>(30, 9));
       });
   const std::vector<Finding> findings = Look(url, 1500);
   EXPECT_THAT(
       Of(findings, "port").text,
-      testing::AllOf(HasSubstr("5 processes on it"), HasSubstr("scene_server, pid 11 on here"),
+      testing::AllOf(HasSubstr("6 processes on it"), HasSubstr("scene_server, pid 11 on here"),
                      HasSubstr("pid 12"), HasSubstr("version 0.0.1")));
   for (const std::string subject : {"names: 2", "scene servers: 2", "versions", "types: 1"}) {
     const Finding finding = Of(findings, subject);
@@ -101,6 +106,9 @@ TEST(Diagnosis, NamesWhoElseIsOnThePort) {
   }
   EXPECT_THAT(Of(findings, "names").text, HasSubstr("'scene_server'"));
   for (const Finding& finding : findings) EXPECT_THAT(finding.text, Not(HasSubstr("'logger'")));
+  EXPECT_EQ(Of(findings, "names: the planners").text,
+            "names: the planners 'Straight' and 'straight' share their channels "
+            "(PLAN_REQUEST_STRAIGHT, ...)");
   EXPECT_THAT(Of(findings, "versions: this").text,
               testing::AllOf(HasSubstr("0.0.1"), Not(HasSubstr("example"))));
   EXPECT_EQ(Of(findings, "versions: planners").kind, Kind::kNote);
