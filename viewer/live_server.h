@@ -15,7 +15,8 @@ namespace planbench {
 /// it has changed.
 class LiveServer {
  public:
-  /// `port` 0: any that is free. Throws InputError if it cannot be had.
+  /// `port` 0: any that is free. Throws InputError if it cannot be had, or for a robot
+  /// folder (LiveSession) that is none.
   LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;

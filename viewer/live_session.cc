@@ -45,7 +45,9 @@ Json UnlessZero(double value) { return value == 0 ? Json() : Json(value); }
 }  // namespace
 
 LiveSession::LiveSession(std::filesystem::path robot_folder)
-    : robot_folder_(std::move(robot_folder)) {}
+    : robot_folder_(std::move(robot_folder)) {
+  if (!robot_folder_.empty()) LoadedRobot();
+}
 
 void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
   const std::string& name = message.channel;
@@ -59,7 +61,8 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
       if (!session_ || session_->run_id != session.run_id) {
         tallies_.clear();
         records_.clear();
-        robot_.reset();
+        if (robot_folder_.empty()) robot_.reset();
+        session_heard_ = now;
       }
       session_ = std::move(session);
     } else if (name == channel::kScene) {
@@ -154,12 +157,14 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
   }
   json["nodes"] = Json::array();
   for (const auto& [key, node] : nodes_) {
+    const bool is_gone = now - node.heard > NodeRegistry::kLostAfter;
+    if (is_gone && node.heard < session_heard_) continue;  // an earlier session's
     json["nodes"].push_back({{"name", node.status.name},
                              {"kind", EnumName(node.status.kind)},
                              {"busy", node.status.busy},
                              {"request", node.status.request_id},
                              {"host", node.status.host},
-                             {"gone", now - node.heard > NodeRegistry::kLostAfter}});
+                             {"gone", is_gone}});
   }
   json["progress"] = Json::array();
   for (const PlanProgress& one : progress_) {

@@ -25,7 +25,8 @@ class LiveSession {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// `robot_folder`: empty: the one that the session or its scene server names.
+  /// `robot_folder`: empty: the one that the session or its scene server names. Throws InputError if
+  /// there is no robot in it.
   explicit LiveSession(std::filesystem::path robot_folder);
 
   /// Takes a message that came at `now`; one that cannot be decoded is counted.
@@ -35,7 +36,8 @@ class LiveSession {
   ///  nodes: [{name, kind, busy, request, host, gone}],
   ///  progress: [{time_s, cost, bound}] of the last request,
   ///  runs: [{contestant, problem, status, reason, time_s}], the newest first,
-  ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now` is gone.
+  ///  lost, dropped, malformed, undecodable}. A node unheard of for 3 s before `now` is gone;
+  /// one of before the session is then left out.
   Json State(TimePoint now, const Bus::Counters& counters) const;
 
   /// Grows with every message that changes View.
@@ -55,6 +57,7 @@ class LiveSession {
   std::filesystem::path robot_folder_;
   mutable std::unique_ptr<const Robot> robot_;
   std::optional<SessionMessage> session_;
+  TimePoint session_heard_;  ///< Its first message.
   struct Node {
     NodeStatusMessage status;
     TimePoint heard;

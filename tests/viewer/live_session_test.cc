@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/expect_input_error.h"
 #include "tests/support/planar_session.h"
 
 namespace planbench {
@@ -120,6 +121,28 @@ TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   EXPECT_EQ(State(std::chrono::milliseconds(2900))["nodes"][0]["gone"], false);
   EXPECT_EQ(State(std::chrono::milliseconds(2900))["nodes"][0]["busy"], true);
   EXPECT_EQ(State(std::chrono::milliseconds(3100))["nodes"][0]["gone"], true);
+}
+
+TEST_F(LiveSessionTest, WhoIsGoneSinceBeforeTheSessionIsLeftOut) {
+  NodeStatusMessage node;
+  node.name = "ara";
+  node.instance = std::string(16, 'a');
+  Hear(channel::kSession, bus_.session);
+  Hear(channel::kNodeStatus, node);
+  bus_.session.run_id = "another";
+  live_.Hear(PlanarSession::Received(channel::kSession, bus_.session),
+             kStart + std::chrono::seconds(1));
+  node.name = "rrtc";
+  live_.Hear(PlanarSession::Received(channel::kNodeStatus, node), kStart + std::chrono::seconds(2));
+  EXPECT_EQ(State(std::chrono::seconds(2))["nodes"].size(), 2u);  // it may be of this one, too
+  const Json nodes = State(std::chrono::seconds(9))["nodes"];
+  ASSERT_EQ(nodes.size(), 1u);
+  EXPECT_EQ(nodes[0]["name"], "rrtc");
+  EXPECT_EQ(nodes[0]["gone"], true);
+}
+
+TEST_F(LiveSessionTest, ARobotFolderThatIsNoneIsRefusedAtOnce) {
+  ExpectInputError([] { LiveSession("/nowhere"); }, {"/nowhere"});
 }
 
 TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
