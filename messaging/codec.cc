@@ -1,7 +1,6 @@
 #include "messaging/codec.h"
 
-#include <algorithm>
-
+#include "common/text.h"
 #include "messaging/decoder.h"
 #include "messaging/encoder.h"
 #include "messaging/message_fields.h"
@@ -24,29 +23,13 @@ void Decoder::Fail(const char* name, std::initializer_list<std::size_t> indices,
   throw MessageError(fmt::format("{}: {}: {}", channel_, path, what), request_id_);
 }
 
-void Decoder::Escape(std::string* text) {
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  std::size_t bad = FindInvalidUtf8(*text).value_or(text->size());
-  if (bad == text->size() && std::none_of(text->begin(), text->end(), is_control)) return;
-  std::string escaped;
-  for (std::size_t i = 0; i < text->size(); ++i) {
-    const std::string_view one = std::string_view(*text).substr(i, 1);
-    escaped += i == bad || is_control(one[0]) ? Printable(one) : std::string(one);
-    if (i < bad) continue;
-    const auto next = FindInvalidUtf8(std::string_view(*text).substr(i + 1));
-    bad = next ? i + 1 + *next : text->size();
-  }
-  *text = std::move(escaped);
-}
-
 std::string Printer::TextOf(const std::string& text) {
-  std::string quoted = "\"";
+  std::string quotable;
   for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    const auto code = static_cast<unsigned char>(c);
-    quoted += code < 0x20 || code == 0x7f ? fmt::format("\\x{:02x}", code) : std::string(1, c);
+    if (c == '"' || c == '\\') quotable += '\\';
+    quotable += c;
   }
-  return quoted + '"';
+  return '"' + Escaped(quotable) + '"';
 }
 
 template <typename Message>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/enum_names.h"
+#include "common/text.h"
 #include "messaging/field_rules.h"
 #include "messaging/fields.h"
 
@@ -19,7 +20,8 @@ namespace planbench {
 
 /// The archive (fields.h) that checks an lcmt_ struct and fills a value from it; it moves lists and
 /// texts out of the struct. Throws MessageError (codec.h) for the first field that breaks a rule.
-/// In texts, which get printed and stored, control characters and what is no UTF-8 are escaped.
+/// In texts, which get printed and stored, control characters and what is no UTF-8 are escaped;
+/// reasons are cut (rules::Reason), other texts refused if they are too long.
 ///
 /// One Decoder stands for a message or for a struct inside it; a chain on the stack, from which the
 /// place is read when something is wrong.
@@ -42,7 +44,7 @@ class Decoder {
       Check<Rule>(name, wire);
       std::copy(std::begin(wire), std::end(wire), value.begin());
     } else {
-      if constexpr (std::is_same_v<Wire, std::string>) Escape(&wire);
+      if constexpr (std::is_same_v<Wire, std::string>) TakeText<Rule>(name, {}, &wire);
       const bool waived = std::is_same_v<Rule, rules::Id> && parent_ != nullptr;
       if (!waived && !Rule::Ok(wire)) Fail(name, {}, Rule::What(wire));
       Read(name, value, wire);
@@ -54,7 +56,7 @@ class Decoder {
             const std::int32_t& /*count*/, Rule = {}) {
     if constexpr (std::is_same_v<Values, std::vector<Wire>>) {
       if constexpr (std::is_same_v<Wire, std::string>) {
-        for (std::string& text : wires) Escape(&text);
+        for (std::size_t i = 0; i < wires.size(); ++i) TakeText<Rule>(name, {i}, &wires[i]);
       }
       Check<Rule>(name, wires);
       values = std::move(wires);
@@ -95,9 +97,6 @@ class Decoder {
     if (!ok) Fail(name, {}, fmt::format(what, std::forward<Args>(args)...));
   }
 
-  /// Escapes control characters and bytes that are no UTF-8, as Printable does.
-  static void Escape(std::string* text);
-
   /// Throws MessageError "<channel>: path.to.name[3]: what".
   [[noreturn]] void Fail(const char* name, std::initializer_list<std::size_t> indices,
                          const std::string& what) const;
@@ -109,6 +108,18 @@ class Decoder {
         parent_(&parent),
         name_(name),
         index_(index) {}
+
+  template <typename Rule>
+  void TakeText(const char* name, std::initializer_list<std::size_t> indices,
+                std::string* text) const {
+    *text = Escaped(*text);
+    if constexpr (std::is_same_v<Rule, rules::Reason>) {
+      *text = Shortened(std::move(*text), rules::Reason::kMost);
+    } else if (text->size() > rules::kLongestField) {
+      Fail(name, indices,
+           fmt::format("{} bytes; a text holds at most {}", text->size(), rules::kLongestField));
+    }
+  }
 
   template <typename Rule, typename Wires>
   void Check(const char* name, const Wires& wires) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -53,6 +54,34 @@ struct Seconds {
   }
 };
 
+/// MiB of memory: no machine has a PiB.
+struct Memory {
+  static constexpr double kMost = 1e9;
+  static bool Ok(double value) { return NonNegative::Ok(value) && value <= kMost; }
+  static std::string What(double value) {
+    return NonNegative::Ok(value) ? fmt::format("{} MiB is more than {}", value, kMost)
+                                  : NonNegative::What(value);
+  }
+};
+
+/// A proven bound of a cost over the optimum, which is never above it; 0: none.
+struct Bound {
+  static bool Ok(double value) { return std::isfinite(value) && (value == 0 || value >= 1); }
+  static std::string What(double value) {
+    return Finite::Ok(value) ? fmt::format("{} is no bound: 0 (none) or at least 1", value)
+                             : Finite::What(value);
+  }
+};
+
+/// A number of things.
+struct Count {
+  static bool Ok(double value) { return NonNegative::Ok(value) && std::floor(value) == value; }
+  static std::string What(double value) {
+    return NonNegative::Ok(value) ? fmt::format("{} is no whole number", value)
+                                  : NonNegative::What(value);
+  }
+};
+
 struct Positive {
   static bool Ok(double value) { return std::isfinite(value) && value > 0; }
   static std::string What(double value) {
@@ -86,6 +115,15 @@ struct Boolean {
   static std::string What(std::int8_t value) {
     return fmt::format("{} is no boolean", static_cast<int>(value));
   }
+};
+
+/// Bytes of a text. What is longer is nobody's name, setting or command, and would be in every
+/// record and on every page.
+inline constexpr std::size_t kLongestField = 100'000;
+
+/// Why something is so, for people to read: cut beyond so many bytes.
+struct Reason : Anything {
+  static constexpr std::size_t kMost = 4000;
 };
 
 struct NotEmpty {
@@ -167,12 +205,15 @@ namespace planbench {
 
 inline constexpr rules::NonNegative kNonNegative;
 inline constexpr rules::Seconds kSeconds;
+inline constexpr rules::Memory kMemory;
+inline constexpr rules::Bound kBound;
 inline constexpr rules::Positive kPositive;
 inline constexpr rules::Fraction kFraction;
 inline constexpr rules::Distance kDistance;
 template <std::int64_t kMinimum>
 inline constexpr rules::AtLeast<kMinimum> kAtLeast;
 inline constexpr rules::Boolean kBoolean;
+inline constexpr rules::Reason kReason;
 inline constexpr rules::NotEmpty kNotEmpty;
 inline constexpr rules::Id kId;
 inline constexpr rules::NodeName kNodeName;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -105,7 +106,7 @@ struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
     io.Field("kind", v.kind, w.kind);
     io.Field("state", v.busy, w.state);
     io.Field("request_id", v.request_id, w.request_id);
-    io.Field("trouble", v.trouble, w.trouble);
+    io.Field("trouble", v.trouble, w.trouble, kReason);
     io.Field("host", v.host, w.host);
     io.Field("pid", v.pid, w.pid);
     io.Field("version", v.version, w.version);
@@ -167,7 +168,7 @@ struct Fields<ProblemMessage> : On<lcmt_problem> {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
     io.Field("ok", v.ok, w.ok);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
     io.Field("problem_set", v.problem_set, w.problem_set);
     io.Field("problem_index", v.problem_index, w.problem_index, kAtLeast<0>);
     io.Field("scene_id", v.scene_id, w.scene_id);
@@ -198,7 +199,7 @@ struct Fields<SceneMessage> : On<lcmt_scene> {
     io.Field("request_id", v.request_id, w.request_id);
     io.Field("scene_id", v.scene_id, w.scene_id);
     io.Field("ok", v.ok, w.ok);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
     Fields<Scene>::List(io, v.scene, w);
     if constexpr (Io::kReads) {
       if (!v.ok) return;
@@ -242,7 +243,7 @@ struct Fields<PlanAckMessage> : On<lcmt_plan_ack> {
     io.Field("planner", v.planner, w.planner);
     io.Field("request_id", v.request_id, w.request_id, kId);
     io.Field("verdict", v.verdict, w.verdict);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
   }
 };
 
@@ -250,7 +251,7 @@ template <>
 struct Fields<PlanProgress> : On<lcmt_plan_progress> {
   static void List(auto& io, auto& v, auto& w) {
     io.Field("elapsed_s", v.elapsed_s, w.elapsed_s, kSeconds);
-    io.Field("epsilon", v.epsilon, w.epsilon, kNonNegative);
+    io.Field("epsilon", v.epsilon, w.epsilon, kBound);
     io.Field("cost", v.cost, w.cost);
     io.Field("expansions", v.expansions, w.expansions, kAtLeast<0>);
   }
@@ -266,9 +267,41 @@ struct Fields<PlanProgressMessage> : On<lcmt_plan_progress> {
   }
 };
 
+/// What a result's counters are by their names: what every planner's are called is a number of
+/// things, a planner's own may be any finite number.
+template <typename Io>
+void RequireCounters(Io& io, const std::map<std::string, double>& counters) {
+  for (const auto& [name, value] : counters) {
+    const bool is_count = name == "edges_checked" || name == "configurations_checked";
+    const bool ok = is_count ? rules::Count::Ok(value) : rules::Finite::Ok(value);
+    if (ok) continue;
+    io.Require(false, "counter", "{}: {}", name,
+               is_count ? rules::Count::What(value) : rules::Finite::What(value));
+  }
+}
+
+/// Improvements follow one another, and none of them costs more than what there was before. A cost
+/// of 0 is none.
+template <typename Io>
+void RequireImprovements(Io& io, const std::vector<PlanProgress>& progress) {
+  constexpr double kRounding = 1e-9;
+  double elapsed_s = 0;
+  double cost = 0;
+  for (const PlanProgress& one : progress) {
+    io.Require(one.elapsed_s >= elapsed_s, "progress", "elapsed_s falls from {} to {}", elapsed_s,
+               one.elapsed_s);
+    elapsed_s = one.elapsed_s;
+    if (one.cost == 0) continue;
+    io.Require(cost == 0 || one.cost - cost <= kRounding * std::abs(cost), "progress",
+               "cost rises from {} to {}", cost, one.cost);
+    cost = one.cost;
+  }
+}
+
 template <>
 struct Fields<PlanResultMessage> : On<lcmt_plan_result> {
-  static void List(auto& io, auto& v, auto& w) {
+  template <typename Io>
+  static void List(Io& io, auto& v, auto& w) {
     io.Utime(w.utime);
     io.Field("planner", v.planner, w.planner);
     io.Field("run_id", v.run_id, w.run_id);
@@ -279,7 +312,7 @@ struct Fields<PlanResultMessage> : On<lcmt_plan_result> {
         r.status == PlanStatus::kNoAnswer || r.status == PlanStatus::kInvalidPath;
     io.Require(v.request_id.empty() || !is_drivers, "status", "{} is the driver's to say",
                EnumName(r.status));
-    io.Field("message", r.message, w.message);
+    io.Field("message", r.message, w.message, kReason);
     io.Field("planning_time_s", r.planning_time_s, w.planning_time_s, kSeconds);
     io.Field("total_time_s", r.total_time_s, w.total_time_s, kSeconds);
     auto& phases = r.phases;
@@ -293,11 +326,15 @@ struct Fields<PlanResultMessage> : On<lcmt_plan_result> {
     NamedPath simplified{v.joint_names, r.simplified_path};
     io.Field("simplified_path", simplified, w.simplified_path);
     io.Require(r.simplified_path.empty() || !r.path.empty(), "simplified_path", "there is no path");
-    io.Field("epsilon", r.epsilon, w.epsilon, kNonNegative);
+    io.Field("epsilon", r.epsilon, w.epsilon, kBound);
     io.Field("cost", r.cost, w.cost);
     io.List("progress", r.progress, w.progress, w.num_progress);
     io.List("counter", r.counters, w.counter, w.num_counters);
-    io.Field("peak_memory_mb", r.peak_memory_mb, w.peak_memory_mb, kNonNegative);
+    if constexpr (Io::kReads) {
+      RequireImprovements(io, r.progress);
+      RequireCounters(io, r.counters);
+    }
+    io.Field("peak_memory_mb", r.peak_memory_mb, w.peak_memory_mb, kMemory);
   }
 };
 
@@ -316,7 +353,7 @@ struct Fields<AckMessage> : On<lcmt_ack> {
     io.Field("id", v.id, w.id, kNotEmpty);
     io.Field("sender", v.sender, w.sender);
     io.Field("ok", v.ok, w.ok);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
   }
 };
 
@@ -379,7 +416,7 @@ struct Fields<CollisionReplyMessage> : On<lcmt_collision_reply> {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
     io.Field("ok", v.ok, w.ok);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
     io.Field("engine", v.engine, w.engine);
     io.List("state", v.states, w.state, w.num_states);
     io.List("edge", v.edges, w.edge, w.num_edges);
@@ -408,7 +445,7 @@ struct Fields<PathVerdict> : On<lcmt_path_verdict> {
   template <typename Io>
   static void List(Io& io, auto& v, auto& w) {
     io.Field("valid", v.valid, w.valid);
-    io.Field("reason", v.reason, w.reason);
+    io.Field("reason", v.reason, w.reason, kReason);
     io.Field("segment", v.segment, w.segment, kAtLeast<-1>);
     io.Field("fraction", v.fraction, w.fraction, kFraction);
     Contact contact;
@@ -430,7 +467,7 @@ struct Fields<PathCheckReplyMessage> : On<lcmt_path_check_reply> {
     io.Utime(w.utime);
     io.Field("request_id", v.request_id, w.request_id, kId);
     io.Field("ok", v.ok, w.ok);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
     io.Field("engine", v.engine, w.engine);
     io.Field("step_m", v.step_m, w.step_m, kNonNegative);
     io.Optional("verdict", v.verdict, w.verdict, "judged", w.verdict.judged);
@@ -508,7 +545,7 @@ struct Fields<RunRecordMessage> : On<lcmt_run_record> {
     io.Field("trial", v.trial, w.trial, kAtLeast<1>);
     io.Field("start_utime", v.start_utime, w.start_utime);
     io.Field("status", v.status, w.status);
-    io.Field("message", v.message, w.message);
+    io.Field("message", v.message, w.message, kReason);
     io.Field("roundtrip_time_s", v.roundtrip_time_s, w.roundtrip_time_s, kSeconds);
     io.Field("request", v.request, w.request);
     io.Field("result", v.result, w.result);

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "common/text.h"
 #include "messaging/codec.h"
-#include "messaging/decoder.h"
 
 /// Between lcmt_ structs and bytes.
 namespace planbench::wire {
@@ -29,10 +29,8 @@ std::vector<std::uint8_t> Pack(const Wire& message) {
 /// The request_id of an lcmt_ struct, printable; "" if it has none.
 template <typename Wire>
 std::string RequestIdOf(const Wire& message) {
-  std::string request_id;
-  if constexpr (requires { message.request_id; }) request_id = message.request_id;
-  Decoder::Escape(&request_id);
-  return request_id;
+  if constexpr (requires { message.request_id; }) return Escaped(message.request_id);
+  return "";
 }
 
 /// The lcmt_ struct in `bytes`; throws MessageError for another type, truncation, excess. The

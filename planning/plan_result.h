@@ -31,8 +31,8 @@ inline std::string WhyTooLong(const Path& path) {
 /// An improved solution of an anytime planner.
 struct PlanProgress {
   double elapsed_s = 0;  ///< On the clock of the planning time.
-  double epsilon = 0;    ///< Proven suboptimality bound; 0 if the planner gives none.
-  double cost = 0;       ///< In the planner's own unit.
+  double epsilon = 0;    ///< Proven suboptimality bound, >= 1; 0 if the planner gives none.
+  double cost = 0;       ///< In the planner's own unit; 0: none. Does not rise.
   std::int64_t expansions = 0;
   bool operator==(const PlanProgress&) const = default;
 };
@@ -58,7 +58,7 @@ struct PlanResult {
   PhaseTimes phases;
   Path path;             ///< Raw; empty unless solved.
   Path simplified_path;  ///< After the shared pass; empty if not asked for.
-  double epsilon = 0;    ///< Proven bound of the path's cost; 0 if the planner gives none.
+  double epsilon = 0;    ///< Proven bound of the path's cost, >= 1; 0 if the planner gives none.
   double cost = 0;       ///< In the planner's own unit; 0 if it has none.
   std::vector<PlanProgress> progress;
   /// Counts by name: edges_checked, configurations_checked, and the planner's own (iterations,

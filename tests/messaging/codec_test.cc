@@ -200,7 +200,7 @@ TEST_F(Codec, PrintsFieldsAsTheyCame) {
   wire.result.status = 99;
   const std::string text = Print<RunRecordMessage>(wire::Pack(wire), "CH");
   for (const char* line :
-       {"\nplanner: \"a\\\"\\x0a\"\n", "\ntrial: -5\n", "\nroundtrip_time_s: nan\n",
+       {"\nplanner: \"a\\\"\\n\"\n", "\ntrial: -5\n", "\nroundtrip_time_s: nan\n",
         "\nstatus: MEMORY_LIMIT\n", "\nrequest:\n  utime: ", "\n  status: 99\n",
         "\n  goal[1]:\n    joint_name: \"text-", "\n    position[1]: [0.0"}) {
     EXPECT_THAT(text, HasSubstr(line));
@@ -243,6 +243,11 @@ TEST(CodecTest, TextsAreDecodedPrintable) {
   EXPECT_EQ(decoded.planner, "r\\x1b[2Jrtc");
   EXPECT_EQ(decoded.request_id, "a\\nb");
   EXPECT_EQ(decoded.message, "caf\xc3\xa9 caf\\xe9 \\xff\\x7f end");
+  ack.message =
+      "safe \xe2\x80\xae"
+      "elif\xe2\x80\xa8 \xc2\x9b";
+  EXPECT_EQ(Decode<PlanAckMessage>(Encode(ack), "C").message,
+            "safe \\xe2\\x80\\xaeelif\\xe2\\x80\\xa8 \\xc2\\x9b");
   NodeStatusMessage status = MakeNodeStatus("arm", NodeKind::kPlanner);
   status.collision_models = {"sph\teres"};
   status.settings = {{"k\r", std::string(3000, 'x') + "\n"}};

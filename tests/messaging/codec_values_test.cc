@@ -71,8 +71,70 @@ TEST_F(CodecValues, MessagesOfErrors) {
       {"status: INVALID_PATH is the driver's to say", [](auto& m) { m.status = 8; }},
       {"planning_time_s: 1e+308 s is more than 1000000000",
        [](auto& m) { m.planning_time_s = 1e308; }},
+      {"epsilon: 0.5 is no bound: 0 (none) or at least 1", [](auto& m) { m.epsilon = 0.5; }},
+      {"progress[1].epsilon: 0.1 is no bound", [](auto& m) { m.progress[1].epsilon = 0.1; }},
+      {"peak_memory_mb: 1e+300 MiB is more than 1000000000",
+       [](auto& m) { m.peak_memory_mb = 1e300; }},
   });
   EXPECT_EQ(DecodeError<PlanRequest>({}).request_id(), "");
+}
+
+TEST_F(CodecValues, CountersOfThings) {
+  PlanResultMessage message = Example<PlanResultMessage>();
+  const auto decode_with = [&](const std::string& name, double value) {
+    message.result.counters = {{name, value}};
+    return Decode<PlanResultMessage>(Encode(message), "CH");
+  };
+  for (const std::string name : {"edges_checked", "configurations_checked"}) {
+    EXPECT_TRUE(decode_with(name, 0) == message);
+    EXPECT_TRUE(decode_with(name, 3e15) == message);
+    for (const double bad : {-5.0, 2.5, kInfinity}) {
+      message.result.counters = {{name, bad}};
+      EXPECT_THAT(DecodeError<PlanResultMessage>(Encode(message)).what(),
+                  testing::StartsWith("CH: counter: " + name + ": "));
+    }
+  }
+  EXPECT_TRUE(decode_with("tries_a_goal", -2.5) == message);
+  message.result.counters = {{"tries_a_goal", INFINITY}};
+  EXPECT_THAT(DecodeError<PlanResultMessage>(Encode(message)).what(),
+              testing::StrEq("CH: counter: tries_a_goal: inf is not a finite number"));
+}
+
+TEST_F(CodecValues, ImprovementsImprove) {
+  PlanResultMessage message = Example<PlanResultMessage>();
+  // An equal time, a cost that is equal, none, or rounded otherwise.
+  message.result.progress = {
+      {1, 0, 3, 1}, {1, 2, 3, 1}, {2, 2, 0, 1}, {3, 2, 3.0000000001, 1}, {4, 1, -1, 1}};
+  EXPECT_TRUE(Decode<PlanResultMessage>(Encode(message), "CH") == message);
+  message.result.progress = {{1, 0, 3, 1}, {2, 0, 0, 1}, {3, 0, 9, 1}};
+  EXPECT_THAT(DecodeError<PlanResultMessage>(Encode(message)).what(),
+              testing::StrEq("CH: progress: cost rises from 3 to 9"));
+  message.result.progress = {{0.5, 0, 3, 1}, {0.25, 0, 2, 1}};
+  EXPECT_THAT(DecodeError<PlanResultMessage>(Encode(message)).what(),
+              testing::StrEq("CH: progress: elapsed_s falls from 0.5 to 0.25"));
+}
+
+TEST_F(CodecValues, ReasonsAreCutAndOtherTextsRefusedIfTheyAreTooLong) {
+  constexpr std::size_t kMost = rules::Reason::kMost;
+  PlanResultMessage result = Example<PlanResultMessage>();
+  result.result.message = std::string(kMost, 'm');
+  EXPECT_TRUE(Decode<PlanResultMessage>(Encode(result), "CH") == result);
+  result.result.message = std::string(3'000'000, 'm');
+  const auto cut = Decode<PlanResultMessage>(Encode(result), "CH");
+  EXPECT_LE(cut.result.message.size(), kMost);
+  EXPECT_THAT(cut.result.message, testing::EndsWith("m...(2996040 bytes more)"));
+  EXPECT_TRUE(Decode<PlanResultMessage>(Encode(cut), "CH") == cut);
+
+  NodeStatusMessage status = Example<NodeStatusMessage>();
+  status.settings = {{"moves", std::string(rules::kLongestField, 'v')}};
+  EXPECT_TRUE(Decode<NodeStatusMessage>(Encode(status), "CH") == status);
+  status.settings["moves"] += 'v';
+  EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
+              testing::StrEq("CH: setting[0].value: 100001 bytes; a text holds at most 100000"));
+  status.settings.clear();
+  status.collision_models = {"spheres", std::string(rules::kLongestField + 1, 'v')};
+  EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
+              testing::StartsWith("CH: collision_model[1]: 100001 bytes"));
 }
 
 TEST_F(CodecValues, InfinityIsADistance) {

@@ -32,7 +32,7 @@ class Filler {
     } else if constexpr (std::is_array_v<Wire>) {
       for (auto& number : value) Fill(number);
     } else {
-      Fill(value);
+      Fill<Rule>(value);
     }
   }
   template <typename Value, typename Wire, typename Rule = rules::Anything>
@@ -74,7 +74,7 @@ class Filler {
   void Require(bool, const char*, const char*, const Args&...) {}
 
  private:
-  template <typename Value>
+  template <typename Rule = rules::Anything, typename Value>
   void Fill(Value& value) {
     ++count_;
     if constexpr (std::is_same_v<Value, bool>) {
@@ -83,8 +83,12 @@ class Filler {
       value = EnumValues<Value>().back();
     } else if constexpr (std::is_integral_v<Value>) {
       value = static_cast<Value>(count_);
+    } else if constexpr (std::is_same_v<Rule, rules::Seconds>) {
+      value = count_ / 64.0;  // Improvements are told in order,
+    } else if constexpr (std::is_same_v<Rule, rules::Bound>) {
+      value = 1 + 1.0 / count_;
     } else if constexpr (std::is_floating_point_v<Value>) {
-      value = 1.0 / (count_ + 1);  // A fraction, too.
+      value = 1.0 / (count_ + 1);  // and cost less and less. A fraction, too.
     } else if constexpr (std::is_same_v<Value, std::string>) {
       value = fmt::format("text-{}", count_);  // A node's name, too.
     } else {
@@ -187,7 +191,7 @@ class Spoiler {
     } else if constexpr (std::is_enum_v<Value> && std::is_integral_v<Wire>) {
       for (const int bad : {-1, kNumEnumValues<Value>}) spoil(bad);
     } else if constexpr (std::is_floating_point_v<Wire>) {
-      for (const double bad : {std::nan(""), kInfinity, -kInfinity, -1.0, 0.0, 1.5, 1e300}) {
+      for (const double bad : {std::nan(""), kInfinity, -kInfinity, -1.0, 0.0, 0.5, 1.5, 1e300}) {
         if (!Rule::Ok(bad)) spoil(bad);
       }
     } else if constexpr (std::is_integral_v<Wire>) {
