@@ -153,7 +153,7 @@ std::string Escaped(std::string_view text) {
   return line;
 }
 
-std::string Shortened(std::string text, std::size_t most) {
+std::string Abridged(std::string text, std::size_t most) {
   constexpr std::size_t kNote = 40;  // Room for it.
   if (text.size() <= most) return text;
   const std::string_view kept = Beginning(text, most - kNote);

@@ -27,7 +27,7 @@ std::string Escaped(std::string_view text);
 
 /// `text` if it is of `most` bytes (100 at least) or fewer, else its beginning, cut between two
 /// characters, and how many bytes are left out, which are no more than `most` either.
-std::string Shortened(std::string text, std::size_t most);
+std::string Abridged(std::string text, std::size_t most);
 
 /// What Printable leaves of a text: bytes between spaces, and in all.
 inline constexpr std::size_t kLongestWord = 200;

@@ -12,7 +12,7 @@ namespace planbench {
 namespace {
 
 /// A character of UTF-8, of at most 3 bytes, as an escape.
-std::string EscapeOf(std::string_view character) {
+std::string YamlEscape(std::string_view character) {
   std::uint32_t code = static_cast<unsigned char>(character[0]);
   if (character.size() > 1) code &= character.size() == 2 ? 0x1fU : 0xfU;
   for (const char c : character.substr(1)) {
@@ -31,7 +31,7 @@ std::string YamlText(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::string_view rest = std::string_view(text).substr(at);
     if (const std::size_t length = ControlLength(rest); length > 0) {
-      quoted += EscapeOf(rest.substr(0, length));
+      quoted += YamlEscape(rest.substr(0, length));
       at += length;
       continue;
     }

@@ -114,7 +114,7 @@ class Decoder {
                 std::string* text) const {
     *text = Escaped(*text);
     if constexpr (std::is_same_v<Rule, rules::Reason>) {
-      *text = Shortened(std::move(*text), rules::Reason::kMost);
+      *text = Abridged(std::move(*text), rules::Reason::kMost);
     } else if (text->size() > rules::kLongestField) {
       Fail(name, indices,
            fmt::format("{} bytes; a text holds at most {}", text->size(), rules::kLongestField));

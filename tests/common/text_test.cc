@@ -53,10 +53,10 @@ TEST(Text, ControlCharactersAreUnicodesToo) {
   EXPECT_TRUE(HasControl("a\nb\r", "\n\t"));
 }
 
-TEST(Text, ShortenedSaysHowMuchIsLeftOut) {
-  EXPECT_EQ(Shortened(std::string(100, 'a'), 100), std::string(100, 'a'));
-  EXPECT_EQ(Shortened(std::string(101, 'a'), 100), std::string(60, 'a') + "...(41 bytes more)");
-  EXPECT_EQ(Shortened(std::string(59, 'a') + "\xc3\xa9" + std::string(60, 'b'), 100),
+TEST(Text, AbridgedSaysHowMuchIsLeftOut) {
+  EXPECT_EQ(Abridged(std::string(100, 'a'), 100), std::string(100, 'a'));
+  EXPECT_EQ(Abridged(std::string(101, 'a'), 100), std::string(60, 'a') + "...(41 bytes more)");
+  EXPECT_EQ(Abridged(std::string(59, 'a') + "\xc3\xa9" + std::string(60, 'b'), 100),
             std::string(59, 'a') + "...(62 bytes more)");
 }
 
