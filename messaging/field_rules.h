@@ -117,9 +117,9 @@ struct Boolean {
   }
 };
 
-/// Bytes of a text. What is longer is nobody's name, setting or command, and would be in every
-/// record and on every page.
-inline constexpr std::size_t kLongestField = 100'000;
+/// Bytes of a text. What is longer is nobody's name, setting or command, be it of a session that
+/// was merged of a thousand, and would be in every record and on every page.
+inline constexpr std::size_t kLongestField = 10'000'000;
 
 /// Why something is so, for people to read: cut beyond so many bytes.
 struct Reason : Anything {

@@ -130,11 +130,11 @@ TEST_F(CodecValues, ReasonsAreCutAndOtherTextsRefusedIfTheyAreTooLong) {
   EXPECT_TRUE(Decode<NodeStatusMessage>(Encode(status), "CH") == status);
   status.settings["moves"] += 'v';
   EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
-              testing::StrEq("CH: setting[0].value: 100001 bytes; a text holds at most 100000"));
+              testing::StrEq("CH: setting[0].value: 10000001 bytes; a text holds at most 10000000"));
   status.settings.clear();
   status.collision_models = {"spheres", std::string(rules::kLongestField + 1, 'v')};
   EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
-              testing::StartsWith("CH: collision_model[1]: 100001 bytes"));
+              testing::StartsWith("CH: collision_model[1]: 10000001 bytes"));
 }
 
 TEST_F(CodecValues, InfinityIsADistance) {
