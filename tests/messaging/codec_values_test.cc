@@ -129,8 +129,9 @@ TEST_F(CodecValues, ReasonsAreCutAndOtherTextsRefusedIfTheyAreTooLong) {
   status.settings = {{"moves", std::string(rules::kLongestField, 'v')}};
   EXPECT_TRUE(Decode<NodeStatusMessage>(Encode(status), "CH") == status);
   status.settings["moves"] += 'v';
-  EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
-              testing::StrEq("CH: setting[0].value: 10000001 bytes; a text holds at most 10000000"));
+  EXPECT_THAT(
+      DecodeError<NodeStatusMessage>(Encode(status)).what(),
+      testing::StrEq("CH: setting[0].value: 10000001 bytes; a text holds at most 10000000"));
   status.settings.clear();
   status.collision_models = {"spheres", std::string(rules::kLongestField + 1, 'v')};
   EXPECT_THAT(DecodeError<NodeStatusMessage>(Encode(status)).what(),
