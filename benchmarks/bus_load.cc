@@ -53,13 +53,16 @@ void Send(const std::string& url, double rate, std::size_t num_bytes, double sec
 void Count(const std::string& event_log) {
   std::int64_t count = 0;
   std::int64_t last = -1;
-  planbench::ReadEventLog(event_log, [&](const planbench::ReceivedMessage& message) {
+  const auto take = [&](const planbench::ReceivedMessage& message) {
     std::int64_t number = 0;
     if (message.channel != kChannel || message.bytes.size() < sizeof number) return;
     std::memcpy(&number, message.bytes.data(), sizeof number);
     last = std::max(last, number);
     ++count;
-  });
+  };
+  for (const std::string& line : planbench::ReadEventLog(event_log, take)) {
+    fmt::print(stderr, "{}\n", line);
+  }
   fmt::print("{} messages, {} missing\n", count, last + 1 - count);
 }
 

@@ -31,10 +31,12 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resum
 }
 
 void SessionRecorder::Restore() {
-  ReadEventLog(folder_.event_log(), [this](const ReceivedMessage& message) {
-    std::string id;
-    Store(message, &id);  // what was refused when it came is again
-  });
+  const auto passed_over =
+      ReadEventLog(folder_.event_log(), [this](const ReceivedMessage& message) {
+        std::string id;
+        Store(message, &id);  // what was refused when it came is again
+      });
+  for (const std::string& line : passed_over) spdlog::warn("{}", line);
   if (tally_.runs > 0) {
     spdlog::warn("{} lacked {} runs of the event log: they are stored again",
                  folder_.results().string(), tally_.runs);

@@ -28,7 +28,7 @@ EventLogExtent Scan(const fs::path& file) {
   return ReadEventLogFile(file, [](const ReceivedMessage&) {});
 }
 
-/// Cuts off a torn last event.
+/// Cuts off a torn last event; what is damaged before whole ones stays.
 EventLogExtent PrepareToAppend(const fs::path& file) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);

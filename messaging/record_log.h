@@ -13,15 +13,15 @@ namespace planbench {
 struct RecordedSession {
   std::vector<SessionMessage> sessions;  ///< In order.
   std::vector<RunRecordMessage> runs;    ///< In order, one for each request_id (asked_runs.h).
-  /// What was passed over: a line for each file whose end could not be read, and one for each
-  /// channel of which messages could not be decoded: how many, and what is wrong with the first.
+  /// What was passed over: ReadEventLog's lines, and one for each channel of which messages could
+  /// not be decoded: how many, and what is wrong with the first.
   std::vector<std::string> passed_over;
 };
 
-/// Reads the RUN_RECORD and SESSION messages of an LCM event log. A torn last event (of a logger
-/// that was killed) and messages that cannot be decoded are passed over, as the logger
-/// passes over them. Throws InputError if the file cannot be read, or if no message of a channel
-/// can be decoded: they are of another version.
+/// Reads the RUN_RECORD and SESSION messages of an LCM event log. What is damaged, a torn last
+/// event (of a logger that was killed) and messages that cannot be decoded are passed over, as the
+/// logger passes over them. Throws InputError if the file cannot be read, or if no message of a
+/// channel can be decoded: they are of another version.
 RecordedSession ReadRecords(const std::filesystem::path& event_log);
 
 /// The scenes that an LCM event log holds, by content id. Adds to `passed_over` a line if

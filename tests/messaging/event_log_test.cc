@@ -1,7 +1,9 @@
 #include "messaging/event_log.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <lcm/lcm-cpp.hpp>
 
 #include "common/error.h"
@@ -87,6 +89,166 @@ TEST(EventLog, CutsOffATornLastEvent) {
     EventLog(file, EventLog::Mode::kAppend).Write(Message("C", "after", 3));
     EXPECT_EQ(ReadEvents(file), expected);
   }
+}
+
+/// Of an event on a channel of one letter.
+constexpr std::uintmax_t kBeforeData = 28 + 1;
+
+void SetByte(const std::filesystem::path& file, std::uintmax_t offset, int value) {
+  std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+  stream.seekp(static_cast<std::streamoff>(offset));
+  stream.put(static_cast<char>(value));
+  ASSERT_TRUE(stream.flush()) << file;
+}
+
+/// What ReadEventLog makes of a file.
+struct Reading {
+  std::vector<std::string> texts;  ///< Data of the events.
+  std::vector<std::string> passed_over;
+};
+
+Reading ReadAll(const std::filesystem::path& file) {
+  Reading reading;
+  reading.passed_over = ReadEventLog(file, [&](const ReceivedMessage& message) {
+    reading.texts.emplace_back(message.bytes.begin(), message.bytes.end());
+  });
+  return reading;
+}
+
+TEST(EventLog, AWrongByteCostsItsOwnEventAloneAndIsTold) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  const std::vector<std::string> texts = {"first", "second", "third", "fourth"};
+  const std::uintmax_t begin = kBeforeData + texts[0].size();
+  const std::uintmax_t end = begin + kBeforeData + texts[1].size();
+  for (std::uintmax_t at = begin; at < end; ++at) {
+    for (const int value : {0x00, 0xff}) {
+      SCOPED_TRACE(fmt::format("byte {} of the event is {}", at - begin, value));
+      std::filesystem::remove(file);
+      {
+        EventLog log(file, EventLog::Mode::kNew);
+        for (const std::string& text : texts) log.Write(Message("A", text, 1));
+      }
+      SetByte(file, at, value);
+      const Reading reading = ReadAll(file);
+      ASSERT_GE(reading.texts.size(), 3);
+      EXPECT_EQ(reading.texts.front(), "first");
+      EXPECT_EQ(reading.texts[reading.texts.size() - 2], "third");
+      EXPECT_EQ(reading.texts.back(), "fourth");
+      EXPECT_TRUE(at >= begin + 4 || reading.texts.size() == 3);  // the sync word
+      if (reading.texts.size() == 3) {
+        ASSERT_EQ(reading.passed_over.size(), 1);
+        EXPECT_EQ(reading.passed_over[0],
+                  fmt::format("{}: {} bytes from byte {} on are passed over: the file is damaged, "
+                              "there is no whole event",
+                              file.string(), end - begin, begin));
+      }
+      const bool is_number_or_time = at >= begin + 4 && at < begin + 20;
+      EXPECT_TRUE(!is_number_or_time || reading.texts == texts);
+    }
+  }
+}
+
+TEST(EventLog, ALengthThatReachesToTheEndOfAnotherEventIsWrong) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  const std::vector<std::string> texts = {"first", "second", "third"};
+  for (const std::size_t damaged : {0u, 1u}) {
+    std::filesystem::remove(file);
+    std::uintmax_t begin = 0;
+    {
+      EventLog log(file, EventLog::Mode::kNew);
+      for (const std::string& text : texts) log.Write(Message("A", text, 1));
+    }
+    for (std::size_t i = 0; i < damaged; ++i) begin += kBeforeData + texts[i].size();
+    SetByte(file, begin + kBeforeData - 2,
+            static_cast<int>(texts[damaged].size() + kBeforeData + texts[damaged + 1].size()));
+    const Reading reading = ReadAll(file);
+    ASSERT_EQ(reading.texts.size(), 2);
+    EXPECT_EQ(reading.texts[0], texts[1 - damaged]);
+    EXPECT_EQ(reading.texts[1], "third");
+    EXPECT_EQ(reading.passed_over.size(), 1);
+  }
+}
+
+TEST(EventLog, ASyncWordWithinAMessageIsNoEvent) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  const std::string sync_word = "\xed\xa1\xda\x01";
+  const std::vector<std::string> texts = {sync_word, sync_word + std::string(30, '\0'),
+                                          sync_word + std::string(30, '\x7f'), sync_word};
+  {
+    EventLog log(file, EventLog::Mode::kNew);
+    for (const std::string& text : texts) log.Write(Message("A", text, 1));
+  }
+  const Reading whole = ReadAll(file);
+  EXPECT_EQ(whole.texts, texts);
+  EXPECT_TRUE(whole.passed_over.empty());
+  const std::uintmax_t second = kBeforeData + texts[0].size();
+  SetByte(file, second, 0);
+  SetByte(file, second + kBeforeData + texts[1].size(), 0);
+  const Reading damaged = ReadAll(file);
+  EXPECT_EQ(damaged.texts, (std::vector<std::string>{sync_word, sync_word}));
+  EXPECT_EQ(damaged.passed_over.size(), 1);
+}
+
+TEST(EventLog, DamageInSeveralPlacesIsToldInALineOfItsFile) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  // Longer than what is kept in memory.
+  const std::string long_text(100'000, 'x');
+  const std::uintmax_t bytes = kBeforeData + long_text.size();
+  {
+    EventLog log(file, EventLog::Mode::kNew, 6 * bytes);
+    for (int i = 0; i < 8; ++i) log.Write(Message("A", long_text, i));
+  }
+  for (const int damaged : {1, 3, 4}) SetByte(file, static_cast<unsigned>(damaged) * bytes, 0);
+  std::filesystem::resize_file(folder / "a.lcmlog.01", 2 * bytes - 7);
+  const Reading reading = ReadAll(file);
+  EXPECT_EQ(reading.texts, std::vector<std::string>(4, long_text));
+  ASSERT_EQ(reading.passed_over.size(), 2);
+  EXPECT_TRUE(reading.passed_over[0].starts_with(
+      fmt::format("{}: {} bytes in 2 places, the first from byte {} on, are passed over",
+                  file.string(), 3 * bytes, bytes)))
+      << reading.passed_over[0];
+  EXPECT_TRUE(reading.passed_over[1].starts_with(
+      fmt::format("{}.01: {} bytes after the last whole event are not read: from byte {} on",
+                  file.string(), bytes - 7, bytes)))
+      << reading.passed_over[1];
+}
+
+TEST(EventLog, WhatGoesOnBehindDamageCutsOffTheTornEndAlone) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  const std::uintmax_t bytes = kBeforeData + 4;
+  {
+    EventLog log(file, EventLog::Mode::kNew);
+    for (int i = 0; i < 5; ++i) log.Write(Message("A", "data", i));
+  }
+  SetByte(file, bytes, 0);
+  std::filesystem::resize_file(file, 5 * bytes - 2);
+  EventLog(file, EventLog::Mode::kAppend).Write(Message("A", "after", 5));
+  EXPECT_EQ(std::filesystem::file_size(file), 5 * bytes + 1);
+  const Reading reading = ReadAll(file);
+  EXPECT_EQ(reading.texts, (std::vector<std::string>{"data", "data", "data", "after"}));
+  EXPECT_EQ(reading.passed_over.size(), 1);
+  EXPECT_EQ(ReadEventLogFile(file, [](const ReceivedMessage&) {}).next_number, 5);
+}
+
+TEST(EventLog, WhetherAFileHoldsAnEvent) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  for (const char* text : {"", "x", "root:x:0:0:root:/root:/bin/bash\n", "\xed\xa1\xda\x01"}) {
+    folder.Write("a.lcmlog", text);
+    EXPECT_FALSE(HoldsEvent(file)) << text;
+  }
+  // In any of its files, whatever is before it.
+  EventLog(folder / "b.lcmlog", EventLog::Mode::kNew).Write(Message("A", "data", 1));
+  std::filesystem::rename(folder / "b.lcmlog", folder / "a.lcmlog.01");
+  SetByte(folder / "a.lcmlog.01", kBeforeData + 4, 'x');
+  EXPECT_TRUE(HoldsEvent(file));
+  ExpectInputError([&] { HoldsEvent(folder / "none.lcmlog"); }, {"none.lcmlog"});
+  ExpectInputError([&] { HoldsEvent(folder.path()); }, {folder.path().string(), "not a file"});
 }
 
 std::vector<Event> ReadEventsOfAll(const std::vector<std::filesystem::path>& files) {

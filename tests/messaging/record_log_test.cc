@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -114,6 +116,25 @@ TEST_F(RecordLogTest, TornLastEventIsNoError) {
         fmt::format("{}: {} bytes after the last whole event are not read", file_.string(), torn)))
         << recorded.passed_over[0];
   }
+}
+
+TEST_F(RecordLogTest, WhatIsDamagedIsPassedOverAndToldOnce) {
+  Add(channel::kSession, Encode(Session("run")));
+  std::fflush(log_->f);
+  const auto offset = std::filesystem::file_size(file_);
+  Add(channel::kRunRecord, Encode(Record("a")));
+  Add(channel::kRunRecord, Encode(Record("b")));
+  log_.reset();
+  std::fstream(file_, std::ios::binary | std::ios::in | std::ios::out)
+      .seekp(static_cast<std::streamoff>(offset))
+      .put(0);
+  const RecordedSession recorded = ReadRecords(file_);
+  ASSERT_EQ(recorded.sessions.size(), 1u);
+  ASSERT_EQ(recorded.runs.size(), 1u);
+  EXPECT_EQ(recorded.runs[0].request_id, "b");
+  ASSERT_EQ(recorded.passed_over.size(), 1u);
+  EXPECT_NE(recorded.passed_over[0].find(fmt::format("from byte {} on", offset)), std::string::npos)
+      << recorded.passed_over[0];
 }
 
 TEST_F(RecordLogTest, EmptyLogHoldsNothing) {
