@@ -7,7 +7,6 @@
 
 #include "common/file_kind.h"
 #include "logger/session_recorder.h"
-#include "messaging/event_log_files.h"
 #include "messaging/event_log_reader.h"
 
 namespace planbench {
@@ -16,15 +15,18 @@ bool RebuildSession(const std::filesystem::path& event_log, const LoggerOptions&
   if (!IsFile(event_log)) {
     throw InputError(event_log.string() + ": there is no such event log");
   }
-  EventLogFiles(event_log);  // complete, before a folder is made
+  // Before a folder is made.
+  if (!HoldsEvent(event_log)) {
+    throw InputError(event_log.string() + ": there is no event of an LCM event log in it");
+  }
   Contradictions contradictions;
   SessionRecorder recorder(
       options.out, options.resume, options.name, [](const std::string&, const AckMessage&) {},
       &contradictions, options.split_bytes);
-  const std::vector<std::string> not_read =
+  const std::vector<std::string> passed_over =
       ReadEventLog(event_log, [&](const ReceivedMessage& message) { recorder.Record(message); });
   recorder.Flush();
-  for (const std::string& line : not_read) spdlog::warn("{}", line);
+  for (const std::string& line : passed_over) spdlog::warn("{}", line);
   return recorder.Report();
 }
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -134,6 +135,40 @@ TEST_F(LoggerProgramTest, WhatALogThatWasCutOffLacksIsTold) {
   EXPECT_NE(Stderr().find("bytes after the last whole event are not read"), std::string::npos)
       << Stderr();
   EXPECT_NE(Stderr().find("12 runs, of which 1 are recorded here"), std::string::npos) << Stderr();
+}
+
+TEST_F(LoggerProgramTest, AFileThatIsNoLogIsRefusedInALine) {
+  std::vector<std::string> arguments = Arguments("s");
+  arguments.insert(arguments.end(), {"--from", (temporary_ / "file").string()});
+  for (const char* text : {"", "no log\n"}) {
+    WriteText(temporary_ / "file", text);
+    EXPECT_EQ(LoggerProgram(arguments, temporary_ / "stderr").ExitCode(), 2);
+    EXPECT_EQ(Stderr(), "logger: " + (temporary_ / "file").string() +
+                            ": there is no event of an LCM event log in it\n");
+    EXPECT_FALSE(std::filesystem::exists(temporary_ / "s"));
+  }
+}
+
+TEST_F(LoggerProgramTest, AResumedOneTellsOfDamageAndKeepsWhatFollowsIt) {
+  const std::filesystem::path log = temporary_ / "s" / "s.lcmlog";
+  std::filesystem::create_directories(log.parent_path());
+  {
+    EventLog events(log, EventLog::Mode::kNew);
+    events.Write(Received(channel::kSession, SampleSession()));
+    events.Write(Received(channel::kRunRecord, SampleRecord()));
+  }
+  std::fstream(log, std::ios::binary | std::ios::in | std::ios::out).put(0);
+  const auto size = std::filesystem::file_size(log);
+  std::vector<std::string> arguments = Arguments("s");
+  arguments.push_back("--resume");
+  LoggerProgram resumed(arguments, temporary_ / "stderr");
+  ASSERT_TRUE(WaitUntilLive(temporary_ / "stderr")) << Stderr();
+  resumed.Send(SIGTERM);
+  EXPECT_EQ(resumed.ExitCode(), 0);
+  EXPECT_GE(std::filesystem::file_size(log), size);
+  EXPECT_NE(Stderr().find(log.string() + ": "), std::string::npos) << Stderr();
+  EXPECT_NE(Stderr().find("from byte 0 on are passed over"), std::string::npos) << Stderr();
+  EXPECT_NE(Stderr().find("lacked 1 runs of the event log"), std::string::npos) << Stderr();
 }
 
 TEST_F(LoggerProgramTest, AKilledOneCanBeResumed) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <vector>
 
 #include "logger/session_recorder.h"
 #include "messaging/channels.h"
+#include "messaging/event_log_reader.h"
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/expect_input_error.h"
@@ -77,6 +79,22 @@ TEST_F(RebuildTest, ATornLastEventIsLeftOut) {
   EXPECT_EQ(rebuilt.Store(UnansweredRecord()), ResultsDatabase::Outcome::kStored);
 }
 
+TEST_F(RebuildTest, OfADamagedLogACleanOneIsMade) {
+  const auto log = Live({Received(channel::kSession, SampleSession()),
+                         Received(channel::kRunRecord, SampleRecord()),
+                         Received(channel::kRunRecord, UnansweredRecord())});
+  std::fstream(log, std::ios::binary | std::ios::in | std::ios::out).put(0);
+  EXPECT_TRUE(RebuildSession(log, Options()));
+  ResultsDatabase rebuilt(temporary_ / "rebuilt" / "results.sqlite");
+  EXPECT_EQ(rebuilt.Store(SampleRecord()), ResultsDatabase::Outcome::kAlreadyStored);
+  EXPECT_EQ(rebuilt.Store(UnansweredRecord()), ResultsDatabase::Outcome::kAlreadyStored);
+  int num_events = 0;
+  const auto passed_over = ReadEventLog(temporary_ / "rebuilt" / "rebuilt.lcmlog",
+                                        [&](const ReceivedMessage&) { ++num_events; });
+  EXPECT_EQ(num_events, 2);
+  EXPECT_TRUE(passed_over.empty());
+}
+
 TEST_F(RebuildTest, WhatCannotBeStoredIsAFailure) {
   EXPECT_FALSE(RebuildSession(Live({{channel::kRunRecord, {1, 2, 3}, 7}}), Options()));
 }
@@ -84,6 +102,11 @@ TEST_F(RebuildTest, WhatCannotBeStoredIsAFailure) {
 TEST_F(RebuildTest, BadUseMakesNoFolder) {
   ExpectInputError([&] { RebuildSession(temporary_ / "none.lcmlog", Options()); },
                    {"none.lcmlog", "no such event log"});
+  for (const char* text : {"", "root:x:0:0:root:/root:/bin/bash\n"}) {
+    WriteText(temporary_ / "passwd", text);
+    ExpectInputError([&] { RebuildSession(temporary_ / "passwd", Options()); },
+                     {(temporary_ / "passwd").string(), "no event of an LCM event log"});
+  }
   const auto log = Live(
       {Received(channel::kSession, SampleSession()), Received(channel::kRunRecord, SampleRecord()),
        Received(channel::kRunRecord, UnansweredRecord())},
