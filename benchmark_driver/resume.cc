@@ -123,8 +123,8 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
   }
   const std::filesystem::path event_log = EventLogOf(session_folder);
   RecordedSession recorded = ReadRecords(event_log);
-  RequireLogged(std::move(stored), recorded, session_folder, event_log);
   for (const std::string& line : recorded.passed_over) spdlog::warn("--resume: {}", line);
+  RequireLogged(std::move(stored), recorded, session_folder, event_log);
   if (recorded.sessions.empty() && recorded.runs.empty()) return {};
   if (recorded.sessions.empty()) {
     throw InputError("--resume: " + session_folder.string() + " holds no session");
