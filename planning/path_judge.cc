@@ -30,6 +30,8 @@ void RejectWaypoint(PathVerdict* verdict, const std::string& reason, std::size_t
   }
 }
 
+const char* UnitOf(const JointSpace::Joint& joint) { return joint.prismatic ? "m" : "rad"; }
+
 /// False, with the reason, if some waypoint is no configuration of the space or outside its limits.
 bool JudgeWaypoints(const JointSpace& space, const Path& path, PathVerdict* verdict) {
   if (path.empty()) {
@@ -51,8 +53,8 @@ bool JudgeWaypoints(const JointSpace& space, const Path& path, PathVerdict* verd
       const double position = q[static_cast<std::size_t>(j)];
       RejectWaypoint(verdict,
                      std::isfinite(position)
-                         ? fmt::format("waypoint {}: joint '{}' at {} is outside {}", i, joint.name,
-                                       position, space.DescribeLimits(j))
+                         ? fmt::format("waypoint {}: joint '{}' at {:.8g} {} is outside {}", i,
+                                       joint.name, position, UnitOf(joint), space.DescribeLimits(j))
                          : fmt::format("waypoint {}: joint '{}' is {}, not a finite number", i,
                                        joint.name, position),
                      i);
@@ -75,10 +77,11 @@ bool JudgeEnds(const JointSpace& space, const Path& path, std::span<const double
     const auto k = static_cast<std::size_t>(j);
     const double off = space.Difference(j, start[k], path.front()[k]);
     if (std::abs(off) > kEndTolerance) {
-      RejectWaypoint(verdict,
-                     fmt::format("the path does not begin at the start: joint '{}' is {} away",
-                                 space.joint(j).name, off),
-                     0);
+      RejectWaypoint(
+          verdict,
+          fmt::format("the path does not begin at the start: joint '{}' is {:.3g} {} away",
+                      space.joint(j).name, std::abs(off), UnitOf(space.joint(j))),
+          0);
       return false;
     }
   }

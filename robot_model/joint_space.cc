@@ -108,7 +108,7 @@ void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) 
 
 std::string JointSpace::DescribeLimits(int j) const {
   const bool bounded = !joint(j).continuous;
-  return fmt::format("[{}, {}]", bounded ? joint(j).lower : -kFarthestTurned,
+  return fmt::format("[{:.8g}, {:.8g}]", bounded ? joint(j).lower : -kFarthestTurned,
                      bounded ? joint(j).upper : kFarthestTurned);
 }
 

@@ -98,6 +98,13 @@ TEST_F(PathJudgeTest, RefusesWhatIsNoPathFromStartToGoal) {
   }
 }
 
+TEST_F(PathJudgeTest, ReasonsHaveUnitsAndNoMoreDigitsThanTheyNeed) {
+  EXPECT_EQ(Judge({{0.6 - 0.1 / 3, 0, 0}, {-0.6, 0, 0}}, EmptyPlanarScene()).reason,
+            "the path does not begin at the start: joint 'shoulder' is 0.0333 rad away");
+  EXPECT_EQ(Judge({{0.6, 0, 0}, {0, 8.0 / 3, 0}, {-0.6, 0, 0}}, EmptyPlanarScene()).reason,
+            "waypoint 1: joint 'elbow' at 2.6666667 rad is outside [-2.6, 2.6]");
+}
+
 TEST_F(PathJudgeTest, PathsMayEndInAnyOfTheGoals) {
   const Path elsewhere = {{0.6, 0, 0}, {1, 0, 0}};
   EXPECT_THAT(Judge(elsewhere, EmptyPlanarScene()).reason, HasSubstr("goal"));
