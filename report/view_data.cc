@@ -72,6 +72,29 @@ void AppendSolids(const SceneObject& object, const std::string& link, Json* soli
   }
 }
 
+/// "valid", or why a path is not.
+std::string Told(const PathVerdict& verdict) {
+  if (verdict.valid) return "valid";
+  return verdict.contact ? Describe(*verdict.contact) : verdict.reason;
+}
+
+/// What is said of a path: the referee's verdict and, if they judged it too, that of the meshes.
+Json Remarks(const PathCheckReplyMessage& check) {
+  Json remarks = Json::array();
+  if (check.verdict) remarks.push_back("the referee: " + Told(*check.verdict));
+  if (check.mesh_verdict) remarks.push_back("the meshes: " + Told(*check.mesh_verdict));
+  return remarks;
+}
+
+/// Of verdicts that say where on a path it is not valid, the referee's before that of the meshes;
+/// null without any.
+const PathVerdict* Hit(const PathCheckReplyMessage& check) {
+  for (const auto* verdict : {&check.verdict, &check.mesh_verdict}) {
+    if (*verdict && !(*verdict)->valid && (*verdict)->segment >= 0) return &**verdict;
+  }
+  return nullptr;
+}
+
 /// A robot in a scene, moved by one group.
 class View {
  public:
@@ -108,9 +131,9 @@ class View {
     json_["motions"] = Json::array();
   }
 
-  /// `verdict` may be null; joints of the path by name.
+  /// Joints of the path by name.
   void AddMotion(const std::string& name, const Path& path,
-                 const std::vector<std::string>& joint_names, const PathVerdict* verdict,
+                 const std::vector<std::string>& joint_names, const PathCheckReplyMessage& check,
                  int num_frames) {
     if (path.empty()) return;
     const Path waypoints = InGroupOrder(path, joint_names);
@@ -118,7 +141,7 @@ class View {
     for (std::size_t i = 1; i < waypoints.size(); ++i) {
       length += group_.space.Distance(waypoints[i - 1], waypoints[i]);
     }
-    Json motion = {{"name", name}, {"frames", Json::array()}};
+    Json motion = {{"name", name}, {"remarks", Remarks(check)}, {"frames", Json::array()}};
     const std::vector<int> tips = group_.tips();
     motion["tips"] = std::vector<Json>(tips.size(), Json::array());
     const auto add_frame = [&](const Configuration& q) {
@@ -127,9 +150,9 @@ class View {
         motion["tips"][i].push_back(Point(kinematics_.X_BL(tips[i]).translation()));
       }
     };
-    const bool hit = verdict != nullptr && !verdict->valid && verdict->segment >= 0;
+    const PathVerdict* const hit = Hit(check);
     add_frame(waypoints.front());
-    if (hit && waypoints.size() == 1) motion["collision"] = 0;
+    if (hit != nullptr && waypoints.size() == 1) motion["collision"] = 0;
     for (std::size_t i = 1; i < waypoints.size(); ++i) {
       const Configuration& from = waypoints[i - 1];
       const Configuration& to = waypoints[i];
@@ -139,18 +162,15 @@ class View {
       for (int step = 1; step <= num_steps; ++step) {
         const double fraction = static_cast<double>(step) / num_steps;
         // The frame of a collision stands where the referee found it, not a step beside it.
-        if (hit && verdict->segment == static_cast<int>(i) - 1 && !motion.contains("collision") &&
-            verdict->fraction <= fraction) {
-          group_.space.Interpolate(from, to, verdict->fraction, q);
+        if (hit != nullptr && hit->segment == static_cast<int>(i) - 1 &&
+            !motion.contains("collision") && hit->fraction <= fraction) {
+          group_.space.Interpolate(from, to, hit->fraction, q);
           motion["collision"] = motion["frames"].size();
           add_frame(q);
         }
         group_.space.Interpolate(from, to, fraction, q);
         add_frame(q);
       }
-    }
-    if (hit) {
-      motion["contact"] = verdict->contact ? Describe(*verdict->contact) : verdict->reason;
     }
     json_["motions"].push_back(std::move(motion));
   }
@@ -277,13 +297,10 @@ Json ProblemView(const Robot& robot, const Problem& problem) {
 Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run, int num_frames) {
   View view = ViewOfRequest(robot, scene, run);
   const PlanResult& result = run.result.result;
-  const auto verdict = [](const PathCheckReplyMessage& check) {
-    return check.verdict ? &*check.verdict : nullptr;
-  };
   view.AddGoals(result.path, run.result.joint_names);
-  view.AddMotion("raw", result.path, run.result.joint_names, verdict(run.path_check), num_frames);
-  view.AddMotion("simplified", result.simplified_path, run.result.joint_names,
-                 verdict(run.simplified_check), num_frames);
+  view.AddMotion("raw", result.path, run.result.joint_names, run.path_check, num_frames);
+  view.AddMotion("simplified", result.simplified_path, run.result.joint_names, run.simplified_check,
+                 num_frames);
   std::vector<std::string> facts = {fmt::format("{}: {}{}{}.", AttemptOf(run), EnumName(run.status),
                                                 run.message.empty() ? "" : ": ", run.message)};
   if (run.status != PlanStatus::kNoAnswer) {

@@ -245,7 +245,7 @@ function makeViewer(container, data, previous = null) {
   const moves = data.motions.length > 0;
   container.append(
     element("div", {class: "captions"}, ...data.motions.map(motion => element("p", {},
-      `${motion.name} path` + (motion.contact ? `; the referee: ${motion.contact}` : "")))),
+      [`${motion.name} path`, ...motion.remarks].join("; ")))),
     canvas,
     element("div", {class: "controls"}, ...(moves ? [play, slider] : [element("p", {class: "note"}, "There is no path.")]),
             ...toggles.map(toggle => toggle.label), ...buttons));

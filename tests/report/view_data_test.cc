@@ -57,7 +57,7 @@ TEST_F(ViewDataTest, FramesAreTheArmsPosesAlongThePath) {
   ASSERT_EQ(motion["tips"].size(), 1u);
   ASSERT_EQ(motion["frames"].size(), 12u);  // the start, ten steps, the collision
   ASSERT_EQ(motion["collision"], 7);        // after six, at 0.5 + 0.3 * 0.5
-  EXPECT_EQ(motion["contact"], Describe(Contact{"hand", "box", 0.01}));
+  EXPECT_EQ(motion["remarks"], Json({"the referee: " + Describe(Contact{"hand", "box", 0.01})}));
   const auto expect_tip = [&](std::size_t frame, double elbow) {
     const Json& tip = motion["tips"][0][frame];
     EXPECT_NEAR(tip[0], 0.5 + 0.7 * std::cos(elbow), 1e-5) << frame;
@@ -74,6 +74,25 @@ TEST_F(ViewDataTest, FramesAreTheArmsPosesAlongThePath) {
   EXPECT_NEAR(goal[7], 0.5, 1e-5);                // the elbow's place
   EXPECT_NEAR(goal[7 + 5], std::sin(0.5), 1e-5);  // turned by 1 rad about z
   EXPECT_NEAR(goal[14], 0.5 + 0.4 * std::cos(1), 1e-5);
+}
+
+TEST_F(ViewDataTest, OfPathsBothVerdictsAreTold) {
+  PathVerdict& own = *run_.path_check.verdict;
+  run_.path_check.mesh_verdict = own;
+  own.valid = true;
+  run_.result.result.simplified_path = {{0, 0, 0}};
+  run_.simplified_check.verdict.emplace().reason = "the path does not end in the goal";
+  run_.simplified_check.mesh_verdict.emplace().valid = true;
+  const Json view = RunView(robot_, scene_, run_, 10);
+  EXPECT_EQ(view["motions"][0]["remarks"],
+            Json({"the referee: valid", "the meshes: " + Describe(Contact{"hand", "box", 0.01})}));
+  EXPECT_EQ(view["motions"][0]["collision"], 7) << "where the meshes touch";
+  EXPECT_EQ(view["motions"][1]["remarks"],
+            Json({"the referee: the path does not end in the goal", "the meshes: valid"}));
+  EXPECT_FALSE(view["motions"][1].contains("collision")) << "it is no matter of place";
+  run_.path_check = {};
+  EXPECT_EQ(RunView(robot_, scene_, run_, 10)["motions"][0]["remarks"], Json::array())
+      << "not judged yet";
 }
 
 TEST_F(ViewDataTest, SolidsAndSpheresAreThoseOfSceneAndRobot) {

@@ -49,7 +49,7 @@ TEST_F(LiveSessionTest, ShowsARequestThenItsPathThenTheVerdict) {
   Hear(channel::kRunRecord, bus_.record);
   view = *live_.View();
   EXPECT_EQ(view["title"], "shelf 1");
-  EXPECT_EQ(view["motions"][0]["contact"], "hits itself");
+  EXPECT_EQ(view["motions"][0]["remarks"], Json({"the referee: hits itself"}));
 }
 
 TEST_F(LiveSessionTest, TellsOfARequestWhatIsKnown) {
