@@ -91,8 +91,8 @@ std::string SuccessTable(const SessionResults& results) {
       "found a path. confirmed: the referee agrees; all that follows counts these. %: share "
       "confirmed, with Wilson's interval for as many cases as there are problems. fwd, bwd: found "
       "from start to goal, or else from goal to start. failed: out of time, memory or search "
-      "space. blocked: start or goal invalid. Other runs were rejected by the referee or got no "
-      "answer.\n";
+      "space. blocked: start or goal invalid. Other runs were rejected by the referee, got no "
+      "answer, or were refused or cancelled.\n";
   if (one_trial && more_trials) {
     notes += "Contestants whose answer does not depend on the seed make one trial.\n";
   }

@@ -212,7 +212,10 @@ Table SuccessTable(const ComparedSessions& compared) {
       "problems of the share of their trials confirmed, with Wilson's 95 % interval for as many "
       "cases as there are problems. Forward: confirmed from start to goal. Backward: from goal to "
       "start, and not from start to goal. Failed: out of time, memory or search space. Blocked: "
-      "start or goal invalid. Rejected: the referee refused the path.",
+      "start or goal invalid. Rejected: the referee rejected the path. No answer: the planner died "
+      "or fell silent. Refused: the request was refused, or cancelled. Where the two directions of "
+      "a run without a confirmed path ended differently, the first that fits counts: rejected, "
+      "blocked, no answer, refused, failed.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"problems", "problems", Style::kCount},
@@ -225,7 +228,8 @@ Table SuccessTable(const ComparedSessions& compared) {
        {"failed", "failed", Style::kCount},
        {"blocked", "blocked", Style::kCount},
        {"rejected", "rejected", Style::kCount},
-       {"no_answer", "no answer", Style::kCount}},
+       {"no_answer", "no answer", Style::kCount},
+       {"refused", "refused", Style::kCount}},
       {}};
   ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
                         const Outcomes& outcomes) {
@@ -235,7 +239,7 @@ Table SuccessTable(const ComparedSessions& compared) {
                           Percent(s.share, s.interval), s.kinds[Kind::kForward],
                           s.kinds[Kind::kBackward], s.kinds[Kind::kFailure],
                           s.kinds[Kind::kUnsolvable], s.kinds[Kind::kRejected],
-                          s.kinds[Kind::kOther]});
+                          s.kinds[Kind::kNoAnswer], s.kinds[Kind::kRefused]});
   });
   return table;
 }

@@ -26,7 +26,8 @@ Outcome::Kind KindOfUnsolved(const Attempt* forward, const Attempt* backward) {
   };
   if (either_is({kInvalidPath})) return Outcome::Kind::kRejected;
   if (either_is({kStartInvalid, kGoalInvalid})) return Outcome::Kind::kUnsolvable;
-  if (either_is({kNoAnswer, kInvalidRequest, kCancelled})) return Outcome::Kind::kOther;
+  if (either_is({kNoAnswer})) return Outcome::Kind::kNoAnswer;
+  if (either_is({kInvalidRequest, kCancelled})) return Outcome::Kind::kRefused;
   return Outcome::Kind::kFailure;
 }
 

@@ -69,9 +69,10 @@ struct Outcome {
     kFailure,     ///< Out of time, memory or search space.
     kUnsolvable,  ///< Start or goal found invalid.
     kRejected,    ///< The referee refused the path.
-    kOther,       ///< No answer, request refused, cancelled.
+    kNoAnswer,    ///< The planner died or fell silent.
+    kRefused,     ///< The request was refused, or cancelled before there was an answer.
   };
-  Kind kind = Kind::kOther;
+  Kind kind = Kind::kNoAnswer;
   bool claimed = false;
   double time_s = 0;  ///< To the confirmed path, failed attempts before it included; else infinite.
   double solving_time_s = 0;  ///< Of the attempt that found it alone; else infinite.
@@ -83,7 +84,7 @@ struct Outcome {
 };
 
 /// Either may be null, not both: success counts first, forward before backward; then a path that
-/// was refused, an invalid end, no proper answer; failure if there was nothing else.
+/// was rejected, an invalid end, no answer, a request refused; failure if there was nothing else.
 Outcome FoldAttempts(const Attempt* forward, const Attempt* backward);
 
 /// The outcomes of one contestant on one set.

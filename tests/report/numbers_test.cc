@@ -241,7 +241,7 @@ TEST_F(NumbersTest, Success) {
     EXPECT_EQ(Value(table, row, "problems"), kProblems);
     EXPECT_EQ(Value(table, row, "runs"), trials.size());
     for (const char* column : {"claimed", "confirmed", "forward", "backward", "failed", "blocked",
-                               "rejected", "no_answer"}) {
+                               "rejected", "no_answer", "refused"}) {
       EXPECT_EQ(Value(table, row, column), counts[column]) << name << " " << column;
     }
     const double share = counts["confirmed"] / static_cast<double>(trials.size());

@@ -25,10 +25,10 @@ TEST_F(ReportTest, Success) {
                        100 * (center + half) / (1 + z * z / n));
   };
   EXPECT_EQ(Texts(table, 1), (Row{"a<i>set</i>", kScriptName, "6", "6", "6", "5",
-                                  wilson(5 / 6.0, 6), "5", "0", "0", "0", "1", "0"}));
+                                  wilson(5 / 6.0, 6), "5", "0", "0", "0", "1", "0", "0"}));
   EXPECT_EQ(Texts(table, 2)[3], "24");
   EXPECT_EQ(Texts(table, 3), (Row{"shelf", kScriptName, "12", "12", "10", "10",
-                                  wilson(10 / 12.0, 12), "10", "0", "2", "0", "0", "0"}));
+                                  wilson(10 / 12.0, 12), "10", "0", "2", "0", "0", "0", "0"}));
 }
 
 TEST_F(ReportTest, Times) {

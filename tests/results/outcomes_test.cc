@@ -71,9 +71,10 @@ TEST(FoldAttemptsTest, FailuresAreToldApart) {
                                          {kGoalInvalid, kSolved, Kind::kBackward},
                                          {kTimedOut, kInvalidPath, Kind::kRejected},
                                          {kInvalidPath, kSolved, Kind::kBackward},
-                                         {kNoAnswer, kTimedOut, Kind::kOther},
-                                         {kCancelled, kExhausted, Kind::kOther},
-                                         {kInvalidRequest, kInvalidRequest, Kind::kOther}}) {
+                                         {kNoAnswer, kTimedOut, Kind::kNoAnswer},
+                                         {kCancelled, kExhausted, Kind::kRefused},
+                                         {kInvalidRequest, kInvalidRequest, Kind::kRefused},
+                                         {kInvalidRequest, kNoAnswer, Kind::kNoAnswer}}) {
     const Attempt forward = Of(c.forward, 1);
     const Attempt backward = Backward(c.backward, 1);
     EXPECT_EQ(FoldAttempts(&forward, &backward).kind, c.kind)
