@@ -249,11 +249,34 @@ std::string Rejections(const ComparedSessions& compared) {
     }
   }
   if (claimed == 0) return "no path was claimed to the referee";
-  const std::string judged =
-      rejected == 0 ? fmt::format("the referee confirmed every one of {} paths", claimed - late)
-                    : fmt::format("the referee rejected {} of {} paths", rejected, claimed - late);
-  return late == 0 ? judged
-                   : fmt::format("{}, and {} more came after the time limit", judged, late);
+  const int judged = claimed - late;
+  if (judged == 0) return Count(late, "path") + " came, after the time limit";
+  const char* verb = rejected == 0 ? "confirmed" : "rejected";
+  std::string text = fmt::format("the referee {} ", verb);
+  if (judged == 1) {
+    text += late == 0 ? "the one path claimed" : "the one path claimed in time";
+  } else if (rejected == 0) {
+    text += fmt::format("every one of {} paths", judged);
+  } else {
+    text += fmt::format("{} of {} paths", rejected, judged);
+  }
+  if (late > 0) text += fmt::format(", and {} more came after the time limit", late);
+  return text;
+}
+
+/// Where nobody can be compared.
+std::string NoRuns(const ComparedSessions& compared) {
+  int num_recorded = 0, num_planned = 0, num_missing = 0;
+  for (const StoredSession& session : compared.sessions()) {
+    const int num_runs = static_cast<int>(session.runs.size());
+    num_recorded += num_runs;
+    num_planned += session.num_runs;
+    num_missing += std::max(0, session.num_runs - num_runs);
+  }
+  const std::string text = num_recorded == 0 ? "No runs are recorded" : "No run counts";
+  return num_missing == 0 ? text + "."
+                          : fmt::format("{}: {} of {} {} missing.", text, num_missing, num_planned,
+                                        num_missing == 1 ? "is" : "are");
 }
 
 /// What the logger saw of the bus, by which all others heard the same session.
@@ -325,7 +348,7 @@ std::string Trained(const ComparedSessions& compared, const ComparedContestant& 
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
                                 const std::vector<ComparedPair>& pairs) {
-  if (compared.contestants().empty()) return {"No runs are recorded."};
+  if (compared.contestants().empty()) return {NoRuns(compared)};
   if (NobodySolvedAny(compared)) {
     const std::size_t num = compared.contestants().size();
     const std::string nobody = num == 1

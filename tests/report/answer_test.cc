@@ -53,8 +53,16 @@ TEST_F(ReportTest, PathsThatCameTooLateAreNoConfirmedOnes) {
                ExampleSession());
   std::vector<StoredSession> sessions = ReadSessions(folder / "one").sessions;
   sessions[0].runs[1].status = PlanStatus::kTimedOut;
-  EXPECT_THAT(Answer(ComparedSessions(sessions), {}).at(1),
-              testing::HasSubstr("confirmed every one of 1 paths, and 1 more came after the time"));
+  EXPECT_THAT(
+      Answer(ComparedSessions(sessions), {}).at(1),
+      testing::HasSubstr("the referee confirmed the one path claimed in time, and 1 more came "
+                         "after the time limit"));
+  sessions[0].runs[0].status = PlanStatus::kInvalidPath;
+  EXPECT_THAT(Answer(ComparedSessions(sessions), {}).at(0),
+              testing::HasSubstr("the referee rejected the one path claimed in time, and 1 more"));
+  sessions[0].runs[0].status = PlanStatus::kTimedOut;
+  EXPECT_THAT(Answer(ComparedSessions(sessions), {}).at(0),
+              testing::HasSubstr("; 2 paths came, after the time limit."));
 }
 
 TEST_F(ReportTest, ProblemsThatWereLeftOutAreTold) {
@@ -128,9 +136,13 @@ TEST_F(ReportTest, TheNextIsMarkedLikeTheFirst) {
 
 TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
   EXPECT_EQ(Answer(ComparedSessions({}), {}), std::vector<std::string>{"No runs are recorded."});
+  StoredSession empty;
+  empty.num_runs = 36;
+  EXPECT_EQ(Answer(ComparedSessions({empty}), {}),
+            std::vector<std::string>{"No runs are recorded: 36 of 36 are missing."});
   const ComparedSessions alone = Read({{.contestant = "A"}});
   EXPECT_EQ(Answer(alone, {}).at(1),
-            "There is nothing to compare it with; the referee confirmed every one of 1 paths.");
+            "There is nothing to compare it with; the referee confirmed the one path claimed.");
   const ComparedSessions apart =
       Read({{.contestant = "A"}, {.contestant = "B", .set = "table", .time_s = 2}});
   EXPECT_EQ(Answer(apart, ComparePairs(apart)),
