@@ -64,7 +64,8 @@ std::vector<EffortColumn> MakeEffortColumns() {
       if (heading == nullptr) return;
       const auto read = [&measure, check](const Record& record) -> std::optional<double> {
         const auto& verdict = (record.*check).verdict;
-        auto value = verdict ? FindMeasure(verdict->measures, measure.name) : std::nullopt;
+        const bool counts = verdict && verdict->valid;
+        auto value = counts ? FindMeasure(verdict->measures, measure.name) : std::nullopt;
         if (value) *value *= measure.column.scale;
         return value;
       };

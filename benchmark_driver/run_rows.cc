@@ -37,8 +37,10 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   }
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
   row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
-  if (const auto& simple = record.simplified_check.mesh_verdict) {
-    row.mesh_valid_simple = simple->valid;
+  const PathCheckReplyMessage& simplified = record.simplified_check;
+  if (simplified.verdict) row.simplified_valid = simplified.verdict->valid;
+  if (simplified.mesh_verdict && row.simplified_valid.value_or(true)) {
+    row.mesh_valid_simple = simplified.mesh_verdict->valid;
   }
   row.time_s =
       record.status == PlanStatus::kNoAnswer ? record.roundtrip_time_s : result.planning_time_s;

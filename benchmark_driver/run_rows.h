@@ -33,7 +33,8 @@ struct RunRow {
   bool repeated = false;
   OddTimesFound odd_times_s = {};
   std::optional<bool> mesh_valid;         ///< The raw path, if meshes judged it.
-  std::optional<bool> mesh_valid_simple;  ///< The simplified path.
+  std::optional<bool> simplified_valid;   ///< The referee's word on the simplified path.
+  std::optional<bool> mesh_valid_simple;  ///< The simplified path, unless it is rejected.
   double time_s = 0;                      ///< Planning time; without an answer, the time waited.
   double time_limit_s = 0;
   std::vector<double> effort;  ///< EffortValues, of a confirmed path only.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "benchmark_driver/effort_table.h"
@@ -14,6 +15,7 @@
 #include "benchmark_driver/text_table.h"
 #include "planning/told_edges.h"
 #include "results/comparison.h"
+#include "results/quality.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -251,19 +253,26 @@ std::string Disturbances(const SessionResults& results) {
                                 : fmt::format("; {} had been, and were made again", repeated)));
 }
 
-/// Whose times are odd, a line each; "" if nobody's are.
-std::string OddTimesTold(const SessionResults& results) {
-  std::map<std::string, std::vector<OddTimesFound>> by_contestant;
+/// Whose times are odd and whose simplified paths were rejected, a line each; "" if nobody's.
+std::string Remarks(const SessionResults& results) {
+  std::map<std::string, std::vector<OddTimesFound>> odd_times;
+  std::map<std::string, std::vector<std::optional<bool>>> simplified;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
+      const std::string& name = one.contestant->name;
       for (const RunRow* run : one.runs) {
-        by_contestant[one.contestant->name].push_back(run->odd_times_s);
+        odd_times[name].push_back(run->odd_times_s);
+        if (!run->confirmed()) continue;
+        simplified[name].push_back(run->simplified_valid);
       }
     }
   }
   std::string text;
-  for (const auto& [name, odd_times] : by_contestant) {
-    for (const std::string& line : DescribeOddTimes(name, odd_times)) text += BreakLines(line);
+  for (const auto& [name, of_runs] : odd_times) {
+    for (const std::string& line : DescribeOddTimes(name, of_runs)) text += BreakLines(line);
+  }
+  for (const auto& [name, verdicts] : simplified) {
+    text += BreakLines(RejectedSimplifiedNote(name, verdicts));
   }
   return text;
 }
@@ -299,7 +308,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
   }
-  return text + OddTimesTold(results) + Disturbances(results) + "\n";
+  return text + Remarks(results) + Disturbances(results) + "\n";
 }
 
 /// What is in no table since it was not made, or awaits what was not; "" if nothing. Of `num_runs`

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
+
+#include "results/quality.h"
 
 namespace planbench {
 namespace {
@@ -461,6 +464,13 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     for (const StoredRun* run : contestant.runs) odd_times.push_back(run->odd_times_s);
     for (std::string& line : DescribeOddTimes(contestant.name, odd_times)) {
       cautions.push_back(std::move(line));
+    }
+    std::vector<std::optional<bool>> simplified;
+    for (const StoredRun* run : contestant.runs) {
+      if (run->confirmed()) simplified.push_back(run->simplified_valid);
+    }
+    if (std::string note = RejectedSimplifiedNote(contestant.name, simplified); !note.empty()) {
+      cautions.push_back(std::move(note));
     }
   }
   return cautions;

@@ -120,6 +120,13 @@ std::string ContactOf(const std::string& reason) {
   return reason.substr(begin, end == std::string::npos ? end : end + 1 - begin);
 }
 
+int NumRejectedSimplified(const ComparedContestant& contestant, const std::string& set) {
+  const std::vector<const StoredRun*> runs = ConfirmedRuns(contestant, set);
+  return static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const StoredRun* run) {
+    return run->simplified_valid == std::optional(false);
+  }));
+}
+
 /// "'a' and 'b' (3)"; "" if there is none.
 std::string Commonest(const std::map<std::string, int>& counts) {
   const auto most =
@@ -370,7 +377,8 @@ Table QualityTable(const ComparedSessions& compared) {
               "has such values on the set; geometric mean over the common problems, those that "
               "both have values of, with Student's 95 % interval. Problems at which either's is "
               "0, as the smoothness of a straight path, have no ratio and are none of them. "
-              "Medians over different problems do not compare.",
+              "Medians over different problems do not compare. Rejected: confirmed runs whose "
+              "simplified path the referee rejected, which are left out.",
               {{"set", "set"},
                {"contestant", "contestant"},
                {"measure", "measure"},
@@ -382,7 +390,8 @@ Table QualityTable(const ComparedSessions& compared) {
                {"upper_quartile", "75 %", Style::kNumber},
                {"reference", "reference"},
                {"common_problems", "common problems", Style::kCount},
-               {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true}},
+               {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true},
+               {"simplified_rejected", "rejected", Style::kCount}},
               {}};
   for (const auto& [set, by_contestant] : compared.outcomes()) {
     for (const PathMeasure& measure : PathMeasures()) {
@@ -394,19 +403,25 @@ Table QualityTable(const ComparedSessions& compared) {
           ValuesByProblem& values = all[contestant.name];
           values = MeasuredByProblem(contestant, set, measure.name, raw);
           const Summary s = SummarizeByProblem(values);
-          if (s.count == 0) continue;
+          const int rejected = raw ? 0 : NumRejectedSimplified(contestant, set);
+          // That all are rejected is told of what was measured of their raw paths.
+          if (s.count == 0 &&
+              (rejected == 0 || MeasuredByProblem(contestant, set, measure.name, true).empty())) {
+            continue;
+          }
           Cell common_problems, ratio;
-          if (reference == nullptr) {
-            reference = &contestant.name;
-          } else {
+          if (reference != nullptr) {
             const auto estimate = CompareByProblem(values, all.at(*reference));
             common_problems = estimate ? estimate->num_pairs : 0;
             if (estimate) ratio = Estimate{estimate->mean, estimate->interval};
+          } else if (s.count > 0) {
+            reference = &contestant.name;
           }
           table.rows.push_back({set, contestant.name, std::string(measure.name),
                                 std::string(measure.unit), std::string(raw ? "raw" : "simplified"),
-                                s.count, s.lower_quartile, s.median, s.upper_quartile, *reference,
-                                common_problems, ratio});
+                                s.count, s.lower_quartile, s.median, s.upper_quartile,
+                                reference == nullptr ? std::string() : *reference, common_problems,
+                                ratio, raw ? Cell() : Cell(rejected)});
         }
       }
     }

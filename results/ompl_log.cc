@@ -63,6 +63,10 @@ std::vector<Property> LoggedProperties() {
       {"solution length", "REAL", measure("path_length", true)},
       {"solution smoothness", "REAL", measure("smoothness", true)},
       {"solution clearance", "REAL", measure("clearance", true)},
+      {"simplified correct solution", "BOOLEAN",
+       [](const StoredRun& run) {
+         return run.simplified_valid ? Flag(*run.simplified_valid) : "";
+       }},
       {"simplified solution length", "REAL", measure("path_length", false)},
       {"simplified solution smoothness", "REAL", measure("smoothness", false)},
       {"simplified solution clearance", "REAL", measure("clearance", false)},

@@ -122,6 +122,9 @@ StoredRun& OmplSession::AddRun(std::size_t contestant, std::int64_t experiment_i
     measure(property, name, &run.measures);
     measure(std::string("simplified_") + property, name, &run.measures_simple);
   }
+  if (properties.contains("simplified_correct_solution")) {
+    run.JudgeSimplified(Whole(properties, "simplified_correct_solution", 1) != 0);
+  }
   run.phases.simplification_s = FindNumber(properties, "simplification_time").value_or(0);
   session_.runs.push_back(std::move(run));
   return session_.runs.back();

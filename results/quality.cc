@@ -1,7 +1,10 @@
 #include "results/quality.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -53,6 +56,17 @@ ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
     if (value) values[run->problem_index].push_back(*value);
   }
   return values;
+}
+
+std::string RejectedSimplifiedNote(const std::string& contestant,
+                                   const std::vector<std::optional<bool>>& verdicts) {
+  const auto rejected = std::count(verdicts.begin(), verdicts.end(), std::optional(false));
+  if (rejected == 0) return "";
+  const auto none = std::count(verdicts.begin(), verdicts.end(), std::nullopt);
+  return fmt::format(
+      "{}: the referee rejected {} of {} simplified paths of confirmed runs: no "
+      "measure of path quality counts them.",
+      contestant, rejected, std::ssize(verdicts) - none);
 }
 
 std::optional<double> CheckingSpread(const ComparedContestant& contestant) {

@@ -32,6 +32,11 @@ ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
                                   const std::string& problem_set, const std::string& measure,
                                   bool raw);
 
+/// What is to be said of a contestant by the referee's words on the simplified paths of its
+/// confirmed runs (nothing: there is none), beginning with its name; "" if none is rejected.
+std::string RejectedSimplifiedNote(const std::string& contestant,
+                                   const std::vector<std::optional<bool>>& verdicts);
+
 /// How unevenly the machine worked: what a checked configuration cost on average, in the attempt in
 /// which that was most over the one in which it was least, of the confirmed ones at a problem that
 /// looked for the path in one direction; the median over the problems with several. Other trials

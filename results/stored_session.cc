@@ -147,6 +147,10 @@ std::vector<Field> Fields() {
     fields.push_back(Measure(name, name, &StoredRun::measures));
     fields.push_back(Measure(name + "_simplified", name, &StoredRun::measures_simple));
   }
+  // All that it may take back stands above.
+  fields.push_back({"simplified_valid", [](StoredRun* run, const SqliteValue& v) {
+                      if (const auto valid = Int(v)) run->JudgeSimplified(*valid != 0);
+                    }});
   return fields;
 }
 
@@ -331,6 +335,13 @@ class Reader {
 };
 
 }  // namespace
+
+void StoredRun::JudgeSimplified(bool valid) {
+  simplified_valid = valid;
+  if (valid) return;
+  measures_simple.clear();
+  mesh_valid_simple.reset();
+}
 
 std::map<std::string, std::string> ParseSettings(const std::string& settings) {
   const std::string between = " = ";

@@ -34,11 +34,12 @@ struct StoredRun {
   double time_limit_s = 0;                ///< Of the request.
   PhaseTimes phases;                      ///< Zero if no answer came.
   MeasuredValues measures;                ///< Of the raw path, finite ones.
-  MeasuredValues measures_simple;         ///< Of the simplified path.
+  std::optional<bool> simplified_valid;   ///< The referee's word on the simplified path.
+  MeasuredValues measures_simple;         ///< Of the simplified path, unless it is rejected.
   std::optional<bool> mesh_valid;         ///< The raw path, judged with the robot's meshes.
   std::string mesh_reason;                ///< Why they do not allow it.
   std::optional<double> mesh_depth_m;     ///< Of the contact that they do not allow.
-  std::optional<bool> mesh_valid_simple;  ///< The simplified path.
+  std::optional<bool> mesh_valid_simple;  ///< The simplified path, unless it is rejected.
   double configurations_checked = 0;      ///< By the planner; 0 if it does not tell.
   std::vector<PlanProgress> progress;     ///< Improved solutions of an anytime planner, in order.
 
@@ -50,6 +51,10 @@ struct StoredRun {
   int repeats = 0;                  ///< Earlier attempts that were.
 
   bool confirmed() const { return status == PlanStatus::kSolved; }
+
+  /// Takes the referee's word on the simplified path, after all that was measured of it: of a
+  /// rejected one nothing counts.
+  void JudgeSimplified(bool valid);
 };
 
 /// A planner under one name with one set of settings.
@@ -76,7 +81,6 @@ struct StoredSession {
   bool imported = false;   ///< From elsewhere (imported_results.h): nobody judged its paths.
   bool described = false;  ///< The session's own message was stored: what follows is known.
   bool finished = false;
-  double total_time_s = 0;
   int num_runs = 0;  ///< As planned.
   std::string version, commit, host, cpu, date, seed, robot;
   std::map<std::string, std::string> flags;     ///< Of the driver.

@@ -414,6 +414,24 @@ TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
   EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), EndsWith(medians));
 }
 
+TEST(TablesTest, RejectedSimplifiedPathsAreLeftOutAndTold) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 2; ++i) {
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
+    records.back().path_check.verdict = Valid({{"path_length", 4}});
+    records.back().simplified_check.verdict = Valid({{"path_length", 3}});
+  }
+  const std::string row = Row(Full(records), kEffort, "box ARA*");
+  EXPECT_THAT(Full(records), Not(HasSubstr("rejected 1 of")));
+  PathVerdict& verdict = *records[1].simplified_check.verdict;
+  verdict.valid = false;
+  verdict.measures["path_length"] = 0;
+  records[1].simplified_check.mesh_verdict = Valid({});
+  EXPECT_EQ(Row(Full(records), kEffort, "box ARA*"), row);
+  EXPECT_THAT(Brief(records), HasSubstr("ARA*: the referee rejected 1 of 2 simplified paths"));
+  EXPECT_FALSE(Rows(records).rows().at(1).mesh_valid_simple.has_value());
+}
+
 TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
   // The medians of three problems whose measures all have that value; NaN: not taken.
   const auto medians = [](std::initializer_list<double> values) {

@@ -64,9 +64,9 @@ TEST_F(ReportTest, Quality) {
   ASSERT_EQ(table.rows.size(), 8u);  // two sets, raw and simplified, two contestants
   const Row raw = Texts(table, 5);
   EXPECT_EQ(raw, (Row{"shelf", kScriptName, "path_length", "rad, m", "raw", "10", "4.00", "4.00",
-                      "4.00", kTagName, "10", "2.00 [2.00, 2.00]"}));
+                      "4.00", kTagName, "10", "2.00 [2.00, 2.00]", "-"}));
   const Row reference = Texts(table, 4);
-  EXPECT_EQ(Row(reference.begin() + 9, reference.end()), (Row{kTagName, "-", "-"}));
+  EXPECT_EQ(Row(reference.begin() + 9, reference.end()), (Row{kTagName, "-", "-", "-"}));
 }
 
 TEST_F(ReportTest, QualityNamesWhatRatiosAreTo) {
@@ -86,8 +86,41 @@ TEST_F(ReportTest, QualityNamesWhatRatiosAreTo) {
   ASSERT_EQ(table.rows.size(), 6u);  // A on the shelf, B and C on the table; raw and simplified
   EXPECT_EQ(Texts(table, 0)[9], "A");
   const Row b = Texts(table, 2), c = Texts(table, 3);
-  EXPECT_EQ(Row(b.begin() + 9, b.end()), (Row{"B", "-", "-"}));
-  EXPECT_EQ(Row(c.begin() + 9, c.end()), (Row{"B", "1", "3.00"}));
+  EXPECT_EQ(Row(b.begin() + 9, b.end()), (Row{"B", "-", "-", "-"}));
+  EXPECT_EQ(Row(c.begin() + 9, c.end()), (Row{"B", "1", "3.00", "-"}));
+}
+
+TEST_F(ReportTest, RejectedSimplifiedPathsAreCountedAndNotMeasured) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .length_simplified = 0, .simplified_valid = false},
+            {.contestant = "A", .problem = 2, .length_simplified = 1.5},
+            {.contestant = "B", .time_s = 2, .length_simplified = 0, .simplified_valid = false},
+            {.contestant = "B", .problem = 2, .status = PlanStatus::kInvalidPath}});
+  const Table table = QualityTable(compared);
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(Texts(table, 0)[5], "2") << "the raw ones are confirmed";
+  EXPECT_EQ(Texts(table, 2), (Row{"shelf", "A", "path_length", "rad, m", "simplified", "1", "1.50",
+                                  "1.50", "1.50", "A", "-", "-", "1"}));
+  EXPECT_EQ(Texts(table, 3), (Row{"shelf", "B", "path_length", "rad, m", "simplified", "0", "-",
+                                  "-", "-", "A", "0", "-", "1"}));
+  EXPECT_THAT(Cautions(compared),
+              testing::IsSupersetOf(
+                  {"A: the referee rejected 1 of 2 simplified paths of confirmed runs: no measure "
+                   "of path quality counts them.",
+                   "B: the referee rejected 1 of 1 simplified paths of confirmed runs: no measure "
+                   "of path quality counts them."}));
+  EXPECT_EQ(FigureData(compared, {}, {})["attempts"]["length_simplified"],
+            (Json{nullptr, 1.5, nullptr, nullptr}));
+}
+
+TEST_F(ReportTest, NoAnswerMeansTheSameEverywhere) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .status = PlanStatus::kNoAnswer},
+            {.contestant = "A", .problem = 2, .status = PlanStatus::kCancelled},
+            {.contestant = "A", .problem = 3, .status = PlanStatus::kInvalidRequest}});
+  const Row success = Texts(SuccessTable(compared), 0);
+  EXPECT_EQ(Row(success.end() - 2, success.end()), (Row{"1", "2"}));  // no answer, refused
+  EXPECT_EQ(Texts(ConditionTable(compared), 0)[3], "1");
 }
 
 TEST_F(ReportTest, DirectionsHaveTimesOfTheirOwn) {

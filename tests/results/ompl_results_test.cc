@@ -198,10 +198,14 @@ TEST_F(OmplResultsTest, TrialsOfSeveralExperimentsAreAllKept) {
                                          "twice"});
 }
 
-/// Two contestants with a failure, a refused path and a second trial.
+/// Two contestants with a failure, a rejected path, a rejected simplified path and a second trial.
 std::vector<MadeRun> SomeRuns() {
   return {{.contestant = "A; \"one\"", .problem = 1, .time_s = 0.1},
-          {.contestant = "A; \"one\"", .problem = 1, .trial = 2, .time_s = 0.3},
+          {.contestant = "A; \"one\"",
+           .problem = 1,
+           .trial = 2,
+           .time_s = 0.3,
+           .simplified_valid = false},
           {.contestant = "A; \"one\"", .problem = 2, .status = PlanStatus::kTimedOut},
           {.contestant = "B", .problem = 1, .status = PlanStatus::kInvalidPath},
           {.contestant = "B", .problem = 2, .direction = Direction::kBackward, .length = 7}};
@@ -225,6 +229,8 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
     EXPECT_EQ(after.claimed, before.claimed);
     EXPECT_EQ(after.time_s, before.time_s);
     EXPECT_EQ(after.measures, before.measures);
+    EXPECT_EQ(after.measures_simple, before.measures_simple);
+    EXPECT_EQ(after.simplified_valid, before.simplified_valid);
     EXPECT_EQ(after.time_limit_s, before.time_limit_s);
   }
   EXPECT_EQ(imported.contestants[0].name, "again: A; \"one\"");

@@ -77,6 +77,24 @@ TEST_F(ReadSessionsTest, ReadsWhatTheLoggerWrote) {
   EXPECT_EQ(silent.roundtrip_time_s, 3.5);
 }
 
+TEST_F(ReadSessionsTest, OfARejectedSimplifiedPathNothingCounts) {
+  WriteSession(folder_ / "one",
+               {{.contestant = "A", .simplified_valid = false, .mesh_valid_simplified = true},
+                {.contestant = "A", .problem = 2},
+                {.contestant = "A", .problem = 3}});
+  Execute("UPDATE runs SET simplified_valid = NULL WHERE id = 3");
+  const StoredSessions stored = ReadSessions(folder_ / "one");
+  const std::vector<StoredRun>& runs = stored.sessions.front().runs;
+  EXPECT_EQ(runs[0].simplified_valid, std::optional(false));
+  EXPECT_EQ(runs[0].measures, (MeasuredValues{{"path_length", 2}}));
+  EXPECT_TRUE(runs[0].measures_simple.empty());
+  EXPECT_FALSE(runs[0].mesh_valid_simple.has_value());
+  EXPECT_EQ(runs[1].simplified_valid, std::optional(true));
+  EXPECT_EQ(runs[1].measures_simple, (MeasuredValues{{"path_length", 1}}));
+  EXPECT_EQ(runs[2].simplified_valid, std::nullopt);
+  EXPECT_EQ(runs[2].measures_simple, (MeasuredValues{{"path_length", 1}})) << "nobody judged it";
+}
+
 TEST_F(ReadSessionsTest, AFileWillDo) {
   WriteSession(folder_ / "one", {{.contestant = "A"}});
   EXPECT_EQ(ReadSessions(database()).sessions.size(), 1u);

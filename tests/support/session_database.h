@@ -25,6 +25,7 @@ struct MadeRun {
   std::string reason = {};
   double length = 2;
   double length_simplified = 1;
+  bool simplified_valid = true;         ///< If the raw path is.
   std::optional<bool> mesh_valid = {};  ///< Verdict of the mesh robot, if it has one.
   std::string mesh_reason = {};
   double mesh_depth_m = 0;  ///< 0: the verdict names no contact.
@@ -71,6 +72,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
     check->verdict.emplace();
     check->verdict->valid = run.status == PlanStatus::kSolved;
   }
+  if (!run.simplified_valid) record.simplified_check.verdict->valid = false;
   record.path_check.verdict->measures["path_length"] = run.length;
   record.simplified_check.verdict->measures["path_length"] = run.length_simplified;
   if (run.mesh_valid) {
