@@ -35,6 +35,10 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   for (std::size_t i = 0; i < kNumOddTimes; ++i) {
     row.odd_times_s[i] = counter(kOddTimes[i].counter).value_or(0);
   }
+  row.answer_times = {
+      .told_s = result.total_time_s + result.phases.simplification_s,
+      .roundtrip_s = record.roundtrip_time_s,
+      .waited_s = counter("waiting_time").value_or(0) + counter("steal_time").value_or(0)};
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
   row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
   const PathCheckReplyMessage& simplified = record.simplified_check;

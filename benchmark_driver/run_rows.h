@@ -9,6 +9,7 @@
 
 #include "messaging/messages.h"
 #include "results/outcomes.h"
+#include "results/untold_times.h"
 
 namespace planbench {
 
@@ -32,6 +33,7 @@ struct RunRow {
   bool disturbed = false;
   bool repeated = false;
   OddTimesFound odd_times_s = {};
+  AnswerTimes answer_times;
   std::optional<bool> mesh_valid;         ///< The raw path, if meshes judged it.
   std::optional<bool> simplified_valid;   ///< The referee's word on the simplified path.
   std::optional<bool> mesh_valid_simple;  ///< The simplified path, unless it is rejected.

@@ -17,6 +17,7 @@
 #include "results/comparison.h"
 #include "results/quality.h"
 #include "results/training.h"
+#include "results/untold_times.h"
 
 namespace planbench {
 namespace {
@@ -256,6 +257,7 @@ std::string Disturbances(const SessionResults& results) {
 /// Whose times are odd and whose simplified paths were rejected, a line each; "" if nobody's.
 std::string Remarks(const SessionResults& results) {
   std::map<std::string, std::vector<OddTimesFound>> odd_times;
+  std::map<std::string, std::vector<AnswerTimes>> answer_times;
   std::map<std::string, std::vector<std::optional<bool>>> simplified;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
@@ -263,6 +265,7 @@ std::string Remarks(const SessionResults& results) {
       for (const RunRow* run : one.runs) {
         odd_times[name].push_back(run->odd_times_s);
         if (!run->confirmed()) continue;
+        answer_times[name].push_back(run->answer_times);
         simplified[name].push_back(run->simplified_valid);
       }
     }
@@ -271,6 +274,7 @@ std::string Remarks(const SessionResults& results) {
   for (const auto& [name, of_runs] : odd_times) {
     for (const std::string& line : DescribeOddTimes(name, of_runs)) text += BreakLines(line);
   }
+  for (const auto& [name, line] : DescribeUntoldTimes(answer_times)) text += BreakLines(line);
   for (const auto& [name, verdicts] : simplified) {
     text += BreakLines(RejectedSimplifiedNote(name, verdicts));
   }

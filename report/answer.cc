@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "results/quality.h"
+#include "results/untold_times.h"
 
 namespace planbench {
 namespace {
@@ -347,6 +348,26 @@ std::string Trained(const ComparedSessions& compared, const ComparedContestant& 
       contestant.name, fmt::join(sets, ", "));
 }
 
+/// DescribeUntoldTimes of each session, by contestant.
+std::map<std::string, std::string> UntoldTimes(const ComparedSessions& compared) {
+  std::map<std::size_t, std::map<std::string, std::vector<AnswerTimes>>> by_session;
+  for (const ComparedContestant& contestant : compared.contestants()) {
+    if (compared.sessions()[contestant.session].imported) continue;
+    for (const StoredRun* run : contestant.runs) {
+      if (!run->confirmed()) continue;
+      by_session[contestant.session][contestant.name].push_back(
+          {.told_s = run->total_time_s + run->phases.simplification_s,
+           .roundtrip_s = run->roundtrip_time_s,
+           .waited_s = run->waiting_s.value_or(0) + run->steal_s.value_or(0)});
+    }
+  }
+  std::map<std::string, std::string> lines;
+  for (const auto& [session, by_contestant] : by_session) {
+    lines.merge(DescribeUntoldTimes(by_contestant));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
@@ -360,9 +381,13 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
     return {nobody + "; " + Rejections(compared) + "."};
   }
   std::vector<std::string> sentences;
-  const auto add_training = [&](const ComparedContestant& contestant) {
+  const std::map<std::string, std::string> untold_times = UntoldTimes(compared);
+  const auto add_doubts = [&](const ComparedContestant& contestant) {
     if (std::string trained = Trained(compared, contestant); !trained.empty()) {
       sentences.push_back(std::move(trained));
+    }
+    if (const auto untold = untold_times.find(contestant.name); untold != untold_times.end()) {
+      sentences.push_back(untold->second);
     }
   };
   if (compared.common().empty()) {
@@ -374,13 +399,13 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
                 Rejections(compared) + "."};
   }
   sentences.push_back(WhoIsBest(compared));
-  add_training(compared.contestants().front());
+  add_doubts(compared.contestants().front());
   const std::vector<const ComparedPair*> of_leader = LeadersPairs(compared, pairs);
   if (of_leader.empty()) {
     sentences.push_back("There is nothing to compare it with; " + Rejections(compared) + ".");
   } else {
     sentences.push_back(ByHowMuch(compared, *of_leader.front()));
-    add_training(ContestantCalled(compared, of_leader.front()->second));
+    add_doubts(ContestantCalled(compared, of_leader.front()->second));
     const std::string& set = of_leader.front()->set;
     const auto num_tests = static_cast<std::size_t>(std::count_if(
         pairs.begin(), pairs.end(), [&](const ComparedPair& pair) { return pair.set == set; }));
@@ -456,6 +481,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
   for (const std::string& name : compared.without_runs()) {
     cautions.push_back(name + ": no run counts.");
   }
+  const std::map<std::string, std::string> untold_times = UntoldTimes(compared);
   for (const ComparedContestant& contestant : compared.contestants()) {
     if (std::string trained = Trained(compared, contestant); !trained.empty()) {
       cautions.push_back(std::move(trained));
@@ -464,6 +490,9 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     for (const StoredRun* run : contestant.runs) odd_times.push_back(run->odd_times_s);
     for (std::string& line : DescribeOddTimes(contestant.name, odd_times)) {
       cautions.push_back(std::move(line));
+    }
+    if (const auto untold = untold_times.find(contestant.name); untold != untold_times.end()) {
+      cautions.push_back(untold->second);
     }
     std::vector<std::optional<bool>> simplified;
     for (const StoredRun* run : contestant.runs) {

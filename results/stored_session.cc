@@ -111,6 +111,10 @@ std::vector<Field> Fields() {
       {"message", [](StoredRun* run, const SqliteValue& v) { run->message = Text(v); }},
       {"time",
        [](StoredRun* run, const SqliteValue& v) { run->time_s = Measured(*run, "time", v); }},
+      {"total_time",
+       [](StoredRun* run, const SqliteValue& v) {
+         run->total_time_s = Measured(*run, "total_time", v).value_or(run->time_s.value_or(0));
+       }},
       Time("roundtrip_time", &StoredRun::roundtrip_time_s),
       Time("time_limit", &StoredRun::time_limit_s),
       Time("setup_time", &PhaseTimes::setup_s),

@@ -30,10 +30,11 @@ struct StoredRun {
   std::string message;           ///< Why it is not solved.
   std::optional<double> time_s;  ///< Planning time; nothing if no answer came.
   OddTimesFound odd_times_s = {};
-  double roundtrip_time_s = 0;            ///< By the driver's clock.
-  double time_limit_s = 0;                ///< Of the request.
-  PhaseTimes phases;                      ///< Zero if no answer came.
-  MeasuredValues measures;                ///< Of the raw path, finite ones.
+  double total_time_s = 0;      ///< To the end of the search; planning time where not told.
+  double roundtrip_time_s = 0;  ///< By the driver's clock.
+  double time_limit_s = 0;      ///< Of the request.
+  PhaseTimes phases;            ///< Zero if no answer came.
+  MeasuredValues measures;      ///< Of the raw path, finite ones.
   std::optional<bool> simplified_valid;   ///< The referee's word on the simplified path.
   MeasuredValues measures_simple;         ///< Of the simplified path, unless it is rejected.
   std::optional<bool> mesh_valid;         ///< The raw path, judged with the robot's meshes.
@@ -81,6 +82,7 @@ struct StoredSession {
   bool imported = false;   ///< From elsewhere (imported_results.h): nobody judged its paths.
   bool described = false;  ///< The session's own message was stored: what follows is known.
   bool finished = false;
+  double total_time_s = 0;
   int num_runs = 0;  ///< As planned.
   std::string version, commit, host, cpu, date, seed, robot;
   std::map<std::string, std::string> flags;     ///< Of the driver.

@@ -337,6 +337,22 @@ TEST(TablesTest, APlannerWhoseTimesAreOddIsNamedOnce) {
   EXPECT_THAT(Brief(records), HasSubstr("answered after the time limit"));
 }
 
+TEST(TablesTest, AnswersThatCameMuchLaterThanTheyTellAreNamed) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 3; ++i) {
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 0.001)));
+    records.push_back(OfProblem(i, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 0.002))));
+  }
+  EXPECT_THAT(Brief(records), Not(HasSubstr("too short")));
+  records[0].roundtrip_time_s = 0.301;
+  EXPECT_THAT(Brief(records), Not(HasSubstr("too short"))) << "a single run was held up";
+  records[2].roundtrip_time_s = 0.301;
+  const std::string note = "ARA*: its answers tell of 1 ms, and 300 ms more passed until they came";
+  EXPECT_THAT(Brief(records), HasSubstr(note));
+  EXPECT_THAT(Full(records), HasSubstr(note));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("RRT-Connect: its answers")));
+}
+
 TEST(TablesTest, LongTextsAreShortened) {
   std::vector<RunRecordMessage> records = FourProblems();
   for (const std::string& reason :

@@ -106,6 +106,33 @@ TEST_F(ReportTest, ImpossibleTimesAreTold) {
       "to 300 s: the round trip counts in its place.");
 }
 
+TEST_F(ReportTest, TimesThatAreNotAccountedForAreToldOfWhoRanksFirst) {
+  // Round trips are half a second longer than planning, of which simplification tells a half.
+  const TemporaryFolder folder;
+  std::vector<MadeRun> runs;
+  for (int problem = 1; problem <= 7; ++problem) {
+    runs.push_back({.contestant = "A", .problem = problem, .time_s = 0.001});
+    runs.push_back({.contestant = "B", .problem = problem, .time_s = 0.1});
+  }
+  WriteSession(folder / "example", runs, ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  for (StoredRun& run : sessions[0].runs) {
+    run.phases.simplification_s = 0;
+    const bool honest = sessions[0].contestants[run.contestant].name == "B";
+    run.roundtrip_time_s = honest ? 0.101 : 0.301;
+  }
+  const std::string doubt =
+      "A: its answers tell of 1 ms, and 300 ms more passed until they came (others: 1 ms): its "
+      "times may be too short. Medians over the confirmed runs, without waiting for a processor.";
+  const ComparedSessions compared(sessions);
+  const std::vector<std::string> answer = Answer(compared, ComparePairs(compared));
+  EXPECT_THAT(answer.at(0), testing::HasSubstr("A ranks first"));
+  EXPECT_EQ(answer.at(1), doubt);
+  EXPECT_THAT(Cautions(compared), testing::Contains(doubt));
+  for (StoredRun& run : sessions[0].runs) run.waiting_s = 0.3;
+  EXPECT_EQ(Cautions(ComparedSessions(sessions)).size(), 1u) << "it waited for a processor";
+}
+
 TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
   const std::vector<std::string> answer = Answer(compared_, pairs_);
   ASSERT_EQ(answer.size(), 3u);

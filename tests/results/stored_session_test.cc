@@ -59,6 +59,7 @@ TEST_F(ReadSessionsTest, ReadsWhatTheLoggerWrote) {
   EXPECT_TRUE(solved.confirmed());
   EXPECT_TRUE(solved.claimed);
   EXPECT_EQ(solved.time_s, 0.25);
+  EXPECT_EQ(solved.total_time_s, 0.25);
   EXPECT_EQ(solved.time_limit_s, 10);
   EXPECT_EQ(solved.phases.collision_s, 0.125);
   EXPECT_EQ(solved.phases.simplification_s, 0.25);

@@ -1,0 +1,75 @@
+#include "results/untold_times.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "common/numbers.h"
+#include "results/statistics.h"
+
+namespace planbench {
+namespace {
+
+/// So many times what the others leave untold is much,
+constexpr double kMuchOfOthers = 10;
+/// and so many times what is told itself.
+constexpr double kMuchOfTold = 2;
+/// Others leave at least so much untold, s, whatever they measured: a busy machine's noise.
+constexpr double kLeastOfOthers_s = 2e-3;
+/// What stands for others where there are none, s.
+constexpr double kWithoutOthers_s = 10e-3;
+
+struct Medians {
+  double told_s = 0;
+  double untold_s = 0;
+};
+
+Medians MediansOf(const std::vector<AnswerTimes>& runs) {
+  std::vector<double> told_s, untold_s;
+  for (const AnswerTimes& run : runs) {
+    told_s.push_back(run.told_s);
+    untold_s.push_back(std::max(0.0, run.roundtrip_s - run.told_s - run.waited_s));
+  }
+  return {Summarize(std::move(told_s)).median, Summarize(std::move(untold_s)).median};
+}
+
+/// The median of what the others leave untold, the lower one of two; nothing without others.
+std::optional<double> OfOthers(const std::map<std::string, Medians>& medians,
+                               const std::string& contestant) {
+  std::vector<double> untold_s;
+  for (const auto& [name, of_one] : medians) {
+    if (name != contestant) untold_s.push_back(of_one.untold_s);
+  }
+  if (untold_s.empty()) return std::nullopt;
+  std::sort(untold_s.begin(), untold_s.end());
+  return untold_s[(untold_s.size() - 1) / 2];
+}
+
+std::string Milliseconds(double time_s) { return fmt::format("{:.3g} ms", kMsPerS * time_s); }
+
+}  // namespace
+
+std::map<std::string, std::string> DescribeUntoldTimes(
+    const std::map<std::string, std::vector<AnswerTimes>>& by_contestant) {
+  std::map<std::string, Medians> medians;
+  for (const auto& [name, runs] : by_contestant) {
+    if (!runs.empty()) medians[name] = MediansOf(runs);
+  }
+  std::map<std::string, std::string> lines;
+  for (const auto& [name, own] : medians) {
+    const std::optional<double> others_s = OfOthers(medians, name);
+    const double typical_s = others_s ? std::max(*others_s, kLeastOfOthers_s) : kWithoutOthers_s;
+    if (own.untold_s <= kMuchOfOthers * typical_s || own.untold_s <= kMuchOfTold * own.told_s) {
+      continue;
+    }
+    lines[name] = fmt::format(
+        "{}: its answers tell of {}, and {} more passed until they came{}: its times may be too "
+        "short. Medians over the confirmed runs, without waiting for a processor.",
+        name, Milliseconds(own.told_s), Milliseconds(own.untold_s),
+        others_s ? fmt::format(" (others: {})", Milliseconds(*others_s)) : "");
+  }
+  return lines;
+}
+
+}  // namespace planbench

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace planbench {
+
+/// What is known of how long the answer to a run took, s.
+struct AnswerTimes {
+  double told_s = 0;       ///< Total time and simplification, by the planner's word.
+  double roundtrip_s = 0;  ///< By the driver's clock.
+  double waited_s = 0;     ///< For a processor, as far as that was measured.
+};
+
+/// Whose answers came much later than the times that they tell of, a line on each, by contestant.
+/// Loading and the bus are in no time told; what they take is what the round trips of the others
+/// leave. Medians over the runs, which ought to be the confirmed ones of one session, so that
+/// single runs that were held up tell of nobody.
+std::map<std::string, std::string> DescribeUntoldTimes(
+    const std::map<std::string, std::vector<AnswerTimes>>& by_contestant);
+
+}  // namespace planbench
