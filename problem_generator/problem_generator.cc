@@ -1,5 +1,7 @@
 #include "problem_generator/problem_generator.h"
 
+#include <algorithm>
+
 #include "collision/edge_checker.h"
 #include "problem_generator/query_sampler.h"
 #include "problem_generator/random_stream.h"
@@ -15,6 +17,25 @@ const QuerySpec& DrawQuery(const ProblemSpec& spec, RandomStream* random) {
   return spec.queries[random->Weighted(weights)];
 }
 
+// Of one tip of the group. What does not move it stays at rest: drawn at random, other arms would
+// have postures that nobody asked for.
+InverseKinematics KinematicsOf(int tip_link, const RobotModel& model, const PlanningGroup& group,
+                               const std::vector<double>& rest) {
+  PlanningGroup of_tip = group;
+  of_tip.tip_link = tip_link;
+  const std::vector<int> moving = InverseKinematics(model, of_tip, rest).moving_joints();
+  std::vector<int> others;
+  std::vector<double> q;
+  for (int j = 0; j < group.space.size(); ++j) {
+    if (std::find(moving.begin(), moving.end(), j) == moving.end()) others.push_back(j);
+    const int joint = group.joints[static_cast<std::size_t>(j)];
+    const int index = model.joints()[static_cast<std::size_t>(joint)].position_index;
+    q.push_back(rest[static_cast<std::size_t>(index)]);
+  }
+  of_tip.space = group.space.Held(others, q);
+  return {model, of_tip, rest};
+}
+
 }  // namespace
 
 ProblemGenerator::ProblemGenerator(const ProblemSpec& spec, const Robot& robot, std::uint64_t seed)
@@ -23,8 +44,11 @@ ProblemGenerator::ProblemGenerator(const ProblemSpec& spec, const Robot& robot, 
       group_(&robot.Group(spec.group)),
       seed_(seed),
       rest_(FullPositions(robot.model, spec.rest.names, spec.rest.positions, spec.name)),
-      checker_(MakeReferenceChecker(robot, *group_, CollisionModel::kSpheres)),
-      kinematics_(robot.model, *group_, rest_) {}
+      checker_(MakeReferenceChecker(robot, *group_, CollisionModel::kSpheres)) {
+  for (const int tip : group_->tips()) {
+    kinematics_.emplace(tip, KinematicsOf(tip, robot.model, *group_, rest_));
+  }
+}
 
 ProblemGenerator::Result ProblemGenerator::Generate(int k, int attempt) {
   RandomStream random(spec_->name, seed_, k, attempt);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -37,7 +38,7 @@ class ProblemGenerator {
   std::uint64_t seed_;
   std::vector<double> rest_;  // Full positions.
   std::unique_ptr<CollisionChecker> checker_;
-  InverseKinematics kinematics_;
+  std::map<int, InverseKinematics> kinematics_;  // By tip link.
 };
 
 }  // namespace planbench

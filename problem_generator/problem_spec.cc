@@ -1,6 +1,7 @@
 #include "problem_generator/problem_spec.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -237,6 +238,8 @@ void ReadJoints(const YamlNode& map, const RobotModel& model, const PlanningGrou
 
 // What a robot's specifications share.
 struct Setup {
+  const RobotModel* model;
+  const PlanningGroup* group;
   std::map<std::string, std::vector<double>> configurations;  // Group order.
 };
 
@@ -278,7 +281,7 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   if (const auto joints = node.Find("rest")) ReadJoints(*joints, model, nullptr, &rest);
   spec->rest = {model.position_names(), rest};
 
-  Setup setup{group->states};
+  Setup setup{&model, group, group->states};
   if (const auto configurations = node.Find("configurations")) {
     for (const std::string& key : configurations->Keys()) {
       const YamlNode joints = configurations->At(key);
@@ -312,10 +315,28 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
   return setup;
 }
 
-GripperSpec ReadGripper(const YamlNode& node, const std::vector<ObjectSpec>& objects) {
-  node.AllowOnly(
-      {"object", "around", "position", "rpy", "position_tolerance", "orientation_tolerance"});
+// The tip that a gripper's pose is of. With several, none is meant by itself.
+int ReadTip(const YamlNode& gripper, const Setup& setup) {
+  const auto tip = gripper.Find("tip");
+  const std::vector<int> tips = setup.group->tips();
+  if (!tip && tips.size() == 1) return tips.front();
+  std::vector<std::string> names;
+  for (const int link : tips) {
+    names.push_back(setup.model->links()[static_cast<std::size_t>(link)].name);
+    if (tip && tip->String() == names.back()) return link;
+  }
+  const std::string known =
+      fmt::format("the group '{}' has the tips {}", setup.group->name, fmt::join(names, ", "));
+  if (!tip) gripper.Fail("needs the key tip: " + known);
+  tip->Fail(fmt::format("'{}' is no tip: {}", tip->String(), known));
+}
+
+GripperSpec ReadGripper(const YamlNode& node, const Setup& setup,
+                        const std::vector<ObjectSpec>& objects) {
+  node.AllowOnly({"tip", "object", "around", "position", "rpy", "position_tolerance",
+                  "orientation_tolerance"});
   GripperSpec gripper;
+  gripper.tip_link = ReadTip(node, setup);
   const YamlNode object = node.At("object");
   if (object.IsSequence()) {
     for (const YamlNode& id : object.Elements()) {
@@ -358,7 +379,7 @@ EndSpec ReadEnd(const YamlNode& query, const std::string& key, const Setup& setu
     }
     end.configuration = found->second;
   } else {
-    end.gripper = ReadGripper(*gripper, objects);
+    end.gripper = ReadGripper(*gripper, setup, objects);
   }
   return end;
 }

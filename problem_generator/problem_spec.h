@@ -56,8 +56,9 @@ struct ObjectSpec {
   Range about_base;  ///< Turned by this about the base frame's z axis after all else, rad.
 };
 
-/// Poses of the group's tip link relative to an object.
+/// Poses of a tip link of the group relative to an object.
 struct GripperSpec {
+  int tip_link = -1;
   std::vector<int> objects;  ///< One of these, each as likely, of those that are in the scene.
   /// The tip is at Rz(around) * (position, rpy) in the object's frame, off by up to the
   /// tolerances: each coordinate (m), each component of the rotation vector (rad).
@@ -94,7 +95,8 @@ struct Effort {
 struct ProblemSpec {
   std::string name;  ///< The file's, without .yaml.
   std::string group;
-  JointState rest;  ///< Every joint that can move; those of the group are placeholders.
+  /// Every joint that can move. Those of the group count where a gripper's pose leaves them open.
+  JointState rest;
   std::optional<Workspace> workspace;
   double time_limit_s = 0;
   AllowedCollisionMatrix allowed_collisions;

@@ -19,7 +19,7 @@ Eigen::Isometry3d DrawTipPose(const GripperSpec& gripper, const Eigen::Isometry3
   return X_BO * around * X_OT;
 }
 
-QuerySampler::QuerySampler(const ProblemSpec& spec, InverseKinematics* kinematics,
+QuerySampler::QuerySampler(const ProblemSpec& spec, std::map<int, InverseKinematics>* kinematics,
                            CollisionChecker* checker)
     : spec_(&spec), kinematics_(kinematics), checker_(checker) {}
 
@@ -36,11 +36,12 @@ bool QuerySampler::Clear(const EndSpec& end, const std::vector<double>& q, Rejec
 }
 
 std::vector<double> QuerySampler::Turned(const std::vector<double>& q,
-                                         const std::vector<double>& other) const {
+                                         const std::vector<double>& other,
+                                         InverseKinematics* kinematics) const {
   std::vector<double> turned = q;
   checker_->space().ToNearestTurn(other, turned);
   // Joints that follow at a ratio, which is no whole number, would be elsewhere.
-  return kinematics_->TipPose(turned).isApprox(kinematics_->TipPose(q), 1e-6) ? turned : q;
+  return kinematics->TipPose(turned).isApprox(kinematics->TipPose(q), 1e-6) ? turned : q;
 }
 
 std::optional<std::vector<double>> QuerySampler::Sample(
@@ -58,17 +59,18 @@ std::optional<std::vector<double>> QuerySampler::Sample(
     rejections->Add(end.name + ": object not in the scene", end.where);
     return std::nullopt;
   }
+  InverseKinematics& kinematics = kinematics_->at(end.gripper.tip_link);
   for (int pose = 0; pose < spec_->effort.poses; ++pose) {
     const Eigen::Isometry3d& X_BO = objects[random->Index(objects.size())];
     const Eigen::Isometry3d X_BT = DrawTipPose(end.gripper, X_BO, random);
     for (int solution = 0; solution < spec_->effort.solutions; ++solution) {
       const IkResult result =
-          kinematics_->Solve(X_BT, random->engine(), {.max_starts = spec_->effort.ik_starts});
+          kinematics.Solve(X_BT, random->engine(), {.max_starts = spec_->effort.ik_starts});
       if (!result.solved) {
         rejections->Add(end.name + ": no inverse kinematics solution", end.where);
         break;
       }
-      const std::vector<double> q = other ? Turned(result.q, *other) : result.q;
+      const std::vector<double> q = other ? Turned(result.q, *other, &kinematics) : result.q;
       if (Clear(end, q, rejections)) return q;
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace planbench {
 /// Finds starts and goals in a scene. Not thread-safe; keeps references to its arguments.
 class QuerySampler {
  public:
-  /// `checker`: has the scene in which ends are to be found.
-  QuerySampler(const ProblemSpec& spec, InverseKinematics* kinematics, CollisionChecker* checker);
+  /// `kinematics`: by the tip links that grippers of the specification name. `checker`: has the
+  /// scene in which ends are to be found.
+  QuerySampler(const ProblemSpec& spec, std::map<int, InverseKinematics>* kinematics,
+               CollisionChecker* checker);
 
   /// A configuration (group order) for the end, free with the specification's clearance; nothing
   /// if the effort allowed has found none. Joints that a gripper's pose leaves several turns have
@@ -27,12 +30,13 @@ class QuerySampler {
                                             RandomStream* random, Rejections* rejections);
 
  private:
-  // `q` at the turns nearest to `other`, as far as the tip stays.
-  std::vector<double> Turned(const std::vector<double>& q, const std::vector<double>& other) const;
+  // `q` at the turns nearest to `other`, as far as the tip of `kinematics` stays.
+  std::vector<double> Turned(const std::vector<double>& q, const std::vector<double>& other,
+                             InverseKinematics* kinematics) const;
   bool Clear(const EndSpec& end, const std::vector<double>& q, Rejections* rejections);
 
   const ProblemSpec* spec_;
-  InverseKinematics* kinematics_;
+  std::map<int, InverseKinematics>* kinematics_;
   CollisionChecker* checker_;
 };
 

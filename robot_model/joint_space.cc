@@ -106,6 +106,16 @@ void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) 
   }
 }
 
+JointSpace JointSpace::Held(const std::vector<int>& joints, std::span<const double> q) const {
+  std::vector<Joint> held = joints_;
+  for (const int j : joints) {
+    const auto i = static_cast<std::size_t>(j);
+    held[i].continuous = false;
+    held[i].lower = held[i].upper = q[i];
+  }
+  return JointSpace(std::move(held));
+}
+
 std::string JointSpace::DescribeLimits(int j) const {
   const bool bounded = !joint(j).continuous;
   return fmt::format("[{:.8g}, {:.8g}]", bounded ? joint(j).lower : -kFarthestTurned,

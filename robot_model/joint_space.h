@@ -56,6 +56,8 @@ class JointSpace {
   /// Brings joints that may turn more than once round to the turn, within their limits, that is
   /// nearest to where they are at `to`.
   void ToNearestTurn(std::span<const double> to, std::span<double> q) const;
+  /// The same space, of which those joints stay where `q` has them.
+  JointSpace Held(const std::vector<int>& joints, std::span<const double> q) const;
   /// "[-1.5, 2]": what positions of joint j may be.
   std::string DescribeLimits(int j) const;
   /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1

@@ -285,18 +285,6 @@ void TurnTowards(std::span<const double> from, const RobotModel& model, const Pl
   }
 }
 
-// Leaves of `limits` the positions in `q` for those joints.
-JointSpace Held(const JointSpace& limits, const std::vector<int>& joints,
-                const std::vector<double>& q) {
-  std::vector<JointSpace::Joint> held = limits.joints();
-  for (const int index : joints) {
-    JointSpace::Joint& joint = held[static_cast<std::size_t>(index)];
-    joint.continuous = false;
-    joint.lower = joint.upper = q[static_cast<std::size_t>(index)];
-  }
-  return JointSpace(std::move(held));
-}
-
 struct Attempt {
   std::vector<double> q;
   double off_m = 0;  // Sums over the tips.
@@ -317,7 +305,7 @@ Attempt TryToReach(const std::vector<PoseSet>& poses, int number, const RobotMod
     limited.tip_link = of_tip.tip_link;
     InverseKinematics& tip = tips.emplace_back(model, limited, start, of_tip.X_TP);
     attempt.q = tip.Solve(of_tip.Try(number, random), random, of_tip.Options()).q;
-    limited.space = Held(limited.space, tip.moving_joints(), attempt.q);
+    limited.space = limited.space.Held(tip.moving_joints(), attempt.q);
   }
   TurnTowards(from, model, group, limits, &attempt.q);
   for (std::size_t i = 0; i < poses.size(); ++i) {

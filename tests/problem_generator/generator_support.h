@@ -55,6 +55,29 @@ queries:
     goal: {gripper: {object: can, position: [-0.0335, 0, 0.03], position_tolerance: 0.01}}
 )";
 
+/// The right hand of the two arms (tests/support/two_arm_robot.h, with a torso) beside a post.
+/// Writes the setup beside it.
+inline std::filesystem::path WriteTwoArmSpec(const TemporaryFolder& folder,
+                                             const std::string& tip = "tip: right_hand, ") {
+  folder.Write("two_arms_setup.yaml", R"(robot: two_arms
+group: both
+rest: {left_shoulder: 1.2, left_elbow: -0.5, right_elbow: 2}
+configurations:
+  ready: {torso: 0, left_shoulder: 0, left_elbow: 0, right_shoulder: -1.5, right_elbow: 0}
+)");
+  return folder.Write("two_arms.yaml", R"(setup: two_arms_setup.yaml
+clearance: 0.005
+object_gap: 0
+min_joint_distance: 0
+effort: {scenes: 5, poses: 1, solutions: 4, ik_starts: 50}
+objects:
+  - {id: post, position: [0.5, -0.8, 0], parts: [{sphere: 0.1}]}
+queries:
+  - name: reach
+    start: {configuration: ready}
+    goal: {gripper: {)" + tip + "object: post, position: [0.2, 0.45, 0]}}\n");
+}
+
 /// kCanOnTable with the only occurrence of a text replaced.
 inline std::string CanOnTableWith(const std::string& text, const std::string& replacement) {
   std::string spec = kCanOnTable;

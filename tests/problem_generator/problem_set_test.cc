@@ -12,6 +12,7 @@
 #include "robot_model/full_positions.h"
 #include "tests/problem_generator/generator_support.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/two_arm_robot.h"
 
 namespace planbench {
 namespace {
@@ -210,6 +211,28 @@ TEST_F(ProblemSetTest, GripperIsWhereTheQuerySaysWithinTolerances) {
   }
   EXPECT_GT(approaches, 0);
   EXPECT_GT(take_outs, 0);
+}
+
+TEST(MadeProblems, HaveTheTipThatIsNamedAtThePoseAndTheOtherArmAtRest) {
+  const Robot robot = MakeTwoArmRobot(/*with_torso=*/true);
+  const TemporaryFolder folder;
+  const ProblemSpec spec = LoadProblemSpec(WriteTwoArmSpec(folder), robot);
+  for (const Problem& problem : MakeProblems(spec, robot, 1, FirstIndices(4), 0, 2).problems) {
+    JointState goal;
+    for (const JointGoal& joint : problem.goal) {
+      goal.names.push_back(joint.joint);
+      goal.positions.push_back(joint.position);
+    }
+    ASSERT_EQ(goal.names[1], "left_shoulder");
+    EXPECT_EQ(goal.positions[1], 1.2);
+    ASSERT_EQ(goal.names[2], "left_elbow");
+    EXPECT_EQ(goal.positions[2], -0.5);
+    const auto poses = ComputeLinkPoses(
+        robot.model, FullPositions(robot.model, goal.names, goal.positions, "goal"));
+    const auto hand = static_cast<std::size_t>(robot.model.FindLink("right_hand"));
+    EXPECT_TRUE(poses[hand].translation().isApprox(Eigen::Vector3d(0.7, -0.35, 0), 1e-5));
+    EXPECT_TRUE(poses[hand].linear().isIdentity(1e-5));
+  }
 }
 
 TEST(DrawTipPose, TurnsAboutTheObjectBeforeItMovesAndStaysWithinTolerances) {

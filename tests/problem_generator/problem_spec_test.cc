@@ -8,6 +8,7 @@
 #include "common/write_file.h"
 #include "tests/problem_generator/generator_support.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/two_arm_robot.h"
 
 namespace planbench {
 namespace {
@@ -259,6 +260,23 @@ TEST(ProblemSpec, RefusesTheNameOfALinkThatTheSetupAllowsCollisions) {
   ExpectInputError([&] { load("head_camera_link"); },
                    {"spec.yaml:7: objects[0].id", "'head_camera_link'", "the setup allows"});
   EXPECT_EQ(load("laser_link").objects.size(), 1);
+}
+
+TEST(ProblemSpec, OfSeveralTipsOneIsNamed) {
+  const Robot robot = MakeTwoArmRobot(/*with_torso=*/true);
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& tip) {
+    const auto spec = LoadProblemSpec(WriteTwoArmSpec(folder, tip), robot);
+    return robot.model.links()[static_cast<std::size_t>(spec.queries[0].goal.gripper.tip_link)]
+        .name;
+  };
+  EXPECT_EQ(load("tip: left_hand, "), "left_hand");
+  EXPECT_EQ(load("tip: right_hand, "), "right_hand");
+  const std::string tips = "the group 'both' has the tips left_hand, right_hand";
+  ExpectInputError([&] { load(""); },
+                   {"two_arms.yaml:11: queries[0].goal.gripper: needs the key tip: " + tips});
+  ExpectInputError([&] { load("tip: chest, "); },
+                   {"two_arms.yaml:11: queries[0].goal.gripper.tip: 'chest' is no tip: " + tips});
 }
 
 struct BadSetup {

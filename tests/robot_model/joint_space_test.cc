@@ -64,6 +64,13 @@ TEST(JointSpace, FindsTheTurnThatIsNearestWithinLimits) {
   EXPECT_EQ(q[1], 1) << "a turn more is beyond the limit";
 }
 
+TEST(JointSpace, HasNothingButOnePositionOfJointsThatAreHeld) {
+  const JointSpace held = Space().Held({0, 2}, std::vector<double>{0.3, 1, 3});
+  EXPECT_TRUE(held.WithinLimits(std::vector<double>{0.3, -2, 3}));
+  EXPECT_FALSE(held.WithinLimits(std::vector<double>{0.2, -2, 3}));
+  EXPECT_FALSE(held.WithinLimits(std::vector<double>{0.3, -2, 3 - 2 * kPi}));
+}
+
 TEST(JointSpace, OnlyContinuousJointsGoTheShortWay) {
   const JointSpace space = Space();
   EXPECT_NEAR(space.Difference(2, 3, -3), 2 * kPi - 6, 1e-15);
