@@ -182,6 +182,17 @@ void AddFixedFrame(const std::string& name, const FrameTree& frames, const Robot
   }
 }
 
+// What `read` reads for that group. Its errors say why it is that group.
+template <typename Read>
+auto ReadFor(const RequestGroup& chosen, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    if (chosen.why.empty()) throw;
+    throw InputError(fmt::format("{} ({})", error.what(), chosen.why));
+  }
+}
+
 }  // namespace
 
 Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, const Robot& robot,
@@ -193,12 +204,14 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   RequireRobot(planning_scene, robot);
 
   Problem problem;
-  const PlanningGroup& group = ReadGroup(request, robot);
+  const RequestGroup chosen = ReadGroup(request, robot);
+  const PlanningGroup& group = *chosen.group;
   problem.group = group.name;
   const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot, group);
   const RobotStateFields start_state = OptionalState(request, "start_state", robot, group);
   const RobotStateFields start = Overlaid(scene_state, start_state);
-  const Stance at_start = ReadStart(request, robot.model, group, start, &problem.start);
+  const Stance at_start = ReadFor(
+      chosen, [&] { return ReadStart(request, robot.model, group, start, &problem.start); });
   // Where a scene's things are is said with the robot in the scene's own state. What that leaves
   // open is as at the start.
   Stance in_scene = at_start;
@@ -238,7 +251,8 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
     RequireNamesOfOne(*matrix, robot, scene);
   }
 
-  problem.goal = ReadGoal(request, robot.model, group, at_start.positions, frames);
+  problem.goal = ReadFor(
+      chosen, [&] { return ReadGoal(request, robot.model, group, at_start.positions, frames); });
   problem.workspace = ReadWorkspace(request, frames);
   // Nothing else tells of its frame, once all that is given in one is in the base frame.
   if (problem.workspace) {

@@ -1,5 +1,8 @@
 #include "scene/moveit_request_reader.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <numbers>
 #include <optional>
@@ -168,6 +171,36 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
   return in_group_order;
 }
 
+// Those that are of one of the groups. Others may be named, and say nothing.
+std::set<std::string> JointsOfGoals(const YamlNode& request,
+                                    const std::vector<PlanningGroup>& groups) {
+  std::set<std::string> joints;
+  for (const YamlNode& set : OptionalElements(request, "goal_constraints")) {
+    for (const YamlNode& goal : OptionalElements(set, "joint_constraints")) {
+      const std::string joint = goal.At("joint_name").String();
+      const bool is_moved =
+          std::any_of(groups.begin(), groups.end(),
+                      [&](const PlanningGroup& group) { return group.space.Find(joint) >= 0; });
+      if (is_moved) joints.insert(joint);
+    }
+  }
+  return joints;
+}
+
+const PlanningGroup& GroupOfGoals(const YamlNode& request, const Robot& robot) {
+  const std::set<std::string> joints = JointsOfGoals(request, robot.groups);
+  const PlanningGroup* first = nullptr;
+  for (const PlanningGroup& group : robot.groups) {
+    const bool has_all = std::all_of(joints.begin(), joints.end(), [&](const std::string& joint) {
+      return group.space.Find(joint) >= 0;
+    });
+    if (!has_all) continue;
+    if (std::ssize(joints) == group.space.size()) return group;
+    if (first == nullptr) first = &group;
+  }
+  return first == nullptr ? robot.Group("") : *first;
+}
+
 }  // namespace
 
 void RequireRequest(const YamlNode& motion_plan_request) {
@@ -182,13 +215,22 @@ void RequireRequest(const YamlNode& motion_plan_request) {
   }
 }
 
-const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) {
+RequestGroup ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) {
   const std::optional<YamlNode> name = motion_plan_request.Find("group_name");
-  if (!name) return robot.Group("");
+  const bool is_named = name && !name->String().empty();
+  if (!is_named && robot.groups.size() > 1) {
+    RequestGroup chosen{.group = &GroupOfGoals(motion_plan_request, robot)};
+    chosen.why = fmt::format("no group_name, so '{}'", chosen.group->name);
+    std::vector<std::string> names;
+    for (const PlanningGroup& group : robot.groups) names.push_back(group.name);
+    name.value_or(motion_plan_request)
+        .Warn(fmt::format("{}, of the groups {}", chosen.why, fmt::join(names, ", ")));
+    return chosen;
+  }
   try {
-    return robot.Group(name->String());
+    return {.group = &robot.Group(is_named ? name->String() : "")};
   } catch (const InputError& error) {
-    name->Fail(error.what());
+    name.value_or(motion_plan_request).Fail(error.what());
   }
 }
 

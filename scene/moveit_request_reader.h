@@ -17,8 +17,17 @@ namespace planbench {
 /// Warns of trajectories to start from.
 void RequireRequest(const YamlNode& motion_plan_request);
 
-/// The planning group that group_name names.
-const PlanningGroup& ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
+/// The planning group that a request is for.
+struct RequestGroup {
+  const PlanningGroup* group = nullptr;  ///< The robot's.
+  /// For errors, "no group_name, so 'left'"; "" if the request names it, or the robot has no other.
+  std::string why = {};
+};
+
+/// The planning group that group_name names; without one, or with an empty one, that of exactly the
+/// joints that the goals name, else the first that has all of these, else the robot's first. Of
+/// several the one that was taken is warned of.
+RequestGroup ReadGroup(const YamlNode& motion_plan_request, const Robot& robot);
 
 /// goal_constraints, as Problem::goal: each set is an alternative, of joint constraints with one
 /// for each joint of the group, in any order; or of constraints on the poses of tips (see

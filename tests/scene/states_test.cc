@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error.h"
 #include "common/numbers.h"
@@ -274,6 +275,47 @@ TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
   refuse("{joint_name: drive, position: 0}", "'drive' has a pose");
   refuse("{joint_name: f2, position: 0.04}", "'f2' follows 'f1'; give a goal for that", "grip");
   refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}", "'f2'", "grip");
+}
+
+TEST(UnnamedGroup, IsThatOfTheGoalsJointsAndTheSessionSaysSo) {
+  const auto read = [](const std::string& goals) {
+    return Parse("", "joint_state: {name: [wrist, f1], position: [0, 0]}", goals, "''");
+  };
+  constexpr const char* kWrist =
+      "{joint_name: wrist, position: 1}, {joint_name: weld, position: 0}";
+  Problem problem = read(kWrist);
+  EXPECT_EQ(problem.group, "wrist");
+  EXPECT_THAT(problem.warnings, ElementsAre("request.yaml:1: group_name: no group_name, so "
+                                            "'wrist', of the groups wrist, grip"));
+  problem = read("{joint_name: wrist, position: 1}, {joint_name: f1, position: 0.04}");
+  EXPECT_EQ(problem.group, "grip") << "the only one that has all";
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("so 'grip', of the groups")));
+
+  ExpectInputError([&] { read("{joint_name: f1, position: 0.04}"); },
+                   {"request.yaml:3: goal_constraints[0].joint_constraints: there is no goal for "
+                    "joint 'wrist' of group 'grip' (no group_name, so 'grip')"});
+  ExpectInputError([&] { Parse("", "joint_state: {name: [f1], position: [0]}", kWrist, "''"); },
+                   {"does not name joint 'wrist' of group 'wrist' (no group_name, so 'wrist')"});
+
+  const auto without_name = [&](const Robot& robot) {
+    return ParseProblem(
+        YamlNode::Parse("robot_model_name: cart\n", "scene.yaml"),
+        YamlNode::Parse("start_state: {joint_state: {name: [wrist, f1], position: [0, 0]}}\n"
+                        "goal_constraints: [{joint_constraints: [" +
+                            std::string(kWrist) + "]}]\n",
+                        "request.yaml"),
+        robot, {});
+  };
+  Robot robot = CartRobot();
+  std::swap(robot.groups[0], robot.groups[1]);
+  problem = without_name(robot);
+  EXPECT_EQ(problem.group, "wrist") << "both have the joint, this one no other";
+  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("no group_name, so 'wrist'")));
+  robot.groups.pop_back();
+  robot.groups.front() = robot.model.MakeGroup("only", {"wrist"}, "hand");
+  problem = without_name(robot);
+  EXPECT_EQ(problem.group, "only");
+  EXPECT_THAT(problem.warnings, IsEmpty()) << "there is no other";
 }
 
 TEST(ContinuousJoints, AreReadWithoutWholeTurns) {
