@@ -31,10 +31,10 @@ std::vector<EffortColumn> MakeEffortColumns() {
     return [count](double value) { return Number(value, count); };
   };
   const auto counter = [](const char* name) {
-    return [name](const Record& record) {
+    return [name](const Record& record) -> std::optional<double> {
       const auto& counters = record.result.result.counters;
       const auto found = counters.find(name);
-      return found == counters.end() ? 0 : found->second;
+      return found == counters.end() ? std::nullopt : std::optional(found->second);
     };
   };
   std::vector<EffortColumn> columns = {
@@ -47,12 +47,12 @@ std::vector<EffortColumn> MakeEffortColumns() {
        },
        Milliseconds},
       {"simplify ms",
-       [](const Record& record) { return record.result.result.phases.simplification_s; },
+       [](const Record& record) { return record.result.result.phases.Simplification(); },
        Milliseconds},
       {"checking %",
        [](const Record& record) -> std::optional<double> {
          const PlanResult& result = record.result.result;
-         if (result.total_time_s == 0) return std::nullopt;
+         if (result.total_time_s == 0 || !result.phases.AreTold()) return std::nullopt;
          return 100 * result.phases.collision_s / result.total_time_s;
        },
        decimals(0)},
@@ -133,7 +133,7 @@ std::string EffortTable(const SessionResults& results) {
   return table.Format(
       "bus: the driver's round trip less the planner's own time. checking: share of collision "
       "checking in the search. length: joint space, L2, rad and m. clearance: least along the raw "
-      "path.\n\n");
+      "path. -: not told, or not measured.\n\n");
 }
 
 std::string MeshTable(const SessionResults& results) {

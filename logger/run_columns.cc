@@ -51,9 +51,11 @@ RunColumn Time(std::string name, double PlanResult::*time) {
   return OfAnswer(std::move(name), "REAL", [time](const PlanResult& p) { return Real(p.*time); });
 }
 
-RunColumn Time(std::string name, double PhaseTimes::*phase) {
-  return OfAnswer(std::move(name), "REAL",
-                  [phase](const PlanResult& p) { return Real(p.phases.*phase); });
+/// A part of the total time.
+RunColumn Phase(std::string name, double PhaseTimes::*phase) {
+  return OfAnswer(std::move(name), "REAL", [phase](const PlanResult& p) {
+    return p.phases.AreTold() ? Real(p.phases.*phase) : SqliteValue(kNull);
+  });
 }
 
 /// A number of which 0 means that there is none.
@@ -165,11 +167,12 @@ std::vector<RunColumn> MakeRunColumns() {
       {"roundtrip_time", "REAL",
        [](const Record& r) { return RealUnlessZero(r.roundtrip_time_s); }},
       Time("total_time", &PlanResult::total_time_s),
-      Time("setup_time", &PhaseTimes::setup_s),
-      Time("collision_time", &PhaseTimes::collision_s),
-      Time("guidance_time", &PhaseTimes::guidance_s),
-      Time("search_time", &PhaseTimes::search_s),
-      Time("simplification_time", &PhaseTimes::simplification_s),
+      Phase("setup_time", &PhaseTimes::setup_s),
+      Phase("collision_time", &PhaseTimes::collision_s),
+      Phase("guidance_time", &PhaseTimes::guidance_s),
+      Phase("search_time", &PhaseTimes::search_s),
+      OfAnswer("simplification_time", "REAL",
+               [](const PlanResult& p) { return RealUnlessZero(p.phases.simplification_s); }),
   });
   for (const PathMeasure& measure : PathMeasures()) {
     add({Measure(measure.name, kRaw, measure.name),

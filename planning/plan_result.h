@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,21 @@ struct PlanProgress {
 
 /// Where the time up to the end of the search (PlanResult::total_time_s) went, s. That is the
 /// planning time, unless the search went on with a path in hand: an anytime search after its first
-/// solution, any other until the time limit. Phases that a planner does not have are 0.
+/// solution, any other until the time limit. Phases that a planner does not have are 0, and all of
+/// them if it does not tell.
 struct PhaseTimes {
-  double setup_s = 0;           ///< Scene, robot state, planner structures for this request.
-  double collision_s = 0;       ///< Collision checking of states and edges.
-  double guidance_s = 0;        ///< Heuristic or nearest neighbours, where the planner can tell.
-  double search_s = 0;          ///< The rest.
-  double simplification_s = 0;  ///< After planning; no part of the planning time.
+  double setup_s = 0;      ///< Scene, robot state, planner structures for this request.
+  double collision_s = 0;  ///< Collision checking of states and edges.
+  double guidance_s = 0;   ///< Heuristic or nearest neighbours, where the planner can tell.
+  double search_s = 0;     ///< The rest.
+  double simplification_s =
+      0;  ///< After planning; no part of the planning time. 0: there was none.
+
+  /// Whether the planner tells of the phases that the total time is made of.
+  bool AreTold() const { return setup_s + collision_s + guidance_s + search_s > 0; }
+  std::optional<double> Simplification() const {  ///< s; nothing if there was none.
+    return simplification_s == 0 ? std::nullopt : std::optional(simplification_s);
+  }
   bool operator==(const PhaseTimes&) const = default;
 };
 

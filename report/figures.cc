@@ -229,8 +229,8 @@ Json SetJson(const ComparedSessions& compared, const std::string& name,
   json["phases"] = ByContestant(
       compared, set, [&](const Outcomes&, const ComparedContestant& contestant) -> Json {
         const std::vector<const StoredRun*> runs = ConfirmedRuns(contestant, name);
-        if (runs.empty()) return nullptr;
         const PhaseTimes mean = MeanPhases(runs);
+        if (!mean.AreTold()) return nullptr;
         const double total = mean.setup_s + mean.collision_s + mean.guidance_s + mean.search_s;
         return {{"total", Rounded(kMsPerS * total)},
                 {"shares",

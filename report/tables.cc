@@ -434,8 +434,8 @@ Table PhaseTable(const ComparedSessions& compared) {
       "phases",
       "Where the time goes, ms",
       "Means over confirmed attempts; the first four are a partition of the time to the end "
-      "of the search. Simplification comes after planning and is no part of any planning "
-      "time.",
+      "of the search, of the attempts of which the planner tells it. Simplification comes after "
+      "planning and is no part of any planning time; its mean is over the attempts that had any.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"attempts", "attempts", Style::kCount},
@@ -445,16 +445,19 @@ Table PhaseTable(const ComparedSessions& compared) {
        {"search_ms", "search", Style::kNumber},
        {"simplification_ms", "simplification", Style::kNumber}},
       {}};
-  ForEach(compared,
-          [&](const std::string& set, const ComparedContestant& contestant, const Outcomes&) {
-            const std::vector<const StoredRun*> runs = ConfirmedRuns(contestant, set);
-            if (runs.empty()) return;
-            const PhaseTimes mean = MeanPhases(runs);
-            table.rows.push_back({set, contestant.name, static_cast<int>(runs.size()),
-                                  kMsPerS * mean.setup_s, kMsPerS * mean.collision_s,
-                                  kMsPerS * mean.guidance_s, kMsPerS * mean.search_s,
-                                  kMsPerS * mean.simplification_s});
-          });
+  ForEach(compared, [&](const std::string& set, const ComparedContestant& contestant,
+                        const Outcomes&) {
+    const std::vector<const StoredRun*> runs = ConfirmedRuns(contestant, set);
+    if (runs.empty()) return;
+    const PhaseTimes mean = MeanPhases(runs);
+    const auto phase = [&](double time_s) {
+      return mean.AreTold() ? Cell(kMsPerS * time_s) : Cell();
+    };
+    const auto simplification_s = mean.Simplification();
+    table.rows.push_back({set, contestant.name, static_cast<int>(runs.size()), phase(mean.setup_s),
+                          phase(mean.collision_s), phase(mean.guidance_s), phase(mean.search_s),
+                          simplification_s ? Cell(kMsPerS * *simplification_s) : Cell()});
+  });
   return table;
 }
 

@@ -44,7 +44,8 @@ std::vector<Property> LoggedProperties() {
   };
   const auto phase = [](double PhaseTimes::*time) {
     return [=](const StoredRun& run) {
-      return run.time_s ? fmt::format("{}", run.phases.*time) : std::string();
+      const bool is_told = run.time_s && run.phases.AreTold();
+      return is_told ? fmt::format("{}", run.phases.*time) : std::string();
     };
   };
   return {
@@ -74,7 +75,8 @@ std::vector<Property> LoggedProperties() {
       {"collision time", "REAL", phase(&PhaseTimes::collision_s)},
       {"guidance time", "REAL", phase(&PhaseTimes::guidance_s)},
       {"search time", "REAL", phase(&PhaseTimes::search_s)},
-      {"simplification time", "REAL", phase(&PhaseTimes::simplification_s)},
+      {"simplification time", "REAL",
+       [](const StoredRun& run) { return Text(run.phases.Simplification()); }},
   };
 }
 

@@ -87,11 +87,21 @@ std::optional<double> CheckingSpread(const ComparedContestant& contestant) {
 
 PhaseTimes MeanPhases(const std::vector<const StoredRun*>& runs) {
   PhaseTimes mean;
+  const auto add = [&](double PhaseTimes::*phase, const auto& counts) {
+    std::size_t number = 0;
+    for (const StoredRun* run : runs) {
+      if (!counts(run->phases)) continue;
+      mean.*phase += run->phases.*phase;
+      ++number;
+    }
+    if (number > 0) mean.*phase /= static_cast<double>(number);
+  };
   for (const auto phase : {&PhaseTimes::setup_s, &PhaseTimes::collision_s, &PhaseTimes::guidance_s,
-                           &PhaseTimes::search_s, &PhaseTimes::simplification_s}) {
-    for (const StoredRun* run : runs) mean.*phase += run->phases.*phase;
-    if (!runs.empty()) mean.*phase /= static_cast<double>(runs.size());
+                           &PhaseTimes::search_s}) {
+    add(phase, [](const PhaseTimes& phases) { return phases.AreTold(); });
   }
+  add(&PhaseTimes::simplification_s,
+      [](const PhaseTimes& phases) { return phases.Simplification().has_value(); });
   return mean;
 }
 

@@ -44,7 +44,8 @@ std::string RejectedSimplifiedNote(const std::string& contestant,
 /// Nothing if no problem has several, or if the planner does not count.
 std::optional<double> CheckingSpread(const ComparedContestant& contestant);
 
-/// Means over the runs; zero if there are none.
+/// Means over the runs that tell of their phases, of simplification over those that had any; zero
+/// if there are none.
 PhaseTimes MeanPhases(const std::vector<const StoredRun*>& runs);
 
 }  // namespace planbench

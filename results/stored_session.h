@@ -33,7 +33,7 @@ struct StoredRun {
   double total_time_s = 0;      ///< To the end of the search; planning time where not told.
   double roundtrip_time_s = 0;  ///< By the driver's clock.
   double time_limit_s = 0;      ///< Of the request.
-  PhaseTimes phases;            ///< Zero if no answer came.
+  PhaseTimes phases;            ///< Zero where nothing is told.
   MeasuredValues measures;      ///< Of the raw path, finite ones.
   std::optional<bool> simplified_valid;   ///< The referee's word on the simplified path.
   MeasuredValues measures_simple;         ///< Of the simplified path, unless it is rejected.

@@ -379,6 +379,17 @@ PathVerdict Valid(MeasuredValues measures) {
   return verdict;
 }
 
+TEST(TablesTest, EffortThatIsNotToldIsNone) {
+  RunRecordMessage record = OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.5));
+  record.result.result.phases = {};
+  record.result.result.counters.clear();
+  record.roundtrip_time_s = 0.501;
+  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - - - - "));
+  record.result.result.phases.search_s = 0.5;
+  record.result.result.counters = {{"edges_checked", 0}};
+  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - 0 0 - "));
+}
+
 TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 3; ++i) {

@@ -210,6 +210,27 @@ TEST_F(ResultsDatabaseTest, WhatWasNotJudgedIsNull) {
   EXPECT_EQ(Run("mesh_valid_simplified"), kNull);
 }
 
+TEST_F(ResultsDatabaseTest, WhatThePlannerDoesNotTellIsNull) {
+  RunRecordMessage record = SampleRecord();
+  record.result.result.phases = {};
+  record.result.result.counters.clear();
+  database_.Store(record);
+  for (const char* column : {"setup_time", "collision_time", "guidance_time", "search_time",
+                             "simplification_time", "edges_checked", "configurations_checked"}) {
+    EXPECT_EQ(Run(column), kNull) << column;
+  }
+  EXPECT_EQ(Run("total_time"), SqliteValue(0.75));
+
+  record = SampleRecord("without guidance");
+  record.result.result.phases = {.search_s = 0.75};
+  record.result.result.counters = {{"edges_checked", 0}};
+  database_.Store(record);
+  EXPECT_EQ(Run("guidance_time", "without guidance"), SqliteValue(0.0));
+  EXPECT_EQ(Run("search_time", "without guidance"), SqliteValue(0.75));
+  EXPECT_EQ(Run("simplification_time", "without guidance"), kNull);
+  EXPECT_EQ(Run("edges_checked", "without guidance"), Int(0));
+}
+
 TEST_F(ResultsDatabaseTest, MeasuresAreNullIfInfiniteOrNotTaken) {
   RunRecordMessage record = SampleRecord();
   record.path_check.verdict->measures["clearance"] = std::numeric_limits<double>::infinity();

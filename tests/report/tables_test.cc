@@ -354,6 +354,27 @@ TEST_F(ReportTest, FiguresHaveEveryRunAndEveryProblem) {
   EXPECT_TRUE(json["sets"][2]["all"]);
 }
 
+TEST_F(ReportTest, PhasesThatAreNotToldAreNone) {
+  const TemporaryFolder folder;
+  WriteSession(folder / "example", {{.contestant = "A"}, {.contestant = "B"}}, ExampleSession());
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  for (StoredRun& run : sessions[0].runs) {
+    if (sessions[0].contestants[run.contestant].name == "B") run.phases = {};
+  }
+  const ComparedSessions compared(std::move(sessions));
+  const Table table = PhaseTable(compared);
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (std::size_t row = 0; row < 2; ++row) {
+    const Row texts = Texts(table, row);
+    const Row phases(texts.begin() + 3, texts.end());
+    EXPECT_EQ(phases, texts[1] == "B"
+                          ? Row(5, "-")
+                          : (Row{FormatNumber(125), FormatNumber(500), FormatNumber(250),
+                                 FormatNumber(125), FormatNumber(250)}));
+  }
+  EXPECT_EQ(FigureData(compared, {}, {})["sets"][0]["phases"].size(), 1u);
+}
+
 TEST_F(ReportTest, MeshVerdictsNameTheCommonestContact) {
   const auto run = [](int problem, bool valid, const std::string& reason, double depth_m = 0) {
     return MadeRun{.contestant = "A",

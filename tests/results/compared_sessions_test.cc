@@ -384,6 +384,13 @@ TEST(QualityTest, PhasesAreMeans) {
   b.phases = {3, 2, 1, 0, 1};
   EXPECT_EQ(MeanPhases({&a, &b}), (PhaseTimes{2, 2, 2, 2, 3}));
   EXPECT_EQ(MeanPhases({}), PhaseTimes());
+  // Of one that tells nothing, and of one that simplified nothing.
+  const StoredRun untold;
+  EXPECT_EQ(MeanPhases({&a, &untold}), a.phases);
+  StoredRun not_simplified;
+  not_simplified.phases = {3, 2, 1, 0, 0};
+  EXPECT_EQ(MeanPhases({&a, &not_simplified}), (PhaseTimes{2, 2, 2, 2, 5}));
+  EXPECT_FALSE(MeanPhases({&untold}).AreTold());
 }
 
 }  // namespace

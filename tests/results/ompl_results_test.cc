@@ -244,6 +244,15 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
   ExpectInputError([&] { KeepProblemsOf(own, &imported); }, {"own.log", "shelf", "other"});
 }
 
+TEST_F(OmplResultsTest, ALogHasNoTimesThatAreNotTold) {
+  WriteSession(folder_ / "example", {{.contestant = "A"}});
+  StoredSession session = ReadSessions(folder_ / "example").sessions.front();
+  EXPECT_NE(OmplLog(session, "shelf").find("; 0.125; 0.5; 0.25; 0.125; 0.25; \n"),
+            std::string::npos);
+  session.runs.front().phases = {};
+  EXPECT_NE(OmplLog(session, "shelf").find("; ; ; ; ; ; \n"), std::string::npos);
+}
+
 TEST_F(OmplResultsTest, OfImprovementsAtOneTimeALogHasTheLast) {
   WriteSession(
       folder_ / "example",
