@@ -88,9 +88,10 @@ class YamlNode {
 
   /// Replaces `key` (of a map or null node) by `text` parsed as YAML. A key with dots that the map
   /// does not have leads into maps: `ompl.goal_bias` is `goal_bias` of the map `ompl`, which is
-  /// made if it is missing. Errors about it will name `origin`, e.g. "--set range" or
-  /// "PLAN_REQUEST_RRTC parameter range". Copies made before keep the old value. Throws for text
-  /// that is no YAML, and where a map should be and is none.
+  /// made if it is missing. Errors about the value will name `origin`, e.g. "--set range" or
+  /// "PLAN_REQUEST_RRTC parameter range"; those about a map that it is put into name where that
+  /// stands, and `origin` if it was made for the value. Copies made before keep the old value.
+  /// Throws for text that is no YAML, and where a map should be and is none.
   void Override(const std::string& key, const std::string& text, const std::string& origin);
 
   /// "file:line: field.path".
