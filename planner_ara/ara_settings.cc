@@ -145,8 +145,9 @@ void AraSettings::Apply(const YamlNode& node) {
   arm_by_arm = node.BoolOr("arm_by_arm", arm_by_arm);
   if (const std::optional<YamlNode> value = node.Find("cost")) cost = value->Enum<MoveCost>();
   if (const std::optional<YamlNode> file = node.Find("experience")) experience = file->String();
-  if (const std::optional<YamlNode> value = node.Find("recall"))
+  if (const std::optional<YamlNode> value = node.Find("recall")) {
     recall = ReadRecall(*value, experience);
+  }
   epsilon.initial = AtLeastOne(node, "epsilon_initial", epsilon.initial);
   epsilon.decrement = Factor(node, "epsilon_decrement", epsilon.decrement);
   epsilon.final = AtLeastOne(node, "epsilon_final", epsilon.final);
