@@ -18,18 +18,17 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;  // key, value as YAML
 
-/// The values of settings by their keys; those in a map's by MAP.KEY, as --set has them.
-std::vector<std::pair<std::string, YamlNode>> ReadValues(const YamlNode& map) {
-  std::vector<std::pair<std::string, YamlNode>> values;
+using Values = std::vector<std::pair<std::string, YamlNode>>;
+
+/// The values of settings by their keys, `prefix` before them; those in a map's by MAP.KEY, as
+/// --set has them.
+Values ReadValues(const YamlNode& map, const std::string& prefix = "") {
+  Values values;
   for (const std::string& key : map.Keys()) {
     const YamlNode value = map.At(key);
-    if (!value.IsMap()) {
-      values.emplace_back(key, value);
-      continue;
-    }
-    for (const std::string& inner : value.Keys()) {
-      values.emplace_back(key + "." + inner, value.At(inner));
-    }
+    const Values more =
+        value.IsMap() ? ReadValues(value, prefix + key + ".") : Values{{prefix + key, value}};
+    values.insert(values.end(), more.begin(), more.end());
   }
   return values;
 }

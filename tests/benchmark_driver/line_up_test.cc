@@ -103,7 +103,7 @@ TEST_F(LineUpTest, ASweepIsAContestantForEachValue) {
 TEST_F(LineUpTest, SettingsThatAreMapsAndListsAreHandedOnAsTheFlagHasThem) {
   const auto entries = Read(R"(contestants:
   rrtc:
-    set: {algorithm: RRT, ompl: {range: 2, delay: 1}, crowding_joints: [lift, "a, b"]}
+    set: {algorithm: RRT, ompl: {range: 2, far: {down: 1}}, crowding_joints: [lift, "a, b"]}
     sweep: {ompl.goal_bias: [0.05, 0.5]}
   a: {sweep: {cells: {roll: [0.1, 0.2]}, joints: [[lift], [lift, roll]]}}
 )");
@@ -113,7 +113,7 @@ TEST_F(LineUpTest, SettingsThatAreMapsAndListsAreHandedOnAsTheFlagHasThem) {
                   "a_cells_roll_0_1_joints__lift_", "a_cells_roll_0_1_joints__lift__roll_",
                   "a_cells_roll_0_2_joints__lift_", "a_cells_roll_0_2_joints__lift__roll_"));
   EXPECT_THAT(entries[1].settings,
-              ElementsAre("algorithm=RRT", "ompl.range=2", "ompl.delay=1",
+              ElementsAre("algorithm=RRT", "ompl.range=2", "ompl.far.down=1",
                           "crowding_joints=[lift, \"a, b\"]", "ompl.goal_bias=0.5"));
   EXPECT_THAT(entries[3].settings, ElementsAre("cells.roll=0.1", "joints=[lift, roll]"));
 }
@@ -171,7 +171,7 @@ TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
   ExpectRefused("contestants:\n  ara: {directions: up}", {":2", "auto, forward, backward or both"});
   ExpectRefused("contestants:\n  ara: {config: none.yaml}", {":2", "config", robot().string()});
   ExpectRefused("contestants:\n  ara: {sweep: {range: []}}", {":2", "range", "no value"});
-  ExpectRefused("contestants:\n  ara: {set: {ompl: {a: {b: 1}}}}", {":2", "ompl.a", "a map"});
+  ExpectRefused("contestants:\n  ara: {set: {a: [{b: 1}]}}", {":2", "set.a", "a map"});
   ExpectRefused("contestants:\n  ara: {sweep: {range: 1}}", {":2", "range", "sequence"});
   ExpectRefused("contestants:\n  a b: {}", {":2", "a b", "letters"});
   ExpectRefused("contestants:\n  ara: {command: ./x, set: {a: 1}}", {":2", "set", "command"});
