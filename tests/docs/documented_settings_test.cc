@@ -17,7 +17,8 @@
 #include "planning/planner_settings.h"
 #include "tests/support/planning_problems.h"
 
-// Every --set that the documentation shows is one that its planner takes.
+// Every --set that the documentation shows, and every NAME.KEY=VALUE, is one that its planner
+// takes.
 namespace planbench {
 namespace {
 
@@ -44,7 +45,7 @@ struct ShownSetting {
 std::vector<ShownSetting> SettingsOf(const fs::path& document) {
   std::ifstream file(document);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  static const std::regex kFlag(R"((?:--algorithm (\w+) )?--set\s+([\w.]+)=([^\s`]+))");
+  static const std::regex kFlag(R"((?:--algorithm (\w+) )?(?:--set\s+|NAME\.)([\w.]+)=([^\s`]+))");
   static const std::regex kForm("key|KEY|NAME\\.KEY");
   std::vector<ShownSetting> shown;
   for (std::sregex_iterator it(text.begin(), text.end(), kFlag), end; it != end; ++it) {
@@ -69,7 +70,7 @@ std::vector<ShownSetting> AllSettings() {
 }
 
 /// The planner whose setting it is: the one that the key begins with, as the driver has it, which
-/// is taken off; else the one that the document is about.
+/// is taken off; else the one with OMPL's settings, or the one that the document is about.
 std::string TakePlanner(ShownSetting* shown) {
   const std::size_t dot = shown->key.find('.');
   const std::string first = shown->key.substr(0, dot);
@@ -77,8 +78,7 @@ std::string TakePlanner(ShownSetting* shown) {
     shown->key = shown->key.substr(dot + 1);
     return first;
   }
-  const std::string about = shown->document.stem();
-  return about == "CONTRIBUTING" ? "rrtc" : about;  // Its recipe for settings of OMPL.
+  return first == "ompl" ? "rrtc" : shown->document.stem().string();
 }
 
 TEST(DocumentedSettings, AreTaken) {
@@ -89,8 +89,11 @@ TEST(DocumentedSettings, AreTaken) {
     const std::string planner = TakePlanner(&shown);
     ASSERT_TRUE(kFactories.contains(planner)) << "which planner's?";
     std::vector<std::string> overrides = {shown.key + "=" + shown.value};
+    if (shown.key.starts_with("ompl.")) {
+      ++of_ompl;
+      if (shown.algorithm.empty()) shown.algorithm = "RRT";  // Of a NAME that runs one of OMPL's.
+    }
     if (!shown.algorithm.empty()) overrides.push_back("algorithm=" + shown.algorithm);
-    if (shown.key.starts_with("ompl.")) ++of_ompl;
     try {
       kFactories.at(planner)(robot, LoadPlannerSettings(robot, planner, "", overrides));
     } catch (const InputError& error) {
@@ -99,7 +102,7 @@ TEST(DocumentedSettings, AreTaken) {
       EXPECT_EQ(message.find("unknown key"), std::string::npos) << message;
     }
   }
-  EXPECT_GE(of_ompl, 2) << "docs/rrtc.md and CONTRIBUTING.md show one each";
+  EXPECT_GE(of_ompl, 3) << "docs/rrtc.md, docs/lineups.md and CONTRIBUTING.md show one each";
 }
 
 }  // namespace
