@@ -35,6 +35,14 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   return recorded;
 }
 
+SessionMessage LastTold(const RecordedSession& recorded, const std::string& run_id) {
+  SessionMessage last;
+  for (const SessionMessage& session : recorded.sessions) {
+    if (session.run_id == run_id) last = session;
+  }
+  return last;
+}
+
 std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log,
                                         std::vector<std::string>* passed_over) {
   std::map<std::string, Scene> scenes;

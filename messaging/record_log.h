@@ -24,6 +24,9 @@ struct RecordedSession {
 /// channel can be decoded: they are of another version.
 RecordedSession ReadRecords(const std::filesystem::path& event_log);
 
+/// What it tells last of the session of that run id; of one that it does not tell of, nothing.
+SessionMessage LastTold(const RecordedSession& recorded, const std::string& run_id);
+
 /// The scenes that an LCM event log holds, by content id. Adds to `passed_over` a line if
 /// any could not be decoded; errors as above.
 std::map<std::string, Scene> ReadScenes(const std::filesystem::path& event_log,

@@ -17,24 +17,15 @@ namespace {
 /// Of a path in a report, where many share the room.
 constexpr int kFramesEmbedded = 40;
 
-/// What the log tells last of the session with that run id; of one that it does not tell of,
-/// nothing but that id.
-SessionMessage LastWords(const RecordedSession& recorded, const std::string& run_id) {
-  SessionMessage last;
-  last.run_id = run_id;
-  for (const SessionMessage& session : recorded.sessions) {
-    if (session.run_id == run_id) last = session;
-  }
-  return last;
-}
-
 }  // namespace
 
 RecordedViews::RecordedViews(const StoredSession& session,
                              const std::filesystem::path& robot_folder)
     : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())) {
   RecordedSession recorded = ReadRecords(log_);
-  robot_ = LoadSessionRobot(LastWords(recorded, session.run_id), robot_folder);
+  SessionMessage told = LastTold(recorded, session.run_id);
+  if (told.settings.empty()) told.settings = session.flags;  // The log has lost it.
+  robot_ = LoadSessionRobot(told, robot_folder);
   scenes_ = ReadScenes(log_, &passed_over_);
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {

@@ -67,10 +67,7 @@ Json ViewOfLog(const Flags& flags) {
   if (scene == scenes.end()) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
-  SessionMessage session;
-  for (const SessionMessage& told : recorded.sessions) {
-    if (told.run_id == run.run_id) session = told;
-  }
+  const SessionMessage session = LastTold(recorded, run.run_id);
   return RunView(LoadSessionRobot(session, flags.robot), scene->second, run, kFrames);
 }
 

@@ -66,6 +66,8 @@ TEST_F(RecordLogTest, ReadsSessionsAndRunsInOrder) {
   ASSERT_EQ(recorded.sessions.size(), 2u);
   EXPECT_EQ(recorded.sessions[0].run_id, "run");
   EXPECT_EQ(recorded.sessions[1].run_id, "later run");
+  EXPECT_EQ(LastTold(recorded, "run"), recorded.sessions[0]);
+  EXPECT_EQ(LastTold(recorded, "another"), SessionMessage());
   ASSERT_EQ(recorded.runs.size(), 2u);
   EXPECT_EQ(recorded.runs[0].request_id, "b");
   EXPECT_EQ(recorded.runs[1].request_id, "a");

@@ -297,6 +297,17 @@ TEST_F(ReportProgramTest, ASessionByHandIsShownWithItsSceneServersRobot) {
     EXPECT_EQ(Run({Path(name), "--out", Path("page.html")}), kExitOk) << errors_;
     EXPECT_THAT(ReadText(folder_ / "page.html"), testing::Not(HasSubstr("3D views of 0 of 1")));
   }
+  // A log that has lost the session's message: the database has the flags.
+  write("torn", robot, "");
+  std::filesystem::remove(folder_ / "torn/torn.lcmlog");
+  {
+    EventLog log(folder_ / "torn/torn.lcmlog", EventLog::Mode::kNew);
+    log.Write(PlanarSession::Received(channel::kScene, by_hand.scene));
+    log.Write(PlanarSession::Received(channel::kRunRecord, by_hand.record));
+  }
+  EXPECT_EQ(Run({"--session", Path("torn"), "--run", "1", "--out", Path("view.html")}, "view"),
+            kExitOk)
+      << errors_;
   write("lost", "", "/no/such/robot");
   EXPECT_EQ(Run({Path("lost"), "--out", Path("page.html")}), kExitOk) << errors_;
   EXPECT_THAT(ReadText(folder_ / "page.html"),
