@@ -1,5 +1,7 @@
 #include "report/session_robot.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 
@@ -16,6 +18,15 @@ std::string SettingOf(const std::map<std::string, std::string>& settings, const 
   return setting == settings.end() ? "" : setting->second;
 }
 
+/// Whether both, content ids of robots, can be of one; "" is of any.
+bool CanBeOne(const std::string& id, const std::string& other) {
+  return id.empty() || other.empty() || id == other;
+}
+
+const std::string& RobotId(const SessionMessage& session) {
+  return session.conditions.request.robot_id;
+}
+
 std::filesystem::path RobotFolder(const SessionMessage& session) {
   std::string why = "the session does not name its robot's folder";
   if (const std::string flag = SettingOf(session.settings, kRobotSetting); !flag.empty()) {
@@ -26,7 +37,7 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
     }
   }
   for (const NodeStatusMessage& node : session.nodes) {
-    if (node.kind != NodeKind::kSceneServer) continue;
+    if (node.kind != NodeKind::kSceneServer || !CanBeOne(node.robot_id, RobotId(session))) continue;
     const std::string folder = SettingOf(node.settings, kRobotSetting);
     if (IsFolder(folder)) return folder;
     if (!folder.empty() && why.find(folder) == std::string::npos) {
@@ -39,8 +50,22 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
 }  // namespace
 
 Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder) {
-  return LoadRobot(robot_folder.empty() ? RobotFolder(session) : robot_folder, {},
-                   SettingOf(session.settings, "spheres"));
+  const std::string spheres = SettingOf(session.settings, "spheres");
+  const bool has_spheres = spheres.empty() || IsFile(spheres);
+  if (robot_folder.empty()) {
+    const std::filesystem::path folder = RobotFolder(session);
+    if (has_spheres) return LoadRobot(folder, {}, spheres);
+    throw UnknownRobot("the session's spheres, " + spheres +
+                       ", are not here: give a robot folder that holds them with --robot DIR");
+  }
+  Robot robot = LoadRobot(robot_folder, {}, has_spheres ? spheres : "");
+  if (!has_spheres && !CanBeOne(robot.content_id, RobotId(session))) {
+    throw InputError(fmt::format(
+        "{} is not the session's robot, which has the spheres of {}: as that file is not here, the "
+        "folder must hold them as its own",
+        robot_folder.string(), spheres));
+  }
+  return robot;
 }
 
 }  // namespace planbench

@@ -8,7 +8,7 @@
 
 namespace planbench {
 
-/// No folder of a session's robot is named, or there is none where one is named.
+/// No folder of a session's robot is named, or it or its spheres are not where they are named.
 class UnknownRobot : public InputError {
  public:
   using InputError::InputError;
@@ -16,9 +16,10 @@ class UnknownRobot : public InputError {
 
 /// The robot of a session: that of `robot_folder`, or, if that is empty, of the folder or the robot
 /// that ships which the driver's flags name, or else, as of processes that were started by hand, of
-/// the folder that the scene server tells of. The flags' `spheres` hold for all of them. Whether it
-/// is the session's, its content id tells. Throws UnknownRobot, and InputError if it cannot be
-/// read.
+/// the folder that the scene server of its robot tells of. The flags' `spheres` hold for all of
+/// them; where that file is not here, `robot_folder` may hold them as its own. Whether it is the
+/// session's, its content id tells. Throws UnknownRobot, and InputError if it cannot be read or
+/// another robot stands for one whose spheres are not here.
 Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder);
 
 }  // namespace planbench

@@ -53,15 +53,13 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
   const std::string& name = message.channel;
   try {
     if (name == channel::kNodeStatus) {
-      auto status = Decode<NodeStatusMessage>(message.bytes, name);
-      const std::pair key(status.kind, status.name);
-      nodes_.insert_or_assign(key, Node{std::move(status), now});
+      HearStatus(Decode<NodeStatusMessage>(message.bytes, name), now);
     } else if (name == channel::kSession) {
       auto session = Decode<SessionMessage>(message.bytes, name);
       if (!session_ || session_->run_id != session.run_id) {
         tallies_.clear();
         records_.clear();
-        if (robot_folder_.empty()) robot_.reset();
+        robot_.reset();
         session_heard_ = now;
       }
       session_ = std::move(session);
@@ -86,6 +84,18 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
   } catch (const MessageError&) {
     ++num_undecodable_;
   }
+}
+
+void LiveSession::HearStatus(NodeStatusMessage status, TimePoint now) {
+  if (status.kind == NodeKind::kSceneServer) {
+    if (!scene_server_ || scene_server_->robot_id != status.robot_id) {
+      robot_.reset();
+      ++view_number_;
+    }
+    scene_server_ = status;
+  }
+  const std::pair key(status.kind, status.name);
+  nodes_.insert_or_assign(key, Node{std::move(status), now});
 }
 
 void LiveSession::HearRequest(const PlanRequest& request, const std::string& planner) {
@@ -192,7 +202,7 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
 const Robot& LiveSession::LoadedRobot() const {
   if (robot_) return *robot_;
   SessionMessage session = session_.value_or(SessionMessage());
-  for (const auto& [key, node] : nodes_) session.nodes.push_back(node.status);
+  if (scene_server_) session.nodes.push_back(*scene_server_);
   robot_ = std::make_unique<const Robot>(LoadSessionRobot(session, robot_folder_));
   return *robot_;
 }

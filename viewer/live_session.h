@@ -25,8 +25,8 @@ class LiveSession {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// `robot_folder`: empty: the one that the session or its scene server names. Throws InputError if
-  /// there is no robot in it.
+  /// `robot_folder`: empty: the one that the session or its scene server names. Throws InputError
+  /// if there is no robot in it.
   explicit LiveSession(std::filesystem::path robot_folder);
 
   /// Takes a message that came at `now`; one that cannot be decoded is counted.
@@ -47,6 +47,7 @@ class LiveSession {
   std::optional<Json> View() const;
 
  private:
+  void HearStatus(NodeStatusMessage status, TimePoint now);
   /// `planner`: what its channel calls the planner, in capitals.
   void HearRequest(const PlanRequest& request, const std::string& planner);
   void HearResult(const PlanResultMessage& result);
@@ -57,7 +58,8 @@ class LiveSession {
   std::filesystem::path robot_folder_;
   mutable std::unique_ptr<const Robot> robot_;
   std::optional<SessionMessage> session_;
-  TimePoint session_heard_;  ///< Its first message.
+  TimePoint session_heard_;                        ///< Its first message.
+  std::optional<NodeStatusMessage> scene_server_;  ///< Heard last: a bus has one at a time.
   struct Node {
     NodeStatusMessage status;
     TimePoint heard;

@@ -6,6 +6,7 @@
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/messages.h"
+#include "messaging/packet_reader.h"
 
 namespace planbench {
 

@@ -1,9 +1,11 @@
 #include "viewer/live_session.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_input_error.h"
 #include "tests/support/planar_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -183,6 +185,34 @@ TEST_F(LiveSessionTest, TheSceneServersRobotIsShownWhereNobodyElseNamesOne) {
   server.settings["robot"] = bus_.session.settings.at("robot");
   Hear(channel::kNodeStatus, server);
   EXPECT_FALSE(live_.View()->contains("message")) << *live_.View();
+  // Of another robot, which has come in its place: the one before is neither kept nor asked for.
+  const std::int64_t before = live_.view_number();
+  server.name = "another_server";
+  server.robot_id = "another";
+  server.settings["robot"] = "/no/such/robot";
+  Hear(channel::kNodeStatus, server);
+  EXPECT_GT(live_.view_number(), before);
+  EXPECT_THAT(std::string((*live_.View())["message"]), testing::HasSubstr("/no/such/robot"));
+}
+
+TEST_F(LiveSessionTest, AGivenRobotHasTheSpheresOfEachSession) {
+  const TemporaryFolder folder;
+  LiveSession live(bus_.session.settings.at("robot"));
+  const auto spheres_of = [&](const std::string& run_id, const std::string& spheres) {
+    bus_.session.run_id = run_id;
+    bus_.session.settings["spheres"] = spheres;
+    live.Hear(PlanarSession::Received(channel::kSession, bus_.session), kStart);
+    std::size_t count = 0;
+    const Json view = *live.View();
+    for (const Json& link : view.at("links")) count += link.at("spheres").size();
+    return count;
+  };
+  live.Hear(PlanarSession::Received(channel::kScene, bus_.scene), kStart);
+  live.Hear(PlanarSession::Received("PLAN_REQUEST_ARA", bus_.request), kStart);
+  const std::size_t own = spheres_of("first", "");
+  const std::string one = "links: {hand: [{center: [0.05, 0, 0], radius: 0.06}]}";
+  EXPECT_EQ(spheres_of("second", folder.Write("spheres.yaml", one).string()), 1u);
+  EXPECT_EQ(spheres_of("third", "/not/here.yaml"), own);
 }
 
 }  // namespace
