@@ -9,7 +9,6 @@
 #include "common/numbers.h"
 #include "planner_ara/chunked_array.h"
 #include "planner_ara/edge_heap.h"
-#include "planning/proven_bound.h"
 
 namespace planbench {
 
@@ -85,7 +84,7 @@ class AraStar {
   /// In EdgeOrder::kGuide the edge with the least g + epsilon guide is followed first, and an
   /// iteration ends at its first path, if there is one better than those before. Whatever the order
   /// of expansions, the smallest g + h of OPEN and INCONS stays a lower bound of the optimum, so
-  /// such a path, too, has a proven bound (ProveBound), though not the one asked for.
+  /// such a path, too, has a proven bound (ProveLowerBound), though not the one asked for.
   template <std::predicate StopFunction>
   ImproveOutcome ImprovePath(double epsilon, StopFunction&& should_stop,
                              EdgeOrder order = EdgeOrder::kHeuristic) {
@@ -134,9 +133,6 @@ class AraStar {
     if (started_ && !lacks_edges()) RaiseLowerBound(SmallestOpenCost());
     return std::min(lower_bound_, best_cost());
   }
-  /// Proven bound of goal_cost() / optimum. Never rises while goal_cost() stays. Infinity without a
-  /// path or a bound.
-  double ProveBound() { return ProvenBound(goal_cost(), ProveLowerBound()); }
   /// Cost of the best way known to a state that has been expanded.
   double CostTo(StateId state) const { return nodes_[state].g; }
   /// The best path known, start to goal; empty without one.

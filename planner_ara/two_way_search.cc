@@ -136,7 +136,8 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
                                      const std::function<void(double)>& on_solution) {
   const bool guided = tip_guide_ || options_.crowding > 0;
-  if (phase_ == Phase::kFirst && !guided) phase_ = Phase::kProof;
+  // A guided search ends at a path alone. Beside one known from elsewhere there may be none.
+  if (phase_ == Phase::kFirst && (!guided || known_cost_ < kInfinity)) phase_ = Phase::kProof;
   BeginPhase(phase_ == Phase::kFirst && cost_ < kInfinity ? Phase::kBetter : phase_);
   const auto reaches_epsilon = [&] {
     const double lower_bound = ProveLowerBound();
@@ -146,7 +147,7 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
   if (ShortenPath(should_stop) && reaches_epsilon()) return ImproveOutcome::kConverged;
   while (true) {
     Side* side = NextSide();
-    if (side == nullptr && phase_ != Phase::kProof && best_cost() < kInfinity) {
+    if (side == nullptr && phase_ == Phase::kBetter) {
       BeginPhase(Phase::kProof);
       continue;
     }
@@ -171,7 +172,7 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
     side->converged = outcome != ImproveOutcome::kStopped;
     bool is_found = side->search.goal_cost() < cost_before;
     bool is_better = is_found && Offer(side, should_stop);
-    if (cost_ == kInfinity && !alone && options_.bridge_after < kInfinity) {
+    if (best_cost() == kInfinity && !alone && options_.bridge_after < kInfinity) {
       LookAround(side);
       is_found = is_better = WorkOnBridge(epsilon, should_stop);
     }
@@ -196,11 +197,11 @@ void TwoWaySearch::BeginPhase(Phase phase) {
 bool TwoWaySearch::Offer(const Side* side, const std::function<bool()>& should_stop) {
   double cost = side->search.goal_cost();
   Path path = side->graph.Configurations(side->search.Path());
-  if (cost >= cost_ && options_.shorten) {
+  if (cost >= best_cost() && options_.shorten) {
     path = ShortcutPath(edges_, path, kShortcutSeed, kShortcutRounds, should_stop);
     cost = side->graph.CostOf(path);
   }
-  if (cost >= cost_) return false;
+  if (cost >= best_cost()) return false;
   TakePath(cost, std::move(path), side != sides_.front().get());
   return true;
 }
@@ -314,8 +315,6 @@ double TwoWaySearch::ProveLowerBound() {
   }
   return lower_bound;
 }
-
-double TwoWaySearch::ProveBound() { return ProvenBound(best_cost(), ProveLowerBound()); }
 
 TwoWaySearch::Counts TwoWaySearch::counts() const {
   Counts counts = bridge_counts_;

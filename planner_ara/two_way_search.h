@@ -54,7 +54,8 @@ class TwoWaySearch {
   void AddPaths(std::span<const Path> paths);
 
   /// Before the first Improve: a path of this cost is known from elsewhere. Only cheaper ones are
-  /// searched for, and that none is there is proof as good as a path.
+  /// searched for, as in the proof of a path that was found: without guide, bridge and finer moves.
+  /// That none is there is proof as good as a path.
   void SetKnownCost(double cost);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either
@@ -72,8 +73,6 @@ class TwoWaySearch {
   const Path& path() const { return path_; }
   /// Proven lower bound of the optimum of either lattice, or of best_cost() if that is smaller.
   double ProveLowerBound();
-  /// Proven bound of best_cost() against the optimum of either lattice; never rises.
-  double ProveBound();
   /// True if the best path was found from the goal.
   bool found_backward() const { return found_backward_; }
   /// True if the best path leads over a bridge.

@@ -19,7 +19,8 @@ struct SearchResult {
               ///< SearchQuery::edges().
   double cost = 0;
   /// Proven: no path to this goal costs less, whether one was found or not; infinity: there is
-  /// none. 0: nothing is proven.
+  /// none. 0: nothing is proven. Of the paths in what the planner searches, which may be less once
+  /// there is a path to another goal (ARA*: lattices without finer moves).
   double lower_bound = 0;
   /// Of several goals: paths to the others are searched for, too, until this one is proven to cost
   /// at most so many times the optimum over all of them. 0: one path to one goal will do.

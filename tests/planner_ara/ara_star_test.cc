@@ -8,6 +8,7 @@
 
 #include "common/numbers.h"
 #include "planner_ara/random_graph.h"
+#include "tests/planner_ara/bound_of.h"
 
 namespace planbench {
 namespace {
@@ -61,8 +62,8 @@ TEST(AraStar, TakesInEdgesThatCameLater) {
         continue;
       }
       ASSERT_EQ(outcome, ImproveOutcome::kConverged);
-      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
-      EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
+      EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
+      EXPECT_LE(BoundOf(search), epsilon + 1e-12);
       EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
     }
     num_solved_later += !was_solved && optimum < kInfinity ? 1 : 0;
@@ -93,7 +94,7 @@ TEST(AraStar, CanBeStoppedBetweenIterations) {
     EXPECT_EQ(search.ProveLowerBound() > 0, num_asked > kNumStatesAgain) << "OPEN lacks edges";
     EXPECT_EQ(search.ImprovePath(1, kNever), ImproveOutcome::kConverged);
     EXPECT_EQ(search.goal_cost(), 2);
-    EXPECT_EQ(search.ProveBound(), 1);
+    EXPECT_EQ(BoundOf(search), 1);
     ExpectNoneTwice(graph.expanded);
   }
 }
@@ -115,26 +116,26 @@ TEST(AraStar, KeepsItsPromiseAtEveryEpsilon) {
       if (optimum == kInfinity) {
         EXPECT_EQ(outcome, ImproveOutcome::kExhausted);
         EXPECT_EQ(search.goal_cost(), kInfinity);
-        EXPECT_EQ(search.ProveBound(), kInfinity);
+        EXPECT_EQ(BoundOf(search), kInfinity);
         EXPECT_TRUE(search.Path().empty());
         continue;
       }
       ASSERT_EQ(outcome, ImproveOutcome::kConverged);
       EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
-      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
-      EXPECT_GE(search.ProveBound(), 1);
-      EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
-      EXPECT_LE(search.ProveBound(), last_bound);
+      EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
+      EXPECT_GE(BoundOf(search), 1);
+      EXPECT_LE(BoundOf(search), epsilon + 1e-12);
+      EXPECT_LE(BoundOf(search), last_bound);
       EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
       num_improved += last_cost != kInfinity && search.goal_cost() < last_cost ? 1 : 0;
-      last_bound = search.ProveBound();
+      last_bound = BoundOf(search);
       last_cost = search.goal_cost();
     }
     if (optimum == kInfinity) continue;
     ++num_solvable;
     EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
     EXPECT_NEAR(CostOf(graph, search.Path()), optimum, 1e-9);
-    EXPECT_EQ(search.ProveBound(), 1);
+    EXPECT_EQ(BoundOf(search), 1);
   }
   // The graphs put the promise to the test.
   EXPECT_GT(num_solvable, kNumGraphs / 2);
@@ -154,7 +155,7 @@ TEST(AraStar, BoundHoldsWhereverItIsStopped) {
         int budget = 2;
         outcome = search.ImprovePath(epsilon, [&] { return budget-- == 0; });
         if (search.goal_cost() == kInfinity) continue;
-        EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+        EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
         EXPECT_LE(CostOf(graph, search.Path()), search.goal_cost() + 1e-9);
       }
     }
@@ -237,7 +238,7 @@ TEST(AraStar, BoundHoldsUnderAnyGuide) {
       continue;
     }
     ASSERT_EQ(outcome, ImproveOutcome::kConverged);
-    EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+    EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
     // Another iteration of that kind ends at a better path, or where there is none for the guide.
     const double first_cost = search.goal_cost();
     graph.expanded.clear();
@@ -245,16 +246,16 @@ TEST(AraStar, BoundHoldsUnderAnyGuide) {
     ExpectNoneTwice(graph.expanded);
     EXPECT_LE(search.goal_cost(), first_cost);
     num_better += search.goal_cost() < first_cost ? 1 : 0;
-    EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
-    double last_bound = search.ProveBound();
+    EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
+    double last_bound = BoundOf(search);
     for (const double epsilon : {10.0, 2.0, 1.0}) {
       graph.expanded.clear();
       ASSERT_EQ(search.ImprovePath(epsilon, kNever), ImproveOutcome::kConverged);
       ExpectNoneTwice(graph.expanded);
       EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
-      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
-      EXPECT_LE(search.ProveBound(), last_bound);
-      last_bound = search.ProveBound();
+      EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
+      EXPECT_LE(BoundOf(search), last_bound);
+      last_bound = BoundOf(search);
     }
     EXPECT_NEAR(search.goal_cost(), optimum, 1e-9);
   }
@@ -303,14 +304,14 @@ TEST(AraStar, StateImprovedAfterItsExpansionWaitsForTheNextIteration) {
   ASSERT_EQ(search.ImprovePath(10, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4}));
   EXPECT_EQ(search.goal_cost(), 17);
-  EXPECT_DOUBLE_EQ(search.ProveBound(), 17.0 / 13);  // 3 is the only open state: 1 + 12
+  EXPECT_DOUBLE_EQ(BoundOf(search), 17.0 / 13);  // 3 is the only open state: 1 + 12
 
   // At 1.2: 3 has 1 + 14.4 < 17. It improves 2 (key 2 + 13.2), 4 (3 + 12) and the goal.
   graph.expanded.clear();
   ASSERT_EQ(search.ImprovePath(1.2, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{3, 2, 4}));
   EXPECT_EQ(search.goal_cost(), 13);
-  EXPECT_EQ(search.ProveBound(), 1);
+  EXPECT_EQ(BoundOf(search), 1);
 }
 
 TEST(AraStar, ClosedStateIsImprovedButNotExpandedAgain) {
@@ -324,13 +325,13 @@ TEST(AraStar, ClosedStateIsImprovedButNotExpandedAgain) {
   ASSERT_EQ(search.ImprovePath(6, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{0, 2, 4, 3}));
   EXPECT_EQ(search.goal_cost(), 37);
-  EXPECT_EQ(search.ProveBound(), 6);
+  EXPECT_EQ(BoundOf(search), 6);
   // The next iteration takes it up.
   graph.expanded.clear();
   ASSERT_EQ(search.ImprovePath(5.9, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(graph.expanded, (std::vector<StateId>{2, 4}));
   EXPECT_EQ(search.goal_cost(), 33);
-  EXPECT_EQ(search.ProveBound(), 1);
+  EXPECT_EQ(BoundOf(search), 1);
 }
 
 // ARA* as the paper has it: every edge of an expanded state is evaluated at once, OPEN and INCONS
@@ -418,7 +419,7 @@ TEST(AraStar, StartThatIsTheGoalNeedsNoSearch) {
   AraStar<ExplicitGraph> search(&graph, 0, 0);
   EXPECT_EQ(search.ImprovePath(3, kNever), ImproveOutcome::kConverged);
   EXPECT_EQ(search.goal_cost(), 0);
-  EXPECT_EQ(search.ProveBound(), 1);
+  EXPECT_EQ(BoundOf(search), 1);
   EXPECT_EQ(search.Path().size(), 1U);
   EXPECT_TRUE(graph.expanded.empty());
 }
@@ -427,7 +428,7 @@ TEST(AraStar, StoppedAtOnceHasEvaluatedNothing) {
   ExplicitGraph graph = GraphWithLateImprovement();
   AraStar<ExplicitGraph> search(&graph, 0, 1);
   EXPECT_EQ(search.ImprovePath(2, [] { return true; }), ImproveOutcome::kStopped);
-  EXPECT_EQ(search.ProveBound(), kInfinity);
+  EXPECT_EQ(BoundOf(search), kInfinity);
   EXPECT_TRUE(search.Path().empty());
   EXPECT_EQ(graph.num_validity_checks, 0);
 }

@@ -14,6 +14,7 @@
 #include "collision/collision_checker.h"
 #include "support/expect_input_error.h"
 #include "support/planning_problems.h"
+#include "tests/planner_ara/bound_of.h"
 #include "tests/planner_ara/point_goal.h"
 
 namespace planbench {
@@ -310,7 +311,7 @@ TEST_F(ManipulationGraphTest, SearchAtEpsilonOneFindsWhatDijkstraFinds) {
     for (const double epsilon : {10.0, 2.0, 1.0}) {
       ASSERT_EQ(search.ImprovePath(epsilon, [] { return false; }), ImproveOutcome::kConverged);
       EXPECT_LE(search.goal_cost(), epsilon * optimum + 1e-9);
-      EXPECT_LE(search.goal_cost(), search.ProveBound() * optimum + 1e-9);
+      EXPECT_LE(search.goal_cost(), BoundOf(search) * optimum + 1e-9);
       const Path path = graph.Configurations(search.Path());
       EXPECT_EQ(path.front(), kLeft);
       EXPECT_EQ(path.back(), kRight);

@@ -11,6 +11,7 @@
 
 #include "common/numbers.h"
 #include "support/planning_problems.h"
+#include "tests/planner_ara/bound_of.h"
 #include "tests/planner_ara/lattice_optimum.h"
 #include "tests/planner_ara/point_goal.h"
 
@@ -99,7 +100,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
     double last_bound = kInfinity;
     for (const double epsilon : {50.0, 3.0, 1.5, 1.2, 1.0}) {
       ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
-      const double bound = search.ProveBound();
+      const double bound = BoundOf(search);
       EXPECT_LE(bound, epsilon + 1e-12);
       EXPECT_GE(bound, 1);
       EXPECT_LE(bound, last_bound);
@@ -123,7 +124,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsWithBurs) {
   const double optimum = Optimum(kLeft_, kRight_);
   for (const double epsilon : {50.0, 1.5, 1.0}) {
     ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
-    EXPECT_LE(search.cost(), search.ProveBound() * optimum + 1e-9);
+    EXPECT_LE(search.cost(), BoundOf(search) * optimum + 1e-9);
     ExpectJoins(search.path(), search.cost());
   }
   EXPECT_NEAR(search.cost(), optimum, 1e-9);
@@ -149,7 +150,7 @@ TEST_F(TwoWaySearchTest, BoundHoldsWithRecalledPaths) {
     search.AddPaths(recalled);
     for (const double epsilon : {50.0, 1.5, 1.0}) {
       ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
-      EXPECT_LE(search.cost(), search.ProveBound() * std::min(forward, backward) + 1e-9);
+      EXPECT_LE(search.cost(), BoundOf(search) * std::min(forward, backward) + 1e-9);
       ExpectJoins(search.path(), search.cost());
     }
     EXPECT_NEAR(search.cost(), std::min(forward, backward), 1e-9);
@@ -167,8 +168,7 @@ TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {
   EXPECT_EQ(first, as_found.cost());
 
   std::vector<double> costs;
-  search.Improve(search.ProveBound() - 1e-6, kGoOn,
-                 [&](double) { costs.push_back(search.cost()); });
+  search.Improve(BoundOf(search) - 1e-6, kGoOn, [&](double) { costs.push_back(search.cost()); });
   ASSERT_EQ(costs.size(), 1u);
   EXPECT_LT(costs.front(), first);
   EXPECT_EQ(search.counts().iterations, as_found.counts().iterations) << "the search went on";
@@ -200,7 +200,7 @@ TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
   ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
   EXPECT_TRUE(search.is_bridged());
   ExpectJoins(ahead, left, search.path(), search.cost());
-  EXPECT_LT(search.ProveBound(), kInfinity);
+  EXPECT_LT(BoundOf(search), kInfinity);
 }
 
 TEST_F(TwoWaySearchTest, TheSearchOutOfTheNarrowerPlaceDoesMostOfTheWork) {
@@ -252,13 +252,26 @@ TEST_F(TwoWaySearchTest, WhatIsKnownFromElsewhereEndsTheSearchOfDearerPaths) {
       search.SetKnownCost(factor * optimum);
       for (const double epsilon : {50.0, 1.5, 1.0}) {
         ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
-        EXPECT_LE(search.ProveBound(), epsilon + 1e-12);
+        EXPECT_LE(BoundOf(search), epsilon + 1e-12);
         EXPECT_LE(search.ProveLowerBound(), optimum + 1e-9);
       }
       EXPECT_NEAR(search.best_cost(), std::min(1.0, factor) * optimum, 1e-9);
       EXPECT_EQ(search.path().empty(), factor < 1);
     }
   }
+}
+
+// Of 50 times the optimum what is known from elsewhere needs no search to be proven.
+TEST_F(TwoWaySearchTest, NoPathIsLookedForWhereTheKnownOneIsGoodEnough) {
+  const double optimum = std::min(Optimum(kLeft_, kRight_), Optimum(kRight_, kLeft_));
+  const Scene scene = PostsScene();
+  options_.bridge_after = 1;
+  TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+  search.GuideByTip(scene, std::vector<double>(4, 0.0), 5);
+  search.SetKnownCost(0.8 * optimum);
+  ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
+  EXPECT_LE(BoundOf(search), 50 + 1e-12);
+  EXPECT_EQ(search.counts().expansions, 2) << "of the roots alone";
 }
 
 TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
@@ -268,7 +281,7 @@ TEST_F(TwoWaySearchTest, IsExhaustedWhenBothLatticesAre) {
   TwoWaySearch search(edges_.get(), left, PointGoal(right), options_, true);
   EXPECT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kExhausted);
   EXPECT_TRUE(search.path().empty());
-  EXPECT_EQ(search.ProveBound(), kInfinity);
+  EXPECT_EQ(BoundOf(search), kInfinity);
 }
 
 TEST_F(TwoWaySearchTest, GoesOnWithFinerMovesWhereTheLatticeHoldsNoPath) {
@@ -284,7 +297,7 @@ TEST_F(TwoWaySearchTest, GoesOnWithFinerMovesWhereTheLatticeHoldsNoPath) {
     ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
     ExpectJoins(search.path(), search.cost());
     EXPECT_GT(search.counts().expansions, coarse.counts().expansions);
-    EXPECT_LT(search.ProveBound(), kInfinity);
+    EXPECT_LT(BoundOf(search), kInfinity);
   }
 }
 
