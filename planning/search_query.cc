@@ -24,7 +24,9 @@ void SearchQuery::ReportSolution(double lower_bound, double cost, std::int64_t e
   if (!progress_.empty()) {
     const PlanProgress& last = progress_.back();
     const bool proves_more = epsilon > 0 && (last.epsilon == 0 || epsilon < last.epsilon);
-    if (cost >= last.cost && !proves_more) return;
+    // A search that goes on in a larger space has lost its proof.
+    const bool proves_less = last.epsilon > 0 && (epsilon == 0 || epsilon > last.epsilon);
+    if (proves_less || (cost >= last.cost && !proves_more)) return;
   }
   progress_.push_back({clock_.seconds(), epsilon, cost, expansions_before_ + expansions});
   if (control_->on_progress) control_->on_progress(progress_.back());

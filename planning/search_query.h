@@ -44,7 +44,8 @@ class SearchQuery {
   /// without one. Only cheaper paths are of use then.
   double known_cost() const { return known_cost_; }
   /// Reports a solution of an anytime search the moment it is ready, and each better proof: the
-  /// first stops the planning clock, if the request is anytime. If it is not, this is HoldPath.
+  /// first stops the planning clock, if the request is anytime. If it is not, this is HoldPath. A
+  /// better solution of which less is proven than was told before is not told.
   /// `lower_bound`: as in SearchResult. What is told of it holds for all goals.
   void ReportSolution(double lower_bound, double cost, std::int64_t expansions);
   /// Says that there is a path to return, should the limit come before the search has reached the

@@ -196,6 +196,8 @@ TEST_F(PlannerTest, TheFirstReportedSolutionStopsThePlanningClock) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         query.ReportSolution(400, 400, 70);
         query.ReportSolution(400, 400, 80);  // no news
+        query.ReportSolution(300, 390, 90);  // less proof
+        query.ReportSolution(0, 380, 100);   // none
         return StraightLine(query);
       },
       request, EmptyPlanarScene(), &control);
