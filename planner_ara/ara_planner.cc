@@ -122,6 +122,8 @@ class AraPlanner : public Planner {
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
         {"bridged", search.is_bridged() ? 1.0 : 0.0},
     };
+    result.path_counters = {
+    };
     if (experience_) {
       result.counters["recalled_edges"] = static_cast<double>(counts.recalled_edges);
     }

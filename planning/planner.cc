@@ -372,6 +372,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
                                   result->planning_time_s, request.time_limit_s);
     return;
   }
+  result->counters.merge(found.path_counters);
   // A search that still wanted a better bound when the limit came had its path by then.
   result->planning_time_s = std::min(result->planning_time_s, request.time_limit_s);
   if (std::string fault = WhyTooLong(found.path); !fault.empty()) {

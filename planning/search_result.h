@@ -27,7 +27,10 @@ struct SearchResult {
   double wanted_epsilon = 0;
   std::uint64_t guidance_ticks = 0;  ///< Time spent on heuristic or nearest neighbours (Ticks), if
                                      ///< measured; without collision checking.
-  std::map<std::string, double> counters;
+  std::map<std::string, double> counters;  ///< Of several goals' searches the sums are told.
+  /// What is no count to be summed but tells how the path was found: told of the search whose path
+  /// is returned (without a path: of the last).
+  std::map<std::string, double> path_counters;
   /// What the search was made of, where freeing it takes time. Planner frees it once the clock has
   /// stopped, so that it counts for no planner.
   std::shared_ptr<void> remains;

@@ -110,6 +110,7 @@ TEST_F(AraSeveralGoalsTest, BoundsHoldForAllOfThem) {
       }
       EXPECT_EQ(best.progress.back().epsilon, 1);
       EXPECT_EQ(best.progress.back().cost, best.cost);
+      EXPECT_LE(best.counters.at("found_backward"), 1) << "no sum";
 
       request.anytime = false;
       const PlanResult first = Plan(settings, request);

@@ -163,6 +163,7 @@ TEST_F(SeveralGoals, AreSearchedForUntilTheBoundHoldsForAll) {
       result.wanted_epsilon = each.wanted;
       result.counters = {{"expansions", 10}};
       result.cost = goal == 0.6 - 1 ? 7 : goal == 0.6 + 2 ? 6.5 : 9;
+      result.path_counters = {{"goal", goal}};
       result.lower_bound = std::min(query.known_cost(), goal == 0.6 + 2 ? 6.2 : result.cost);
       query.ReportSolution(result.lower_bound, result.cost, 10);
       return result;
@@ -178,6 +179,7 @@ TEST_F(SeveralGoals, AreSearchedForUntilTheBoundHoldsForAll) {
     EXPECT_NEAR(result.epsilon, each.epsilon, 1e-9);
     EXPECT_EQ(result.counters.at("expansions"), 10 * static_cast<double>(each.tried.size()));
     for (const PlanProgress& progress : result.progress) {
+    EXPECT_EQ(result.counters.at("goal"), planner.tried[each.cost == 7 ? 0 : 1]) << "no sum";
       EXPECT_GE(progress.epsilon, result.epsilon);
       EXPECT_GE(progress.cost, result.cost);
     }
