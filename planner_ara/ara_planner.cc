@@ -102,7 +102,10 @@ class AraPlanner : public Planner {
     std::optional<double> epsilon = settings.epsilon.initial;
     while (epsilon) {
       outcome = search.Improve(*epsilon, should_stop, report);
-      if (search.best_cost() == kInfinity) break;
+      if (search.best_cost() == kInfinity) {
+        if (!query.edges().Stopped()) lower_bound = search.ProveLowerBound();
+        break;
+      }
       if (const double proven = search.ProveLowerBound(); !reported || proven > lower_bound) {
         report(proven);
       }
@@ -118,11 +121,11 @@ class AraPlanner : public Planner {
         {"states", static_cast<double>(counts.states)},
         {"edges_generated", static_cast<double>(counts.edges_generated)},
         {"goal_connections_tried", static_cast<double>(counts.goal_connections_tried)},
+    };
+    result.path_counters = {
         {"search_iterations", static_cast<double>(counts.iterations)},
         {"found_backward", search.found_backward() ? 1.0 : 0.0},
         {"bridged", search.is_bridged() ? 1.0 : 0.0},
-    };
-    result.path_counters = {
     };
     if (experience_) {
       result.counters["recalled_edges"] = static_cast<double>(counts.recalled_edges);

@@ -231,13 +231,25 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
                                                        static_cast<double>(num_left - 1) /
                                                        static_cast<double>(num_left);
     }
-    SearchResult next = SearchFor(algorithm, goals[turn], resolved, backward, query);
+    const auto num_told = static_cast<std::ptrdiff_t>(query->progress_.size());
+    SearchResult next;
+    try {
+      next = SearchFor(algorithm, goals[turn], resolved, backward, query);
+    } catch (const std::bad_alloc&) {
+      if (!has_path) throw;
+      // The path in hand stands. What this turn told is lost with its search.
+      query->progress_.erase(query->progress_.begin() + num_told, query->progress_.end());
+      query->turn_ends_s_.reset();
+      lower_bounds[turn] = query->lower_bound_;
+      break;
+    }
     lower_bounds[turn] = std::max(query->lower_bound_, next.lower_bound);
     const bool cut_short = query->edges().Stopped() || (num_left > 1 && query->ShouldStop());
     if (cut_short && next.status == PlanStatus::kExhausted) {
       // Of a space that lacks the edge given up, or of some of the goals.
       next.status = query->Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
     }
+    const PlanStatus status = next.status;  // of this turn
     for (const auto& [name, count] : found.counters) next.counters[name] += count;
     next.guidance_ticks += found.guidance_ticks;
     if (has_path && !(next.status == PlanStatus::kSolved && next.cost < found.cost)) {
@@ -259,9 +271,9 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       std::erase_if(waiting, [&](std::size_t i) {
         return found.wanted_epsilon == 0 || found.cost <= found.wanted_epsilon * lower_bounds[i];
       });
-    } else if (found.status == PlanStatus::kExhausted || found.status == PlanStatus::kTimedOut) {
+    } else if (status == PlanStatus::kTimedOut) {
       given_up.push_back(turn);
-    } else {
+    } else if (status != PlanStatus::kExhausted) {
       break;
     }
     if (query->ShouldStop()) break;
@@ -360,6 +372,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   result->message = std::move(found.message);
   result->progress = std::move(query.progress_);
   result->counters = std::move(found.counters);
+  result->counters.merge(found.path_counters);
   result->counters["edges_checked"] = static_cast<double>(counters.edges);
   result->counters["configurations_checked"] = static_cast<double>(counters.configurations);
   if (result->status != PlanStatus::kSolved) return;
@@ -372,7 +385,6 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
                                   result->planning_time_s, request.time_limit_s);
     return;
   }
-  result->counters.merge(found.path_counters);
   // A search that still wanted a better bound when the limit came had its path by then.
   result->planning_time_s = std::min(result->planning_time_s, request.time_limit_s);
   if (std::string fault = WhyTooLong(found.path); !fault.empty()) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -162,8 +163,8 @@ TEST_F(SeveralGoals, AreSearchedForUntilTheBoundHoldsForAll) {
       SearchResult result = StraightLine(query);
       result.wanted_epsilon = each.wanted;
       result.counters = {{"expansions", 10}};
-      result.cost = goal == 0.6 - 1 ? 7 : goal == 0.6 + 2 ? 6.5 : 9;
       result.path_counters = {{"goal", goal}};
+      result.cost = goal == 0.6 - 1 ? 7 : goal == 0.6 + 2 ? 6.5 : 9;
       result.lower_bound = std::min(query.known_cost(), goal == 0.6 + 2 ? 6.2 : result.cost);
       query.ReportSolution(result.lower_bound, result.cost, 10);
       return result;
@@ -178,8 +179,8 @@ TEST_F(SeveralGoals, AreSearchedForUntilTheBoundHoldsForAll) {
     EXPECT_EQ(result.cost, each.cost);
     EXPECT_NEAR(result.epsilon, each.epsilon, 1e-9);
     EXPECT_EQ(result.counters.at("expansions"), 10 * static_cast<double>(each.tried.size()));
-    for (const PlanProgress& progress : result.progress) {
     EXPECT_EQ(result.counters.at("goal"), planner.tried[each.cost == 7 ? 0 : 1]) << "no sum";
+    for (const PlanProgress& progress : result.progress) {
       EXPECT_GE(progress.epsilon, result.epsilon);
       EXPECT_GE(progress.cost, result.cost);
     }
@@ -207,6 +208,48 @@ TEST_F(SeveralGoals, WhatWasGivenUpForWantOfTimeIsTakenUpWithAPath) {
   EXPECT_EQ(result.cost, 3);
   EXPECT_EQ(result.epsilon, 1);
   EXPECT_EQ(result.path, (Path{start_, {0.6 - 1, 0, 0}}));
+}
+
+TEST_F(SeveralGoals, WhatWasExhaustedIsNotTakenUpWithAPath) {
+  int num_searches = 0;
+  ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+    ++num_searches;
+    // Not the second, though what is found by then has timed out.
+    if (num_searches < 3) {
+      return Ended(num_searches == 1 ? PlanStatus::kTimedOut : PlanStatus::kExhausted);
+    }
+    SearchResult result = StraightLine(query);
+    result.wanted_epsilon = 1;
+    result.cost = result.lower_bound = 6;
+    return result;
+  });
+  const PlanResult result = planner.Plan(
+      RequestFor({{0.6 - 1, 0, 0}, {0.6 - 2, 0, 0}, {0.6 - 3, 0, 0}}), EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  ASSERT_EQ(num_searches, 4);
+  EXPECT_EQ(planner.tried.back(), planner.tried.front());
+}
+
+TEST_F(SeveralGoals, APathInHandOutlivesTheMemoryOfAFurtherSearch) {
+  PlanRequest request = RequestFor({{0.6 - 1, 0, 0}, {0.6 - 2, 0, 0}, {0.6 - 2.5, 0, 0}});
+  request.anytime = true;
+  int num_searches = 0;
+  ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+    SearchResult result = StraightLine(query);
+    result.wanted_epsilon = 1;
+    result.cost = result.lower_bound = ++num_searches == 1 ? 6 : 4.5;
+    query.ReportSolution(result.lower_bound, result.cost, 1);
+    if (num_searches > 1) throw std::bad_alloc();
+    return result;
+  });
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(num_searches, 2);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(result.path, (Path{start_, {0.6 - 1, 0, 0}}));
+  EXPECT_EQ(result.cost, 6);
+  EXPECT_EQ(result.epsilon, 6.0 / 4) << "nothing more is proven of the second";
+  ASSERT_EQ(result.progress.size(), 1u);
+  EXPECT_EQ(result.progress.back().cost, result.cost);
 }
 
 }  // namespace
