@@ -20,6 +20,7 @@
 #include "robot_model/robot_folder.h"
 #include "robot_model/srdf.h"
 #include "robot_tools/group_proposal.h"
+#include "robot_tools/joint_draw.h"
 #include "robot_tools/link_bodies.h"
 #include "robot_tools/mesh_files.h"
 #include "robot_tools/pair_sampling.h"

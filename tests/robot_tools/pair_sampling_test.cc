@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "robot_tools/joint_draw.h"
+
 namespace planbench {
 namespace {
 
@@ -136,6 +138,44 @@ TEST_F(PairSamplingTest, JointsThatAreNotDrawnAreHeld) {
   };
   EXPECT_EQ(draw("j1").free, 300);
   EXPECT_LT(draw("j3").free, 300);
+}
+
+TEST_F(PairSamplingTest, WhatNoDrawnJointMovesIsToldApart) {
+  std::vector<LinkSphere> spheres = spheres_;
+  spheres.push_back(Ball("c", 0, 0.9));
+  spheres.push_back(Ball("a", 1.2, 0.3));
+  const PairSamples samples = SamplePairs(Chain(spheres), {{model_.FindJoint("j1")}, 300, 1});
+  EXPECT_EQ(samples.free, 0);
+  EXPECT_EQ(samples.free_if_moved, 300);
+  EXPECT_THAT(samples.HeldInContact(), ElementsAre(Links("a", "c")));
+  EXPECT_THAT(samples.MostOften(5), testing::IsEmpty());
+}
+
+TEST(PairSampling, SamplesDoNotTellOfLinksThatAPoseJoinsInBetween) {
+  Robot robot;
+  robot.model = RobotModel::FromUrdf(R"(<robot name="cart">
+  <link name="floor"/><link name="arm"/><link name="cart"/><link name="box"/><link name="flap"/>
+  <joint name="turn" type="continuous"><parent link="floor"/><child link="arm"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/>
+    <origin xyz="3 0 0"/></joint>
+  <joint name="lie" type="floating"><parent link="cart"/><child link="box"/></joint>
+  <joint name="open" type="continuous"><parent link="cart"/><child link="flap"/>
+    <axis xyz="0 0 1"/></joint>
+</robot>)",
+                                     "cart.urdf");
+  const int arm = robot.model.FindLink("arm");
+  const int cart = robot.model.FindLink("cart");
+  const int box = robot.model.FindLink("box");
+  const int flap = robot.model.FindLink("flap");
+  for (const int link : {arm, cart, box, flap}) robot.spheres.push_back({link, {0, 0, 0}, 0.1});
+  const PairSamples samples = SamplePairs(robot, {JointsToDraw(robot.model), 100, 1});
+  // The arm never meets the others at their defaults; box and flap are one in the other.
+  EXPECT_THAT(samples.Never(), testing::IsEmpty());
+  EXPECT_THAT(samples.Always(), testing::IsEmpty());
+  EXPECT_THAT(samples.Anywhere(),
+              testing::UnorderedElementsAre(std::minmax(arm, cart), std::minmax(arm, box),
+                                            std::minmax(arm, flap), std::minmax(box, flap)));
 }
 
 }  // namespace
