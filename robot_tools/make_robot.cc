@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <regex>
 #include <set>
@@ -22,7 +21,9 @@
 #include "robot_tools/group_proposal.h"
 #include "robot_tools/joint_draw.h"
 #include "robot_tools/link_bodies.h"
+#include "robot_tools/link_chain.h"
 #include "robot_tools/mesh_files.h"
+#include "robot_tools/pair_descent.h"
 #include "robot_tools/pair_sampling.h"
 #include "robot_tools/robot_writer.h"
 #include "sphere_fitting/outer_spheres.h"
@@ -36,6 +37,7 @@ using LinkPairs = std::vector<std::pair<int, int>>;
 constexpr int kMostSpheresOfALink = 100;
 constexpr int kGroupSamples = 1000;
 constexpr std::size_t kWorstPairs = 5;
+constexpr char kButPosed[] = " but planar and floating ones";
 
 // A fiftieth of how far the robot reaches, in mm, and no more than arms of a metre need.
 double SuggestEdgeResolution(const Robot& robot) {
@@ -284,22 +286,52 @@ class RobotMaker {
       return;
     }
     const PairSamples samples = Sample(JointsToDraw(robot().model), flags_.samples);
-    if (!are_known) {
-      Say("pairs: {} of {} met in none of {} random configurations of all joints (with 95 % "
-          "confidence they meet in fewer than one of {}), and are not checked",
-          NotEnabled(samples.Never()).size(), samples.pairs.size(), samples.samples,
-          std::max(1, samples.samples / 3));
-      Exempt(fmt::format("met in none of {} random configurations", samples.samples),
-             NotEnabled(samples.Never()));
-    }
-    ExemptOverlaps(samples.Always(),
-                   fmt::format("in contact in nearly all of {} random configurations of all joints",
-                               samples.samples));
-    ExemptOverlaps(AlwaysForEveryGroup(),
-                   "in contact in nearly all random configurations of every group, with other "
-                   "joints at their defaults");
+    const std::string drawn = fmt::format("{} random configurations of all joints{}",
+                                          samples.samples, PosedJoints().empty() ? "" : kButPosed);
+    if (!are_known) ExemptNever(samples, drawn);
+    SayWhatMayBeAnywhere(samples);
+    ExemptOverlaps(samples.Always(), "in contact in nearly all of " + drawn);
+    ExemptOverlaps(HeldTogether(),
+                   "in contact by default, and moved one against the other by no group");
     SayWhatIsChecked();
     for (const PlanningGroup& group : robot().groups) SayHowFree(group);
+  }
+
+  // Never to have met in samples is no more than a reason to look closer: a narrow way to contact
+  // is easily missed. What is found to meet stays checked.
+  void ExemptNever(const PairSamples& samples, const std::string& drawn) {
+    LinkPairs apart;
+    LinkPairs found;
+    for (const auto& pair : NotEnabled(samples.Never())) {
+      const bool meet = FindContact(robot(), pair.first, pair.second, flags_.seed);
+      (meet ? found : apart).push_back(pair);
+    }
+    const std::string reason =
+        fmt::format("met in none of {}, nor where {} descents on the distance of the two ended",
+                    drawn, kDescents);
+    Say("pairs: {} of {} {}, and are not checked", apart.size(), samples.pairs.size(), reason);
+    if (!found.empty()) {
+      Say("  {} more met in no random configuration, but were brought together by descents, and "
+          "are checked: {}",
+          found.size(), FirstNames(found));
+    }
+    Exempt(reason, apart);
+  }
+
+  std::vector<std::string> PosedJoints() {
+    std::vector<std::string> names;
+    for (const Joint& joint : robot().model.joints()) {
+      if (NumPositions(joint.type) > 1) names.push_back(joint.name);
+    }
+    return names;
+  }
+
+  void SayWhatMayBeAnywhere(const PairSamples& samples) {
+    const LinkPairs pairs = samples.Anywhere();
+    if (pairs.empty()) return;
+    Say("  {} checked, whatever was sampled, as planar and floating joints between the links stand "
+        "where problems say ({})",
+        Count(pairs.size(), "pair"), fmt::join(PosedJoints(), ", "));
   }
 
   PairSamples Sample(const std::vector<int>& joints, int samples) {
@@ -324,6 +356,13 @@ class RobotMaker {
     std::vector<std::string> names;
     for (const auto& pair : pairs) names.push_back(PairName(pair));
     return fmt::format("{}", fmt::join(names, "; "));
+  }
+
+  std::string FirstNames(const LinkPairs& pairs) {
+    if (pairs.size() <= kWorstPairs) return PairNames(pairs);
+    const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(kWorstPairs);
+    return fmt::format("{}; and {} more", PairNames({pairs.begin(), end}),
+                       pairs.size() - kWorstPairs);
   }
 
   void SayWhatIsChecked() {
@@ -354,18 +393,18 @@ class RobotMaker {
     Exempt(reason, pairs);
   }
 
-  // Closed fingers, bellows that a lift would draw out: whatever is planned, they touch where a
-  // planner holds the joints that could take them apart.
-  LinkPairs AlwaysForEveryGroup() {
-    std::map<std::pair<int, int>, std::size_t> groups_of;
-    for (const PlanningGroup& group : robot().groups) {
-      for (const auto& pair : Sample(group.joints, kGroupSamples).Always()) ++groups_of[pair];
-    }
-    LinkPairs always;
-    for (const auto& [pair, groups] : groups_of) {
-      if (groups == robot().groups.size()) always.push_back(pair);
-    }
-    return always;
+  // Closed fingers, bellows that a lift would draw out: whatever is planned, they touch where
+  // problems leave the joints between them at their defaults, and else it is the same all along a
+  // path. What a group moves is another matter: it may be met at every other held position.
+  LinkPairs HeldTogether() {
+    LinkPairs pairs = PairsInContact(robot(), robot().model.DefaultPositions());
+    std::erase_if(pairs, [&](const auto& pair) {
+      return AnywhereByPose(robot().model, pair.first, pair.second) ||
+             std::ranges::any_of(robot().groups, [&](const PlanningGroup& group) {
+               return JointsMove(robot().model, group.joints, pair.first, pair.second);
+             });
+    });
+    return pairs;
   }
 
   // As a planner meets them: other joints are held.
@@ -373,7 +412,13 @@ class RobotMaker {
     const PairSamples samples = Sample(group.joints, kGroupSamples);
     Say("  {}: {} of {} random configurations are free of self-collision", group.name, samples.free,
         samples.samples);
-    if (2 * samples.free > samples.samples) return;
+    const LinkPairs held = samples.HeldInContact();
+    if (!held.empty()) {
+      Say("    the group does not move these, which touch as other joints stand by default: {}; "
+          "give those another position in the problems; without these pairs {} of {} are free",
+          FirstNames(held), samples.free_if_moved, samples.samples);
+    }
+    if (2 * samples.free_if_moved > samples.samples) return;
     std::vector<std::string> worst;
     for (const PairSamples::Pair& pair : samples.MostOften(kWorstPairs)) {
       worst.push_back(fmt::format("{} ({:.0f} %)", PairName({pair.link_a, pair.link_b}),
@@ -398,7 +443,11 @@ class RobotMaker {
           }
         }
         if (robot().spheres.empty()) continue;
-        const LinkPairs touching = PairsInContact(robot(), full);
+        LinkPairs touching = PairsInContact(robot(), full);
+        // The others are no matter of the state; SayHowFree has told them.
+        std::erase_if(touching, [&](const auto& pair) {
+          return !JointsMove(robot().model, group.joints, pair.first, pair.second);
+        });
         if (touching.empty()) continue;
         Say("  state '{}' of {} is in collision with itself: {}", name, group.name,
             PairName(touching.front()));
@@ -441,7 +490,7 @@ void MakeRobotFlags::AddTo(CLI::App* app) {
   app->add_option("--urdf", urdf, "the robot's URDF, expanded from xacro")->required();
   app->add_option("--srdf", srdf,
                   "its SRDF: groups, states, disabled pairs; default: groups are proposed from the "
-                  "joints and pairs sampled");
+                  "joints and pairs sampled and searched for contact");
   app->add_option(
       "--spheres", spheres,
       "sphere model: a URDF of spheres, an SRDF with approximations, or a spheres.yaml; "
