@@ -6,8 +6,8 @@
 
 namespace planbench {
 
-/// Configurations drawn for a pair of links, and descents on its distance: from the nearest ones of
-/// these, and from as many again and more.
+/// Configurations drawn for a pair of links, and descents on its distance: from those of these that
+/// are nearest, and from random ones.
 inline constexpr int kDescentDraws = 256;
 inline constexpr int kNearestDescents = 8;
 inline constexpr int kRandomDescents = 16;
