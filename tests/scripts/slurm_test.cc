@@ -154,10 +154,16 @@ TEST_F(SlurmTest, AShardWithoutALogIsNamedAndWhatWasMergedBeforeStays) {
   EXPECT_EQ(Lines(folder_ / "report").back(), merge + "merged shards/1 shards/2");
   EXPECT_THAT(Read(out_ + "/merged/log.lcmlog"), HasSubstr("the third"));
   EXPECT_FALSE(fs::exists(out_ + "/merging"));
+  // What was merged and has lost its log stays.
+  fs::rename(out_ + "/merged/log.lcmlog", folder_ / "log.lcmlog");
+  fs::remove(folder_ / "report");
+  ASSERT_EQ(Submit(command), 0) << errors_;
+  EXPECT_FALSE(fs::exists(folder_ / "report"));
+  EXPECT_TRUE(fs::exists(out_ + "/merged"));
+  EXPECT_THAT(Read(folder_ / "log"), HasSubstr("merged holds no event log"));
   // Nothing to merge at all.
   fs::remove_all(out_ + "/merged");
   fs::remove_all(out_ + "/shards");
-  fs::remove(folder_ / "report");
   ASSERT_EQ(Submit(command), 0) << errors_;
   EXPECT_FALSE(fs::exists(folder_ / "report"));
   EXPECT_THAT(Read(folder_ / "log"), HasSubstr("no shard holds an event log"));
