@@ -14,6 +14,7 @@
 #include "common/file_kind.h"
 #include "common/name_value.h"
 #include "results/recorded_flags.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 namespace {
@@ -145,7 +146,6 @@ std::string Recorded(const std::string& flag, const std::string& value) {
 }  // namespace
 
 std::vector<int> ParseRange(const std::string& text, const std::string& flag) {
-  constexpr int kMost = 1'000'000;
   std::set<int> indices;
   std::istringstream parts(text + ",");
   for (std::string part; std::getline(parts, part, ',');) {
@@ -153,7 +153,7 @@ std::vector<int> ParseRange(const std::string& text, const std::string& flag) {
     const int first = ParseIndex(part.substr(0, dash), text, flag);
     const int last =
         dash == std::string::npos ? first : ParseIndex(part.substr(dash + 1), text, flag);
-    if (last < first || last - first >= kMost) {
+    if (last < first || last - first >= kMostPlanned) {
       throw InputError(flag + " " + text + ": '" + part + "' is no range");
     }
     for (int i = first; i <= last; ++i) indices.insert(i);
@@ -168,8 +168,9 @@ Shard ParseShard(const std::string& text) {
   const bool divided = bad_index == std::errc() && slash != end && *slash == '/';
   const auto [rest, bad_count] = std::from_chars(divided ? slash + 1 : end, end, shard.count);
   if (!divided || bad_count != std::errc() || rest != end || shard.index < 1 ||
-      shard.index > shard.count) {
-    throw InputError("--shard " + text + ": expected I/N, I from 1 to N");
+      shard.index > shard.count || shard.count > kMostPlanned) {
+    throw InputError(
+        fmt::format("--shard {}: expected I/N, I from 1 to N, N at most {}", text, kMostPlanned));
   }
   return shard;
 }
@@ -203,7 +204,7 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
   app->add_option(
          "--trials", options->trials,
          "runs of each problem; planners whose answer does not depend on the seed make one")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(CLI::Range(1, kMostPlanned))
       ->capture_default_str();
   app->add_option("--seed", request.seed,
                   "seed of the session; every problem, direction and trial has a seed made of it")

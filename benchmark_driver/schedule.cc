@@ -114,7 +114,7 @@ PlannedCall PlanCall(const DriverOptions& options, std::vector<PlannedPlanner> p
   for (const ProblemSetSummary* set : SelectSets(options.sets, served)) {
     call.sets.push_back({set->name, SelectProblems(*set, options.problem_indices)});
   }
-  const std::size_t num_parts = call.NumProblems() * static_cast<std::size_t>(call.MostTrials());
+  const std::size_t num_parts = call.NumParts();
   if (static_cast<std::size_t>(call.shard.index) > num_parts && call.shard.count > 1) {
     throw InputError(
         fmt::format("--shard {}/{}: there are no more than {} parts, trials of problems",

@@ -1,7 +1,7 @@
 #include "results/awaited_attempts.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,17 +34,22 @@ std::string PlannerOf(const std::string& request_id) {
   return begin == std::string::npos ? "" : request_id.substr(begin + 1, end - begin);
 }
 
-/// Whether a call of the plan makes the other direction besides this attempt.
-bool NeedsOther(const StoredRun& run, const SessionPlan& plan) {
-  const std::string planner = PlannerOf(run.request_id);
-  const PlannedTrial trial = {run.problem_set, run.problem_index, run.trial};
-  return std::any_of(plan.begin(), plan.end(), [&](const PlannedCall& call) {
-    const std::optional<Directions> asked = call.DirectionsOf(planner, trial);
-    if (asked == Directions::kBoth) return !run.confirmed();
-    // Backward is asked only after forward, unless that claimed a path or could not be made at all.
-    return asked == Directions::kAuto && run.direction == Direction::kForward && !run.claimed &&
-           run.roundtrip_time_s > 0;
-  });
+Direction OtherOf(Direction direction) {
+  return direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
+}
+
+/// Whether the other direction is made besides this attempt. `planned`: RunsOf the session's plan.
+bool NeedsOther(const StoredRun& run, const std::map<PlannedRun, bool>& planned) {
+  PlannedRun other = {{run.problem_set, run.problem_index, run.trial},
+                      PlannerOf(run.request_id),
+                      OtherOf(run.direction)};
+  const auto its_place = planned.find(other);
+  if (its_place == planned.end()) return false;
+  // Backward is asked after forward unless that claimed a path, or whatever becomes of it.
+  if (its_place->second) return !run.claimed;
+  other.direction = run.direction;
+  const auto place = planned.find(other);
+  return place != planned.end() && !place->second && !run.confirmed();
 }
 
 /// Throws InputError naming the session's file.
@@ -66,10 +71,9 @@ int LeaveOutAwaiting(StoredSession* session) {
   if (!plan) return 0;
   std::set<AttemptKey> made;
   for (const StoredRun& run : session->runs) made.insert(KeyOf(run, run.direction));
+  const std::map<PlannedRun, bool> planned = RunsOf(*plan);
   const auto num_left_out = std::erase_if(session->runs, [&](const StoredRun& run) {
-    const Direction other =
-        run.direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
-    return NeedsOther(run, *plan) && !made.contains(KeyOf(run, other));
+    return NeedsOther(run, planned) && !made.contains(KeyOf(run, OtherOf(run.direction)));
   });
   return static_cast<int>(num_left_out);
 }

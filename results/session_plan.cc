@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "common/error.h"
@@ -13,8 +15,6 @@ namespace planbench {
 namespace {
 
 using Ranges = std::vector<std::pair<int, int>>;  // first and last
-
-constexpr int kMostPlanned = 1'000'000;  // the driver's flags take no more, either
 
 Ranges RangesOf(const std::vector<int>& ascending) {
   Ranges ranges;
@@ -84,12 +84,44 @@ PlannedCall FromJson(const nlohmann::json& json) {
   return call;
 }
 
+int MostTrials(const PlannedCall& call) {
+  int most = 0;
+  for (const PlannedPlanner& planner : call.planners) most = std::max(most, planner.trials);
+  return most;
+}
+
+std::size_t NumProblems(const PlannedCall& call) {
+  std::size_t number = 0;
+  for (const PlannedSet& set : call.sets) number += set.problems.size();
+  return number;
+}
+
+/// Calls `visit` with every trial of the call's shard: set, problem's place in it, trial. The first
+/// trials of all problems, then the second; of other shards it takes no time.
+template <typename Visit>
+void ForEachTrial(const PlannedCall& call, const Visit& visit) {
+  const std::size_t num_problems = NumProblems(call);
+  const std::size_t num_parts = call.NumParts();
+  for (auto part = static_cast<std::size_t>(call.shard.index - 1); part < num_parts;
+       part += static_cast<std::size_t>(call.shard.count)) {
+    std::size_t place = part % num_problems;
+    std::size_t set = 0;
+    for (; place >= call.sets[set].problems.size(); ++set) place -= call.sets[set].problems.size();
+    visit(set, place, static_cast<int>(part / num_problems) + 1);
+  }
+}
+
+PlannedTrial TrialAt(const PlannedCall& call, std::size_t set, std::size_t place, int trial) {
+  return {call.sets[set].name, call.sets[set].problems[place], trial};
+}
+
 /// Calls `visit` with every run of the call and whether its trial's other one may make it needless.
 template <typename Visit>
 void ForEachRun(const PlannedCall& call, const Visit& visit) {
-  for (const PlannedTrial& trial : call.Trials()) {
+  ForEachTrial(call, [&](std::size_t set, std::size_t place, int number) {
+    const PlannedTrial trial = TrialAt(call, set, place, number);
     for (const PlannedPlanner& planner : call.planners) {
-      if (trial.trial > planner.trials) continue;
+      if (number > planner.trials) continue;
       const bool is_auto = planner.directions == Directions::kAuto;
       if (planner.directions != Directions::kBackward) {
         visit(PlannedRun{trial, planner.name, Direction::kForward}, false);
@@ -98,7 +130,7 @@ void ForEachRun(const PlannedCall& call, const Visit& visit) {
         visit(PlannedRun{trial, planner.name, Direction::kBackward}, is_auto);
       }
     }
-  }
+  });
 }
 
 /// The whole that a shard is of, so that those of one whole are equal.
@@ -130,58 +162,21 @@ std::string Describe(const PlannedCall& whole) {
 
 }  // namespace
 
-std::size_t PlannedCall::NumProblems() const {
-  std::size_t number = 0;
-  for (const PlannedSet& set : sets) number += set.problems.size();
-  return number;
-}
-
-int PlannedCall::MostTrials() const {
-  int most = 0;
-  for (const PlannedPlanner& planner : planners) most = std::max(most, planner.trials);
-  return most;
-}
-
-int PlannedCall::ShardOf(std::size_t problem, int trial) const {
-  const std::size_t part = static_cast<std::size_t>(trial - 1) * NumProblems() + problem;
-  return static_cast<int>(part % static_cast<std::size_t>(shard.count)) + 1;
+std::size_t PlannedCall::NumParts() const {
+  return NumProblems(*this) * static_cast<std::size_t>(MostTrials(*this));
 }
 
 std::vector<PlannedTrial> PlannedCall::Trials() const {
+  std::vector<std::tuple<std::size_t, std::size_t, int>> places;
+  ForEachTrial(*this, [&](std::size_t set, std::size_t place, int trial) {
+    places.emplace_back(set, place, trial);
+  });
+  std::sort(places.begin(), places.end());
   std::vector<PlannedTrial> trials;
-  const int most = MostTrials();
-  std::size_t problem = 0;
-  for (const PlannedSet& set : sets) {
-    for (const int index : set.problems) {
-      for (int trial = 1; trial <= most; ++trial) {
-        if (ShardOf(problem, trial) == shard.index) trials.push_back({set.name, index, trial});
-      }
-      ++problem;
-    }
+  for (const auto& [set, place, trial] : places) {
+    trials.push_back(TrialAt(*this, set, place, trial));
   }
   return trials;
-}
-
-std::optional<Directions> PlannedCall::DirectionsOf(std::string_view planner,
-                                                    const PlannedTrial& trial) const {
-  const auto asked = std::find_if(planners.begin(), planners.end(),
-                                  [&](const auto& one) { return one.name == planner; });
-  if (asked == planners.end() || trial.trial < 1 || trial.trial > asked->trials) {
-    return std::nullopt;
-  }
-  std::size_t before = 0;
-  for (const PlannedSet& set : sets) {
-    if (set.name == trial.problem_set) {
-      const auto place =
-          std::lower_bound(set.problems.begin(), set.problems.end(), trial.problem_index);
-      if (place == set.problems.end() || *place != trial.problem_index) return std::nullopt;
-      const std::size_t problem = before + static_cast<std::size_t>(place - set.problems.begin());
-      if (ShardOf(problem, trial.trial) != shard.index) return std::nullopt;
-      return asked->directions;
-    }
-    before += set.problems.size();
-  }
-  return std::nullopt;
 }
 
 void AddCalls(const SessionPlan& more, SessionPlan* plan) {
@@ -215,27 +210,50 @@ std::optional<SessionPlan> ReadPlan(const std::map<std::string, std::string>& fl
   return plan;
 }
 
-int CountOwed(const SessionPlan& plan, const std::map<PlannedRun, bool>& made,
-              const std::map<std::string, std::string>& left_out) {
-  std::set<PlannedRun> owed;
+std::map<PlannedRun, bool> RunsOf(const SessionPlan& plan) {
+  std::map<PlannedRun, bool> runs;
   for (const PlannedCall& call : plan) {
     ForEachRun(call, [&](const PlannedRun& run, bool may_be_needless) {
-      if (made.contains(run)) return;
-      const PlannedTrial& trial = run.trial;
-      if (left_out.contains(fmt::format("{} {}", trial.problem_set, trial.problem_index))) return;
-      const auto first = made.find({trial, run.planner, Direction::kForward});
-      if (may_be_needless && first != made.end() && first->second) return;
-      owed.insert(run);
+      runs.emplace(run, may_be_needless);
     });
   }
-  return static_cast<int>(owed.size());
+  return runs;
+}
+
+std::string LeftOutName(const std::string& problem_set, int problem_index) {
+  return fmt::format("{} {}", problem_set, problem_index);
+}
+
+std::set<std::string> ProblemsOf(const SessionPlan& plan) {
+  std::set<std::pair<std::string, int>> problems;
+  for (const PlannedCall& call : plan) {
+    ForEachTrial(call, [&](std::size_t set, std::size_t place, int /*trial*/) {
+      problems.emplace(call.sets[set].name, call.sets[set].problems[place]);
+    });
+  }
+  std::set<std::string> names;
+  for (const auto& [set, index] : problems) names.insert(LeftOutName(set, index));
+  return names;
+}
+
+int CountOwed(const SessionPlan& plan, const std::map<PlannedRun, bool>& made,
+              const std::map<std::string, std::string>& left_out) {
+  int num_owed = 0;
+  for (const auto& [run, may_be_needless] : RunsOf(plan)) {
+    const PlannedTrial& trial = run.trial;
+    if (made.contains(run)) continue;
+    if (left_out.contains(LeftOutName(trial.problem_set, trial.problem_index))) continue;
+    const auto first = made.find({trial, run.planner, Direction::kForward});
+    if (may_be_needless && first != made.end() && first->second) continue;
+    ++num_owed;
+  }
+  return num_owed;
 }
 
 std::vector<std::string> MissingShards(const SessionPlan& plan) {
-  std::set<PlannedRun> planned;
+  const std::map<PlannedRun, bool> planned = RunsOf(plan);
   std::vector<std::pair<PlannedCall, std::set<int>>> wholes;  // and into how many they are divided
   for (const PlannedCall& call : plan) {
-    ForEachRun(call, [&](const PlannedRun& run, bool /*may_be_needless*/) { planned.insert(run); });
     if (call.shard.count == 1) continue;
     PlannedCall whole = WholeOf(call);
     auto known = std::find_if(wholes.begin(), wholes.end(),
@@ -248,7 +266,10 @@ std::vector<std::string> MissingShards(const SessionPlan& plan) {
     std::vector<std::string> missing;
     for (const int count : counts) {
       PlannedCall part = whole;
-      for (part.shard = {1, count}; part.shard.index <= count; ++part.shard.index) {
+      const auto num_parts =
+          std::min<std::size_t>(static_cast<std::size_t>(count), whole.NumParts());
+      for (part.shard = {1, count}; static_cast<std::size_t>(part.shard.index) <= num_parts;
+           ++part.shard.index) {
         bool all_planned = true;
         ForEachRun(part, [&](const PlannedRun& run, bool /*may_be_needless*/) {
           all_planned = all_planned && planned.contains(run);

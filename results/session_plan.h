@@ -28,6 +28,9 @@ struct EnumNames<Directions> {
       std::to_array<std::string_view>({"auto", "forward", "backward", "both"});
 };
 
+/// A session has no more of problems of a set, trials or shards.
+inline constexpr int kMostPlanned = 1'000'000;
+
 /// One of `count` parts of a session, from 1.
 struct Shard {
   int index = 1;
@@ -65,17 +68,12 @@ struct PlannedCall {
   Shard shard;
   bool operator==(const PlannedCall&) const = default;
 
-  /// How many of one trial of each problem.
-  std::size_t NumProblems() const;
-  int MostTrials() const;
-  /// Which of `count` parts a trial of the problem in that place of all, from 0, is of. Counted
-  /// over the first trials of all, then the second, so that each shard has its share of the first
-  /// one, which is all that deterministic planners make, and that who they are changes nothing.
-  int ShardOf(std::size_t problem, int trial) const;
-  /// The trials of its shard, problem by problem.
+  /// Of the whole: trials of problems, of which a shard has one at least.
+  std::size_t NumParts() const;
+  /// The trials of its shard, problem by problem. Shards take turns at the first trials of all
+  /// problems, then the second, so that each has its share of the first one, which is all that
+  /// deterministic planners make, and that who they are changes nothing.
   std::vector<PlannedTrial> Trials() const;
-  /// In which directions it asks that planner for that trial; nothing if it does not.
-  std::optional<Directions> DirectionsOf(std::string_view planner, const PlannedTrial& trial) const;
 };
 
 /// What all calls of the driver for a session were to make: how it was begun and resumed, and that
@@ -100,9 +98,18 @@ struct PlannedRun {
   auto operator<=>(const PlannedRun&) const = default;
 };
 
+/// All runs of a plan, and whether the trial's forward one may make it needless.
+std::map<PlannedRun, bool> RunsOf(const SessionPlan& plan);
+
+/// A problem's name among those that a session left out (SessionMessage): "SET INDEX".
+std::string LeftOutName(const std::string& problem_set, int problem_index);
+
+/// Names of all problems of which a plan makes a trial.
+std::set<std::string> ProblemsOf(const SessionPlan& plan);
+
 /// How many runs of a plan are still to be made, backward ones included that the forward one may
-/// make needless. `made`: and whether they make them needless. `left_out`: problems, "SET INDEX",
-/// that nobody has to make.
+/// make needless. `made`: and whether they make them needless. `left_out`: by LeftOutName, what
+/// nobody has to make.
 int CountOwed(const SessionPlan& plan, const std::map<PlannedRun, bool>& made,
               const std::map<std::string, std::string>& left_out);
 

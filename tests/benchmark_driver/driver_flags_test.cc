@@ -59,8 +59,9 @@ TEST(ParseShardTest, TakesOneOfSeveralAndRefusesTheRest) {
   const Shard shard = ParseShard("2/8");
   EXPECT_EQ(shard.index, 2);
   EXPECT_EQ(shard.count, 8);
+  EXPECT_EQ(ParseShard("1/1000000").count, 1'000'000) << "as many as a plan may have";
   for (const char* text : {"", "1", "1/", "/2", "0/2", "3/2", "-1/2", "1/2/3", "1 /2", "a/b", "1/0",
-                           "1/99999999999"}) {
+                           "1/99999999999", "1/1000001"}) {
     ExpectInputError([&] { ParseShard(text); }, {std::string("--shard ") + text, "I/N"});
   }
 }

@@ -58,12 +58,15 @@ TEST(SessionPlanTest, APlannerIsAskedForTheTrialsOfTheShard) {
   call.sets.push_back({"other", {5}});
   EXPECT_THAT(call.Trials(), ElementsAre(PlannedTrial{"box", 2, 1}, PlannedTrial{"box", 2, 2},
                                          PlannedTrial{"other", 5, 1}, PlannedTrial{"other", 5, 2}));
-  EXPECT_EQ(call.DirectionsOf("ara", {"other", 5, 2}), kAuto);
-  EXPECT_EQ(call.DirectionsOf("once", {"other", 5, 1}), kForward);
-  EXPECT_EQ(call.DirectionsOf("once", {"other", 5, 2}), std::nullopt);
-  EXPECT_EQ(call.DirectionsOf("ara", {"box", 5, 1}), std::nullopt) << "the other shard's";
-  EXPECT_EQ(call.DirectionsOf("ara", {"box", 3, 1}), std::nullopt);
-  EXPECT_EQ(call.DirectionsOf("rrtc", {"box", 2, 1}), std::nullopt);
+  const std::map<PlannedRun, bool> runs = RunsOf({call});
+  EXPECT_EQ(runs.size(), 10u);
+  EXPECT_FALSE(runs.at({{"other", 5, 2}, "ara", Direction::kForward}));
+  EXPECT_TRUE(runs.at({{"other", 5, 2}, "ara", Direction::kBackward})) << "may be needless";
+  EXPECT_FALSE(runs.at({{"other", 5, 1}, "once", Direction::kForward}));
+  EXPECT_FALSE(runs.contains({{"other", 5, 2}, "once", Direction::kForward})) << "one trial";
+  EXPECT_FALSE(runs.contains({{"box", 5, 1}, "ara", Direction::kForward})) << "the other shard's";
+  EXPECT_THAT(ProblemsOf({call}), ElementsAre("box 2", "other 5"));
+  EXPECT_EQ(call.NumParts(), 8u);
 }
 
 TEST(SessionPlanTest, WhatIsNotMadeIsOwedOnce) {
@@ -93,6 +96,9 @@ TEST(MissingShardsTest, AreNamedForEachWhole) {
   EXPECT_THAT(MissingShards({Call({1, 2}, {1, 2}), Call({1, 2}, {2, 2}, {{"ara", kAuto, 1}})}),
               ElementsAre("2/2 of box 1-2 by ara (auto, 2 trials)"))
       << "of one trial all are planned";
+  EXPECT_THAT(MissingShards({Call({1, 2}, {1, kMostPlanned})}),
+              ElementsAre("2/1000000, 3/1000000, 4/1000000 of box 1-2 by ara (auto, 2 trials)"))
+      << "the others would be empty";
 }
 
 TEST(MissingShardsTest, WhatOtherCallsMakeIsNotMissing) {
