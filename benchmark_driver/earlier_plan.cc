@@ -30,7 +30,7 @@ std::optional<SessionPlan> EarlierPlan(const SessionMessage& last, const Planned
 
 std::vector<std::string> AwaitedShards(const SessionMessage& last,
                                        const std::optional<SessionPlan>& plan) {
-  if (!last.settings.contains(kMergedParts) && !last.settings.contains(kHeldParts)) return {};
+  if (!IsMerged(last.settings)) return {};
   if (plan) return MissingShards(*plan);
   const auto shards = last.settings.find(kShardFlag);
   if (shards == last.settings.end() || shards->second.empty()) return {};

@@ -31,7 +31,7 @@
 #include "results/reproduce.h"
 #include "results/session_plan.h"
 #include "results/shell_quoted.h"
-#include "results/stored_session.h"
+#include "results/stored_ids.h"
 
 namespace planbench {
 namespace {
@@ -65,12 +65,13 @@ bool IsBefore(const SessionMessage& a, const SessionMessage& b) {
   return SessionOrder(a) < SessionOrder(b);
 }
 
-bool IsMerged(const SessionMessage& session) { return session.settings.contains(kMergedParts); }
+/// Whether it is as it was merged: one that went on since tells of its last part alone.
+bool TellsOfParts(const SessionMessage& session) { return session.settings.contains(kMergedParts); }
 
 /// Those of a merged session stand in one text.
 void AddTexts(const SessionMessage& session, const std::string& text, const char* separator,
               std::vector<std::string>* texts) {
-  const auto parts = IsMerged(session) ? Split(text, separator) : std::vector{text};
+  const auto parts = TellsOfParts(session) ? Split(text, separator) : std::vector{text};
   texts->insert(texts->end(), parts.begin(), parts.end());
 }
 
@@ -78,9 +79,11 @@ void AddTexts(const SessionMessage& session, const std::string& text, const char
 struct Part {
   std::string folder;                ///< The last one that told of it.
   std::vector<SessionMessage> told;  ///< Last words of folders, by SessionOrder.
+  std::vector<SessionPlan> plans;    ///< Of these, nothing where they do not tell.
   std::set<std::string> request_ids;
 
   const SessionMessage& session() const { return told.back(); }
+  const SessionPlan& plan() const { return plans.back(); }
   int num_missing() const {
     int num_runs = 0;
     for (const SessionMessage& one : told) {
@@ -99,10 +102,22 @@ struct Part {
     });
   }
 
+  /// Names of the problems that it was to make by its plan and did not leave out.
+  std::set<std::string> Kept() const {
+    std::set<std::string> kept;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      if (!Counts(told[i])) continue;
+      for (const std::string& problem : ProblemsOf(plans[i])) {
+        if (!told[i].left_out.contains(problem)) kept.insert(problem);
+      }
+    }
+    return kept;
+  }
+
  private:
   /// A session that goes on in another folder is what that says; one that was merged into several
   /// is all of them.
-  bool Counts(const SessionMessage& one) const { return IsMerged(one) || &one == &session(); }
+  bool Counts(const SessionMessage& one) const { return TellsOfParts(one) || &one == &session(); }
 };
 
 struct Run {
@@ -157,12 +172,19 @@ class Merge {
  public:
   void Read(const std::string& folder) {
     const fs::path log = FindEventLog(folder);
+    const StoredIds stored = ReadDatabase(folder);
     RecordedSession recorded = ReadRecords(log);
     logs_.push_back(log);
     passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(),
                         recorded.passed_over.end());
     AddShares(folder, recorded.sessions);
-    RequireRunsOfDatabase(folder, log, recorded.runs);
+    if (const StoredIds lost = stored.Without(recorded.sessions, recorded.runs); !lost.empty()) {
+      throw InputError(
+          fmt::format("--merge: {}: its results.sqlite holds what {} lacks and what would be lost: "
+                      "{} (to merge "
+                      "without it, take results.sqlite out of the folder)",
+                      folder, log.filename().string(), lost.Text()));
+    }
     std::map<std::string, SessionMessage> last_words;
     for (SessionMessage& session : recorded.sessions) {
       const auto [last, is_new] = last_words.try_emplace(session.run_id, session);
@@ -170,9 +192,11 @@ class Merge {
     }
     for (auto& [run_id, session] : last_words) {
       Part& part = parts_[run_id];
-      if (!part.told.empty()) RequireEqual(part, {folder, {session}, {}});
+      SessionPlan plan = PlanOf(folder, session);
+      if (!part.told.empty()) RequireEqual(part, {folder, {session}, {plan}, {}});
       const auto place = std::upper_bound(part.told.begin(), part.told.end(), session, IsBefore);
       if (place == part.told.end()) part.folder = folder;
+      part.plans.insert(part.plans.begin() + (place - part.told.begin()), std::move(plan));
       part.told.insert(place, std::move(session));
     }
     for (RunRecordMessage& record : recorded.runs) {
@@ -224,6 +248,7 @@ class Merge {
     }
     num_repeated_ = runs_.size() - united.size();
     runs_ = std::move(united);
+    KeepProblems();
     CountRuns();
   }
 
@@ -275,36 +300,28 @@ class Merge {
     }
     try {
       shares_.Add(told, bus);
-      for (const SessionMessage& session : told) ReadPlan(session.settings);
     } catch (const InputError& error) {
       throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
     }
   }
 
-  /// A log that was cut off must not cost the runs that the folder's database has.
-  void RequireRunsOfDatabase(const std::string& folder, const fs::path& log,
-                             const std::vector<RunRecordMessage>& recorded) {
-    if (!IsFile(fs::path(folder) / "results.sqlite")) return;
-    StoredSessions stored;
+  /// Nothing if it does not tell.
+  static SessionPlan PlanOf(const std::string& folder, const SessionMessage& session) {
     try {
-      stored = ReadSessions(folder);
+      return ReadPlan(session.settings).value_or(SessionPlan());
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
+    }
+  }
+
+  /// Nothing, which is told of, if the database cannot be read.
+  StoredIds ReadDatabase(const std::string& folder) {
+    try {
+      return ReadStoredIds(folder);
     } catch (const InputError& error) {
       passed_over_.push_back(fmt::format("not compared with the event log: {}", error.what()));
-      return;
+      return {};
     }
-    std::set<std::string> logged;
-    for (const RunRecordMessage& record : recorded) logged.insert(record.request_id);
-    std::size_t num_stored = 0;
-    std::size_t num_logged = 0;
-    for (const StoredSession& session : stored.sessions) {
-      num_stored += session.runs.size();
-      for (const StoredRun& run : session.runs) num_logged += logged.count(run.request_id);
-    }
-    if (num_logged == num_stored) return;
-    throw InputError(fmt::format(
-        "--merge: {}: its results.sqlite holds {} runs, of which {} holds {}: the others would be "
-        "lost (to merge without them, take results.sqlite out of the folder)",
-        folder, num_stored, log.filename().string(), num_logged));
   }
 
   static void RequireEqual(const Part& first, const Part& second) {
@@ -319,10 +336,7 @@ class Merge {
     if (const auto difference = FindConditionDifference(first.session(), renamed)) {
       throw refuse(difference->field, difference->first, difference->second);
     }
-    const auto of_first = ReadPlan(first.session().settings);
-    const auto of_second = ReadPlan(second.session().settings);
-    if (!of_first || !of_second) return;
-    if (const auto difference = FindDirectionsDifference(*of_first, *of_second)) {
+    if (const auto difference = FindDirectionsDifference(first.plan(), second.plan())) {
       throw refuse(fmt::format("contestant[{}].directions", difference->planner),
                    EnumName(difference->first), EnumName(difference->second));
     }
@@ -348,6 +362,19 @@ class Merge {
     session_.settings[kMergedParts] = shares_.Text();
   }
 
+  /// A problem is left out of the whole if it is of all parts that were to make trials of it: what
+  /// one left out and another did not is to be made.
+  void KeepProblems() {
+    if (session_.left_out.empty()) return;
+    std::set<std::string> kept;
+    for (const Run& run : runs_) {
+      if (!WasAsked(run.record)) continue;
+      kept.insert(LeftOutName(run.record.problem_set, run.record.problem_index));
+    }
+    for (const auto& [run_id, part] : parts_) kept.merge(part.Kept());
+    std::erase_if(session_.left_out, [&](const auto& one) { return kept.contains(one.first); });
+  }
+
   /// What is owed, by the plan of all parts; of parts without one the number of runs is known.
   void CountRuns() {
     SessionPlan plan;
@@ -356,9 +383,7 @@ class Merge {
     bool is_known = true;
     bool finished = true;
     for (const auto& [run_id, part] : parts_) {
-      for (const SessionMessage& told : part.told) {
-        AddCalls(ReadPlan(told.settings).value_or(SessionPlan()), &plan);
-      }
+      for (const SessionPlan& told : part.plans) AddCalls(told, &plan);
       if (!part.IsWithoutPlan()) continue;
       num_missing += part.num_missing();
       finished = finished && part.finished();

@@ -35,6 +35,10 @@ std::vector<std::string> SplitCommands(const std::string& joined) {
 
 }  // namespace
 
+bool IsMerged(const std::map<std::string, std::string>& flags) {
+  return flags.contains(kMergedParts) || flags.contains(kHeldParts);
+}
+
 bool IsFlag(std::string_view setting) {
   const auto others = {kMergedCommands, kMergedParts, kHeldParts, kPlanSetting};
   return std::find(others.begin(), others.end(), setting) == others.end();

@@ -18,6 +18,10 @@ inline constexpr char kMergedParts[] = "merged_parts";
 /// Among them too, of a merged session that was resumed: the kMergedParts that it had.
 inline constexpr char kHeldParts[] = "held_parts";
 
+/// Whether a session with these flags was merged of parts, be it one, and may have gone on since:
+/// to be given shards until it has all.
+bool IsMerged(const std::map<std::string, std::string>& flags);
+
 /// Whether what stands among a session's flags is one, and none of the above, nor its plan
 /// (results/session_plan.h).
 bool IsFlag(std::string_view setting);

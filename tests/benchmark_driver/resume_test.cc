@@ -16,6 +16,7 @@
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
 #include "messaging/message_fields.h"
+#include "results/reproduce.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/session_database.h"
 #include "tests/support/temporary_folder.h"
@@ -224,7 +225,7 @@ TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {
   }
 }
 
-TEST(RequireSameConditionsTest, AnotherShardIsRefusedUnlessSeveralWereMerged) {
+TEST(RequireSameConditionsTest, AnotherShardIsRefusedUnlessTheSessionWasMerged) {
   const auto resume_with = [](const std::string& before, const std::string& now) {
     SessionMessage first, second;
     first.settings["shard"] = before;
@@ -237,10 +238,16 @@ TEST(RequireSameConditionsTest, AnotherShardIsRefusedUnlessSeveralWereMerged) {
   ExpectInputError([&] { resume_with("1/3", "2/3"); }, {"--resume", "--shard 1/3", "--shard 2/3"});
   ExpectInputError([&] { resume_with("1/3", ""); }, {"--resume", "--shard 1/3", "no --shard"});
   ExpectInputError([&] { resume_with("", "1/2"); }, {"--resume", "no --shard", "--shard 1/2"});
-  SessionMessage merged, now;
-  merged.settings = {{"shard", "1/3"}, {"merged", "a && b"}};
+  SessionMessage before, now;
   now.settings["shard"] = "2/3";
-  EXPECT_NO_THROW(RequireSameConditions(merged, now));
+  // Merged, be it of one part, or merged and gone on with.
+  for (const char* parts : {kMergedParts, kHeldParts}) {
+    before.settings = {{"shard", "1/3"}, {parts, "{}"}};
+    EXPECT_NO_THROW(RequireSameConditions(before, now));
+  }
+  // Made in several ways, as a shard that is resumed with other planners.
+  before.settings = {{"shard", "1/3"}, {kMergedCommands, "a && b"}};
+  ExpectInputError([&] { RequireSameConditions(before, now); }, {"--shard 1/3", "--shard 2/3"});
 }
 
 TEST(RequireSameConditionsTest, NumbersOfFlagsAndSettingsAreComparedAsNumbers) {
@@ -329,6 +336,16 @@ TEST_F(LoggedSessionTest, WhatTheLogLacksOfTheDatabaseIsNotMadeAgain) {
   std::filesystem::remove(path_ / "s.lcmlog");
   WriteLog({}, false);  // nothing is left of it
   ExpectNotResumed({"3 runs"});
+}
+
+TEST_F(LoggedSessionTest, TheFolderBesideIsNamedAlsoOfOneThatIsHere) {
+  WriteLog({2});
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(path_);
+  ExpectInputError(
+      [] { ReadEarlierSession("."); },
+      {"logger --from " + (path_ / "s.lcmlog").string() + " --out " + path_.string() + "-rebuilt"});
+  std::filesystem::current_path(before);
 }
 
 TEST_F(LoggedSessionTest, ADatabaseMayBeBehindItsLogOrLost) {

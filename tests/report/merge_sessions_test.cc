@@ -137,6 +137,32 @@ TEST_F(MergeSessionsTest, ShardsOfAnEarlierVersionMayNotBeAll) {
   EXPECT_FALSE(whole.flags.contains(kPlanSetting));
 }
 
+TEST_F(MergeSessionsTest, WhatOnePartLeftOutAndAnotherDidNotIsToBeMade) {
+  // Of problem 3 each shard has a trial. The second was killed before it had made any.
+  SessionMessage one = Planned(Session("one", 1000, 2), Call({1, 2, 3}, {1, 2}, 2));
+  one.left_out["shelf 3"] = "is bad";
+  SessionMessage two = Planned(Session("two", 2000, 3), Call({1, 2, 3}, {2, 2}, 2));
+  two.finished = false;
+  Write("one", one,
+        {{.contestant = "A", .problem = 1}, {.contestant = "A", .problem = 2, .trial = 2}});
+  Write("two", two, {});
+  ASSERT_EQ(MergeTo("both", {"one", "two"}), kExitOk) << errors_;
+  ASSERT_EQ(MergeTo("again", {"both", "one"}), kExitOk) << errors_;
+  for (const char* whole : {"both", "again"}) {
+    const StoredSession session = ReadSessions(folder_ / whole).sessions.front();
+    EXPECT_FALSE(session.finished) << whole;
+    EXPECT_EQ(session.num_runs, 6) << whole;
+    EXPECT_TRUE(session.left_out.empty()) << whole;
+  }
+  two.left_out = one.left_out;
+  two.num_runs = 2;
+  Write("none", two, {});
+  ASSERT_EQ(MergeTo("neither", {"one", "none"}), kExitOk) << errors_;
+  const StoredSession neither = ReadSessions(folder_ / "neither").sessions.front();
+  EXPECT_EQ(neither.num_runs, 4) << "but for problem 3";
+  EXPECT_EQ(neither.left_out, one.left_out);
+}
+
 TEST_F(MergeSessionsTest, AWholeAndAPartOfItAreTheWhole) {
   // As when a merged session of one shard goes on without --shard.
   SessionMessage whole = Planned(Session("part1", 1000, 2), Call({1, 2}));
@@ -347,8 +373,8 @@ TEST_F(MergeSessionsTest, RunsThatOnlyTheDatabaseHoldsAreNotLost) {
   const auto log = FindEventLog(folder_ / "of1");
   std::filesystem::resize_file(log, std::filesystem::file_size(log) - 5);
   ExpectRefused({"of1", "part2"}, (folder_ / "of1").string() +
-                                      ": its results.sqlite holds 2 runs, of which of1.lcmlog "
-                                      "holds 1: the others would be lost");
+                                      ": its results.sqlite holds what of1.lcmlog lacks and what "
+                                      "would be lost: 1 run, part1/B/1");
   // What is no database cannot be compared.
   folder_.Write("of1/results.sqlite", "damaged");
   ASSERT_EQ(Merge({"of1", "part2"}), kExitOk) << errors_;
