@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -46,19 +47,10 @@ bool IsOwn(const LineUpEntry& entry) {
   return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
 }
 
-/// Runs of a plan but those of problems that the session left out.
-std::vector<ScheduledRun> RunsOf(const SessionPlan& plan, const SessionMessage& session) {
-  std::vector<ScheduledRun> runs;
-  for (const PlannedCall& call : plan) {
-    std::vector<ScheduledRun> of_call = MakeSchedule(call, session.conditions.request);
-    for (ScheduledRun& run : of_call) {
-      if (session.left_out.contains(fmt::format("{} {}", run.problem_set, run.problem_index))) {
-        continue;
-      }
-      runs.push_back(std::move(run));
-    }
-  }
-  return runs;
+std::set<std::string> IdsOf(const std::vector<ScheduledRun>& runs) {
+  std::set<std::string> ids;
+  for (const ScheduledRun& run : runs) ids.insert(run.request_id);
+  return ids;
 }
 
 }  // namespace
@@ -117,60 +109,54 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   for (const RunRecordMessage& record : earlier_.runs) {
     met.emplace(record.problem_set, record.problem_index);
   }
-  TakeUp(std::exchange(earlier_, {}), call);
+  const Known known = TakeUp(std::exchange(earlier_, {}), call);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
   CheckProblems(met, watch);
+  Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
   num_runs_ = static_cast<int>(runs_.size() + schedule_.size()) + num_owed_;
 }
 
-void Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
-  const bool is_resumed = !earlier.sessions.empty();
-  const SessionMessage last = is_resumed ? earlier.sessions.back() : SessionMessage();
-  std::optional<SessionPlan> plan = is_resumed ? EarlierPlan(last, call) : SessionPlan();
-  std::optional<std::vector<ScheduledRun>> before;
-  if (plan) {
-    before = RunsOf(*plan, last);
-    AddCalls({call}, &*plan);
+Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
+  Known known;
+  known.call = schedule_;
+  known.plan.emplace();
+  if (!earlier.sessions.empty()) {
+    known.last = earlier.sessions.back();
+    known.plan = EarlierPlan(known.last, call);
   }
-  RunIds ids;
-  std::set<std::string> problems;
-  for (const ScheduledRun& run : schedule_) {
-    ids.scheduled.insert(run.request_id);
-    problems.insert(fmt::format("{} {}", run.problem_set, run.problem_index));
+  for (const PlannedCall& before : known.plan.value_or(SessionPlan())) {
+    std::vector<ScheduledRun> runs = MakeSchedule(before, options_.conditions.request);
+    std::move(runs.begin(), runs.end(), std::back_inserter(known.planned));
   }
-  for (const std::vector<ScheduledRun>* runs : {&schedule_, before ? &*before : nullptr}) {
-    if (runs == nullptr) continue;
+  if (known.plan) AddCalls({call}, &*known.plan);
+  for (const std::vector<ScheduledRun>* runs : {&known.call, &known.planned}) {
     for (const ScheduledRun& run : *runs) {
       if (run.unless_solved) suffices_[*run.unless_solved] = false;
       if (run.is_one_of_two) one_of_two_.insert(run.request_id);
     }
   }
+  const std::set<std::string> in_call = IdsOf(known.call);
   for (const RunRecordMessage& record : earlier.runs) {
-    const bool is_scheduled = ids.scheduled.contains(record.request_id);
-    ids.all_scheduled = ids.all_scheduled && is_scheduled;
+    const bool is_in_call = in_call.contains(record.request_id);
+    known.all_in_call = known.all_in_call && is_in_call;
+    known.recorded[{{record.problem_set, record.problem_index, record.trial},
+                    record.planner,
+                    record.request.direction}] = Suffices(record);
     if (!WasAsked(record)) {  // it is to be made, now or later
-      if (is_scheduled) continue;
-      ids.not_asked.insert(record.request_id);
+      if (is_in_call) continue;
+      known.not_asked.insert(record.request_id);
       const auto attempt = suffices_.find(record.request_id);
       if (attempt != suffices_.end()) attempt->second = true;
       continue;
     }
-    ids.done.insert(record.request_id);
+    known.done.insert(record.request_id);
     Keep(record);
   }
   std::erase_if(schedule_,
-                [&](const ScheduledRun& run) { return ids.done.contains(run.request_id); });
-  if (is_resumed) {
-    awaited_shards_ = AwaitedShards(last, plan);
-    Owe(last, before, ids);
-    if (!plan && !awaited_shards_.empty()) flags_[kShardFlag] = last.settings.at(kShardFlag);
-  }
-  if (!flags_.empty()) {
-    flags_.erase(kPlanSetting);
-    if (plan) flags_[kPlanSetting] = PlanText(*plan);
-  }
+                [&](const ScheduledRun& run) { return known.done.contains(run.request_id); });
+  awaited_shards_ = AwaitedShards(known.last, known.plan);
   AddEarlier(earlier.sessions, &options_.conditions);
   for (const SessionMessage& session : earlier.sessions) {
     for (const NodeStatusMessage& node : session.nodes) {
@@ -178,58 +164,68 @@ void Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
       earlier_planners_.insert_or_assign(node.name, node);
     }
   }
-  for (const auto& [problem, reason] : last.left_out) {
-    if (!problems.contains(problem)) left_out_.emplace(problem, reason);
-  }
+  left_out_ = known.last.left_out;
+  for (const std::string& problem : ProblemsOf({call})) left_out_.erase(problem);
+  return known;
 }
 
-void Driver::Owe(const SessionMessage& last, const std::optional<std::vector<ScheduledRun>>& before,
-                 const RunIds& ids) {
-  const auto is_to_do = [&](const ScheduledRun& run) {
-    return !ids.done.contains(run.request_id) &&
-           !(run.unless_solved && suffices_.at(*run.unless_solved));
+bool Driver::IsToDo(const ScheduledRun& run, const Known& known) const {
+  return !known.done.contains(run.request_id) &&
+         !(run.unless_solved && suffices_.at(*run.unless_solved));
+}
+
+int Driver::CountOwedByNumber(const Known& known) const {
+  std::set<std::string> planners, sets;  // of this call
+  for (const ScheduledRun& run : known.call) {
+    planners.insert(run.planner);
+    sets.insert(run.problem_set);
+  }
+  const SessionConditions& had = known.last.conditions;
+  std::set<std::string> had_planners;
+  for (const Contestant& one : had.contestants) had_planners.insert(one.planner);
+  const bool may_be_all =
+      std::includes(planners.begin(), planners.end(), had_planners.begin(), had_planners.end()) &&
+      std::all_of(had.problem_sets.begin(), had.problem_sets.end(),
+                  [&](const auto& set) { return sets.contains(set.first); });
+  // The number may include backward searches that have become needless.
+  const auto may_be_of_it = [&](const ScheduledRun& run) {
+    return had.problem_sets.contains(run.problem_set) && had_planners.contains(run.planner) &&
+           !known.done.contains(run.request_id) && (may_be_all || IsToDo(run, known));
   };
-  std::set<std::string> planned;
-  std::set<std::string> owed = ids.not_asked;
-  if (before) {
-    for (const ScheduledRun& run : *before) {
-      planned.insert(run.request_id);
-      if (!last.finished && !ids.scheduled.contains(run.request_id) && is_to_do(run)) {
-        owed.insert(run.request_id);
-      }
+  const auto num_left =
+      static_cast<int>(known.done.size()) +
+      static_cast<int>(std::count_if(known.call.begin(), known.call.end(), may_be_of_it));
+  return std::max(static_cast<int>(known.not_asked.size()), known.last.num_runs - num_left);
+}
+
+void Driver::Owe(const Known& known) {
+  if (known.plan) {
+    std::map<PlannedRun, bool> made = known.recorded;
+    for (const ScheduledRun& run : schedule_) {
+      made.try_emplace(
+          {{run.problem_set, run.problem_index, run.trial}, run.planner, run.direction}, false);
     }
+    num_owed_ = CountOwed(*known.plan, made, left_out_) + static_cast<int>(known.not_asked.size());
+  } else {
+    num_owed_ = CountOwedByNumber(known);
   }
-  num_owed_ = static_cast<int>(owed.size());
-  if (!before) {  // how many they were is known all the same
-    const SessionConditions& had = last.conditions;
-    const SessionConditions& has = options_.conditions;  // of this call alone
-    const auto is_among = [](const std::vector<Contestant>& contestants, const std::string& name) {
-      return std::any_of(contestants.begin(), contestants.end(),
-                         [&](const Contestant& one) { return one.planner == name; });
-    };
-    const bool may_be_all =
-        std::all_of(
-            had.contestants.begin(), had.contestants.end(),
-            [&](const Contestant& one) { return is_among(has.contestants, one.planner); }) &&
-        std::all_of(had.problem_sets.begin(), had.problem_sets.end(),
-                    [&](const auto& set) { return has.problem_sets.contains(set.first); });
-    // The number may include backward searches that have become needless.
-    const auto may_be_of_it = [&](const ScheduledRun& run) {
-      return had.problem_sets.contains(run.problem_set) && is_among(had.contestants, run.planner) &&
-             (may_be_all || is_to_do(run));
-    };
-    const auto num_left =
-        static_cast<int>(ids.done.size()) +
-        static_cast<int>(std::count_if(schedule_.begin(), schedule_.end(), may_be_of_it));
-    num_owed_ = std::max(num_owed_, last.num_runs - num_left);
+  const std::set<std::string> call = IdsOf(known.call), planned = IdsOf(known.planned);
+  const bool is_all = known.all_in_call && num_owed_ == 0 &&
+                      std::includes(call.begin(), call.end(), planned.begin(), planned.end());
+  const bool is_part =
+      std::all_of(known.call.begin(), known.call.end(), [&](const ScheduledRun& run) {
+        return planned.contains(run.request_id) || !IsToDo(run, known);
+      });
+  flags_ = FlagsOfResumed(known.last.settings, std::move(flags_),
+                          is_all    ? PlanScope::kAll
+                          : is_part ? PlanScope::kPart
+                                    : PlanScope::kOther);
+  if (!known.plan && !awaited_shards_.empty()) {
+    flags_[kShardFlag] = known.last.settings.at(kShardFlag);
   }
-  const bool all_planned = std::all_of(
-      schedule_.begin(), schedule_.end(),
-      [&](const ScheduledRun& run) { return planned.contains(run.request_id) || !is_to_do(run); });
-  flags_ = FlagsOfResumed(last.settings, std::move(flags_),
-                          ids.all_scheduled && num_owed_ == 0 ? PlanScope::kAll
-                          : all_planned                       ? PlanScope::kPart
-                                                              : PlanScope::kOther);
+  if (flags_.empty()) return;
+  flags_.erase(kPlanSetting);
+  if (known.plan) flags_[kPlanSetting] = PlanText(*known.plan);
 }
 
 void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch) {
@@ -246,7 +242,7 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
       spdlog::error("{} {}: {}", set, index, answer->message);
     } else if (!answer->ok) {
       bad.emplace(set, index);
-      left_out_[fmt::format("{} {}", set, index)] = answer->message;
+      left_out_[LeftOutName(set, index)] = answer->message;
     } else if (!answer->message.empty()) {
       warnings.push_back(answer->message);
     }

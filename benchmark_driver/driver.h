@@ -78,19 +78,26 @@ class Driver {
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);
   std::vector<PlannedPlanner> PlannedPlanners() const;
-  /// Takes over what was told and made of the resumed session, and leaves to do what it lacks.
-  void TakeUp(EarlierSession earlier, const PlannedCall& call);
-  /// Request ids of a session that is resumed.
-  struct RunIds {
-    std::set<std::string> scheduled;  ///< Of this call, those done included.
-    std::set<std::string> done;
-    std::set<std::string> not_asked;  ///< Of records, but for what is scheduled.
-    bool all_scheduled = true;        ///< Whatever has a record.
+  /// What is known of the session when this call goes on with it; of a new one that is the call.
+  struct Known {
+    SessionMessage last;                  ///< What it told before.
+    std::optional<SessionPlan> plan;      ///< This call included; nothing if it is not known.
+    std::vector<ScheduledRun> planned;    ///< Of that, by the calls before.
+    std::vector<ScheduledRun> call;       ///< All of this one, whatever is made or cannot be.
+    std::map<PlannedRun, bool> recorded;  ///< Whatever has a record: CountOwed's `made`.
+    std::set<std::string> done;           ///< Request ids of records of requests.
+    std::set<std::string> not_asked;      ///< Of others, but for what this call makes.
+    bool all_in_call = true;              ///< Whatever has a record.
   };
-  /// Counts what the resumed session was to make and this call is not, and says how all of it is
-  /// made. `before`: that session's runs by its plan, nothing if that is not known.
-  void Owe(const SessionMessage& last, const std::optional<std::vector<ScheduledRun>>& before,
-           const RunIds& ids);
+  /// Takes over what was told and made of the resumed session, and leaves to do what it lacks.
+  Known TakeUp(EarlierSession earlier, const PlannedCall& call);
+  /// Counts what the session was to make and this call is not, problems considered that either
+  /// leaves out, and says how all of it is made.
+  void Owe(const Known& known);
+  /// Of a plan that is not known, by the number of runs that was told.
+  int CountOwedByNumber(const Known& known) const;
+  /// Whether a run has to be made as far as records tell.
+  bool IsToDo(const ScheduledRun& run, const Known& known) const;
   SessionMessage Session(bool finished) const;
   /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);

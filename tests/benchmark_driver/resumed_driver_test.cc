@@ -88,11 +88,14 @@ class OtherFlagsTest : public DriverTest {
     DriverOptions options = Options();
     options.directions = Directions::kAuto;
     options.trials = trials;
+    options.problem_indices = problems_;
+    options.skip_bad_problems = skips_bad_problems_;
     auto flags = FlagsFor(fmt::format("{}", fmt::join(planners, ",")), trials);
     if (shard_.count > 1) {
       options.shard = shard_;
       flags["shard"] = fmt::format("{}/{}", shard_.index, shard_.count);
     }
+    if (problems_.size() == 1) flags["problems-range"] = std::to_string(problems_.front());
     std::vector<LineUpEntry> line_up = LineUp(planners);
     line_up.front().directions = first_directions_;
     line_up.front().contestant.about = first_about_;
@@ -157,9 +160,11 @@ class OtherFlagsTest : public DriverTest {
 
   FakePlanner arm_{&bus_, "arm"};
   FakePlanner leg_{&bus_, "leg"};
-  const FakeSceneServer server_{&bus_};
+  FakeSceneServer server_{&bus_};
   EarlierSession earlier_;
   // Of the next call:
+  std::vector<int> problems_ = {1, 2};
+  bool skips_bad_problems_ = false;
   Shard shard_;
   std::optional<Directions> first_directions_;  ///< Of its first contestant.
   std::string first_about_;
@@ -206,6 +211,37 @@ TEST_F(OtherFlagsTest, ARunThatWasNotAskedForIsOwedUntilItsPlannerTakesPart) {
   Make({"leg"}, 1, 0);
   EXPECT_EQ(earlier_.runs.size(), 5u);
   EXPECT_TRUE(told_.finished);
+}
+
+TEST_F(OtherFlagsTest, AProblemThatIsMendedIsOwedByThoseThatDoNotTakePart) {
+  server_.RefuseProblem(2, "scene0002.yaml: is missing");
+  skips_bad_problems_ = true;
+  Make({"arm", "leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 2u);
+  // Fewer problems are not all that was planned, though all that was made.
+  problems_ = {1};
+  Make({"arm", "leg"}, 1, 0);
+  EXPECT_EQ(command_, Command("arm,leg", 1));
+  problems_ = {1, 2};
+  server_.ServeProblem(2);
+  Make({"arm"}, 1, 2);  // the backward one may not be needed
+  EXPECT_TRUE(told_.left_out.empty());
+  EXPECT_EQ(earlier_.runs.size(), 4u);
+  EXPECT_EQ(command_, Command("arm,leg", 1));
+  Make({"leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
+}
+
+TEST_F(OtherFlagsTest, AProblemThatIsLeftOutIsOwedByNobody) {
+  Make({"arm", "leg"}, 1, 0);
+  Kill();
+  server_.RefuseProblem(2, "scene0002.yaml: is missing");
+  skips_bad_problems_ = true;
+  Make({"arm"}, 1, 2);  // the leg's, on problem 1
+  EXPECT_EQ(told_.left_out.size(), 1u);
+  server_.ServeProblem(2);
+  Make({"arm", "leg"}, 1, 0);
+  EXPECT_EQ(earlier_.runs.size(), 5u);
 }
 
 TEST_F(OtherFlagsTest, OneThatWasMadeInSeveralWaysTellsOfAll) {
