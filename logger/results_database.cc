@@ -14,8 +14,8 @@
 #include "logger/run_columns.h"
 #include "logger/session_json.h"
 #include "logger/utc_time.h"
-#include "messaging/asked_runs.h"
 #include "messaging/session_conditions.h"
+#include "planning/asked_request.h"
 #include "planning/told_edges.h"
 #include "results/database_version.h"
 #include "results/stored_session.h"
@@ -223,8 +223,10 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
     find_equal_run_.Bind(static_cast<int>(values.size()) + 2,
                          request_step_m ? SqliteValue(*request_step_m) : SqliteValue());
     if (find_equal_run_.First()) return Outcome::kAlreadyStored;
-    if (!Replaces(record, known->standing)) {
-      return Contradicts(record, known->standing) ? Outcome::kContradicts : Outcome::kAlreadyStored;
+    const RunStanding standing = StandingOf(record);
+    if (!Replaces(standing, known->standing)) {
+      return Contradicts(standing, known->standing) ? Outcome::kContradicts
+                                                    : Outcome::kAlreadyStored;
     }
     delete_run_.BindAll(known->id).Run();
   }
@@ -247,12 +249,9 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
 std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecordMessage& record) {
   find_run_.BindAll(record.run_id, record.request_id);
   if (!find_run_.Step()) return std::nullopt;
-  KnownRun known;
-  known.id = find_run_.Int(0);
-  known.standing.status = static_cast<PlanStatus>(find_run_.Int(1));
-  known.standing.request.scene_id = find_run_.Text(2);
-  known.standing.roundtrip_time_s = find_run_.Double(3);
-  known.standing.start_utime = find_run_.Int(4);
+  const auto status = static_cast<PlanStatus>(find_run_.Int(1));
+  const bool was_asked = TellsOfRequest(find_run_.Double(3), status, !find_run_.Text(2).empty());
+  const KnownRun known = {find_run_.Int(0), {was_asked, find_run_.Int(4)}};
   find_run_.Reset();
   return known;
 }

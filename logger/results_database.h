@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sqlite.h"
+#include "messaging/asked_runs.h"
 #include "messaging/messages.h"
 
 namespace planbench {
@@ -49,7 +50,7 @@ class ResultsDatabase {
  private:
   struct KnownRun {
     std::int64_t id = 0;
-    RunRecordMessage standing;  ///< As far as asked_runs.h looks at it.
+    RunStanding standing;
   };
   /// The run that is stored of the record's ids.
   std::optional<KnownRun> FindRun(const RunRecordMessage& record);

@@ -22,8 +22,12 @@ bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
   return Replaces(StandingOf(record), StandingOf(known));
 }
 
+bool Contradicts(const RunStanding& record, const RunStanding& known) {
+  return record.was_asked && known.was_asked;
+}
+
 bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known) {
-  return WasAsked(record) && WasAsked(known);
+  return Contradicts(StandingOf(record), StandingOf(known));
 }
 
 }  // namespace planbench

@@ -29,6 +29,7 @@ bool Replaces(const RunStanding& record, const RunStanding& known);
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
 
 /// Whether two records of a run that differ cannot both be true: each tells of a request.
+bool Contradicts(const RunStanding& record, const RunStanding& known);
 bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known);
 
 }  // namespace planbench
