@@ -171,7 +171,7 @@ std::vector<std::string> ReadEventLog(const std::filesystem::path& event_log,
     if (error || extent.bytes >= size) continue;
     passed_over.push_back(
         fmt::format("{}: {} bytes after the last whole event are not read: from byte {} on an "
-                    "event was cut in two, or the file is damaged",
+                    "event was cut in two, its logger is still writing, or the file is damaged",
                     file.string(), size - extent.bytes, extent.bytes));
   }
   return passed_over;

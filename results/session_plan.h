@@ -127,7 +127,8 @@ struct DirectionsDifference {
 std::optional<DirectionsDifference> FindDirectionsDifference(const SessionPlan& first,
                                                              const SessionPlan& second);
 
-/// Among a session's flags: which part "I/N" of a whole the call made, "" for all of it.
+/// Among a session's flags: which part "I/N" of a whole the call made, "" for all of it; of a
+/// session that was merged of shards of earlier versions those of all, with ", " between.
 inline constexpr char kShardFlag[] = "shard";
 
 /// Said in the place of MissingShards where the plan is not known.

@@ -174,16 +174,16 @@ TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
   options.conditions.request.run_id = "run";
   options.trials = 3;
   const PlannedPlanner seedless = Of("ara", Directions::kForward, 1);
-  const std::vector<PlannedPlanner> entrants = {seedless, Of("rrtc")};
-  const std::vector<std::string> whole = Ids(Schedule(options, entrants));
+  const std::vector<PlannedPlanner> planners = {seedless, Of("rrtc")};
+  const std::vector<std::string> whole = Ids(Schedule(options, planners));
   for (const int count : {1, 2, 4, 7}) {
     std::vector<std::string> united;
     std::size_t largest = 0;
     std::size_t smallest = whole.size();
     for (int index = 1; index <= count; ++index) {
       options.shard = {index, count};
-      const std::vector<std::string> part = Ids(Schedule(options, entrants));
-      EXPECT_EQ(part, Ids(Schedule(options, entrants))) << "deterministic";
+      const std::vector<std::string> part = Ids(Schedule(options, planners));
+      EXPECT_EQ(part, Ids(Schedule(options, planners))) << "deterministic";
       largest = std::max(largest, part.size());
       smallest = std::min(smallest, part.size());
       united.insert(united.end(), part.begin(), part.end());
@@ -192,7 +192,7 @@ TEST(ScheduleTest, ShardsAreDisjointAndTogetherTheWhole) {
     EXPECT_LE(largest, smallest + 2 * whole.size() / static_cast<std::size_t>(count));
   }
   options.shard = {99, 100};
-  ExpectInputError([&] { Schedule(options, entrants); }, {"--shard 99/100", "no more than"});
+  ExpectInputError([&] { Schedule(options, planners); }, {"--shard 99/100", "no more than"});
 }
 
 TEST(ScheduleTest, AShardIsThatOfTheSameProblemsWhoeverIsAsked) {
