@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <regex>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "benchmark_driver/text_table.h"
-#include "common/numbers.h"
-#include "results/outcomes.h"
 #include "results/reason_count.h"
+#include "tests/benchmark_driver/example_tables.h"
 
 namespace planbench {
 namespace {
@@ -21,126 +21,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-RunRecordMessage AttemptOf(PlanStatus status, double planning_time_s,
-                           Direction direction = Direction::kForward) {
-  RunRecordMessage record;
-  record.planner = "ara";
-  record.contestant = "ARA*";
-  record.problem_set = "box";
-  record.problem_index = 1;
-  record.status = status;
-  record.request.direction = direction;
-  record.request.time_limit_s = 60;
-  record.request.edge_check = EdgeCheck::kFixed;
-  record.request.edge_resolution_m = 0.02;
-  record.roundtrip_time_s = planning_time_s + 0.001;
-  PlanResult& result = record.result.result;
-  result.planning_time_s = result.total_time_s = planning_time_s;
-  result.status = status;
-  if (status == PlanStatus::kSolved || status == PlanStatus::kInvalidPath) {
-    result.status = PlanStatus::kSolved;
-    result.path = {{0}, {1}};
-  }
-  return record;
-}
-
-RunRecordMessage Backward(PlanStatus status, double planning_time_s) {
-  return AttemptOf(status, planning_time_s, Direction::kBackward);
-}
-
-RunRecordMessage OfProblem(int index, RunRecordMessage record) {
-  record.problem_index = index;
-  return record;
-}
-
-RunRecordMessage OfRrtConnect(RunRecordMessage record) {
-  record.planner = "rrtc";
-  record.contestant = "RRT-Connect";
-  return record;
-}
-
-SessionConditions Conditions() {
-  SessionConditions conditions;
-  for (const char* name : {"RRT-Connect", "ARA*"}) {
-    Contestant& contestant = conditions.contestants.emplace_back();
-    contestant.planner = contestant.name = name;
-    contestant.about = fmt::format("what {} is", name);
-    contestant.collision_model = CollisionModel::kSpheres;
-    contestant.edge_check = EdgeCheck::kFixed;
-    contestant.edge_resolution_m = 0.02;
-  }
-  return conditions;
-}
-
-RunRows Rows(const std::vector<RunRecordMessage>& records) {
-  RunRows rows;
-  for (const RunRecordMessage& record : records) rows.Add(record);
-  return rows;
-}
-
-std::string Brief(const std::vector<RunRecordMessage>& records) {
-  return MakeTables(Conditions(), Rows(records)).brief;
-}
-std::string Full(const std::vector<RunRecordMessage>& records) {
-  return MakeTables(Conditions(), Rows(records)).full;
-}
-
-/// The lines of the table of that title, words joined by single blanks: header, rule, rows, notes.
-std::vector<std::string> Table(const std::string& text, const std::string& title) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  bool inside = false;
-  for (std::string line; std::getline(stream, line);) {
-    if (line == title) {
-      inside = true;
-    } else if (inside && line.empty()) {
-      break;
-    } else if (inside) {
-      std::istringstream words(line);
-      std::string joined;
-      for (std::string word; words >> word;) joined += (joined.empty() ? "" : " ") + word;
-      lines.push_back(joined);
-    }
-  }
-  return lines;
-}
-
-/// The rest of a row of a table by its beginning; "" if there is none.
-std::string Row(const std::string& text, const std::string& title, const std::string& beginning) {
-  for (const std::string& line : Table(text, title)) {
-    if (line.starts_with(beginning + " ")) return line.substr(beginning.size() + 1);
-  }
-  return "";
-}
-
-constexpr char kSuccess[] = "Success";
-constexpr char kTimes[] = "Planning time, ms";
-constexpr char kPairs[] = "Problem by problem";
-constexpr char kDirections[] = "Planning time of confirmed attempts by direction, ms";
-constexpr char kEffort[] = "Effort and quality over the confirmed runs, medians";
-constexpr char kMeshes[] = "Paths judged with the robot's meshes";
-constexpr char kFailed[] = "Attempts without a confirmed path";
-
-/// Four problems of which ARA* solves the first forward, the second backward, the third not; the
-/// fourth's goal is in collision. RRT-Connect solves the first; its path for the second is
-/// rejected.
-std::vector<RunRecordMessage> FourProblems() {
-  std::vector<RunRecordMessage> session = {
-      OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.1)),
-      OfProblem(1, Backward(PlanStatus::kSolved, 0.02)),
-      OfProblem(2, AttemptOf(PlanStatus::kTimedOut, 60)),
-      OfProblem(2, Backward(PlanStatus::kSolved, 0.04)),
-      OfProblem(3, AttemptOf(PlanStatus::kTimedOut, 60)),
-      OfProblem(3, Backward(PlanStatus::kExhausted, 2)),
-      OfProblem(4, AttemptOf(PlanStatus::kGoalInvalid, 0)),
-      OfProblem(4, Backward(PlanStatus::kGoalInvalid, 0)),
-      OfProblem(1, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 0.0051234))),
-      OfProblem(2, OfRrtConnect(AttemptOf(PlanStatus::kInvalidPath, 0.2))),
-  };
-  session.back().message = "elbow hits board";
-  return session;
-}
 
 TEST(TablesTest, SuccessCountsClaimedAndConfirmed) {
   const std::string text = Brief(FourProblems());
@@ -370,136 +250,6 @@ TEST(TablesTest, OrderOfRecordsDoesNotMatter) {
   std::reverse(session.begin(), session.end());
   EXPECT_EQ(MakeTables(Conditions(), Rows(session)).brief, tables.brief);
   EXPECT_EQ(MakeTables(Conditions(), Rows(session)).full, tables.full);
-}
-
-PathVerdict Valid(MeasuredValues measures) {
-  PathVerdict verdict;
-  verdict.valid = true;
-  verdict.measures = std::move(measures);
-  return verdict;
-}
-
-TEST(TablesTest, EffortThatIsNotToldIsNone) {
-  RunRecordMessage record = OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.5));
-  record.result.result.phases = {};
-  record.result.result.counters.clear();
-  record.roundtrip_time_s = 0.501;
-  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - - - - "));
-  record.result.result.phases.search_s = 0.5;
-  record.result.result.counters = {{"edges_checked", 0}};
-  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - 0 0 - "));
-}
-
-TEST(TablesTest, EffortIsTheMedianOfTheSolved) {
-  std::vector<RunRecordMessage> records;
-  for (int i = 1; i <= 3; ++i) {
-    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 0.1 * i));
-    PlanResult& result = record.result.result;
-    result.phases.collision_s = 0.08 * i;
-    result.phases.simplification_s = 0.02 * i;
-    result.counters = {{"edges_checked", 10 * i}, {"configurations_checked", 1000 * i}};
-    record.roundtrip_time_s = 0.12 * i + 0.0005;
-    records.push_back(record);
-  }
-  RunRecordMessage failed = OfProblem(4, AttemptOf(PlanStatus::kTimedOut, 60));
-  failed.result.result.counters = {{"edges_checked", 1e9}};
-  records.push_back(failed);
-  EXPECT_THAT(Table(Full(records), kEffort).at(0),
-              StartsWith("set contestant bus ms simplify ms checking % edges configurations "));
-  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), StartsWith("0.500 40.0 80 20 2000 "));
-  EXPECT_THAT(Full(records), Not(HasSubstr(kMeshes)));
-}
-
-TEST(TablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
-  // Of problem i the m-th measure is m i, half as much on the simplified path.
-  std::vector<RunRecordMessage> records;
-  for (int i = 1; i <= 3; ++i) {
-    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 1));
-    record.path_check.verdict = record.simplified_check.verdict = Valid({});
-    double m = 0;
-    for (const PathMeasure& measure : PathMeasures()) {
-      m += 1;
-      record.path_check.verdict->measures[measure.name] = m * i / measure.column.scale;
-      record.simplified_check.verdict->measures[measure.name] = m * i / 2 / measure.column.scale;
-    }
-    records.push_back(record);
-  }
-  std::string header;
-  std::string medians;
-  double m = 0;
-  for (const PathMeasure& measure : PathMeasures()) {
-    m += 1;
-    const auto add = [&](const char* heading, double median) {
-      if (heading == nullptr) return;
-      header += fmt::format(" {}", heading);
-      medians += fmt::format(" {:.{}f}", median, measure.column.decimals);
-    };
-    add(measure.column.heading, 2 * m);
-    add(measure.column.heading_simplified, m);
-  }
-  EXPECT_THAT(Table(Full(records), kEffort).at(0), EndsWith("configurations" + header));
-  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), EndsWith(medians));
-}
-
-TEST(TablesTest, RejectedSimplifiedPathsAreLeftOutAndTold) {
-  std::vector<RunRecordMessage> records;
-  for (int i = 1; i <= 2; ++i) {
-    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
-    records.back().path_check.verdict = Valid({{"path_length", 4}});
-    records.back().simplified_check.verdict = Valid({{"path_length", 3}});
-  }
-  const std::string row = Row(Full(records), kEffort, "box ARA*");
-  EXPECT_THAT(Full(records), Not(HasSubstr("rejected 1 of")));
-  PathVerdict& verdict = *records[1].simplified_check.verdict;
-  verdict.valid = false;
-  verdict.measures["path_length"] = 0;
-  records[1].simplified_check.mesh_verdict = Valid({});
-  EXPECT_EQ(Row(Full(records), kEffort, "box ARA*"), row);
-  EXPECT_THAT(Brief(records), HasSubstr("ARA*: the referee rejected 1 of 2 simplified paths"));
-  EXPECT_FALSE(Rows(records).rows().at(1).mesh_valid_simple.has_value());
-}
-
-TEST(TablesTest, MeasuresMayBeInfiniteOrNotTaken) {
-  // The medians of three problems whose measures all have that value; NaN: not taken.
-  const auto medians = [](std::initializer_list<double> values) {
-    std::vector<RunRecordMessage> records;
-    for (const double value : values) {
-      const int index = static_cast<int>(records.size());
-      records.push_back(OfProblem(index, AttemptOf(PlanStatus::kSolved, 1)));
-      if (std::isnan(value)) continue;
-      records.back().path_check.verdict = records.back().simplified_check.verdict = Valid({});
-      for (const PathMeasure& measure : PathMeasures()) {
-        records.back().path_check.verdict->measures[measure.name] = value;
-        records.back().simplified_check.verdict->measures[measure.name] = value;
-      }
-    }
-    return Row(Full(records), kEffort, "box ARA*");
-  };
-  EXPECT_THAT(medians({kInfinity, kInfinity, NAN}), EndsWith(" inf inf"));
-  EXPECT_THAT(medians({0, 0, kInfinity}), testing::ContainsRegex(" 0[.]0+$"));
-  EXPECT_THAT(medians({NAN, NAN}), EndsWith(" - -"));
-}
-
-TEST(TablesTest, MeshVerdictsAreShownIfThereAreAny) {
-  std::vector<RunRecordMessage> records;
-  for (int i = 1; i <= 3; ++i) {
-    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
-    records.back().path_check.mesh_verdict = Valid({});
-    records.back().path_check.mesh_verdict->valid = i == 1;
-    records.back().path_check.mesh_verdict->reason =
-        fmt::format("collision on segment {} at 0.{}: 'arm' and 'post', 0.0{} m deep", i, i, i);
-  }
-  records[0].simplified_check.mesh_verdict = Valid({});
-  // A path that the referee rejects on the planners' own model counts for nothing.
-  records.push_back(OfProblem(4, AttemptOf(PlanStatus::kInvalidPath, 1)));
-  records.back().path_check.mesh_verdict = Valid({});
-  EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
-  EXPECT_THAT(Brief(records),
-              HasSubstr("box, ARA*: 2 not mesh-valid, mostly: collision on segment 2 "
-                        "at 0.2"));
-  EXPECT_THAT(Brief(records), Not(HasSubstr("Simplified paths pass nearer")));
-  records[0].simplified_check.mesh_verdict->valid = false;
-  EXPECT_THAT(Brief(records), HasSubstr("Simplified paths pass nearer"));
 }
 
 TEST(TablesTest, ReasonsThatDifferInFiguresAloneAreOne) {

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/numbers.h"
+#include "tests/benchmark_driver/example_tables.h"
+
+namespace planbench {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+PathVerdict Valid(MeasuredValues measures) {
+  PathVerdict verdict;
+  verdict.valid = true;
+  verdict.measures = std::move(measures);
+  return verdict;
+}
+
+TEST(EffortTablesTest, EffortThatIsNotToldIsNone) {
+  RunRecordMessage record = OfProblem(1, AttemptOf(PlanStatus::kSolved, 0.5));
+  record.result.result.phases = {};
+  record.result.result.counters.clear();
+  record.roundtrip_time_s = 0.501;
+  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - - - - "));
+  record.result.result.phases.search_s = 0.5;
+  record.result.result.counters = {{"edges_checked", 0}};
+  EXPECT_THAT(Row(Full({record}), kEffort, "box ARA*"), StartsWith("1.000 - 0 0 - "));
+}
+
+TEST(EffortTablesTest, EffortIsTheMedianOfTheSolved) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 3; ++i) {
+    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 0.1 * i));
+    PlanResult& result = record.result.result;
+    result.phases.collision_s = 0.08 * i;
+    result.phases.simplification_s = 0.02 * i;
+    result.counters = {{"edges_checked", 10 * i}, {"configurations_checked", 1000 * i}};
+    record.roundtrip_time_s = 0.12 * i + 0.0005;
+    records.push_back(record);
+  }
+  RunRecordMessage failed = OfProblem(4, AttemptOf(PlanStatus::kTimedOut, 60));
+  failed.result.result.counters = {{"edges_checked", 1e9}};
+  records.push_back(failed);
+  EXPECT_THAT(Table(Full(records), kEffort).at(0),
+              StartsWith("set contestant bus ms simplify ms checking % edges configurations "));
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), StartsWith("0.500 40.0 80 20 2000 "));
+  EXPECT_THAT(Full(records), Not(HasSubstr(kMeshes)));
+}
+
+TEST(EffortTablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
+  // Of problem i the m-th measure is m i, half as much on the simplified path.
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 3; ++i) {
+    RunRecordMessage record = OfProblem(i, AttemptOf(PlanStatus::kSolved, 1));
+    record.path_check.verdict = record.simplified_check.verdict = Valid({});
+    double m = 0;
+    for (const PathMeasure& measure : PathMeasures()) {
+      m += 1;
+      record.path_check.verdict->measures[measure.name] = m * i / measure.column.scale;
+      record.simplified_check.verdict->measures[measure.name] = m * i / 2 / measure.column.scale;
+    }
+    records.push_back(record);
+  }
+  std::string header;
+  std::string medians;
+  double m = 0;
+  for (const PathMeasure& measure : PathMeasures()) {
+    m += 1;
+    const auto add = [&](const char* heading, double median) {
+      if (heading == nullptr) return;
+      header += fmt::format(" {}", heading);
+      medians += fmt::format(" {:.{}f}", median, measure.column.decimals);
+    };
+    add(measure.column.heading, 2 * m);
+    add(measure.column.heading_simplified, m);
+  }
+  EXPECT_THAT(Table(Full(records), kEffort).at(0), EndsWith("configurations" + header));
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), EndsWith(medians));
+}
+
+TEST(EffortTablesTest, RejectedSimplifiedPathsAreLeftOutAndTold) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 2; ++i) {
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
+    records.back().path_check.verdict = Valid({{"path_length", 4}});
+    records.back().simplified_check.verdict = Valid({{"path_length", 3}});
+  }
+  const std::string row = Row(Full(records), kEffort, "box ARA*");
+  EXPECT_THAT(Full(records), Not(HasSubstr("rejected 1 of")));
+  PathVerdict& verdict = *records[1].simplified_check.verdict;
+  verdict.valid = false;
+  verdict.measures["path_length"] = 0;
+  records[1].simplified_check.mesh_verdict = Valid({});
+  EXPECT_EQ(Row(Full(records), kEffort, "box ARA*"), row);
+  EXPECT_THAT(Brief(records), HasSubstr("ARA*: the referee rejected 1 of 2 simplified paths"));
+  EXPECT_FALSE(Rows(records).rows().at(1).mesh_valid_simple.has_value());
+}
+
+TEST(EffortTablesTest, MeasuresMayBeInfiniteOrNotTaken) {
+  // The medians of three problems whose measures all have that value; NaN: not taken.
+  const auto medians = [](std::initializer_list<double> values) {
+    std::vector<RunRecordMessage> records;
+    for (const double value : values) {
+      const int index = static_cast<int>(records.size());
+      records.push_back(OfProblem(index, AttemptOf(PlanStatus::kSolved, 1)));
+      if (std::isnan(value)) continue;
+      records.back().path_check.verdict = records.back().simplified_check.verdict = Valid({});
+      for (const PathMeasure& measure : PathMeasures()) {
+        records.back().path_check.verdict->measures[measure.name] = value;
+        records.back().simplified_check.verdict->measures[measure.name] = value;
+      }
+    }
+    return Row(Full(records), kEffort, "box ARA*");
+  };
+  EXPECT_THAT(medians({kInfinity, kInfinity, NAN}), EndsWith(" inf inf"));
+  EXPECT_THAT(medians({0, 0, kInfinity}), testing::ContainsRegex(" 0[.]0+$"));
+  EXPECT_THAT(medians({NAN, NAN}), EndsWith(" - -"));
+}
+
+TEST(EffortTablesTest, MeshVerdictsAreShownIfThereAreAny) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 3; ++i) {
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
+    records.back().path_check.mesh_verdict = Valid({});
+    records.back().path_check.mesh_verdict->valid = i == 1;
+    records.back().path_check.mesh_verdict->reason =
+        fmt::format("collision on segment {} at 0.{}: 'arm' and 'post', 0.0{} m deep", i, i, i);
+  }
+  records[0].simplified_check.mesh_verdict = Valid({});
+  // A path that the referee rejects on the planners' own model counts for nothing.
+  records.push_back(OfProblem(4, AttemptOf(PlanStatus::kInvalidPath, 1)));
+  records.back().path_check.mesh_verdict = Valid({});
+  EXPECT_EQ(Row(Brief(records), kMeshes, "box ARA*"), "3 1 1 1");
+  EXPECT_THAT(Brief(records),
+              HasSubstr("box, ARA*: 2 not mesh-valid, mostly: collision on segment 2 "
+                        "at 0.2"));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("Simplified paths pass nearer")));
+  records[0].simplified_check.mesh_verdict->valid = false;
+  EXPECT_THAT(Brief(records), HasSubstr("Simplified paths pass nearer"));
+}
+
+}  // namespace
+}  // namespace planbench
