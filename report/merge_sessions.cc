@@ -181,8 +181,7 @@ class Merge {
     if (const StoredIds lost = stored.Without(recorded.sessions, recorded.runs); !lost.empty()) {
       throw InputError(
           fmt::format("--merge: {}: its results.sqlite holds what {} lacks and what would be lost: "
-                      "{} (to merge "
-                      "without it, take results.sqlite out of the folder)",
+                      "{} (to merge without it, take results.sqlite out of the folder)",
                       folder, log.filename().string(), lost.Text()));
     }
     std::map<std::string, SessionMessage> last_words;

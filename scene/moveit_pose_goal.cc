@@ -218,7 +218,7 @@ Orientation ReadOrientation(const YamlNode& constraint, const FrameTree& frames)
   orientation.R_BD =
       X_BF.linear() * ReadQuaternion(constraint.At("orientation")).toRotationMatrix();
   for (int i = 0; i < 3; ++i) {
-    const std::string key = std::string("absolute_") + "xyz"[i] + "_axis_tolerance";
+    const std::string key = fmt::format("absolute_{}_axis_tolerance", "xyz"[i]);
     orientation.tolerance[i] = constraint.DoubleOr(key, 0);
     if (orientation.tolerance[i] < 0) constraint.At(key).Fail("must not be negative");
   }

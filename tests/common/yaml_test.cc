@@ -1,5 +1,6 @@
 #include "common/yaml.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -307,9 +308,8 @@ TEST(YamlNode, AliasesAreFollowedOnce) {
 TEST(YamlNode, MapsThatAreMergedOverAndOverAreFollowedOnce) {
   std::string text = "l0: &l0 {name: s, <<: {deep: 1}}\n";
   for (int i = 1; i <= 30; ++i) {
-    const std::string last = "*l" + std::to_string(i - 1);
-    text += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " {k" + std::to_string(i) +
-            ": " + std::to_string(i) + ", <<: [" + last;
+    const std::string last = fmt::format("*l{}", i - 1);
+    text += fmt::format("l{0}: &l{0} {{k{0}: {0}, <<: [{1}", i, last);
     for (int k = 1; k < 10; ++k) text += ", " + last;
     text += "]}\n";
   }
