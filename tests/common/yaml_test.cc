@@ -324,8 +324,7 @@ TEST(YamlNode, MapsThatAreMergedOverAndOverAreFollowedOnce) {
 TEST(YamlNode, MergesMayBeChainedAtAnyLength) {
   std::string text = "l0: &l0 {name: s}\n";
   for (int i = 1; i <= 20000; ++i) {
-    text += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " {<<: *l" +
-            std::to_string(i - 1) + "}\n";
+    text += fmt::format("l{0}: &l{0} {{<<: *l{1}}}\n", i, i - 1);
   }
   const YamlNode top = Parse(text).At("l20000");
   EXPECT_EQ(top.At("name").String(), "s");

@@ -18,7 +18,7 @@ Rank RankOf(const Entry& entry, double epsilon) {
           entry.action};
 }
 const auto kAll = [](const Entry&) { return true; };
-const auto kNever = [] { return false; };
+const auto kToTheEnd = [] { return false; };
 
 // Few values, so that keys and ties meet; no two entries are equal.
 Entry RandomEntry(std::mt19937* random, int number) {
@@ -45,7 +45,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
     std::mt19937 random(seed);
     const double epsilon = 1 + seed % 5;
     EdgeHeap heap;
-    heap.Rebuild(epsilon, EdgeOrder::kHeuristic, {}, kAll, kNever);
+    heap.Rebuild(epsilon, EdgeOrder::kHeuristic, {}, kAll, kToTheEnd);
     std::vector<Entry> model;
     for (int step = 0; step < 2000; ++step) {
       if (random() % 3 != 0 || model.empty()) {
@@ -68,7 +68,7 @@ TEST(EdgeHeap, PopsInOrderUnderRandomUse) {
 TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
   std::mt19937 random(1);
   EdgeHeap heap;
-  heap.Rebuild(10, EdgeOrder::kHeuristic, {}, kAll, kNever);
+  heap.Rebuild(10, EdgeOrder::kHeuristic, {}, kAll, kToTheEnd);
   std::vector<Entry> expected;
   std::vector<Entry> more;
   const auto keep = [](const Entry& entry) { return entry.g < 7; };
@@ -81,7 +81,7 @@ TEST(EdgeHeap, RebuildTakesANewEpsilonMoreEntriesAndDropsOthers) {
     }
     if (keep(entry)) expected.push_back(entry);
   }
-  heap.Rebuild(1.5, EdgeOrder::kHeuristic, more, keep, kNever);
+  heap.Rebuild(1.5, EdgeOrder::kHeuristic, more, keep, kToTheEnd);
   ExpectPopsInOrder(&heap, expected, 1.5);
 }
 
@@ -101,7 +101,7 @@ TEST(EdgeHeap, ARebuildThatIsStoppedLosesNothing) {
     const bool done =
         heap.Rebuild(3, EdgeOrder::kHeuristic, more, keep, [&] { return --budget == 0; });
     if (!done) {
-      ASSERT_TRUE(heap.Rebuild(3, EdgeOrder::kHeuristic, {}, keep, kNever));
+      ASSERT_TRUE(heap.Rebuild(3, EdgeOrder::kHeuristic, {}, keep, kToTheEnd));
     }
     ExpectPopsInOrder(&heap, expected, 3);
     if (done) break;
@@ -118,7 +118,7 @@ TEST(EdgeHeap, RebuildCanOrderByTheGuide) {
     entry.guide = static_cast<float>((i * 37) % 301);  // all different
     heap.Push(entry);
   }
-  heap.Rebuild(4, EdgeOrder::kGuide, {}, kAll, kNever);
+  heap.Rebuild(4, EdgeOrder::kGuide, {}, kAll, kToTheEnd);
   double last = 0;
   while (!heap.empty()) {
     EXPECT_EQ(heap.top_key(), heap.top().g + 4 * static_cast<double>(heap.top().guide));

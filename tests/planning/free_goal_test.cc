@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "planning/planner.h"
 #include "support/planning_problems.h"
@@ -83,8 +84,9 @@ TEST_F(GoalRegions, ThatTimeDidNotSufficeForAreNotCalledInvalid) {
   // One that is certain makes no difference to one that is not, wherever it stands.
   for (const bool certain_first : {true, false}) {
     PlanRequest both = region;
-    const JointGoal point = Request().goal.front();
-    both.goal.insert(certain_first ? both.goal.begin() : both.goal.end(), point);
+    const std::vector<JointGoal> point = Request().goal;
+    both.goal.insert(certain_first ? both.goal.begin() : both.goal.end(), point.begin(),
+                     point.end());
     EXPECT_EQ(Plan(StraightLine, both, scene, &cancelled).status, PlanStatus::kCancelled);
   }
   region.time_limit_s = 1e-9;

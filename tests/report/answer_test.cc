@@ -164,6 +164,7 @@ TEST_F(ReportTest, TheNextIsMarkedLikeTheFirst) {
 TEST_F(ReportTest, TheAnswerKnowsWhenThereIsNone) {
   EXPECT_EQ(Answer(ComparedSessions({}), {}), std::vector<std::string>{"No runs are recorded."});
   StoredSession empty;
+  empty.file = "example/results.sqlite";
   empty.num_runs = 36;
   EXPECT_EQ(Answer(ComparedSessions({empty}), {}),
             std::vector<std::string>{"No runs are recorded: 36 of 36 are missing."});
