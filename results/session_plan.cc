@@ -258,7 +258,7 @@ std::vector<std::string> MissingShards(const SessionPlan& plan) {
     PlannedCall whole = WholeOf(call);
     auto known = std::find_if(wholes.begin(), wholes.end(),
                               [&](const auto& one) { return one.first == whole; });
-    if (known == wholes.end()) known = wholes.insert(known, {std::move(whole), {}});
+    if (known == wholes.end()) known = wholes.emplace(known, std::move(whole), std::set<int>());
     known->second.insert(call.shard.count);
   }
   std::vector<std::string> lines;

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "common/enum_names.h"
@@ -58,7 +58,11 @@ struct PlannedTrial {
   std::string problem_set;
   int problem_index = 0;
   int trial = 1;  ///< From 1.
-  auto operator<=>(const PlannedTrial&) const = default;
+  bool operator==(const PlannedTrial&) const = default;
+  friend bool operator<(const PlannedTrial& a, const PlannedTrial& b) {
+    return std::tie(a.problem_set, a.problem_index, a.trial) <
+           std::tie(b.problem_set, b.problem_index, b.trial);
+  }
 };
 
 /// What one call of the driver is to make: all it takes to tell which runs.
@@ -95,7 +99,9 @@ struct PlannedRun {
   PlannedTrial trial;
   std::string planner;
   Direction direction = Direction::kForward;
-  auto operator<=>(const PlannedRun&) const = default;
+  friend bool operator<(const PlannedRun& a, const PlannedRun& b) {
+    return std::tie(a.trial, a.planner, a.direction) < std::tie(b.trial, b.planner, b.direction);
+  }
 };
 
 /// All runs of a plan, and whether the trial's forward one may make it needless.

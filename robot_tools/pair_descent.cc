@@ -167,7 +167,7 @@ class PairDescent {
   void Approach(const Step& step, const Eigen::Vector3d& target, Eigen::Vector3d* point) {
     double& position = PositionOf(*step.joint);
     const double at = step.joint->multiplier * position + step.joint->offset;
-    double to = at;
+    double to;
     if (step.joint->type == JointType::kPrismatic) {
       to = std::clamp(at + step.axis_C.dot(target - *point), step.lower, step.upper);
       *point += (to - at) * step.axis_C;
