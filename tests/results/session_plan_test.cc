@@ -17,6 +17,17 @@ PlannedCall Call(std::vector<int> problems, Shard shard = {},
   return {{{"box", std::move(problems)}}, std::move(planners), shard};
 }
 
+PlannedRun RunOf(const char* set, int problem, int trial, const char* planner,
+                 Direction direction) {
+  PlannedRun run;
+  run.trial.problem_set = set;
+  run.trial.problem_index = problem;
+  run.trial.trial = trial;
+  run.planner = planner;
+  run.direction = direction;
+  return run;
+}
+
 std::optional<SessionPlan> Read(const std::string& text) {
   return ReadPlan({{kPlanSetting, text}});
 }
@@ -60,11 +71,12 @@ TEST(SessionPlanTest, APlannerIsAskedForTheTrialsOfTheShard) {
                                          PlannedTrial{"other", 5, 1}, PlannedTrial{"other", 5, 2}));
   const std::map<PlannedRun, bool> runs = RunsOf({call});
   EXPECT_EQ(runs.size(), 10u);
-  EXPECT_FALSE(runs.at({{"other", 5, 2}, "ara", Direction::kForward}));
-  EXPECT_TRUE(runs.at({{"other", 5, 2}, "ara", Direction::kBackward})) << "may be needless";
-  EXPECT_FALSE(runs.at({{"other", 5, 1}, "once", Direction::kForward}));
-  EXPECT_FALSE(runs.contains({{"other", 5, 2}, "once", Direction::kForward})) << "one trial";
-  EXPECT_FALSE(runs.contains({{"box", 5, 1}, "ara", Direction::kForward})) << "the other shard's";
+  EXPECT_FALSE(runs.at(RunOf("other", 5, 2, "ara", Direction::kForward)));
+  EXPECT_TRUE(runs.at(RunOf("other", 5, 2, "ara", Direction::kBackward))) << "may be needless";
+  EXPECT_FALSE(runs.at(RunOf("other", 5, 1, "once", Direction::kForward)));
+  EXPECT_FALSE(runs.contains(RunOf("other", 5, 2, "once", Direction::kForward))) << "one trial";
+  EXPECT_FALSE(runs.contains(RunOf("box", 5, 1, "ara", Direction::kForward)))
+      << "the other shard's";
   EXPECT_THAT(ProblemsOf({call}), ElementsAre("box 2", "other 5"));
   EXPECT_EQ(call.NumParts(), 8u);
 }
@@ -73,10 +85,10 @@ TEST(SessionPlanTest, WhatIsNotMadeIsOwedOnce) {
   const SessionPlan plan = {Call({1, 2}, {}, {{"ara", kAuto, 1}, {"rrtc", kBoth, 1}}),
                             Call({2, 3}, {}, {{"ara", kAuto, 1}})};
   EXPECT_EQ(CountOwed(plan, {}, {}), 10) << "backward ones may be needed";
-  const PlannedRun forward = {{"box", 1, 1}, "ara", Direction::kForward};
+  const PlannedRun forward = RunOf("box", 1, 1, "ara", Direction::kForward);
   EXPECT_EQ(CountOwed(plan, {{forward, true}}, {}), 8);
   EXPECT_EQ(CountOwed(plan, {{forward, false}}, {}), 9);
-  EXPECT_EQ(CountOwed(plan, {{{{"box", 1, 1}, "rrtc", Direction::kForward}, true}}, {}), 9)
+  EXPECT_EQ(CountOwed(plan, {{RunOf("box", 1, 1, "rrtc", Direction::kForward), true}}, {}), 9)
       << "both are made";
   EXPECT_EQ(CountOwed(plan, {}, {{"box 2", "is bad"}}), 6);
 }
