@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "planning/planner.h"
-#include "support/planning_problems.h"
-#include "support/scripted_planner.h"
+#include "tests/planning/scripted_planner_test.h"
 
 namespace planbench {
 namespace {
@@ -19,28 +18,13 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class GoalRegions : public testing::Test {
+class GoalRegions : public ScriptedPlannerTest {
  protected:
-  PlanResult Plan(ScriptedPlanner::Script script, const PlanRequest& request,
-                  const Scene& scene = EmptyPlanarScene(), PlanControl* control = nullptr) {
-    ScriptedPlanner planner(robot_, std::move(script));
-    PlanResult result = planner.Plan(request, scene, control);
-    num_searches_ = planner.num_searches;
-    return result;
-  }
-  PlanRequest Request(double tolerance = 0) const {
-    return MakeRequest(robot_, start_, goal_, tolerance);
-  }
   static Scene SceneWithGoalInPost() {
     Scene scene = EmptyPlanarScene();
     AddBox(&scene, "post", {0.9 * std::cos(-0.6), 0.9 * std::sin(-0.6), 0}, {0.1, 0.1, 0.2});
     return scene;
   }
-
-  const Robot robot_ = LoadPlanarRobot();
-  const Configuration start_ = {0.6, 0, 0};
-  const Configuration goal_ = {-0.6, 0, 0};
-  int num_searches_ = 0;
 };
 
 TEST_F(GoalRegions, AreSearchedWhereTheirMiddleIsBlocked) {

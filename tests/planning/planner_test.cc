@@ -14,8 +14,7 @@
 #include "common/error.h"
 #include "common/stopwatch.h"
 #include "planning/path_measures.h"
-#include "support/planning_problems.h"
-#include "support/scripted_planner.h"
+#include "tests/planning/scripted_planner_test.h"
 
 namespace planbench {
 namespace {
@@ -34,24 +33,7 @@ SearchResult ByWayOf(SearchQuery& query) {
   return Solved({query.start(), {0.5, 2.0, 1.0}, query.goal().nominal});
 }
 
-class PlannerTest : public testing::Test {
- protected:
-  PlanResult Plan(ScriptedPlanner::Script script, const PlanRequest& request,
-                  const Scene& scene = EmptyPlanarScene(), PlanControl* control = nullptr) {
-    ScriptedPlanner planner(robot_, std::move(script));
-    PlanResult result = planner.Plan(request, scene, control);
-    num_searches_ = planner.num_searches;
-    return result;
-  }
-  PlanRequest Request(double tolerance = 0) const {
-    return MakeRequest(robot_, start_, goal_, tolerance);
-  }
-
-  const Robot robot_ = LoadPlanarRobot();
-  const Configuration start_ = {0.6, 0, 0};
-  const Configuration goal_ = {-0.6, 0, 0};
-  int num_searches_ = 0;
-};
+using PlannerTest = ScriptedPlannerTest;
 
 TEST_F(PlannerTest, ForwardSearchesFromStartToGoal) {
   const PlanResult result = Plan(

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "collision/simd/kernels/motion_bounds-inl.h"
 #include "collision/simd/kernels/nearby-inl.h"
 #include "collision/simd/kernels/patches-inl.h"
 #include "collision/simd/kernels/placement-inl.h"
@@ -31,25 +32,21 @@ class CheckPass {
         query_(query),
         lane_(lane),
         placement_(robot, buffers, query.q, lane),
-        margin_(kAround && query.margins != nullptr ? hn::LoadU(Lanes(), query.margins + lane)
-                                                    : Zero()),
+        motions_(robot, buffers, query, lane),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
         certain_(hn::FirstN(Lanes(), 0)),
-        doubts_(hn::FirstN(Lanes(), 0)) {
-    if constexpr (kAround) SumWidths();
-  }
+        doubts_(hn::FirstN(Lanes(), 0)) {}
 
   void Run() {
     std::int32_t* order = buffers_.order.data();
     const std::size_t num_tests = buffers_.order.size();
     const WorldTree* trees = world_.trees.data();
     const int num_trees = static_cast<int>(world_.trees.size());
-    const TreePair* pairs = robot_.pairs.data();
     for (std::size_t i = 0; i < num_tests; ++i) {
       const int test = order[i];
-      const bool found =
-          test < num_trees ? TestWorld(trees[test]) : TestPair(pairs[test - num_trees]);
+      const bool found = test < num_trees ? TestWorld(trees[test])
+                                          : TestPair(robot_.pairs.data()[test - num_trees]);
       if (!found) continue;
       // One step to the front at a time: what hits often comes early.
       if (i > 0) std::swap(order[i], order[i - 1]);
@@ -65,55 +62,6 @@ class CheckPass {
   LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
 
  private:
-  HWY_INLINE V HalfWidth(int joint) const {
-    return hn::LoadU(Lanes(), query_.half_widths + joint * kBlock + lane_);
-  }
-
-  void SumWidths() {
-    float* sums = buffers_.width_sums.get();
-    V sum = Zero();
-    for (int j = 0; j < robot_.num_joints; ++j) {
-      Store(sum, sums + j * kBlock);
-      sum = sum + HalfWidth(j);
-    }
-    Store(sum, sums + robot_.num_joints * kBlock);
-  }
-
-  /// Upper bound of the motion of a tree relative to what it is tested against, over the box.
-  /// Its weights are given, or those of a part of it.
-  HWY_INLINE V Motion(int first) const {
-    V sum = margin_;
-    if constexpr (kAround) {
-      const float* weights = robot_.reaches.data() + first;
-      for (int j = reach_.begin; j < reach_.end; ++j) {
-        sum = hn::MulAdd(Fill(weights[j]), HalfWidth(j), sum);
-      }
-    }
-    return sum;
-  }
-
-  /// Not less than that, at less cost.
-  HWY_INLINE V MotionAtMost(const Reach& reach) const {
-    if constexpr (!kAround) return margin_;
-    const float* sums = buffers_.width_sums.get();
-    const V widths = Load(sums + reach.end * kBlock) - Load(sums + reach.begin * kBlock);
-    return hn::MulAdd(Fill(reach.most), widths, margin_);
-  }
-
-  /// The same of two balls or groups relative to each other, by the joints that move their trees
-  /// so: less, as a tree's bound is that of its furthest balls.
-  HWY_INLINE V MotionBetween(int reach_a, int reach_b) const {
-    V sum = margin_;
-    // What turns about its middle stays where it is, but for points of patches.
-    const float* moves = robot_.reaches.data() + reach_.first + robot_.num_joints;
-    const float* weights_a = robot_.reaches.data() + reach_a;
-    const float* weights_b = robot_.reaches.data() + reach_b;
-    for (int j = reach_.begin; j < reach_.end; ++j) {
-      if (moves[j] != 0) sum = hn::MulAdd(Fill(weights_a[j] + weights_b[j]), HalfWidth(j), sum);
-    }
-    return sum;
-  }
-
   /// Radius grown by the motion; lanes not proven free already matter no more but for certainty.
   HWY_INLINE V Grown(float radius, V motion) const {
     if constexpr (kAround) return Fill(radius) + hn::IfThenZeroElse(hits_, motion);
@@ -278,7 +226,7 @@ class CheckPass {
     const M before = certain_;
     placement_.PlaceRoot(tree.root, tree.body);
     reach_ = tree.reach;
-    const V motion = Motion(reach_.first);
+    const V motion = motions_.Of(reach_, reach_.first);
     doubtful_ = tree.doubtful;
     if (on_grid) VisitGrid(tree.root, tree.body, motion);
     if (tree.num_candidates >= 0) {
@@ -332,7 +280,7 @@ class CheckPass {
   bool TestPatch(int index, int body, const Points& p, const std::int32_t* list, int num) {
     const Node& node = placement_.node(index);
     const PatchView patch = PatchOf(index);
-    const V grown = Grown(node.radius, Motion(node.reach));
+    const V grown = Grown(node.radius, motions_.Of(reach_, node.reach));
     const V reach = Squared(grown);
     for (int i = 0; i < num; ++i) {
       const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
@@ -340,7 +288,7 @@ class CheckPass {
       if (IsInner(node, solid) && NoteInner(squared, node.inner)) return true;
       M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
-      const V motion = Motion(ReachOfPoints(node));
+      const V motion = motions_.Of(reach_, ReachOfPoints(node));
       near = NotApartFrom(solid, index, body, motion, near);
       if (None(near)) continue;
       if (solid.doubtful) {
@@ -399,7 +347,7 @@ class CheckPass {
     }
     if constexpr (kAround) {
       if (None(hn::And(alive_, hn::Le(least, reach)))) return false;
-      reach = Squared(Grown(node.radius, Motion(node.reach)));
+      reach = Squared(Grown(node.radius, motions_.Of(reach_, node.reach)));
     }
     return Note(least, node.radius, hn::Le(least, reach), doubtful_);
   }
@@ -412,7 +360,8 @@ class CheckPass {
       if constexpr (kAround) {
         const M open = hn::AndNot(hits_, alive_);
         if (!None(open)) {
-          hits_ = hn::Or(hits_, MeetsGridAround(grid, p, Motion(node.reach), node.radius, open));
+          hits_ = hn::Or(
+              hits_, MeetsGridAround(grid, p, motions_.Of(reach_, node.reach), node.radius, open));
         }
       }
       // Note compares squares; what is certain is compared here.
@@ -441,7 +390,7 @@ class CheckPass {
     placement_.PlaceRoot(pair.root_b, pair.body_b);
     const V squared =
         SquaredNorm(placement_.Position(pair.root_b) - placement_.Position(pair.root_a));
-    if (None(Within(squared, Grown(pair.radius, MotionAtMost(pair.reach))))) return false;
+    if (None(Within(squared, Grown(pair.radius, motions_.AtMost(pair.reach))))) return false;
     return pair.num_behind > 0 ? TestBehind(&pair) : VisitRoots(pair, squared);
   }
 
@@ -450,7 +399,7 @@ class CheckPass {
     reach_ = gate.reach;
     const JointTable& table = robot_.tables[static_cast<std::size_t>(gate.table)];
     const V apart = TableBound(table, query_.q + lane_);
-    return !None(hn::And(alive_, hn::Le(apart, Grown(0, Motion(reach_.first)))));
+    return !None(hn::And(alive_, hn::Le(apart, Grown(0, motions_.Of(reach_, reach_.first)))));
   }
 
   HWY_NOINLINE bool TestBehind(const TreePair* gate) {
@@ -464,7 +413,7 @@ class CheckPass {
 
   HWY_NOINLINE bool VisitRoots(const TreePair& pair, V squared) {
     reach_ = pair.reach;
-    const V motion = Motion(reach_.first);
+    const V motion = motions_.Of(reach_, reach_.first);
     M touching = Within(squared, Grown(pair.radius, motion));
     if (None(touching)) return false;
     doubtful_ = pair.doubtful;
@@ -477,7 +426,7 @@ class CheckPass {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, pair.radius, touching);
     } else {
       if (HaveHulls(pair.root_a, pair.root_b)) {
-        const V of_points = Motion(reach_.first + robot_.num_joints);
+        const V of_points = motions_.Of(reach_, reach_.first + robot_.num_joints);
         touching = NotApart(pair.root_a, pair.body_a, pair.root_b, of_points, touching);
         if (None(touching)) return false;
       }
@@ -545,7 +494,7 @@ class CheckPass {
     const Node& a = placement_.node(index_a);
     const Node& b = placement_.node(index_b);
     if constexpr (kAround) {
-      touching = Within(squared, Grown(radius, MotionBetween(a.reach, b.reach)));
+      touching = Within(squared, Grown(radius, motions_.Between(reach_, a.reach, b.reach)));
     }
     if (doubtful_ || (a.patch < 0 && b.patch < 0)) {
       return Note(squared, radius, touching, doubtful_);
@@ -563,7 +512,8 @@ class CheckPass {
     }
     const Node& node = placement_.node(index);
     const Node& other = placement_.node(other_index);
-    const V motion = kAround ? MotionBetween(ReachOfPoints(node), ReachOfPoints(other)) : Zero();
+    const V motion =
+        kAround ? motions_.Between(reach_, ReachOfPoints(node), ReachOfPoints(other)) : Zero();
     const PatchView patch = PatchOf(index);
     if (other.patch < 0) {
       return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
@@ -630,9 +580,9 @@ class CheckPass {
   const BlockQuery& query_;
   int lane_;
   Placement placement_;
-  V margin_;  ///< Part of every motion.
-  M alive_;   ///< Lanes whose verdict is not certain yet.
-  M hits_;    ///< See BlockVerdict.
+  MotionBounds<kAround> motions_;
+  M alive_;  ///< Lanes whose verdict is not certain yet.
+  M hits_;   ///< See BlockVerdict.
   M certain_;
   M doubts_;
   // Of the test at hand.
