@@ -11,7 +11,9 @@
 namespace planbench {
 namespace {
 
-constexpr char kRobotSetting[] = "robot";  // Of the driver's flags, and of the scene server.
+// Of the driver's flags, and of the scene server.
+constexpr char kRobotSetting[] = "robot";
+constexpr char kSpheresSetting[] = "spheres";
 
 std::string SettingOf(const std::map<std::string, std::string>& settings, const char* name) {
   const auto setting = settings.find(name);
@@ -27,6 +29,10 @@ const std::string& RobotId(const SessionMessage& session) {
   return session.conditions.request.robot_id;
 }
 
+bool IsSceneServerOf(const SessionMessage& session, const NodeStatusMessage& node) {
+  return node.kind == NodeKind::kSceneServer && CanBeOne(node.robot_id, RobotId(session));
+}
+
 std::filesystem::path RobotFolder(const SessionMessage& session) {
   std::string why = "the session does not name its robot's folder";
   if (const std::string flag = SettingOf(session.settings, kRobotSetting); !flag.empty()) {
@@ -37,7 +43,7 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
     }
   }
   for (const NodeStatusMessage& node : session.nodes) {
-    if (node.kind != NodeKind::kSceneServer || !CanBeOne(node.robot_id, RobotId(session))) continue;
+    if (!IsSceneServerOf(session, node)) continue;
     const std::string folder = SettingOf(node.settings, kRobotSetting);
     if (IsFolder(folder)) return folder;
     if (!folder.empty() && why.find(folder) == std::string::npos) {
@@ -47,10 +53,20 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
   throw UnknownRobot(why + ": give it with --robot DIR");
 }
 
+/// The file of spheres that took the place of the robot folder's; "" if none did.
+std::string SpheresFile(const SessionMessage& session) {
+  std::string spheres = SettingOf(session.settings, kSpheresSetting);
+  for (const NodeStatusMessage& node : session.nodes) {
+    if (!spheres.empty()) break;
+    if (IsSceneServerOf(session, node)) spheres = SettingOf(node.settings, kSpheresSetting);
+  }
+  return spheres;
+}
+
 }  // namespace
 
 Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder) {
-  const std::string spheres = SettingOf(session.settings, "spheres");
+  const std::string spheres = SpheresFile(session);
   const bool has_spheres = spheres.empty() || IsFile(spheres);
   if (robot_folder.empty()) {
     const std::filesystem::path folder = RobotFolder(session);

@@ -408,6 +408,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   };
   if (!spheres.empty()) {
     robot.spheres = read_spheres(spheres);
+    robot.spheres_file = fs::absolute(spheres);
     if (robot.spheres.empty()) throw InputError(spheres.string() + ": no spheres");
     WarnOfUncheckedLinks(root, spheres.string(), &robot);
   } else if (const auto named = root.Find("spheres")) {

@@ -58,8 +58,9 @@ struct Robot {
   std::vector<PlanningGroup> groups;
   std::map<std::string, std::string> why_no_group;  ///< Srdf::why_no_group, if the groups are its.
   std::vector<VirtualJoint> virtual_joints;
-  std::vector<LinkSphere> spheres;                 ///< Sorted by link.
-  std::vector<LinkSphere> enclosing_spheres;       ///< Those of the enclosing model, likewise.
+  std::vector<LinkSphere> spheres;            ///< Sorted by link.
+  std::filesystem::path spheres_file;         ///< That took the place of the folder's, absolute.
+  std::vector<LinkSphere> enclosing_spheres;  ///< Those of the enclosing model, likewise.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.
   std::vector<std::pair<int, int>> checked_pairs;  ///< Link indices, likewise.
   double edge_resolution_m = 0.02;

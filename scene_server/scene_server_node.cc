@@ -19,6 +19,9 @@ NodeStatusMessage StatusOf(const std::string& name, const SceneService& service)
     status.collision_models.emplace_back(EnumName(model));
   }
   status.settings["robot"] = service.robot().folder.string();
+  if (!service.robot().spheres_file.empty()) {
+    status.settings["spheres"] = service.robot().spheres_file.string();
+  }
   if (service.mesh_robot()) {
     status.settings["referee_robot"] = service.mesh_robot()->folder.string();
   }

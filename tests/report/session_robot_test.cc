@@ -62,5 +62,20 @@ TEST_F(SessionRobotTest, IsOfTheSceneServerOfItsRobot) {
   EXPECT_THROW(LoadSessionRobot(session_, ""), UnknownRobot);
 }
 
+TEST_F(SessionRobotTest, SpheresAreThoseOfItsSceneServerWhereNoFlagNamesSome) {
+  const std::string id = LoadSessionRobot(session_, "").content_id;
+  NodeStatusMessage server;
+  server.kind = NodeKind::kSceneServer;
+  server.settings["robot"] = planar_.string();
+  server.settings["spheres"] = session_.settings.at("spheres");
+  session_.settings.clear();
+  session_.nodes = {server};
+  EXPECT_EQ(LoadSessionRobot(session_, "").content_id, id);
+  EXPECT_EQ(LoadSessionRobot(session_, planar_).content_id, id);
+  RobotIdOfSession() = "another";
+  session_.nodes.front().robot_id = id;
+  EXPECT_NE(LoadSessionRobot(session_, planar_).content_id, id);
+}
+
 }  // namespace
 }  // namespace planbench

@@ -8,8 +8,10 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -160,6 +162,28 @@ TEST_F(SceneServerNodeTest, AnnouncesItselfAndItsSetsWhenDiscovered) {
   const NodeStatusMessage status = *registry.Find("scene_server", NodeKind::kSceneServer);
   EXPECT_EQ(status.robot_name, "tiny");
   EXPECT_EQ(status.robot_id, world_.service().robot().content_id);
+}
+
+TEST_F(SceneServerNodeTest, TellsTheFilesItsRobotIsMadeOf) {
+  const auto settings_of = [&](Robot robot) {
+    SceneService service(std::move(robot), std::nullopt, {world_.folder() / "problems"});
+    Bus bus("memq://");
+    const SceneServerNode node(&bus, "scene_server", &service);
+    bus.Start();
+    NodeRegistry registry(&bus);
+    registry.Discover("test");
+    const auto find = [&] { return registry.Find("scene_server", NodeKind::kSceneServer); };
+    EXPECT_TRUE(registry.WaitUntil([&] { return find().has_value(); }, kTimeout));
+    return find().value_or(NodeStatusMessage()).settings;
+  };
+  const std::filesystem::path folder = world_.service().robot().folder;
+  const std::filesystem::path spheres = folder / "spheres.yaml";
+  EXPECT_FALSE(settings_of(LoadRobot(folder)).contains("spheres"));
+  const auto told = settings_of(LoadRobot(folder, {}, std::filesystem::relative(spheres)));
+  EXPECT_EQ(told.at("robot"), folder.string());
+  const std::filesystem::path file = told.at("spheres");
+  EXPECT_TRUE(file.is_absolute()) << file;
+  EXPECT_TRUE(std::filesystem::equivalent(file, spheres)) << file;
 }
 
 TEST_F(SceneServerNodeTest, AnnouncesItsSetsAgainAndAgainWhileItRuns) {
