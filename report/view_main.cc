@@ -9,6 +9,7 @@
 #include "common/exit_codes.h"
 #include "common/write_file.h"
 #include "messaging/record_log.h"
+#include "messaging/robot_flags.h"
 #include "report/page.h"
 #include "report/recorded_views.h"
 #include "report/session_robot.h"
@@ -23,7 +24,7 @@ struct Flags {
   std::string log;
   std::optional<std::int64_t> run;
   std::string problem;
-  std::string robot;
+  RobotFlags robot;
   std::string out = "view.html";
 };
 
@@ -41,7 +42,7 @@ Json ViewOfRun(const Flags& flags) {
   for (const StoredSession& session : ReadSessions(flags.session).sessions) {
     for (const StoredRun& run : session.runs) {
       if (run.id != *flags.run) continue;
-      const RecordedViews views(session, flags.robot);
+      const RecordedViews views(session, flags.robot.folder);
       TellPassedOver(views.passed_over());
       return views.View(run, kFrames);
     }
@@ -68,11 +69,11 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
   const SessionMessage session = LastTold(recorded, run.run_id);
-  return RunView(LoadSessionRobot(session, flags.robot), scene->second, run, kFrames);
+  return RunView(LoadSessionRobot(session, flags.robot.folder), scene->second, run, kFrames);
 }
 
 Json ViewOfProblem(const Flags& flags) {
-  if (flags.robot.empty()) throw InputError("--problems needs --robot");
+  if (flags.robot.folder.empty()) throw InputError("--problems needs --robot");
   if (flags.run) throw InputError("--run is of --session and --log; --problems shows no run");
   const std::filesystem::path place = flags.problem;
   const std::string number = place.filename().string();
@@ -84,7 +85,7 @@ Json ViewOfProblem(const Flags& flags) {
   const ProblemSet set = ListProblemSet(place.parent_path());
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{}: no problem {}", set.name, index));
-  const Robot robot = LoadRobot(flags.robot);
+  const Robot robot = flags.robot.Load();
   return ProblemView(robot, ReadProblem(files->scene, files->request, robot));
 }
 
@@ -115,9 +116,12 @@ int main(int argc, char** argv) {
   app.add_option("--log", flags.log, "event log; of its runs the last, or that which --run tells");
   app.add_option("--run", flags.run,
                  "id of the run in the session's table runs; of a log its number, from 1");
-  app.add_option("--problems,--problem", flags.problem,
-                 "SET/3: problem 3 of the problem set folder SET");
-  app.add_option("--robot", flags.robot, "robot folder; default: the session's");
+  CLI::Option* const problems = app.add_option("--problems,--problem", flags.problem,
+                                               "SET/3: problem 3 of the problem set folder SET");
+  const std::vector<CLI::Option*> robot_flags = flags.robot.AddTo(&app);
+  robot_flags.front()->description("robot folder; default: the session's");
+  // What is recorded tells its spheres, and its scenes' meshes are in the store.
+  for (std::size_t i = 1; i < robot_flags.size(); ++i) robot_flags[i]->needs(problems);
   app.add_option("--out", flags.out, "the page")->capture_default_str();
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
 }

@@ -262,6 +262,30 @@ TEST_F(ReportProgramTest, ViewShowsAProblemOfASet) {
   EXPECT_THAT(page, HasSubstr("\"name\":\"torso_lift_link\""));
 }
 
+TEST_F(ReportProgramTest, ViewFindsMeshesAndSpheresOfAProblemWhereItIsTold) {
+  const std::string robot = std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3";
+  folder_.Write("set/scene0001.yaml",
+                "world: {collision_objects: [{id: sail, meshes: ['package://boat/sail.obj'], "
+                "mesh_poses: [{position: [1, 1, 0], orientation: [0, 0, 0, 1]}]}]}\n");
+  folder_.Write("set/request0001.yaml",
+                "{group_name: arm, allowed_planning_time: 1, start_state: {joint_state: {name: "
+                "[shoulder, elbow, wrist], position: [0, 0, 0]}}, goal_constraints: "
+                "[{joint_constraints: [{joint_name: shoulder, position: 1}, {joint_name: elbow, "
+                "position: 0}, {joint_name: wrist, position: 0}]}]}\n");
+  folder_.Write("elsewhere/sail.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.125\nf 1 2 3\n");
+  folder_.Write("one.yaml", "links: {hand: [{center: [0.0625, 0, 0], radius: 0.25}]}\n");
+  std::vector<std::string> view = {"--problems", Path("set/1"), "--robot",
+                                   robot,        "--out",       Path("view.html")};
+  EXPECT_EQ(Run(view, "view"), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("give it by --package-path boat=DIR"));
+  view.insert(view.end(),
+              {"--package-path", "boat=" + Path("elsewhere"), "--spheres", Path("one.yaml")});
+  ASSERT_EQ(Run(view, "view"), kExitOk) << errors_;
+  const std::string page = ReadText(folder_ / "view.html");
+  EXPECT_THAT(page, HasSubstr("\"vertices\":[0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.125]"));
+  EXPECT_THAT(page, HasSubstr("\"spheres\":[[0.0625,0.0,0.0,0.25]]"));
+}
+
 TEST_F(ReportProgramTest, ASessionByHandIsShownWithItsSceneServersRobot) {
   PlanarSession by_hand;
   NodeStatusMessage server;
@@ -341,6 +365,7 @@ TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {
   expect_refused({"--problem", set + "/3", "--robot", robot, "--run", "1"},
                  "--problems shows no run");
   expect_refused({"--log", Path("empty.lcmlog")}, "no run is recorded");
+  expect_refused({"--log", Path("empty.lcmlog"), "--package-path", "a=" + set}, "--problems");
   const std::string log = Path("one.lcmlog");
   const std::vector<std::uint8_t> record = Encode(MakeRecord({.contestant = "A"}, "one", 1));
   EventLog(log, EventLog::Mode::kNew).Write({channel::kRunRecord, record, 1});
