@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "messaging/fields.h"
 #include "messaging/messages.h"
 #include "messaging/scene_fields.h"
+#include "planning/improvement_rule.h"
 
 /// The field lists (fields.h) of all messages.
 namespace planbench {
@@ -280,21 +280,12 @@ void RequireCounters(Io& io, const std::map<std::string, double>& counters) {
   }
 }
 
-/// Improvements follow one another, and none of them costs more than what there was before. A cost
-/// of 0 is none.
 template <typename Io>
 void RequireImprovements(Io& io, const std::vector<PlanProgress>& progress) {
-  constexpr double kRounding = 1e-9;
-  double elapsed_s = 0;
-  double cost = 0;
+  ImprovementRule rule;
   for (const PlanProgress& one : progress) {
-    io.Require(one.elapsed_s >= elapsed_s, "progress", "elapsed_s falls from {} to {}", elapsed_s,
-               one.elapsed_s);
-    elapsed_s = one.elapsed_s;
-    if (one.cost == 0) continue;
-    io.Require(cost == 0 || one.cost - cost <= kRounding * std::abs(cost), "progress",
-               "cost rises from {} to {}", cost, one.cost);
-    cost = one.cost;
+    const std::string fault = rule.Take(one);
+    io.Require(fault.empty(), "progress", "{}", fault);
   }
 }
 

@@ -72,10 +72,7 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
     } else if (name.starts_with(kRequestPrefix)) {
       HearRequest(Decode<PlanRequest>(message.bytes, name), name.substr(kRequestPrefix.size()));
     } else if (name.starts_with("PLAN_PROGRESS_")) {
-      const auto progress = Decode<PlanProgressMessage>(message.bytes, name);
-      if (shown_ && shown_->request_id == progress.request_id) {
-        progress_.push_back(progress.progress);
-      }
+      HearProgress(Decode<PlanProgressMessage>(message.bytes, name));
     } else if (name.starts_with("PLAN_RESULT_")) {
       HearResult(Decode<PlanResultMessage>(message.bytes, name));
     } else if (name == channel::kRunRecord) {
@@ -110,7 +107,17 @@ void LiveSession::HearRequest(const PlanRequest& request, const std::string& pla
   shown_ = std::move(run);
   is_answered_ = false;
   progress_.clear();
+  progress_rule_ = {};
   ++view_number_;
+}
+
+void LiveSession::HearProgress(const PlanProgressMessage& progress) {
+  if (!shown_ || shown_->request_id != progress.request_id || is_answered_) return;
+  if (progress_rule_.Take(progress.progress).empty()) {
+    progress_.push_back(progress.progress);
+  } else {
+    ++num_undecodable_;
+  }
 }
 
 void LiveSession::HearResult(const PlanResultMessage& result) {
@@ -146,6 +153,7 @@ void LiveSession::HearRecord(const RunRecordMessage& record) {
   records_.push_front(record);
   if (records_.size() > kRunsShown) records_.pop_back();
   shown_ = record;
+  progress_ = record.result.result.progress;
   is_answered_ = true;
   shown_->request_id =
       record.result.request_id.empty() ? record.request_id : record.result.request_id;

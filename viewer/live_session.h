@@ -14,6 +14,7 @@
 #include "messaging/asked_runs.h"
 #include "messaging/bus.h"
 #include "messaging/messages.h"
+#include "planning/improvement_rule.h"
 #include "report/table.h"
 #include "robot_model/robot_folder.h"
 
@@ -29,7 +30,8 @@ class LiveSession {
   /// if there is no robot in it.
   explicit LiveSession(std::filesystem::path robot_folder);
 
-  /// Takes a message that came at `now`; one that cannot be decoded is counted.
+  /// Takes a message that came at `now`; one that cannot be decoded, or is of an improvement that
+  /// is none (ImprovementRule), is counted.
   void Hear(const ReceivedMessage& message, TimePoint now);
 
   /// {session: {run_id, robot, num_runs, finished}, contestants: [{name, runs, solved}],
@@ -50,6 +52,7 @@ class LiveSession {
   void HearStatus(NodeStatusMessage status, TimePoint now);
   /// `planner`: what its channel calls the planner, in capitals.
   void HearRequest(const PlanRequest& request, const std::string& planner);
+  void HearProgress(const PlanProgressMessage& progress);
   void HearResult(const PlanResultMessage& result);
   std::string ContestantOf(const std::string& planner) const;
   void HearRecord(const RunRecordMessage& record);
@@ -70,6 +73,7 @@ class LiveSession {
   std::optional<RunRecordMessage> shown_;
   bool is_answered_ = false;  ///< The last request, by its planner or by a record.
   std::vector<PlanProgress> progress_;
+  ImprovementRule progress_rule_;  ///< Of the last request, until it is answered.
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.
   std::map<std::string, RunStanding> seen_;             ///< Of records, by request id.

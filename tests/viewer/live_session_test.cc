@@ -162,6 +162,34 @@ TEST_F(LiveSessionTest, TellsTheImprovementsOfTheRequestShown) {
   EXPECT_EQ(state["progress"][0]["bound"], 3);
 }
 
+TEST_F(LiveSessionTest, ImprovementsThatAreNoneAreNotShown) {
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  PlanProgressMessage progress;
+  progress.planner = "ara";
+  progress.request_id = bus_.request.request_id;
+  const auto costs_after = [&](const PlanProgress& next) {
+    progress.progress = next;
+    Hear("PLAN_PROGRESS_ARA", progress);
+    Json costs = Json::array();
+    for (const Json& one : State()["progress"]) costs.push_back(one["cost"]);
+    return costs;
+  };
+  EXPECT_EQ(costs_after({0.5, 3, 20, 7}), Json::array({20}));
+  EXPECT_EQ(costs_after({0.6, 2, 21, 8}), Json::array({20})) << "it costs more";
+  EXPECT_EQ(costs_after({0.4, 2, 19, 8}), Json::array({20})) << "it came before";
+  EXPECT_EQ(State()["undecodable"], 2);
+  EXPECT_EQ(costs_after({0.7, 2, 18, 9}), Json::array({20, 18}));
+  // Of a planner whose result is refused, the record has no improvements.
+  bus_.record.status = PlanStatus::kNoAnswer;
+  bus_.record.result = {};
+  Hear(channel::kRunRecord, bus_.record);
+  EXPECT_EQ(State()["progress"], Json::array());
+  bus_.request.request_id = "the next";
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  progress.request_id = "the next";
+  EXPECT_EQ(costs_after({0.1, 3, 30, 7}), Json::array({30}));
+}
+
 TEST_F(LiveSessionTest, WhatCannotBeReadIsCountedAndWhatCannotBeShownSaysWhy) {
   live_.Hear({channel::kRunRecord, {1, 2, 3}, 1}, kStart);
   live_.Hear({"SOMETHING_ELSE", {1, 2, 3}, 1}, kStart);

@@ -34,7 +34,7 @@ const live = (() => {
       seconds(one.time_s), one.cost == null ? "-" : String(Number(one.cost.toPrecision(5))),
       one.bound == null ? "-" : String(Number(one.bound.toPrecision(4)))])));
     at("bus").textContent = `${state.lost} messages lost, ${state.dropped} dropped here, ` +
-      `${state.malformed} packets and ${state.undecodable} messages that could not be read.`;
+      `${state.malformed} packets and ${state.undecodable} messages that could not be used.`;
   }
 
   // A request may take milliseconds: the newest is shown, as long as an eye needs.
