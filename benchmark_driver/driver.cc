@@ -115,7 +115,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
-  num_runs_ = static_cast<int>(runs_.size() + schedule_.size()) + num_owed_;
+  num_runs_ = static_cast<int>(known.done.size() + schedule_.size()) + num_owed_;
 }
 
 Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
@@ -144,14 +144,9 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     known.recorded[{{record.problem_set, record.problem_index, record.trial},
                     record.planner,
                     record.request.direction}] = Suffices(record);
-    if (!WasAsked(record)) {  // it is to be made, now or later
-      if (is_in_call) continue;
-      known.not_asked.insert(record.request_id);
-      const auto attempt = suffices_.find(record.request_id);
-      if (attempt != suffices_.end()) attempt->second = true;
-      continue;
-    }
-    known.done.insert(record.request_id);
+    const bool was_asked = WasAsked(record);
+    if (!was_asked && is_in_call) continue;  // it is to be made
+    (was_asked ? known.done : known.not_asked).insert(record.request_id);
     Keep(record);
   }
   std::erase_if(schedule_,
@@ -479,7 +474,8 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ = std::make_unique<ProgressBar>(num_runs_ - num_owed_, runs_);
+  progress_ =
+      std::make_unique<ProgressBar>(static_cast<int>(runs_.size() + schedule_.size()), runs_);
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;

@@ -46,11 +46,13 @@ class Driver {
   /// is resumed. Thread-safe.
   void GiveUp(const std::string& planner, const std::string& reason);
 
-  /// All runs so far, those of the resumed session included.
+  /// All runs that have a record so far, those of the resumed session included, but for what this
+  /// call has yet to make.
   const RunRows& runs() const { return runs_; }
   /// Of the session, those not made included.
   int num_runs() const { return num_runs_; }
-  /// Of them those that the resumed session was to make and this call is not.
+  /// Of them those that the resumed session was to make and this call is not; some may have a
+  /// record, of that they were not asked for.
   int num_owed() const { return num_owed_; }
   /// Shards that the session, once merged of others, does not hold: it is not finished without.
   /// In lines.

@@ -233,7 +233,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
   const SessionTables tables = MakeTables(driver.conditions(), driver.runs(), reference_attempts,
-                                          num_missing, driver.left_out());
+                                          num_missing, driver.left_out(), driver.num_owed());
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);

@@ -315,9 +315,10 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   return text + Remarks(results) + Disturbances(results) + "\n";
 }
 
-/// What is in no table since it was not made, or awaits what was not; "" if nothing. Of `num_runs`
-/// that have a record.
-std::string Missing(int num_runs, int num_without_record, const SessionResults& results) {
+/// What is in no table since it was not made, or awaits what was not, and why; "" if nothing. Of
+/// `num_runs` that have a record.
+std::string Missing(int num_runs, int num_without_record, int num_owed,
+                    const SessionResults& results) {
   const int num_not_asked = results.num_not_asked();
   const int num_awaiting = results.num_awaiting();
   const int num_missing = num_without_record + num_not_asked;
@@ -330,6 +331,12 @@ std::string Missing(int num_runs, int num_without_record, const SessionResults& 
     text += fmt::format(" {} of them could not be asked for", num_not_asked);
     const std::string reason = results.why_not_asked().Summary();
     text += reason.empty() ? "." : fmt::format(" ({}).", reason);
+  }
+  if (num_owed > 0) {
+    text += fmt::format(
+        " {} of them the session was to make before it was resumed, with other planners, sets, "
+        "problems or trials.",
+        num_owed);
   }
   if (num_awaiting > 0) {
     text += fmt::format(
@@ -358,10 +365,10 @@ std::string LeftOut(const std::map<std::string, std::string>& left_out) {
 
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing,
-                         const std::map<std::string, std::string>& left_out) {
+                         const std::map<std::string, std::string>& left_out, int num_owed) {
   const SessionResults results(conditions, runs, references);
   const std::string missing =
-      Missing(static_cast<int>(runs.size()), num_missing, results) + LeftOut(left_out);
+      Missing(static_cast<int>(runs.size()), num_missing, num_owed, results) + LeftOut(left_out);
   if (results.sets().empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
   const std::string begin =
       missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);

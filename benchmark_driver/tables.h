@@ -23,10 +23,11 @@ struct SessionTables {
 /// Beside a contestant that asks for it stand the figures that the study published
 /// (published_study.h). Runs that were to be made and have no record (`num_missing`), those that
 /// were not asked for (messaging/asked_runs.h), which no table has either, and problems that were
-/// left out (SessionMessage::left_out), are told of before everything else. Definitions stand
-/// below each table and in docs/lineups.md.
+/// left out (SessionMessage::left_out), are told of before everything else; of those that are
+/// missing, how many an earlier call was to make and this one is not (`num_owed`). Definitions
+/// stand below each table and in docs/lineups.md.
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references = {}, int num_missing = 0,
-                         const std::map<std::string, std::string>& left_out = {});
+                         const std::map<std::string, std::string>& left_out = {}, int num_owed = 0);
 
 }  // namespace planbench

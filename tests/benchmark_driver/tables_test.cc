@@ -115,6 +115,11 @@ TEST(TablesTest, ARunThatWasNotAskedForIsMissing) {
   std::replace(in_one_line.begin(), in_one_line.end(), '\n', ' ');
   EXPECT_THAT(in_one_line, HasSubstr("2 of them could not be asked for (mostly: given up: it "
                                      "died). 1 more found nothing in one direction"));
+  EXPECT_THAT(in_one_line, Not(HasSubstr("before it was resumed")));
+  std::string resumed = MakeTables(Conditions(), rows, {}, 1, {}, 2).brief;
+  std::replace(resumed.begin(), resumed.end(), '\n', ' ');
+  EXPECT_THAT(resumed, HasSubstr("died). 2 of them the session was to make before it was resumed, "
+                                 "with other planners, sets, problems or trials. 1 more"));
   RunRows none;
   none.Add(not_asked(AttemptOf(PlanStatus::kNoAnswer, 0)));
   EXPECT_THAT(MakeTables(Conditions(), none).brief, StartsWith("1 OF 1 RUNS ARE MISSING"));
