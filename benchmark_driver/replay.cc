@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/text_table.h"
 #include "common/error.h"
 #include "common/progress_line.h"
@@ -193,7 +194,7 @@ bool Replay::Run(const std::function<bool()>& interrupted,
     } else {
       ++tally.num_equal;
       const auto& counters = run.result.result.counters;
-      const auto first_path = counters.find("first_path_time");
+      const auto first_path = counters.find(kFirstPathTime);
       const double then_s = run.result.result.planning_time_s -
                             (first_path == counters.end() ? 0 : first_path->second);
       if (run.result.result.Solves() && then_s > 0) {

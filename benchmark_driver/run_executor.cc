@@ -30,11 +30,12 @@ std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
   };
 }
 
-/// The planner's answer, its times being possible.
+/// The planner's answer, its times being possible, without what the driver alone may tell.
 PlannerClient::Answer AnswerOf(PlannerClient* planner, const PlanRequest& request,
                                const std::function<bool()>& interrupted) {
   PlannerClient::Answer answer = planner->Solve(request, interrupted);
   if (answer.outcome != PlannerClient::Outcome::kResult) return answer;
+  answer.result.result.counters.erase(kFirstPathTime);
   KeepTimesPossible(answer.roundtrip_time_s, request.time_limit_s, &answer.result.result);
   return answer;
 }
@@ -52,7 +53,10 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
   result->total_time_s += before_s;
   for (PlanProgress& progress : result->progress) progress.elapsed_s += before_s;
   for (double PhaseTimes::*const part : kPartsOfTotal) result->phases.*part += first.phases.*part;
-  for (const auto& [name, count] : first.counters) result->counters[name] += count;
+  for (const auto& [name, count] : first.counters) {
+    double& whole = result->counters[name];
+    whole = name == kToldTime ? std::max(whole, count) : whole + count;
+  }
   result->peak_memory_mb = std::max(result->peak_memory_mb, first.peak_memory_mb);
 }
 
@@ -177,7 +181,7 @@ PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMes
     }
     return first;
   }
-  found.counters["first_path_time"] = HandedOverAfter(found);
+  found.counters[kFirstPathTime] = HandedOverAfter(found);
   PlanRequest rest = *request;
   rest.time_limit_s -= HandedOverAfter(found);
   if (!(rest.time_limit_s > 0)) return first;

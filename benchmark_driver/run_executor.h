@@ -13,6 +13,9 @@
 
 namespace planbench {
 
+/// Counter of a run whose planner improves another's path: how long that took to be handed over, s.
+inline constexpr char kFirstPathTime[] = "first_path_time";
+
 /// Makes one run: fetches the problem if it is not known yet, has the planner solve it, has the
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
@@ -31,8 +34,8 @@ class RunExecutor {
   std::vector<ScheduledRun> RequestsOf(const ScheduledRun& run) const;
   /// The finished record, what kept the planners from working among the answer's counters; nothing
   /// if `interrupted`. `planners`: those of RequestsOf(run). Of several the answer is the last
-  /// one's, times and counters are sums. Where the scene server denies the problem, which it had
-  /// when the session began, the record says so.
+  /// one's, times and counters are sums (of kToldTime the longest stands). Where the scene server
+  /// denies the problem, which it had when the session began, the record says so.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run,
                                           const std::vector<PlannerClient*>& planners,
                                           const std::function<bool()>& interrupted);

@@ -476,7 +476,7 @@ TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) 
   const auto& counters = record->result.result.counters;
   EXPECT_EQ(counters.at("edges_checked"), 15);
   EXPECT_EQ(counters.at("samples"), 7);
-  EXPECT_EQ(counters.at("first_path_time"), 2 * kTick);
+  EXPECT_EQ(counters.at(kFirstPathTime), 2 * kTick);
 
   const PlanRequest asked_first = first_.requests().messages().at(0);
   EXPECT_THAT(asked_first.request_id, testing::StartsWith("run/cans/2/arm/backward/3/first-path@"));
@@ -494,6 +494,25 @@ TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) 
   PlanRequest recorded = asked;
   recorded.time_limit_s = 7 * kTick;
   EXPECT_EQ(record->request, recorded);
+}
+
+TEST_F(FirstPathTest, CountersThatAreNoCountsAreNotAddedUp) {
+  for (FakePlanner* planner : {&first_, &planner_}) {
+    planner->OnRequest([planner](const PlanRequest& request) {
+      PlanResult result = Found(kTick);
+      result.phases.simplification_s = planner->status.name == "first" ? 500 : 300;
+      result.counters[kFirstPathTime] = 7;  // nobody's but the driver's
+      std::this_thread::sleep_for(std::chrono::duration<double>(kTick));
+      planner->SendResult(request.request_id, result);
+    });
+  }
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
+  const auto& counters = record->result.result.counters;
+  EXPECT_EQ(counters.at("samples"), 14);
+  EXPECT_EQ(counters.at(kToldTime), 500 + kTick) << "the longest";
+  EXPECT_EQ(counters.at(kFirstPathTime), kTick);
 }
 
 TEST_F(FirstPathTest, WithoutOneThereIsNothingToImprove) {
