@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,35 +13,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/error.h"
+#include "common/scratch_folder.h"
 #include "common/sqlite.h"
 
 namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Sessions of the rounds, removed at the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "planbench_certify_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error(pattern + ": cannot be created: " + std::strerror(errno));
-    }
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;  // left to the system's own clearing
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Runs a program to its end, its stdout (the driver's tables) left out. Exit code, or 128 +
 /// signal.
@@ -93,7 +70,7 @@ std::vector<int> UnsolvedIn(const fs::path& session, const std::vector<int>& ind
 Certification CertifyProblemSet(
     const fs::path& folder, std::vector<int> indices, const CertifierOptions& options,
     const std::function<void(const std::vector<int>& indices, int attempt)>& replace) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch(fs::temp_directory_path() / "planbench_certify_");  // of sessions
   Certification certification;
   while (true) {
     const int round = ++certification.num_rounds;

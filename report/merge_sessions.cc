@@ -2,21 +2,18 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <set>
 #include <string_view>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/scratch_folder.h"
 #include "common/sibling_program.h"
 #include "messaging/asked_runs.h"
 #include "messaging/channels.h"
@@ -140,34 +137,6 @@ RunRecordMessage Renamed(RunRecordMessage record, const std::string& run_id) {
   return record;
 }
 
-/// A folder beside another, removed with all it holds at the end.
-class FolderBeside {
- public:
-  /// Throws InputError if it cannot be made.
-  explicit FolderBeside(const fs::path& other) {
-    const fs::path place = (fs::absolute(other).lexically_normal() / "").parent_path();
-    std::error_code error;
-    fs::create_directories(place.parent_path(), error);
-    std::string pattern = place.string() + ".merging-XXXXXX";
-    if (error || mkdtemp(pattern.data()) == nullptr) {
-      throw InputError(fmt::format("--merge: cannot make a folder beside {}: {}", place.string(),
-                                   error ? error.message() : std::strerror(errno)));
-    }
-    path_ = pattern;
-  }
-  ~FolderBeside() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  FolderBeside(const FolderBeside&) = delete;
-  FolderBeside& operator=(const FolderBeside&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 class Merge {
  public:
   void Read(const std::string& folder) {
@@ -214,6 +183,8 @@ class Merge {
   /// Equal runs once, under one run id.
   void Unite() {
     if (parts_.empty()) throw InputError("--merge: the folders hold no session");
+    // Each with each: what only one of two has is not compared, so that two which are equal to a
+    // third need not be so to each other.
     for (const auto& [run_id, part] : parts_) {
       for (const auto& [other_id, other] : parts_) {
         if (run_id < other_id) RequireEqual(part, other);
@@ -467,8 +438,9 @@ std::string MergeSessions(const std::vector<std::string>& session_folders, const
   for (const std::string& folder : session_folders) merge.Read(folder);
   merge.Unite();
   // The logger makes the folder of the messages, as it does of those of a bus.
-  const FolderBeside folder(out);
-  const fs::path messages = folder.path() / "messages.lcmlog";
+  const fs::path place = (fs::absolute(out).lexically_normal() / "").parent_path();
+  const ScratchFolder scratch(place.string() + ".merging-");
+  const fs::path messages = scratch.path() / "messages.lcmlog";
   merge.Write(messages);
   const int code =
       std::system(fmt::format("{} --from {} --out {}", ShellQuoted(logger.string()),

@@ -9,12 +9,11 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "common/error.h"
-#include "common/random_id.h"
 #include "common/read_text.h"
+#include "common/scratch_folder.h"
 #include "common/write_file.h"
 #include "report/output_folder.h"
 #include "report/web_files.h"
@@ -46,23 +45,6 @@ std::string Script() {
   return script;
 }
 
-/// A folder for what is of no use to anybody else, as long as it exists.
-class ScratchFolder {
- public:
-  ScratchFolder() { fs::create_directory(path_); }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_ = fs::temp_directory_path() / ("planbench-figures-" + RandomId());
-};
-
 /// Whether figures of these kinds are called so on any set, as print.js names them.
 bool IsFigure(const std::vector<std::string>& kinds, const fs::path& name) {
   if (name.extension() != ".svg" && name.extension() != ".pdf") return false;
@@ -78,7 +60,7 @@ bool IsFigure(const std::vector<std::string>& kinds, const fs::path& name) {
 
 void PrintFigures(const Json& data, const fs::path& folder) {
   if (!IsInstalled("node")) throw InputError("--figures needs node: apt-get install nodejs");
-  const ScratchFolder scratch;
+  const ScratchFolder scratch(fs::temp_directory_path() / "planbench-figures-");
   const fs::path script = scratch.path() / "figures.js";
   const fs::path numbers = scratch.path() / "figures.json";
   WriteFile(script, Script());

@@ -256,6 +256,16 @@ TEST_F(MergeSessionsTest, DirectionsOfAPlannerAreAConditionOfParts) {
   ExpectRefused({"one", "broken"}, "broken: the setting plan");
 }
 
+TEST_F(MergeSessionsTest, WhatTheFirstPartLacksIsComparedToo) {
+  for (const int number : {1, 2, 3}) {
+    SessionMessage part = Session(fmt::format("part{}", number), 1000 * number, 1);
+    part.conditions.problem_sets["shelf"] = fmt::format("content{}", number);
+    if (number == 1) part.conditions.problem_sets.erase("shelf");
+    Write(part.run_id, part, {{.contestant = "A", .problem = number}});
+  }
+  ExpectRefused({"part1", "part2", "part3"}, "\"content2\" in ");
+}
+
 TEST_F(MergeSessionsTest, WhatOfALogCannotBeDecodedIsToldOf) {
   SessionMessage session = Session("part1", 1000, 1);
   Write("part1", session, {{.contestant = "A", .problem = 1}});
