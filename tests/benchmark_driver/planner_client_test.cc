@@ -21,7 +21,7 @@ using Verdict = PlanAckVerdict;
 
 class PlannerClientTest : public testing::Test {
  protected:
-  PlannerClientTest() { bus_.Start(); }
+  explicit PlannerClientTest(const std::string& url = "memq://") : bus_(url) { bus_.Start(); }
 
   static PlanRequest Request(const std::string& id) {
     PlanRequest request;
@@ -38,10 +38,23 @@ class PlannerClientTest : public testing::Test {
     return std::async(std::launch::async, [this, id] { return Solve(id); });
   }
 
-  Bus bus_{"memq://"};
+  Bus bus_;
   NodeRegistry registry_{&bus_};
   PlannerClient client_{&bus_, &registry_, "arm"};
   std::atomic<bool> interrupted_ = false;
+};
+
+/// The planner and somebody else have connections of their own.
+class PlannerClientOnASharedBusTest : public PlannerClientTest {
+ protected:
+  explicit PlannerClientOnASharedBusTest(const std::string& url = PrivateUdpUrl())
+      : PlannerClientTest(url), planner_bus_(url), other_bus_(url) {
+    planner_bus_.Start();
+    other_bus_.Start();
+  }
+
+  const PlannerChannels channels_{"arm"};
+  Bus planner_bus_, other_bus_;
 };
 
 TEST_F(PlannerClientTest, ReturnsTheResult) {
@@ -136,72 +149,50 @@ TEST_F(PlannerClientTest, AnotherResultThanBeforeIsNoted) {
   EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
 }
 
-TEST(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
-  const std::string url = PrivateUdpUrl();
-  Bus bus(url), planner_bus(url), forger_bus(url);
-  for (Bus* one : {&bus, &planner_bus, &forger_bus}) one->Start();
-  NodeRegistry registry(&bus);
-  PlannerClient client(&bus, &registry, "arm");
+TEST_F(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
   std::atomic<int> num_requests = 0;
-  FakePlanner planner(&planner_bus);
+  FakePlanner planner(&planner_bus_);
   planner.OnRequest([&](const PlanRequest& request) {
     if (++num_requests >= 3) planner.Solve(request);
   });
-  const PlannerChannels channels("arm");
   // Everything right but for the sender: a refusal, a result, a result that cannot be read.
   const Subscription forger =
-      forger_bus.Subscribe<PlanRequest>(channels.request, [&](const PlanRequest& request) {
-        forger_bus.Publish(channels.ack,
+      other_bus_.Subscribe<PlanRequest>(channels_.request, [&](const PlanRequest& request) {
+        other_bus_.Publish(channels_.ack,
                            PlanAckMessage{"arm", request.request_id, Verdict::kRefused, "forged"});
         PlanResultMessage result;
         result.planner = "arm";
         result.run_id = request.run_id;
         result.request_id = request.request_id;
         result.result.status = PlanStatus::kExhausted;
-        forger_bus.Publish(channels.result, result);
+        other_bus_.Publish(channels_.result, result);
         result.result.planning_time_s = -1;
-        forger_bus.Publish(channels.result, result);
+        other_bus_.Publish(channels_.result, result);
       });
-  PlanRequest request;
-  request.run_id = "run";
-  request.request_id = "a";
-  request.scene_id = "scene";
-  request.time_limit_s = 60;
-  const PlannerClient::Answer answer = client.Solve(request, [] { return false; });
+  const PlannerClient::Answer answer = Solve("a");
   EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kResult) << answer.message;
   EXPECT_EQ(answer.result.result.path, FakePath());
-  EXPECT_GE(bus.contradictions().count(), 3);
+  EXPECT_GE(bus_.contradictions().count(), 3);
 }
 
-TEST(PlannerClientOnASharedBusTest, NoAnswerTellsWhatWasRefused) {
-  const std::string url = PrivateUdpUrl();
-  Bus bus(url), planner_bus(url), second_bus(url);
-  for (Bus* one : {&bus, &planner_bus, &second_bus}) one->Start();
-  NodeRegistry registry(&bus);
-  PlannerClient client(&bus, &registry, "arm");
-  const PlannerChannels channels("arm");
-  FakePlanner planner(&planner_bus);
+TEST_F(PlannerClientOnASharedBusTest, NoAnswerTellsWhatWasRefused) {
+  FakePlanner planner(&planner_bus_);
   // The planner's own answer, from another connection than its announcements, until that has been
   // heard; then one that ends the request.
   planner.OnRequest([&](const PlanRequest& request) {
-    if (bus.contradictions().count() > 0) {
+    if (bus_.contradictions().count() > 0) {
       PlanResult unusable = FakePlanner::SolvedResult();
       unusable.path.clear();
       return planner.SendResult(request.request_id, unusable);
     }
-    second_bus.Publish(channels.ack,
+    other_bus_.Publish(channels_.ack,
                        PlanAckMessage{"arm", request.request_id, Verdict::kWorking, ""});
   });
-  PlanRequest request;
-  request.run_id = "run";
-  request.request_id = "a";
-  request.scene_id = "scene";
-  request.time_limit_s = 60;
-  const PlannerClient::Answer answer = client.Solve(request, [] { return false; });
+  const PlannerClient::Answer answer = Solve("a");
   EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message,
               testing::AllOf(HasSubstr("but it has no path; refused: what came on PLAN_ACK_ARM "),
-                             HasSubstr(bus.contradictions().entries().at(0).sender)));
+                             HasSubstr(bus_.contradictions().entries().at(0).sender)));
 }
 
 TEST_F(PlannerClientTest, PlannerThatDiesGivesNoAnswer) {
