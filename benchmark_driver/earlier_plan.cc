@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/lookup.h"
 #include "results/reproduce.h"
 
 namespace planbench {
@@ -32,8 +33,7 @@ std::vector<std::string> AwaitedShards(const SessionMessage& last,
                                        const std::optional<SessionPlan>& plan) {
   if (!IsMerged(last.settings)) return {};
   if (plan) return MissingShards(*plan);
-  const auto shards = last.settings.find(kShardFlag);
-  if (shards == last.settings.end() || shards->second.empty()) return {};
+  if (Lookup(last.settings, kShardFlag).value_or("").empty()) return {};
   return {kUnknownShards};
 }
 
@@ -76,7 +76,7 @@ std::map<std::string, std::string> FlagsOfResumed(const std::map<std::string, st
   // What was merged is not what went on with it, which holds it all the same.
   now.erase(kMergedParts);
   for (const char* parts : {kHeldParts, kMergedParts}) {
-    if (const auto held = before.find(parts); held != before.end()) now[kHeldParts] = held->second;
+    if (const auto held = Lookup(before, parts)) now[kHeldParts] = *held;
   }
   return now;
 }

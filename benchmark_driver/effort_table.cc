@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "benchmark_driver/text_table.h"
+#include "common/lookup.h"
 #include "planning/path_measures.h"
 #include "results/reason_count.h"
 #include "results/statistics.h"
@@ -31,11 +32,7 @@ std::vector<EffortColumn> MakeEffortColumns() {
     return [count](double value) { return Number(value, count); };
   };
   const auto counter = [](const char* name) {
-    return [name](const Record& record) -> std::optional<double> {
-      const auto& counters = record.result.result.counters;
-      const auto found = counters.find(name);
-      return found == counters.end() ? std::nullopt : std::optional(found->second);
-    };
+    return [name](const Record& record) { return Lookup(record.result.result.counters, name); };
   };
   std::vector<EffortColumn> columns = {
       {"bus ms",

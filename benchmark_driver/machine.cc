@@ -10,6 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "common/lookup.h"
+
 namespace planbench {
 namespace {
 
@@ -73,9 +75,8 @@ void DisturbanceMeter::Read(double run_s, std::map<std::string, double>* counter
   if (!waiting_s.empty()) {
     double sum = 0;
     for (const auto& [thread, now] : waiting_s) {
-      const auto before = waiting_s_.find(thread);
       // The kernel books a wait when it ends: one that began long before the run ends in it.
-      sum += std::min(now - (before == waiting_s_.end() ? 0 : before->second), run_s);
+      sum += std::min(now - Lookup(waiting_s_, thread).value_or(0), run_s);
     }
     (*counters)["waiting_time"] = sum;
   }
@@ -113,8 +114,7 @@ std::optional<double> DisturbanceMeter::Steal() const {
 bool IsDisturbed(const std::map<std::string, double>& counters, double run_s, double limit) {
   double lost_s = 0;
   for (const char* name : {"waiting_time", "steal_time"}) {
-    const auto found = counters.find(name);
-    if (found != counters.end()) lost_s += found->second;
+    lost_s += Lookup(counters, name).value_or(0);
   }
   return lost_s > kLeastDisturbance && lost_s > limit * run_s;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/lookup.h"
 #include "messaging/channels.h"
 
 namespace planbench {
@@ -90,9 +91,8 @@ void Recorder::LookAround() {
   for (auto& [place, logger] : loggers_) logger.live = false;
   for (const NodeRegistry::Node& node : registry_->LiveNodes(NodeKind::kLogger)) {
     const NodeStatusMessage& status = node.status;
-    const auto out = status.settings.find("out");
     const std::string place =
-        fmt::format("{}:{}", status.host, out == status.settings.end() ? status.name : out->second);
+        fmt::format("{}:{}", status.host, Lookup(status.settings, "out").value_or(status.name));
     Logger& logger = loggers_[place];
     // Of two that write to one folder the one that came first is dead, though not yet given up.
     if (logger.live && node.since < logger.since) continue;

@@ -12,6 +12,7 @@
 #include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/text_table.h"
 #include "common/error.h"
+#include "common/lookup.h"
 #include "common/progress_line.h"
 #include "common/random_id.h"
 #include "messaging/asked_runs.h"
@@ -158,13 +159,9 @@ void Replay::CompareSettings(const RunRecordMessage& run) const {
   std::set<std::string> keys;
   for (const auto& [key, value] : own_settings) keys.insert(key);
   for (const auto& [key, value] : planner->settings) keys.insert(key);
-  const auto value_of = [](const std::map<std::string, std::string>& settings,
-                           const std::string& key) {
-    const auto found = settings.find(key);
-    return found == settings.end() ? std::string() : found->second;
-  };
   for (const std::string& key : keys) {
-    compare("setting " + key, value_of(own_settings, key), value_of(planner->settings, key));
+    compare("setting " + key, Lookup(own_settings, key).value_or(""),
+            Lookup(planner->settings, key).value_or(""));
   }
 }
 
@@ -193,10 +190,8 @@ bool Replay::Run(const std::function<bool()>& interrupted,
       tell(run.request_id + ": " + difference);
     } else {
       ++tally.num_equal;
-      const auto& counters = run.result.result.counters;
-      const auto first_path = counters.find(kFirstPathTime);
       const double then_s = run.result.result.planning_time_s -
-                            (first_path == counters.end() ? 0 : first_path->second);
+                            Lookup(run.result.result.counters, kFirstPathTime).value_or(0);
       if (run.result.result.Solves() && then_s > 0) {
         tally.time_ratios.push_back(answer.result.result.planning_time_s / then_s);
       }

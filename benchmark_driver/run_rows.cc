@@ -1,6 +1,7 @@
 #include "benchmark_driver/run_rows.h"
 
 #include "benchmark_driver/effort_table.h"
+#include "common/lookup.h"
 #include "messaging/asked_runs.h"
 #include "planning/told_edges.h"
 #include "results/training.h"
@@ -9,10 +10,7 @@ namespace planbench {
 
 const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   const PlanResult& result = record.result.result;
-  const auto counter = [&](const char* name) {
-    const auto found = result.counters.find(name);
-    return found == result.counters.end() ? std::nullopt : std::optional(found->second);
-  };
+  const auto counter = [&](const char* name) { return Lookup(result.counters, name).value_or(0); };
   const auto& mesh_verdict = record.path_check.mesh_verdict;
   RunRow& row = rows_.emplace_back();
   row.problem_set = Shared(record.problem_set);
@@ -30,15 +28,14 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   row.asked = WasAsked(record);
   row.claimed = result.Solves();
   row.needs_other = needs_other;
-  row.disturbed = counter("disturbed").value_or(0) > 0;
-  row.repeated = counter("repeats").value_or(0) > 0;
+  row.disturbed = counter("disturbed") > 0;
+  row.repeated = counter("repeats") > 0;
   for (std::size_t i = 0; i < kNumOddTimes; ++i) {
-    row.odd_times_s[i] = counter(kOddTimes[i].counter).value_or(0);
+    row.odd_times_s[i] = counter(kOddTimes[i].counter);
   }
-  row.answer_times = {
-      .told_s = result.total_time_s + result.phases.simplification_s,
-      .roundtrip_s = record.roundtrip_time_s,
-      .waited_s = counter("waiting_time").value_or(0) + counter("steal_time").value_or(0)};
+  row.answer_times = {.told_s = result.total_time_s + result.phases.simplification_s,
+                      .roundtrip_s = record.roundtrip_time_s,
+                      .waited_s = counter("waiting_time") + counter("steal_time")};
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;
   row.mesh_reason = Shared(mesh_verdict ? mesh_verdict->reason : "");
   const PathCheckReplyMessage& simplified = record.simplified_check;

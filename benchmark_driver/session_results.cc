@@ -25,10 +25,6 @@ Attempt AttemptOf(const RunRow& run) {
   return attempt;
 }
 
-Direction OtherThan(Direction direction) {
-  return direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
-}
-
 /// Set, contestant, problem, trial and direction.
 using AttemptKey = std::tuple<std::string, std::string, int, int, Direction>;
 
@@ -79,7 +75,7 @@ SessionResults::SessionResults(const SessionConditions& conditions, const RunRow
       why_not_asked_.Add(*run.message);
       continue;
     }
-    if (run.needs_other && !made.contains(KeyOf(run, OtherThan(run.direction)))) {
+    if (run.needs_other && !made.contains(KeyOf(run, Opposite(run.direction)))) {
       ++num_awaiting_;
       continue;
     }

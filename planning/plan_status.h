@@ -32,5 +32,8 @@ template <>
 struct EnumNames<Direction> {
   static constexpr auto kNames = std::to_array<std::string_view>({"forward", "backward"});
 };
+inline Direction Opposite(Direction direction) {
+  return direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
+}
 
 }  // namespace planbench

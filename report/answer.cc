@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "common/lookup.h"
 #include "results/quality.h"
 #include "results/untold_times.h"
 
@@ -471,8 +472,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       cautions.push_back(LeftOut(name, session.left_out));
     }
     if (session.finished && session.bus) cautions.push_back(name + ": " + OnTheBus(*session.bus));
-    const auto parallel = session.flags.find("parallel");
-    if (parallel != session.flags.end() && parallel->second == "true") {
+    if (Lookup(session.flags, "parallel") == "true") {
       cautions.push_back(fmt::format(
           "{}: the planners worked at once (--parallel): all times were measured under load.",
           name));

@@ -13,6 +13,7 @@
 
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/lookup.h"
 #include "common/scratch_folder.h"
 #include "common/sibling_program.h"
 #include "messaging/asked_runs.h"
@@ -358,8 +359,7 @@ class Merge {
       num_missing += part.num_missing();
       finished = finished && part.finished();
       for (const SessionMessage& told : part.told) {
-        const auto shard = told.settings.find(kShardFlag);
-        if (shard != told.settings.end()) unknown_shards.push_back(shard->second);
+        if (const auto shard = Lookup(told.settings, kShardFlag)) unknown_shards.push_back(*shard);
       }
       is_known = is_known && part.finished() && part.num_missing() == 0;
     }
@@ -398,8 +398,8 @@ class Merge {
     session_.conditions.problem_sets.insert(told.conditions.problem_sets.begin(),
                                             told.conditions.problem_sets.end());
     std::erase_if(session_.settings, [&](const auto& flag) {
-      const auto other = told.settings.find(flag.first);
-      return other == told.settings.end() || !IsSameSetting(other->second, flag.second);
+      const auto other = Lookup(told.settings, flag.first);
+      return !other || !IsSameSetting(*other, flag.second);
     });
     AddNew(told.conditions.contestants, &Contestant::planner, &session_.conditions.contestants);
     AddNew(told.nodes, &NodeStatusMessage::name, &session_.nodes);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/file_kind.h"
+#include "common/lookup.h"
 #include "robot_model/shipped_robots.h"
 
 namespace planbench {
@@ -14,11 +15,6 @@ namespace {
 // Of the driver's flags, and of the scene server.
 constexpr char kRobotSetting[] = "robot";
 constexpr char kSpheresSetting[] = "spheres";
-
-std::string SettingOf(const std::map<std::string, std::string>& settings, const char* name) {
-  const auto setting = settings.find(name);
-  return setting == settings.end() ? "" : setting->second;
-}
 
 /// Whether both, content ids of robots, can be of one; "" is of any.
 bool CanBeOne(const std::string& id, const std::string& other) {
@@ -35,7 +31,7 @@ bool IsSceneServerOf(const SessionMessage& session, const NodeStatusMessage& nod
 
 std::filesystem::path RobotFolder(const SessionMessage& session) {
   std::string why = "the session does not name its robot's folder";
-  if (const std::string flag = SettingOf(session.settings, kRobotSetting); !flag.empty()) {
+  if (const auto flag = Lookup(session.settings, kRobotSetting).value_or(""); !flag.empty()) {
     try {
       return FindRobotFolder(flag);
     } catch (const InputError& error) {
@@ -44,7 +40,7 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
   }
   for (const NodeStatusMessage& node : session.nodes) {
     if (!IsSceneServerOf(session, node)) continue;
-    const std::string folder = SettingOf(node.settings, kRobotSetting);
+    const std::string folder = Lookup(node.settings, kRobotSetting).value_or("");
     if (IsFolder(folder)) return folder;
     if (!folder.empty() && why.find(folder) == std::string::npos) {
       why += "; the scene server's, " + folder + ", is not here";
@@ -55,12 +51,15 @@ std::filesystem::path RobotFolder(const SessionMessage& session) {
 
 /// The file of spheres that took the place of the robot folder's; "" if none did.
 std::string SpheresFile(const SessionMessage& session) {
-  std::string spheres = SettingOf(session.settings, kSpheresSetting);
-  for (const NodeStatusMessage& node : session.nodes) {
-    if (!spheres.empty()) break;
-    if (IsSceneServerOf(session, node)) spheres = SettingOf(node.settings, kSpheresSetting);
+  if (const auto flag = Lookup(session.settings, kSpheresSetting).value_or(""); !flag.empty()) {
+    return flag;
   }
-  return spheres;
+  for (const NodeStatusMessage& node : session.nodes) {
+    if (!IsSceneServerOf(session, node)) continue;
+    const auto told = Lookup(node.settings, kSpheresSetting).value_or("");
+    if (!told.empty()) return told;
+  }
+  return "";
 }
 
 }  // namespace

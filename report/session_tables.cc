@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/lookup.h"
 #include "messaging/session_conditions.h"
 #include "results/comparison.h"
 #include "results/quality.h"
@@ -23,12 +24,6 @@ namespace {
 /// NaN, which is shown as nothing, for none.
 double OrNothing(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-/// "" if there is none.
-std::string ValueOf(const std::map<std::string, std::string>& values, const std::string& name) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : found->second;
 }
 
 /// Settings by name, of the contestant of that name; none without one.
@@ -96,7 +91,9 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
   }
   told.erase("cpu");  // that of the session
   for (const std::string& name : told) {
-    setting(name, [&](const StoredSession& session) { return ValueOf(session.machine, name); });
+    setting(name, [&](const StoredSession& session) {
+      return Lookup(session.machine, name).value_or("");
+    });
   }
   field("robot", member(&StoredSession::robot));
   field("seed", member(&StoredSession::seed));
@@ -108,13 +105,13 @@ Table SessionTable(const ComparedSessions& compared, bool only_different) {
     if (!IsFlag(flag)) continue;
     if (!only_different && flag != "time" && flag != "trials") continue;
     setting("--" + flag,
-            [&](const StoredSession& session) { return ValueOf(session.flags, flag); });
+            [&](const StoredSession& session) { return Lookup(session.flags, flag).value_or(""); });
   }
   if (only_different) {
     for (const auto& contestant : SettingsByContestant(compared)) {
       for (const std::string& key : contestant.second) {
         setting(fmt::format("{}: {}", contestant.first, key), [&](const StoredSession& session) {
-          return ValueOf(SettingsOf(session, contestant.first), key);
+          return Lookup(SettingsOf(session, contestant.first), key).value_or("");
         });
       }
     }

@@ -34,15 +34,11 @@ std::string PlannerOf(const std::string& request_id) {
   return begin == std::string::npos ? "" : request_id.substr(begin + 1, end - begin);
 }
 
-Direction OtherOf(Direction direction) {
-  return direction == Direction::kForward ? Direction::kBackward : Direction::kForward;
-}
-
 /// Whether the other direction is made besides this attempt. `planned`: RunsOf the session's plan.
 bool NeedsOther(const StoredRun& run, const std::map<PlannedRun, bool>& planned) {
   PlannedRun other = {{run.problem_set, run.problem_index, run.trial},
                       PlannerOf(run.request_id),
-                      OtherOf(run.direction)};
+                      Opposite(run.direction)};
   const auto its_place = planned.find(other);
   if (its_place == planned.end()) return false;
   // Backward is asked after forward unless that claimed a path, or whatever becomes of it.
@@ -73,7 +69,7 @@ int LeaveOutAwaiting(StoredSession* session) {
   for (const StoredRun& run : session->runs) made.insert(KeyOf(run, run.direction));
   const std::map<PlannedRun, bool> planned = RunsOf(*plan);
   const auto num_left_out = std::erase_if(session->runs, [&](const StoredRun& run) {
-    return NeedsOther(run, planned) && !made.contains(KeyOf(run, OtherOf(run.direction)));
+    return NeedsOther(run, planned) && !made.contains(KeyOf(run, Opposite(run.direction)));
   });
   return static_cast<int>(num_left_out);
 }

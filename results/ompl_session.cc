@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/lookup.h"
 
 namespace planbench {
 namespace {
@@ -22,8 +23,7 @@ PlanStatus StatusNamed(const std::string& text) {
       {"Abort", PlanStatus::kCancelled},
       {"Infeasible", PlanStatus::kExhausted}};
   if (const auto own = ParseEnum<PlanStatus>(text)) return *own;
-  const auto found = statuses.find(text);
-  return found == statuses.end() ? PlanStatus::kTimedOut : found->second;
+  return Lookup(statuses, text).value_or(PlanStatus::kTimedOut);
 }
 
 int Whole(const OmplProperties& properties, const std::string& name, int otherwise) {
@@ -38,8 +38,7 @@ int Whole(const OmplProperties& properties, const std::string& name, int otherwi
 /// Nothing without a status, or with one that is not among them.
 std::optional<std::string> StatusName(const OmplStatuses& statuses,
                                       const OmplProperties& properties) {
-  const auto found = statuses.find(Whole(properties, "status", -1));
-  return found == statuses.end() ? std::nullopt : std::optional(found->second);
+  return Lookup(statuses, Whole(properties, "status", -1));
 }
 
 void SetProblem(const std::string& experiment, const OmplProperties& properties, StoredRun* run) {

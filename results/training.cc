@@ -5,17 +5,13 @@
 
 #include <algorithm>
 
+#include "common/lookup.h"
 #include "planning/path_library.h"
 
 namespace planbench {
 namespace {
 
 constexpr char kFirstPath[] = "first_path_";
-
-std::string ValueOf(const std::map<std::string, std::string>& settings, const std::string& key) {
-  const auto found = settings.find(key);
-  return found == settings.end() ? "" : found->second;
-}
 
 bool Lists(const std::string& list, const std::string& separator, const std::string& item) {
   return !list.empty() &&
@@ -34,7 +30,7 @@ std::map<std::string, std::string> FirstPathTraining(
     const std::map<std::string, std::string>& first_planner) {
   std::map<std::string, std::string> told;
   for (const char* key : {kLearnedFrom, kLearnedScenes}) {
-    const std::string value = ValueOf(first_planner, key);
+    const std::string value = Lookup(first_planner, key).value_or("");
     if (!value.empty()) told[kFirstPath + std::string(key)] = value;
   }
   return told;
@@ -48,8 +44,8 @@ void EraseFirstPathTraining(std::map<std::string, std::string>* settings) {
 
 Training::Training(const std::map<std::string, std::string>& settings) {
   for (const std::string whose : {"", kFirstPath}) {
-    lessons_.push_back(
-        {ValueOf(settings, whose + kLearnedFrom), ValueOf(settings, whose + kLearnedScenes)});
+    lessons_.push_back({Lookup(settings, whose + kLearnedFrom).value_or(""),
+                        Lookup(settings, whose + kLearnedScenes).value_or("")});
   }
 }
 
