@@ -196,7 +196,7 @@ std::pair<int, int> SetsLed(const ComparedSessions& compared, const std::string&
 std::string HowSure(const ComparedSessions& compared,
                     const std::vector<const ComparedPair*>& of_leader, std::size_t num_tests) {
   // Of too few problems the test cannot show anything, whatever the times.
-  const int fewest = FewestDifferences(kTestLevel, num_tests);
+  const int fewest = FewestDifferences(num_tests);
   std::vector<std::string> open, untested;
   for (const ComparedPair* pair : of_leader) {
     const SignedRankTest& test = pair->result.test;

@@ -183,7 +183,7 @@ Table ChangeTable(const ComparedSessions& compared) {
     }
   }
   const std::vector<double> adjusted = AdjustedPValues(results);
-  const int fewest = FewestDifferences(kTestLevel, results.size());
+  const int fewest = FewestDifferences(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const SignedRankTest& test = results[i].test;
     const char* change = adjusted[i] <= kTestLevel

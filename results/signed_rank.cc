@@ -72,9 +72,9 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences) {
   return test;
 }
 
-int FewestDifferences(double level, std::size_t num_tests) {
+int FewestDifferences(std::size_t num_tests) {
   int n = 1;
-  while (static_cast<double>(num_tests) * std::ldexp(1.0, 1 - n) > level) ++n;
+  while (static_cast<double>(num_tests) * std::ldexp(1.0, 1 - n) > kTestLevel) ++n;
   return n;
 }
 

@@ -28,9 +28,9 @@ SignedRankTest TestSignedRanks(const std::vector<double>& differences);
 /// The level at which differences are called shown.
 inline constexpr double kTestLevel = 0.05;
 
-/// The fewest differences that the test can reject at `level`, the p-value being adjusted for
+/// The fewest differences that the test can reject at kTestLevel, the p-value being adjusted for
 /// `num_tests` (AdjustPValues): all of one sign, two of the 2^n ways to give them signs.
-int FewestDifferences(double level, std::size_t num_tests);
+int FewestDifferences(std::size_t num_tests);
 
 /// The p-values of several tests, in their order, adjusted so that any false rejection among them
 /// has the level of one (Holm 1979).

@@ -91,11 +91,11 @@ double StudentQuantile(int degrees) {
   return std::sqrt(degrees) * std::tan(below);
 }
 
-double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s,
-                     double factor) {
+double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s) {
+  constexpr double kFactor = 10;
   double sum_s = std::accumulate(solved_s.begin(), solved_s.end(), 0.0);
   for (const double limit_s : limits_s) {
-    sum_s += limit_s > 0 ? factor * limit_s : std::numeric_limits<double>::quiet_NaN();
+    sum_s += limit_s > 0 ? kFactor * limit_s : std::numeric_limits<double>::quiet_NaN();
   }
   return sum_s / static_cast<double>(solved_s.size() + limits_s.size());
 }

@@ -44,10 +44,8 @@ std::optional<Interval> MedianInterval(std::vector<double> values);
 /// 97.5 % quantile of the distribution with `degrees` (of freedom, at least 1).
 double StudentQuantile(int degrees);
 
-/// Mean time of solved and failed runs, each failed one counted as `factor` times its limit (PAR-10
-/// of the algorithm-selection literature with the factor 10); NaN if there are none, or if a limit
-/// is not known (0).
-double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s,
-                     double factor = 10);
+/// Mean time of solved and failed runs, each failed one counted as ten times its limit (PAR-10 of
+/// the algorithm-selection literature); NaN if there are none, or if a limit is not known (0).
+double PenalisedMean(const std::vector<double>& solved_s, const std::vector<double>& limits_s);
 
 }  // namespace planbench

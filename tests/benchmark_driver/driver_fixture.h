@@ -23,6 +23,12 @@ std::set<std::string> Ids(MessageCollector<Message>& collector) {
 inline void Idle() {}
 inline bool Never() { return false; }
 
+/// Expects all runs to be made and recorded.
+inline void MakeAll(Driver* driver) {
+  driver->Discover(true, Idle);
+  EXPECT_TRUE(driver->Run(Never, Idle));
+}
+
 inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners) {
   LineUpFlags flags;
   flags.planners = planners;

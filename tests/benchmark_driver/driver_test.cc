@@ -24,8 +24,7 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   Driver driver(&bus_, Options(), LineUp({"arm"}), {{"key", "value"}});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   const RunRecordMessage first = logger.records().messages().at(0);
   EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
   EXPECT_EQ(first.status, PlanStatus::kSolved);
@@ -73,8 +72,7 @@ TEST_F(DriverTest, AutoGoesBackwardWhereForwardFailed) {
   DriverOptions options = Options();
   options.directions = Directions::kAuto;
   Driver driver(&bus_, options, LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(Ids(logger.records()),
             (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/backward/1",
                                    "run/cans/2/arm/forward/1"}));
@@ -90,8 +88,7 @@ TEST_F(DriverTest, OfBothDirectionsAFailureNeedsTheOther) {
   const FakeLogger logger(&bus_);
   SolveSecondBackwardOnly(&planner);
   Driver driver(&bus_, Options(), LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   ASSERT_EQ(driver.runs().size(), 4u);
   for (const RunRow& run : driver.runs().rows()) EXPECT_EQ(run.needs_other, !run.confirmed());
 }
@@ -147,8 +144,7 @@ TEST_F(DriverTest, DisturbedRunsAreMadeAgainAtTheEnd) {
   options.kernel = machine.folders();
   options.repeat_disturbed = true;
   Driver driver(&bus_, options, LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   std::vector<std::string> told;
   for (const RunRecordMessage& record : logger.records().messages()) {
     const auto& counters = record.result.result.counters;
@@ -172,8 +168,7 @@ TEST_F(DriverTest, WhatDependsOnADisturbedRunWaitsForIt) {
   options.kernel = machine.folders();
   options.repeat_disturbed = true;
   Driver driver(&bus_, options, LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(Ids(logger.records()),
             (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/forward/1"}));
   EXPECT_EQ(driver.num_runs(), 2);
@@ -187,8 +182,7 @@ TEST_F(DriverTest, DisturbedRunsAreMarkedWhereTheyAreNotRepeated) {
   DriverOptions options = Options();
   options.kernel = machine.folders();
   Driver driver(&bus_, options, LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_TRUE(driver.runs().rows().front().disturbed);
   const RunRecordMessage first = logger.records().messages().at(0);
   EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
@@ -202,8 +196,7 @@ TEST_F(DriverTest, EveryPlannerAnswersARequestBeforeItsFirstRun) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   Driver driver(&bus_, Options(), LineUp({"arm"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(Ids(planner.requests()).size(), 5u);  // one more than runs
   EXPECT_EQ(Ids(logger.records()).size(), 4u);
 }
@@ -229,8 +222,7 @@ TEST_F(DriverTest, ContestantsHaveConditionsOfTheirOwn) {
   line_up[0].contestant.name = "Arm (coarse)";
   line_up[0].directions = Directions::kForward;
   Driver driver(&bus_, Options(), line_up, {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(driver.runs().size(), 2u);
   const RunRecordMessage record = logger.records().messages().at(0);
   EXPECT_EQ(record.contestant, "Arm (coarse)");
@@ -247,8 +239,7 @@ TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   DriverOptions options = Options();
   options.conditions.parallel = true;
   Driver driver(&bus_, options, LineUp({"arm", "leg"}), {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(driver.runs().size(), 8u);
   EXPECT_EQ(Ids(logger.records()).size(), 8u);
 }
@@ -433,8 +424,7 @@ TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {
   std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
   line_up[0].contestant.first_path_of = "first";
   Driver driver(&bus_, Options(), line_up, {});
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   ASSERT_FALSE(driver.runs().empty());
   for (const RunRecordMessage& record : logger.records().messages()) {
     if (record.planner != "arm") continue;
@@ -498,8 +488,7 @@ TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
   // With nothing else to do, the session is as complete as it was.
   Driver again(&bus_, options, LineUp({"arm"}), {},
                {logger.sessions().messages(), logger.records().messages()});
-  again.Discover(true, Idle);
-  EXPECT_TRUE(again.Run(Never, Idle));
+  MakeAll(&again);
   EXPECT_EQ(again.runs().size(), 2u);
 
   for (const int index : {1, 3}) server.RefuseProblem(index, "is odd");

@@ -40,16 +40,14 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   EarlierSession earlier;
   {
     Driver driver(&bus_, options, LineUp({"arm"}), {});
-    driver.Discover(true, Idle);
-    EXPECT_TRUE(driver.Run(Never, Idle));
+    MakeAll(&driver);
     earlier = {logger.sessions().messages(), logger.records().messages()};
   }
   const std::set<std::string> recorded_before = Ids(logger.records());
   options.problem_indices = {1};  // no longer 2
   options.directions = Directions::kBoth;
   Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   std::set<std::string> recorded = Ids(logger.records());
   for (const std::string& id : recorded_before) recorded.erase(id);
   EXPECT_EQ(recorded, std::set<std::string>{"run/cans/1/arm/backward/1"});
@@ -111,8 +109,7 @@ class OtherFlagsTest : public DriverTest {
   void Make(const std::vector<std::string>& planners, int trials, int num_owed) {
     FakeLogger logger(&bus_);
     const auto driver = Resume(planners, trials);
-    driver->Discover(true, Idle);
-    EXPECT_TRUE(driver->Run(Never, Idle));
+    MakeAll(driver.get());
     EXPECT_EQ(driver->num_owed(), num_owed);
     told_.run_id = "all that was told has been heard";
     bus_.Publish(channel::kSession, told_);
@@ -421,8 +418,7 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
   planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
   Reannounce(&planner);
   Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   std::set<std::string> made;
   for (const RunRecordMessage& record : logger.records().messages()) {
     if (before.at(record.request_id) == record) continue;
@@ -444,8 +440,7 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   options.problem_indices = {1, 2, 3};
   Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(driver.runs().size(), 3u);
   EXPECT_EQ(driver.num_not_asked(), 1);
   std::set<std::string> made;
@@ -464,8 +459,7 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   ExpectInputError([&] { with_another.Discover(true, Idle); }, {"1 of 2 problems are bad"});
   options.skip_bad_problems = true;
   Driver without(&bus_, options, LineUp({"arm"}), {}, earlier);
-  without.Discover(true, Idle);
-  EXPECT_TRUE(without.Run(Never, Idle));
+  MakeAll(&without);
   ASSERT_EQ(without.left_out().size(), 1u);
   EXPECT_EQ(without.left_out().begin()->first, "cans 3");
   // As in the log, problem 2 is among the runs.
@@ -475,8 +469,7 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
 
   options.problem_indices = {1};
   Driver of_others(&bus_, options, LineUp({"arm"}), {}, earlier);
-  of_others.Discover(true, Idle);
-  EXPECT_TRUE(of_others.Run(Never, Idle));
+  MakeAll(&of_others);
   EXPECT_EQ(of_others.runs().size(), 2u) << "tables tell why it is missing";
   EXPECT_EQ(of_others.num_runs(), 2);
   EXPECT_EQ(of_others.num_not_asked(), 0) << "the same flags would not make it";
@@ -496,8 +489,7 @@ TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedS
 
   server.ServeProblem(2);
   Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
-  driver.Discover(true, Idle);
-  EXPECT_TRUE(driver.Run(Never, Idle));
+  MakeAll(&driver);
   EXPECT_EQ(driver.num_runs(), 3);
   EXPECT_EQ(driver.num_not_asked(), 0);
   EXPECT_EQ(Ids(logger.records()),

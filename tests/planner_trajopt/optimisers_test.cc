@@ -50,6 +50,19 @@ class TrajectoryTest : public testing::Test {
     cost.FindDistances(trajectory, &distances);
     return cost.OfTrajectory(trajectory, distances);
   }
+  /// Returns the least cost on the way.
+  double Optimise(const TrajectoryCost& cost, int num_iterations, Optimiser* optimiser,
+                  Trajectory* trajectory) const {
+    optimiser->Restart();
+    double least = CostOf(cost, *trajectory);
+    std::vector<double> distances;
+    for (int k = 0; k < num_iterations; ++k) {
+      cost.FindDistances(*trajectory, &distances);
+      optimiser->Iterate(distances, trajectory);
+      least = std::min(least, CostOf(cost, *trajectory));
+    }
+    return least;
+  }
 
   const Robot robot_ = LoadPlanarRobot();
   const JointSpace& space_ = robot_.groups.front().space;
@@ -145,15 +158,7 @@ TEST_F(TrajectoryTest, BothOptimisersLowerTheCostAndKeepTheEnds) {
   Chomp chomp(space_, settings, &cost);
   for (Optimiser* optimiser : std::vector<Optimiser*>{&stomp, &chomp}) {
     Trajectory trajectory = guess;
-    optimiser->Restart();
-    std::vector<double> distances;
-    double least = CostOf(cost, guess);
-    for (int k = 0; k < 30; ++k) {
-      cost.FindDistances(trajectory, &distances);
-      optimiser->Iterate(distances, &trajectory);
-      least = std::min(least, CostOf(cost, trajectory));
-    }
-    EXPECT_LT(least, 0.8 * CostOf(cost, guess));
+    EXPECT_LT(Optimise(cost, 30, optimiser, &trajectory), 0.8 * CostOf(cost, guess));
     EXPECT_EQ(trajectory.row(0), guess.row(0));
     EXPECT_EQ(trajectory.bottomRows(1), guess.bottomRows(1));
     Trajectory clamped = trajectory;
@@ -173,12 +178,7 @@ TEST_F(TrajectoryTest, WithoutObstaclesBothComeBackTowardsTheStraightLine) {
   Chomp chomp(space_, settings, &cost);
   for (Optimiser* optimiser : std::vector<Optimiser*>{&stomp, &chomp}) {
     Trajectory trajectory = guess;
-    optimiser->Restart();
-    std::vector<double> distances;
-    for (int k = 0; k < 100; ++k) {
-      cost.FindDistances(trajectory, &distances);
-      optimiser->Iterate(distances, &trajectory);
-    }
+    Optimise(cost, 100, optimiser, &trajectory);
     EXPECT_LT(trajectory.col(1).maxCoeff(), 0.5);
   }
 }

@@ -167,14 +167,14 @@ TEST(SignedRankTestTest, PValuesLeaveTiesOutAndEffectsCountThem) {
 
 TEST(FewestDifferencesTest, AreThoseThatCanBeRejected) {
   for (const std::size_t num_tests : {1u, 2u, 10u, 45u}) {
-    const int fewest = FewestDifferences(kTestLevel, num_tests);
+    const int fewest = FewestDifferences(num_tests);
     for (const int n : {fewest - 1, fewest}) {
       const double p = TestSignedRanks(std::vector<double>(static_cast<std::size_t>(n), 1)).p_value;
       const double adjusted = AdjustPValues(std::vector<double>(num_tests, p)).front();
       EXPECT_EQ(adjusted <= kTestLevel, n == fewest) << num_tests;
     }
   }
-  EXPECT_EQ(FewestDifferences(0.05, 1), 6);
+  EXPECT_EQ(FewestDifferences(1), 6);
 }
 
 TEST(AdjustPValuesTest, IsHolmsStepDown) {
