@@ -101,6 +101,16 @@ TwoWaySearch::Counts& TwoWaySearch::Counts::operator+=(const Counts& more) {
   return *this;
 }
 
+TwoWaySearch::Counts TwoWaySearch::Counts::Since(const Counts& before) const {
+  Counts since = *this;
+  since.expansions -= before.expansions;
+  since.states -= before.states;
+  since.edges_generated -= before.edges_generated;
+  since.goal_connections_tried -= before.goal_connections_tried;
+  since.recalled_edges -= before.recalled_edges;
+  return since;
+}
+
 void TwoWaySearch::GuideByTip(const Scene& scene, std::span<const double> base_positions,
                               double weight) {
   tip_guide_ = {&scene, {base_positions.begin(), base_positions.end()}, weight};
@@ -118,7 +128,11 @@ void TwoWaySearch::AddPaths(std::span<const Path> paths) {
 }
 
 void TwoWaySearch::SetKnownCost(double cost) {
+  if (cost >= best_cost()) return;
   known_cost_ = cost;
+  // A guided search ends at a path alone. Beside one known from elsewhere there may be none.
+  phase_ = Phase::kProof;
+  GiveUpBridge();
   for (const auto& side : sides_) side->search.SetUpperBound(cost);
 }
 
@@ -136,8 +150,7 @@ TwoWaySearch::Side* TwoWaySearch::NextSide() const {
 ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>& should_stop,
                                      const std::function<void(double)>& on_solution) {
   const bool guided = tip_guide_ || options_.crowding > 0;
-  // A guided search ends at a path alone. Beside one known from elsewhere there may be none.
-  if (phase_ == Phase::kFirst && (!guided || known_cost_ < kInfinity)) phase_ = Phase::kProof;
+  if (phase_ == Phase::kFirst && !guided) phase_ = Phase::kProof;
   BeginPhase(phase_ == Phase::kFirst && cost_ < kInfinity ? Phase::kBetter : phase_);
   const auto reaches_epsilon = [&] {
     const double lower_bound = ProveLowerBound();
@@ -225,6 +238,7 @@ void TwoWaySearch::SetCost(double cost) {
 bool TwoWaySearch::ShortenPath(const std::function<bool()>& should_stop) {
   if (!std::exchange(may_be_shortened_, false)) return false;
   Path path = ShortcutPath(edges_, path_, kShortcutSeed, kShortcutRounds, should_stop);
+  may_be_shortened_ = should_stop();  // another time
   const double cost = sides_.front()->graph.CostOf(path);
   if (cost >= cost_) return false;
   path_ = std::move(path);

@@ -38,6 +38,8 @@ class TwoWaySearch {
     std::int64_t recalled_edges = 0;  ///< Those that were free.
     std::int64_t iterations = 0;      ///< Of the search that had the most.
     Counts& operator+=(const Counts& more);
+    /// What was done since; the iterations all the same.
+    Counts Since(const Counts& before) const;
   };
 
   /// `start` and the goal's nominal point are valid. The edge checker must outlive this. Throws
@@ -53,9 +55,9 @@ class TwoWaySearch {
   /// Before the first Improve: both lattices get the edges of these paths (RecalledPaths).
   void AddPaths(std::span<const Path> paths);
 
-  /// Before the first Improve: a path of this cost is known from elsewhere. Only cheaper ones are
-  /// searched for, as in the proof of a path that was found: without guide, bridge and finer moves.
-  /// That none is there is proof as good as a path.
+  /// Says that a path of this cost is known from elsewhere. If it is the best, only cheaper ones
+  /// are searched for from now on, as in the proof of a path that was found: without guide, bridge
+  /// and further finer moves. That none is there is proof as good as a path.
   void SetKnownCost(double cost);
 
   /// Searches until the best path is proven to cost at most `epsilon` times the optimum of either

@@ -244,11 +244,18 @@ TEST_F(TwoWaySearchTest, SaysEachBetterPathOnce) {
 TEST_F(TwoWaySearchTest, WhatIsKnownFromElsewhereEndsTheSearchOfDearerPaths) {
   options_.shorten = false;
   const double optimum = std::min(Optimum(kLeft_, kRight_), Optimum(kRight_, kLeft_));
-  for (const double crowding : {0.0, 0.1}) {
+  const std::vector<std::pair<double, int>> variants = {{0, 0}, {0, 10}, {0.1, 0}, {0.1, 10}};
+  for (const auto& [crowding, num_before] : variants) {
     options_.crowding = crowding;
     for (const double factor : {0.8, 1.2}) {
-      SCOPED_TRACE(fmt::format("crowding {}, {} times the optimum", crowding, factor));
+      SCOPED_TRACE(fmt::format("crowding {}, {} times the optimum, known after {} steps", crowding,
+                               factor, num_before));
       TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+      if (int budget = num_before; budget > 0) {
+        ASSERT_EQ(search.Improve(
+                      50, [&] { return budget-- == 0; }, kSilent),
+                  ImproveOutcome::kStopped);
+      }
       search.SetKnownCost(factor * optimum);
       for (const double epsilon : {50.0, 1.5, 1.0}) {
         ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
