@@ -25,6 +25,20 @@
 namespace planbench {
 namespace {
 
+/// The search for one goal, in one turn or several.
+struct GoalSearch {
+  GoalSearch(const SearchQuery& query, const ManipulationGraphOptions& options,
+             const AraSettings& settings)
+      : two_way(&query.edges(), query.start(), query.goal(), options, settings.two_way),
+        epsilon(settings.epsilon.initial) {}
+
+  TwoWaySearch two_way;
+  std::optional<double> epsilon;  // to be proven
+  // Proven before the limit came within an edge, if it did: without that edge nothing is.
+  double lower_bound = 0;
+  TwoWaySearch::Counts before;  // the turn
+};
+
 class AraPlanner : public Planner {
  public:
   AraPlanner(const Robot& robot, const YamlNode& node) : Planner(robot), origin_(node.Where()) {
@@ -60,33 +74,25 @@ class AraPlanner : public Planner {
  protected:
   SearchResult Search(SearchQuery& query) override {
     const AraSettings settings = SettingsFor(query);
-    const PlanningGroup& group = query.edges().checker().group();
-    std::optional<ManipulationGraphOptions> own_options;
-    if (!query.parameters().empty()) {
-      own_options = ResolveOptions(settings, robot(), group, "request parameters");
-    }
-    const auto owner = std::make_shared<TwoWaySearch>(
-        &query.edges(), query.start(), query.goal(), own_options ? *own_options : OptionsFor(group),
-        settings.two_way);
-    TwoWaySearch& search = *owner;
-
-    if (settings.tip_guide > 0) {
-      search.GuideByTip(query.scene(), query.base_positions(), settings.tip_guide);
-    }
-    if (const PathLibrary* known = experience_ ? experience_->For(query.space()) : nullptr) {
-      search.AddPaths(
-          known->Recall(query.space(), query.start(), query.goal().nominal, settings.recall));
-    }
+    auto goal_search = std::static_pointer_cast<GoalSearch>(query.TakeKept());
+    if (!goal_search) goal_search = Begin(query, settings);
+    TwoWaySearch& search = goal_search->two_way;
 
     const double memory_limit = settings.memory_limit_mb * 1024 * 1024;
+    const auto is_full = [&] {
+      return static_cast<double>(search.bytes() + query.KeptBytes()) > memory_limit;
+    };
     bool out_of_memory = false;
     const auto should_stop = [&] {
-      out_of_memory = static_cast<double>(search.bytes()) > memory_limit;
-      return out_of_memory || query.ShouldStop();
+      out_of_memory = is_full();
+      if (out_of_memory && query.KeptBytes() > 0) {
+        query.DropKept();
+        out_of_memory = is_full();
+      }
+      return out_of_memory || query.ShouldStop() || query.TurnIsOver();
     };
 
-    // Proven before the limit came within an edge, if it did: without that edge nothing is.
-    double lower_bound = 0;
+    double& lower_bound = goal_search->lower_bound;
     // Without wrapping nothing is proven.
     const auto told_lower_bound = [&] { return settings.wrap_heuristic ? lower_bound : 0; };
     bool reported = false;
@@ -95,11 +101,12 @@ class AraPlanner : public Planner {
       if (query.edges().Stopped()) return;
       lower_bound = proven;
       reported = true;
-      query.ReportSolution(told_lower_bound(), search.cost(), search.counts().expansions);
+      query.ReportSolution(told_lower_bound(), search.cost(),
+                           search.counts().Since(goal_search->before).expansions);
     };
     search.SetKnownCost(query.known_cost());
     ImproveOutcome outcome = ImproveOutcome::kStopped;
-    std::optional<double> epsilon = settings.epsilon.initial;
+    std::optional<double>& epsilon = goal_search->epsilon;
     while (epsilon) {
       outcome = search.Improve(*epsilon, should_stop, report);
       if (search.best_cost() == kInfinity) {
@@ -114,8 +121,7 @@ class AraPlanner : public Planner {
     }
 
     SearchResult result;
-    result.remains = owner;
-    const TwoWaySearch::Counts counts = search.counts();
+    const TwoWaySearch::Counts counts = search.counts().Since(goal_search->before);
     result.counters = {
         {"expansions", static_cast<double>(counts.expansions)},
         {"states", static_cast<double>(counts.states)},
@@ -158,6 +164,12 @@ class AraPlanner : public Planner {
       result.status = PlanStatus::kTimedOut;
       result.message = "the time limit came before a path was found";
     }
+    if (outcome == ImproveOutcome::kStopped && !out_of_memory && !query.edges().Stopped()) {
+      goal_search->before = search.counts();
+      query.Keep(goal_search, search.bytes());
+    } else {
+      result.remains = goal_search;
+    }
     return result;
   }
 
@@ -166,12 +178,7 @@ class AraPlanner : public Planner {
     std::vector<double> bounds(ends.size(), 0.0);
     const AraSettings settings = SettingsFor(query);
     if (!settings.wrap_heuristic) return bounds;
-    const PlanningGroup& group = query.edges().checker().group();
-    const ManipulationGraph graph(
-        &query.edges(), q, ends.front(),
-        query.parameters().empty()
-            ? OptionsFor(group)
-            : ResolveOptions(settings, robot(), group, "request parameters"));
+    const ManipulationGraph graph(&query.edges(), q, ends.front(), OptionsOf(query, settings));
     std::transform(ends.begin(), ends.end(), bounds.begin(),
                    [&](const GoalBox& end) { return graph.LeastCostTo(end); });
     return bounds;
@@ -222,6 +229,26 @@ class AraPlanner : public Planner {
     RequireKnownJoints(request);
     settings.Validate("request parameters");
     return settings;
+  }
+
+  std::shared_ptr<GoalSearch> Begin(const SearchQuery& query, const AraSettings& settings) {
+    auto begun = std::make_shared<GoalSearch>(query, OptionsOf(query, settings), settings);
+    if (settings.tip_guide > 0) {
+      begun->two_way.GuideByTip(query.scene(), query.base_positions(), settings.tip_guide);
+    }
+    if (const PathLibrary* known = experience_ ? experience_->For(query.space()) : nullptr) {
+      begun->two_way.AddPaths(
+          known->Recall(query.space(), query.start(), query.goal().nominal, settings.recall));
+    }
+    return begun;
+  }
+
+  /// `settings`: the query's.
+  ManipulationGraphOptions OptionsOf(const SearchQuery& query, const AraSettings& settings) {
+    const PlanningGroup& group = query.edges().checker().group();
+    return query.parameters().empty()
+               ? OptionsFor(group)
+               : ResolveOptions(settings, robot(), group, "request parameters");
   }
 
   const ManipulationGraphOptions& OptionsFor(const PlanningGroup& group) {

@@ -32,6 +32,10 @@ constexpr int kShortcutRounds = 4;
 /// for being overdue (RequestExchange) counts as none, though it was found in time.
 constexpr double kSimplificationGrace = 5;  // s
 
+/// Work of a goal's first turn, of several that are searched for in turn (SearchQuery::TurnIsOver):
+/// most searches have found a path by then, in some 10 ms, and so leave nothing to the others.
+constexpr double kFirstTurnWork = 100'000;
+
 /// Ends of a path may differ from the asked ones by this much (rad or m), the rounding of
 /// interpolation.
 constexpr double kEndRounding = 1e-9;
@@ -211,15 +215,22 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       return lower_bounds[a] < lower_bounds[b];
     });
   }
+  const std::vector<double> known_before = lower_bounds;
 
   SearchResult found;  // the best path or, without one, what came of the goals so far
   bool has_path = false;
-  bool is_first = true;
-  std::vector<std::size_t> given_up;  // for want of time
+  std::vector<std::size_t> later;     // whose searches go on in the next round
+  std::vector<std::size_t> given_up;  // for want of time or memory
+  double turn_work = kFirstTurnWork;
+  query->kept_.resize(goals.size());
   while (!waiting.empty()) {
-    const std::size_t num_left = waiting.size();
+    const std::size_t num_left = waiting.size();  // in this round
     const std::size_t turn = waiting.front();
     waiting.erase(waiting.begin());
+    // A search that goes on knows itself what of its proof still holds: its space may grow.
+    if (!has_path || query->kept_[turn].search) lower_bounds[turn] = known_before[turn];
+    query->turn_ = turn;
+    query->turn_ends_work_ = num_left > 1 || !later.empty() ? query->Work() + turn_work : kInfinity;
     query->known_cost_ = has_path ? found.cost : kInfinity;
     query->lower_bound_ = std::exchange(lower_bounds[turn], kInfinity);
     query->lower_bound_of_others_ = *std::min_element(lower_bounds.begin(), lower_bounds.end());
@@ -257,26 +268,33 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       found.guidance_ticks = next.guidance_ticks;
       found.remains = std::move(next.remains);
     } else {
-      if (!is_first && found.status == PlanStatus::kTimedOut &&
-          next.status == PlanStatus::kExhausted) {
-        next.status = found.status;
+      if (next.status == PlanStatus::kExhausted && !(later.empty() && given_up.empty())) {
+        next.status = found.status;  // theirs
         next.message = std::move(found.message);
       }
       found = std::move(next);
     }
-    is_first = false;
+    if (query->kept_[turn].search) {
+      later.push_back(turn);
+    } else if (status == PlanStatus::kTimedOut || status == PlanStatus::kMemoryLimit) {
+      given_up.push_back(turn);
+    }
     if (found.status == PlanStatus::kSolved) {
       if (!has_path) waiting.insert(waiting.end(), given_up.begin(), given_up.end());
       has_path = true;
-      std::erase_if(waiting, [&](std::size_t i) {
+      const auto suffices = [&](std::size_t i) {
         return found.wanted_epsilon == 0 || found.cost <= found.wanted_epsilon * lower_bounds[i];
-      });
-    } else if (status == PlanStatus::kTimedOut) {
-      given_up.push_back(turn);
-    } else if (status != PlanStatus::kExhausted) {
+      };
+      std::erase_if(waiting, suffices);
+      std::erase_if(later, suffices);
+    } else if (status == PlanStatus::kCancelled) {
       break;
     }
     if (query->ShouldStop()) break;
+    if (waiting.empty()) {
+      waiting.swap(later);
+      turn_work *= 2;
+    }
     if (!waiting.empty()) found.remains.reset();  // makes room for the next goal's search
   }
   found.lower_bound = *std::min_element(lower_bounds.begin(), lower_bounds.end());
@@ -297,7 +315,8 @@ SearchResult Planner::SearchFor(const std::string& algorithm, const GoalBox& goa
       std::reverse(query->initial_path_.begin(), query->initial_path_.end());
     }
   }
-  edges.StopWhen([query] { return query->ShouldStop(); });
+  // A turn ends between edges: one given up would be lost to a search that goes on.
+  edges.StopWhen([query] { return query->IsOver(); });
   SearchResult result = Search(*query);
   query->turn_ends_s_.reset();
   RequireSearchStatus(algorithm, result.status);
@@ -369,6 +388,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   SetPhases(clock.ticks(), setup_ticks, counters.ticks, found.guidance_ticks, result);
   result->status = found.status;
   found.remains.reset();
+  query.kept_.clear();
   result->message = std::move(found.message);
   result->progress = std::move(query.progress_);
   result->counters = std::move(found.counters);

@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
+#include <utility>
 
 #include "planning/proven_bound.h"
 
 namespace planbench {
+namespace {
+
+/// Work of a step of a search, a configuration checked being 1: steps that check nothing count too.
+constexpr double kStepWork = 10;
+
+}  // namespace
 
 bool SearchQuery::Cancelled() const { return control_->cancelled.load(std::memory_order_relaxed); }
 
@@ -13,7 +21,35 @@ double SearchQuery::RemainingSeconds() const {
   return turn_ends_s_.value_or(time_limit_s_) - clock_.seconds();
 }
 
+bool SearchQuery::IsOver() const { return Cancelled() || clock_.seconds() >= time_limit_s_; }
+
 bool SearchQuery::ShouldStop() const { return Cancelled() || RemainingSeconds() <= 0; }
+
+double SearchQuery::Work() const {
+  return static_cast<double>(edges_->counters().configurations) +
+         kStepWork * static_cast<double>(num_steps_);
+}
+
+bool SearchQuery::TurnIsOver() {
+  ++num_steps_;
+  return Work() >= turn_ends_work_;
+}
+
+void SearchQuery::Keep(std::shared_ptr<void> search, std::size_t bytes) {
+  kept_[turn_] = {std::move(search), bytes};
+}
+
+std::shared_ptr<void> SearchQuery::TakeKept() {
+  return std::exchange(kept_[turn_], KeptSearch()).search;
+}
+
+std::size_t SearchQuery::KeptBytes() const {
+  return std::accumulate(
+      kept_.begin(), kept_.end(), std::size_t{0},
+      [](std::size_t bytes, const KeptSearch& kept) { return bytes + kept.bytes; });
+}
+
+void SearchQuery::DropKept() { kept_.assign(kept_.size(), KeptSearch()); }
 
 void SearchQuery::ReportSolution(double lower_bound, double cost, std::int64_t expansions) {
   if (cost < known_cost_) HoldPath();

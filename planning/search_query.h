@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +45,18 @@ class SearchQuery {
   /// Of several goals: the cost of the best path to one that was searched for before, infinity
   /// without one. Only cheaper paths are of use then.
   double known_cost() const { return known_cost_; }
+  /// Of several goals, asked between two steps of a search (an edge, say) that can go on later:
+  /// true once it is another goal's turn. It is the work that counts, no clock. The search is then
+  /// to be kept. A planner that never asks has one turn for each goal, by the clock (ShouldStop).
+  bool TurnIsOver();
+  /// Keeps the search for this goal, which takes so many bytes, until its next turn.
+  void Keep(std::shared_ptr<void> search, std::size_t bytes);
+  /// What was kept in this goal's last turn; null in its first one, or if it has been dropped.
+  std::shared_ptr<void> TakeKept();
+  /// What is kept of the other goals' searches, bytes.
+  std::size_t KeptBytes() const;
+  /// Makes room: the other goals' searches begin anew in their next turns.
+  void DropKept();
   /// Reports a solution of an anytime search the moment it is ready, and each better proof: the
   /// first stops the planning clock, if the request is anytime. If it is not, this is HoldPath. A
   /// better solution of which less is proven than was told before is not told.
@@ -54,6 +68,15 @@ class SearchQuery {
 
  private:
   friend class Planner;
+
+  struct KeptSearch {
+    std::shared_ptr<void> search;
+    std::size_t bytes = 0;
+  };
+  /// ShouldStop, of the request whatever the turn.
+  bool IsOver() const;
+  /// Done so far, of all goals: configurations checked, and steps between them.
+  double Work() const;
 
   Configuration start_;
   GoalBox goal_;
@@ -69,6 +92,10 @@ class SearchQuery {
   double time_limit_s_ = 0;
   /// Of several goals, when it is the next one's turn, unless this one's has led to a path.
   std::optional<double> turn_ends_s_;
+  double turn_ends_work_ = std::numeric_limits<double>::infinity();
+  std::int64_t num_steps_ = 0;    ///< That TurnIsOver was asked between.
+  std::size_t turn_ = 0;          ///< The goal whose turn it is.
+  std::vector<KeptSearch> kept_;  ///< By goal.
   double known_cost_ = std::numeric_limits<double>::infinity();
   /// What was known of the costs of paths to this goal and to the others when its turn began.
   double lower_bound_ = 0;

@@ -57,7 +57,7 @@ class AraSeveralGoalsTest : public testing::Test {
   }
 
   const Configuration start_ = {0.6, 0, 0};
-  const Scene scene_ = PostsScene();
+  Scene scene_ = PostsScene();
   const Robot robot_ = LoadPlanarRobot();
   std::unique_ptr<CollisionChecker> checker_ =
       MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kSpheres);
@@ -138,6 +138,58 @@ TEST_F(AraSeveralGoalsTest, FirstSolutionsAreThoseOfTheGoalAlone) {
   EXPECT_EQ(of_both.path, of_one.path);
   EXPECT_EQ(of_both.counters.at("expansions"), of_one.counters.at("expansions"));
   EXPECT_GE(of_both.epsilon, of_one.epsilon - 1e-9);
+}
+
+/// The nearest three goals are behind walls that no configuration crosses; the way to the last
+/// leads past a post, which a search without guide finds late.
+class WalledInGoalsTest : public AraSeveralGoalsTest {
+ protected:
+  WalledInGoalsTest() {
+    scene_ = WallsScene();
+    AddBox(&scene_, "post", {0, 0.9, 0}, {0.1, 0.1, 0.2});
+  }
+
+  PlanResult PlanFor(const std::vector<Configuration>& goals, const std::string& more = "") const {
+    PlanRequest request = RequestFor(goals);
+    request.anytime = false;
+    return Plan("primitives: " PLANBENCH_SOURCE_DIR
+                "/tests/planner_ara/data/planar3.mprim\n"
+                "discretization: {shoulder: 0.08, elbow: 0.08, wrist: 0.08}\n"
+                "short_primitives_within: everywhere\n"
+                "two_way: false\n"
+                "tip_guide: 0\n"
+                "crowding: 0\n"
+                "refine: false\n" +
+                    more,
+                request);
+  }
+
+  const Configuration free_ = {2.4, 0, 0};
+  const std::vector<Configuration> all_ = {{-0.3, 0, 0}, {-0.4, 0, 0}, {-0.5, 0, 0}, free_};
+};
+
+TEST_F(WalledInGoalsTest, DoNotHoldUpTheWayToAnother) {
+  const PlanResult alone = PlanFor({free_});
+  const PlanResult of_all = PlanFor(all_);
+  ASSERT_EQ(of_all.status, PlanStatus::kSolved) << of_all.message;
+  EXPECT_EQ(of_all.path, alone.path) << "what a turn has interrupted goes on as if it had not";
+  // Each of the others has had as many rounds: with the last of them twice the work, and that of
+  // the first turn. An edge generated is a step at most.
+  const double configurations = alone.counters.at("configurations_checked");
+  const double work = configurations + 10 * alone.counters.at("edges_generated");
+  EXPECT_GT(configurations, 100'000) << "more than a turn";
+  EXPECT_GT(of_all.counters.at("configurations_checked"), 2 * configurations);
+  EXPECT_LT(of_all.counters.at("configurations_checked"),
+            configurations + 3 * (2 * work + 110'000));
+}
+
+TEST_F(WalledInGoalsTest, DoNotTakeItsMemory) {
+  const PlanResult alone = PlanFor({free_}, "memory_limit_mb: 1.5\n");
+  ASSERT_EQ(alone.status, PlanStatus::kSolved) << alone.message;
+  EXPECT_EQ(PlanFor({all_.front()}, "memory_limit_mb: 1.5\n").status, PlanStatus::kMemoryLimit);
+  const PlanResult of_all = PlanFor(all_, "memory_limit_mb: 1.5\n");
+  ASSERT_EQ(of_all.status, PlanStatus::kSolved) << of_all.message;
+  EXPECT_EQ(of_all.path, alone.path);
 }
 
 TEST_F(AraSeveralGoalsTest, WithoutProofTheOthersAreTriedAllTheSame) {

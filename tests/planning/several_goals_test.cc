@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <new>
 #include <span>
 #include <utility>
@@ -93,10 +94,9 @@ TEST_F(SeveralGoals, ShareTheTime) {
   }
   EXPECT_EQ(Plan([](SearchQuery&) { return Ended(PlanStatus::kExhausted); }, request).status,
             PlanStatus::kExhausted);
-  for (const PlanStatus last : {PlanStatus::kCancelled, PlanStatus::kMemoryLimit}) {
-    EXPECT_EQ(Plan([&](SearchQuery&) { return Ended(last); }, request).status, last);
-    EXPECT_EQ(num_searches_, 1);
-  }
+  EXPECT_EQ(Plan([](SearchQuery&) { return Ended(PlanStatus::kCancelled); }, request).status,
+            PlanStatus::kCancelled);
+  EXPECT_EQ(num_searches_, 1);
 
   request.anytime = true;
   const PlanResult solved = Plan(
@@ -109,6 +109,126 @@ TEST_F(SeveralGoals, ShareTheTime) {
       request);
   EXPECT_EQ(solved.status, PlanStatus::kSolved) << solved.message;
   EXPECT_EQ(num_searches_, 1);
+}
+
+TEST_F(SeveralGoals, OneThatTakesAllTheMemoryLeavesTheOthers) {
+  const PlanRequest request = RequestFor({{0.5, 0, 0}, {0.4, 0, 0}, {0.3, 0, 0}});
+  int num_searches = 0;
+  const auto run_out_until = [&](int last, PlanStatus then) {
+    num_searches = 0;
+    return Plan(
+        [&, last, then](SearchQuery& query) {
+          if (++num_searches < last) return Ended(PlanStatus::kMemoryLimit);
+          return then == PlanStatus::kSolved ? StraightLine(query) : Ended(then);
+        },
+        request);
+  };
+  EXPECT_EQ(run_out_until(3, PlanStatus::kSolved).path, (Path{start_, {0.3, 0, 0}}));
+  EXPECT_EQ(run_out_until(3, PlanStatus::kExhausted).status, PlanStatus::kMemoryLimit);
+  EXPECT_EQ(run_out_until(4, PlanStatus::kExhausted).status, PlanStatus::kMemoryLimit);
+  EXPECT_EQ(num_searches_, 3);
+}
+
+/// A search that ends after so many steps, whatever the turns that they take.
+class SteppingSearch {
+ public:
+  explicit SteppingSearch(int num_steps) : num_steps_(num_steps) {}
+
+  SearchResult operator()(SearchQuery& query, PlanStatus end) {
+    auto steps = std::static_pointer_cast<int>(query.TakeKept());
+    if (!steps) steps = std::make_shared<int>(0);
+    turns.push_back({query.goal().nominal[0], 0});
+    while (*steps < num_steps_ && !query.TurnIsOver()) {
+      ++*steps;
+      ++turns.back().num_steps;
+    }
+    if (*steps == num_steps_) {
+      return end == PlanStatus::kSolved ? StraightLine(query) : Ended(end);
+    }
+    query.Keep(steps, 100);
+    return Ended(PlanStatus::kTimedOut);
+  }
+
+  struct Turn {
+    double goal;  // its first joint
+    int num_steps;
+  };
+  std::vector<Turn> turns;
+
+ private:
+  int num_steps_;
+};
+
+TEST_F(SeveralGoals, SearchesThatCanGoOnDoSoInRoundsOfTwiceTheWork) {
+  PlanRequest request = RequestFor({{0.5, 0, 0}, {0.4, 0, 0}, {0.3, 0, 0}});
+  request.time_limit_s = 3600;
+  constexpr int kNumSteps = 25'000;
+  SteppingSearch search(kNumSteps);
+  const auto last_is_solved = [&](SearchQuery& query) {
+    return search(query,
+                  query.goal().nominal[0] == 0.3 ? PlanStatus::kSolved : PlanStatus::kExhausted);
+  };
+  const PlanResult solved = Plan(last_is_solved, request);
+  EXPECT_EQ(solved.path, (Path{start_, {0.3, 0, 0}}));
+  ASSERT_EQ(search.turns.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(search.turns[i].goal, std::vector<double>({0.5, 0.4, 0.3})[i % 3]);
+    EXPECT_EQ(search.turns[i].num_steps,
+              i < 3 ? search.turns[0].num_steps : kNumSteps - search.turns[0].num_steps);
+  }
+  EXPECT_LE(search.turns[3].num_steps, 2 * search.turns[0].num_steps + 1);
+
+  SteppingSearch exhausting(kNumSteps);
+  EXPECT_EQ(
+      Plan([&](SearchQuery& query) { return exhausting(query, PlanStatus::kExhausted); }, request)
+          .status,
+      PlanStatus::kExhausted)
+      << "though each was left for another once";
+
+  // The only one left goes on to its end.
+  SteppingSearch alone(100 * kNumSteps);
+  const auto only_first_is_open = [&](SearchQuery& query) {
+    return query.goal().nominal[0] == 0.5 ? alone(query, PlanStatus::kSolved)
+                                          : Ended(PlanStatus::kExhausted);
+  };
+  EXPECT_EQ(Plan(only_first_is_open, request).status, PlanStatus::kSolved);
+  EXPECT_EQ(alone.turns.size(), 2u);
+  alone.turns.clear();
+  EXPECT_EQ(Plan(only_first_is_open, RequestFor({{0.5, 0, 0}})).status, PlanStatus::kSolved);
+  EXPECT_EQ(alone.turns.size(), 1u);
+}
+
+TEST_F(SeveralGoals, KeptSearchesMakeRoomForOthers) {
+  int num_searches = 0;
+  const auto script = [&](SearchQuery& query) {
+    const std::shared_ptr<void> kept = query.TakeKept();
+    switch (++num_searches) {
+      case 1:
+        EXPECT_EQ(kept, nullptr);
+        EXPECT_EQ(query.KeptBytes(), 0u);
+        query.Keep(std::make_shared<int>(1), 100);
+        return Ended(PlanStatus::kTimedOut);
+      case 2:
+        EXPECT_EQ(query.KeptBytes(), 100u);
+        query.DropKept();
+        EXPECT_EQ(query.KeptBytes(), 0u);
+        query.Keep(std::make_shared<int>(2), 50);
+        return Ended(PlanStatus::kTimedOut);
+      case 3:
+        EXPECT_EQ(query.goal().nominal[0], 0.5);
+        EXPECT_EQ(kept, nullptr) << "begins anew";
+        EXPECT_EQ(query.KeptBytes(), 50u);
+        return Ended(PlanStatus::kExhausted);
+      default:
+        EXPECT_EQ(query.KeptBytes(), 0u) << "one's own does not count";
+        EXPECT_EQ(*std::static_pointer_cast<int>(kept), 2);
+        return StraightLine(query);
+    }
+  };
+  const PlanResult result = Plan(script, RequestFor({{0.5, 0, 0}, {0.4, 0, 0}}));
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(num_searches, 4);
 }
 
 /// Proves for goals in the order of their costs, which are 2 a rad of the first joint.
@@ -228,6 +348,32 @@ TEST_F(SeveralGoals, WhatWasExhaustedIsNotTakenUpWithAPath) {
   EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
   ASSERT_EQ(num_searches, 4);
   EXPECT_EQ(planner.tried.back(), planner.tried.front());
+}
+
+TEST_F(SeveralGoals, WithAPathTheTurnsGoOnWithThoseThatStandAgainstTheBound) {
+  // At least 2, 4 and 8.
+  PlanRequest request = RequestFor({{0.6 - 1, 0, 0}, {0.6 - 2, 0, 0}, {0.6 - 4, 0, 0}});
+  request.anytime = true;
+  int num_searches = 0;
+  ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+    const bool goes_on = query.TakeKept() != nullptr;
+    EXPECT_EQ(goes_on, ++num_searches > 2);
+    if (!goes_on) query.Keep(std::make_shared<int>(), 1);
+    SearchResult result = num_searches == 2 ? Ended(PlanStatus::kTimedOut) : StraightLine(query);
+    result.wanted_epsilon = 1;
+    result.cost = num_searches == 4 ? 6 : 7;
+    result.lower_bound = num_searches == 1 ? 3 : num_searches == 2 ? 5 : result.cost;
+    if (num_searches != 2) query.ReportSolution(result.lower_bound, result.cost, 1);
+    return result;
+  });
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  ASSERT_EQ(planner.tried.size(), 4u) << "two of both, none of the third goal";
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(planner.tried[i], i % 2 == 0 ? -0.4 : -1.4, 1e-9);
+  EXPECT_EQ(planner.known, (std::vector<double>{kInfinity, 7, 7, 7}));
+  EXPECT_EQ(result.cost, 6);
+  EXPECT_EQ(result.epsilon, 1);
+  EXPECT_EQ(result.path, (Path{start_, {0.6 - 2, 0, 0}}));
 }
 
 TEST_F(SeveralGoals, APathInHandOutlivesTheMemoryOfAFurtherSearch) {
