@@ -175,6 +175,21 @@ TEST_F(TwoWaySearchTest, ShortensAPathOnlyIfItIsNotGoodEnough) {
   ExpectJoins(search.path(), search.cost());
 }
 
+TEST_F(TwoWaySearchTest, ShortensAPathOnceItMay) {
+  TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+  ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
+  const double first = search.cost();
+  const double epsilon = BoundOf(search) - 1e-6;
+  ASSERT_EQ(search.Improve(
+                epsilon, [] { return true; }, kSilent),
+            ImproveOutcome::kStopped);
+  EXPECT_EQ(search.cost(), first);
+  const auto num_expansions = search.counts().expansions;
+  ASSERT_EQ(search.Improve(epsilon, kGoOn, kSilent), ImproveOutcome::kConverged);
+  EXPECT_LT(search.cost(), first);
+  EXPECT_EQ(search.counts().expansions, num_expansions) << "by shortening alone";
+}
+
 TEST_F(TwoWaySearchTest, FirstPathIsFoundInTheSameWayWhateverTheEpsilon) {
   const auto first_cost = [&](double epsilon) {
     TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
