@@ -15,7 +15,7 @@ namespace {
 
 struct Bounds {
   double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double most = 1e6;  // The most that OMPL suggests for any. Far beyond, its arithmetic overflows.
   bool integers = false;
 };
 
@@ -29,8 +29,9 @@ std::optional<double> FiniteNumber(std::string_view text) {
 }
 
 /// OMPL suggests "first:last" or "first:step:last", which is where to look for good values, not
-/// where others have no meaning: only its signs and shares are taken for limits. Without a point it
-/// means integers.
+/// where others have no meaning: of numbers, only its signs and shares are taken for limits.
+/// Without a point it means integers. OMPL counts, reserves memory and chooses by those without a
+/// check: beyond the last it takes all memory or all time, and at 0 it may crash.
 Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
   Bounds bounds;
   const std::optional<double> first = FiniteNumber(suggestion.substr(0, suggestion.find(':')));
@@ -39,6 +40,7 @@ Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
     bounds.integers = suggestion.find('.') == std::string::npos;
     if (*first >= 0) bounds.least = 0;
     if (*first >= 0 && *last == 1) bounds.most = 1;
+    if (bounds.integers) bounds = {std::min(*first, 1.0), *last, true};
   }
   if (name == "range") bounds.least = 0;
   for (const char* share : {"bias", "fraction", "probability"}) {
@@ -63,9 +65,9 @@ std::string WhyRefused(const ompl::base::GenericParam& parameter, const std::str
     return fmt::format("{} is no whole number", value);
   }
   if (*number < bounds.least || *number > bounds.most) {
-    return std::isfinite(bounds.most)
+    return std::isfinite(bounds.least)
                ? fmt::format("{} is not from {} to {}", value, bounds.least, bounds.most)
-               : fmt::format("{} is negative", value);
+               : fmt::format("{} is more than {}", value, bounds.most);
   }
   return "";
 }

@@ -11,6 +11,7 @@
 #include <ompl/base/samplers/informed/RejectionInfSampler.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/Console.h>
+#include <ompl/util/Exception.h>
 #include <ompl/util/RandomNumbers.h>
 #include <spdlog/spdlog.h>
 
@@ -193,9 +194,8 @@ class OmplPlanner::Workspace {
       ompl::RNG::setSeed(OmplSeed(query.seed()));
     }
     const ob::ProblemDefinitionPtr problem = MakeProblem(query);
-    const auto objective = std::make_shared<PathLengthObjective>(si_);
+    const ob::OptimizationObjectivePtr& objective = problem->getOptimizationObjective();
     objective->setCostThreshold(query.anytime() ? ob::Cost(0) : objective->infiniteCost());
-    problem->setOptimizationObjective(objective);
     double best = std::numeric_limits<double>::infinity();
     problem->setIntermediateSolutionCallback(
         [&](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
@@ -203,9 +203,7 @@ class OmplPlanner::Workspace {
           best = cost.value();
           query.ReportSolution(/*lower_bound=*/0, best, space_->num_samples());
         });
-    const ob::PlannerPtr planner = MakePlanner(settings, "settings");
-    planner->setProblemDefinition(problem);
-    planner->setup();
+    const ob::PlannerPtr planner = MakePlanner(settings, "settings", problem);
     const ob::PlannerStatus status =
         planner->solve(ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
 
@@ -233,6 +231,12 @@ class OmplPlanner::Workspace {
   }
 
   double Extent() const { return space_->getMaximumExtent(); }
+  /// Without a start and a goal.
+  ob::ProblemDefinitionPtr EmptyProblem() const {
+    auto problem = std::make_shared<ob::ProblemDefinition>(si_);
+    problem->setOptimizationObjective(std::make_shared<PathLengthObjective>(si_));
+    return problem;
+  }
 
   /// Whether the planner limits motions as the setting `range` says. Where a roadmap has a
   /// parameter of this name, it limits how far neighbours may be apart, which is another matter.
@@ -241,9 +245,10 @@ class OmplPlanner::Workspace {
            planner.params().hasParam("range");
   }
 
-  /// OMPL's planner with the settings' range and parameters. Throws InputError, prefixed by
-  /// `origin`, for parameters that it refuses.
-  ob::PlannerPtr MakePlanner(const RrtcSettings& settings, const std::string& origin) const {
+  /// OMPL's planner with the settings' range and parameters, set up for the problem. Throws
+  /// InputError, prefixed by `origin`, for parameters that it refuses.
+  ob::PlannerPtr MakePlanner(const RrtcSettings& settings, const std::string& origin,
+                             const ob::ProblemDefinitionPtr& problem) const {
     ob::PlannerPtr planner = settings.ompl_algorithm->make(si_);
     ob::ParamSet& parameters = planner->params();
     if (settings.range && HasRange(*settings.ompl_algorithm, *planner)) {
@@ -267,12 +272,19 @@ class OmplPlanner::Workspace {
             fmt::format("{}: ompl.{}: '{}' is no value of this parameter", origin, key, value));
       }
     }
+    planner->setProblemDefinition(problem);
+    try {
+      planner->setup();
+    } catch (const ompl::Exception& error) {  // Some parameters are looked at here only.
+      throw InputError(fmt::format("{}: {} cannot be set up: {}", origin, settings.AlgorithmName(),
+                                   error.what()));
+    }
     return planner;
   }
 
  private:
   ob::ProblemDefinitionPtr MakeProblem(const SearchQuery& query) const {
-    auto problem = std::make_shared<ob::ProblemDefinition>(si_);
+    const ob::ProblemDefinitionPtr problem = EmptyProblem();
     ob::State* start = space_->allocState();
     space_->SetPositions(start, query.start());
     problem->addStartState(start);
@@ -303,7 +315,9 @@ OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::s
     workspaces_[&group.space] = std::make_unique<Workspace>(group.space, settings_.metric);
   }
   // Refuses bad parameters now rather than at the first request.
-  const ob::PlannerPtr planner = workspaces_.begin()->second->MakePlanner(settings_, origin);
+  const Workspace& workspace = *workspaces_.begin()->second;
+  const OmplSilence silence;  // It would miss a start and a goal.
+  const ob::PlannerPtr planner = workspace.MakePlanner(settings_, origin, workspace.EmptyProblem());
   has_range_ = Workspace::HasRange(*settings_.ompl_algorithm, *planner);
 }
 

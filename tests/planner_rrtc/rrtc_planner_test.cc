@@ -138,6 +138,18 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: KPIECE1\nompl: {min_valid_path_fraction: -0.1}",
                  {"min_valid_path_fraction", "-0.1", "from 0 to 1"});
   expect_refused("algorithm: TRRT\nompl: {init_temperature: -inf}", {"init_temperature", "finite"});
+  expect_refused("algorithm: BITstar\nompl: {samples_per_batch: 4000000000}",
+                 {"samples_per_batch: 4000000000 is not from 1 to 1000000"});
+  expect_refused("algorithm: LazyPRM\nompl: {max_nearest_neighbors: 5000000000}",
+                 {"5000000000 is not from 1 to 1000"});
+  expect_refused("algorithm: STRIDE\nompl: {degree: 0}", {"0 is not from 1 to 20"});
+  expect_refused("algorithm: RRTsharp\nompl: {rejection_variant: 4}", {"4 is not from 0 to 3"});
+  expect_refused("algorithm: RRTstar\nompl: {rewire_factor: 1e300}",
+                 {"1e300 is not from 0 to 1000000"});
+  expect_refused("algorithm: TRRT\nompl: {init_temperature: 1e300}",
+                 {"1e300 is more than 1000000"});
+  expect_refused("algorithm: KPIECE1\nompl: {failed_expansion_score_factor: 5}",
+                 {"rrtc.yaml", "KPIECE1 cannot be set up", "score factor must be in the range"});
   expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
   expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
   expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
@@ -238,6 +250,9 @@ TEST_F(RrtcPlannerTest, DefaultsAndChoicesOfOmplsParametersAreAccepted) {
        {"{algorithm: RRT, ompl: {goal_bias: 0, intermediate_states: true}}",
         "{algorithm: RRTstar, ompl: {goal_bias: 1, rewire_factor: 1.1, use_k_nearest: 0}}",
         "{algorithm: BITstar, ompl: {samples_per_batch: 100, rewire_factor: 1.1}}",
+        "{algorithm: LazyPRM, ompl: {max_nearest_neighbors: 5, range: 10000}}",
+        "{algorithm: RRTsharp, ompl: {rejection_variant: 0}}",
+        "{algorithm: ABITstar, ompl: {initial_inflation_factor: 1e6}}",
         "{algorithm: TRRT, ompl: {init_temperature: 100, temp_change_factor: 0.1}}"}) {
     EXPECT_NO_THROW(MakeRrtcPlanner(robot_, Settings(text))) << text;
   }
