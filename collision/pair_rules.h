@@ -10,10 +10,10 @@ namespace planbench {
 
 /// Which pairs of bodies an engine checks. Excluded are pairs of links that are rigid to each
 /// other, that the robot's allowed_pairs name, or that the scene's matrix allows, and those that a
-/// joint connects, unless the robot's checked_pairs name them or an entry of the matrix says that
-/// they may not touch; an attached object with its link, its touch links, another object attached
-/// to the same link, and whatever the matrix allows by its id. Refers to the robot and the scene,
-/// which must outlive it.
+/// joint connects (RobotModel::Joined), unless the robot's checked_pairs name them or an entry of
+/// the matrix says that they may not touch; an attached object with its link, its touch links,
+/// another object attached to the same link, and whatever the matrix allows by its id. Refers to
+/// the robot and the scene, which must outlive it.
 class PairRules {
  public:
   /// Throws InputError, naming the object, if an attached object is on an unknown link.

@@ -126,8 +126,8 @@ void ReadCheckedPairs(const YamlNode& node, Robot* robot) {
     if (!robot->model.Joined(a, b)) {
       element.Fail(robot->model.Rigid(a, b)
                        ? "the two links are rigid to each other: they are never checked"
-                       : "no joint connects the two links: they are checked unless allowed_pairs "
-                         "names them");
+                       : "no joint keeps the two links together: they are checked unless "
+                         "allowed_pairs names them");
     }
     if (robot->NeverChecks(a, b)) {
       element.Fail("the pair is among those that are never checked (allowed_pairs, or the SRDF's)");

@@ -81,7 +81,8 @@ struct Robot {
   /// to each other, or allowed_pairs names them.
   bool NeverChecks(int link_a, int link_b) const;
   /// Whether two links are checked against each other where a scene does not say: all but those
-  /// that are never checked, and those that a joint connects, unless checked_pairs names them.
+  /// that are never checked, and those that a joint connects (RobotModel::Joined), unless
+  /// checked_pairs names them.
   bool ChecksLinks(int link_a, int link_b) const;
 };
 

@@ -89,10 +89,12 @@ bool RobotModel::Rigid(int link_a, int link_b) const {
 
 bool RobotModel::Joined(int link_a, int link_b) const {
   const auto is_parent_of = [this](int parent, int child) {
-    const int joint = links_[static_cast<std::size_t>(child)].parent_joint;
-    return joint >= 0 && joints_[static_cast<std::size_t>(joint)].parent_link == parent;
+    const int index = links_[static_cast<std::size_t>(child)].parent_joint;
+    if (index < 0) return false;
+    const Joint& joint = joints_[static_cast<std::size_t>(index)];
+    return joint.parent_link == parent && NumPositions(joint.type) == 1;
   };
-  return !Rigid(link_a, link_b) && (is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a));
+  return is_parent_of(link_a, link_b) || is_parent_of(link_b, link_a);
 }
 
 std::vector<double> RobotModel::DefaultPositions() const {

@@ -132,7 +132,8 @@ class RobotModel {
 
   /// True if nothing but fixed joints stands between the two links, or they are the same.
   bool Rigid(int link_a, int link_b) const;
-  /// True if a joint that is not fixed connects the two links.
+  /// True if a joint connects the two links and keeps them together, but lets them move: not a
+  /// fixed one, nor a planar or floating one, which may have them anywhere.
   bool Joined(int link_a, int link_b) const;
   /// Full positions with every joint at zero, or at the nearest limit to zero; planar and floating
   /// joints at the identity.

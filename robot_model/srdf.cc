@@ -512,7 +512,7 @@ class SrdfReader {
     for (const Joint& joint : model_.joints()) {
       const std::pair<int, int> pair = std::minmax(joint.parent_link, joint.child_link);
       const bool is_left = !disabled.empty() && !disabled.contains(pair);
-      if (joint.type != JointType::kFixed && (is_left || enabled.contains(pair))) {
+      if (model_.Joined(pair.first, pair.second) && (is_left || enabled.contains(pair))) {
         srdf_.checked_pairs.push_back(pair);
       }
     }

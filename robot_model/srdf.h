@@ -33,9 +33,9 @@ struct Srdf {
   /// disabled, as in MoveIt.
   std::vector<std::pair<int, int>> disabled_pairs;
   std::vector<std::pair<int, int>> enabled_pairs;  ///< Of <enable_collisions>, likewise.
-  /// Links, likewise, that a joint connects and that are checked all the same: enabled pairs, and,
-  /// in a file that disables some, those that it does not: as MoveIt takes it, whose Setup
-  /// Assistant writes them as disabled ("Adjacent").
+  /// Links, likewise, that a joint connects (RobotModel::Joined) and that are checked all the same:
+  /// enabled pairs, and, in a file that disables some, those that it does not: as MoveIt takes it,
+  /// whose Setup Assistant writes them as disabled ("Adjacent").
   std::vector<std::pair<int, int>> checked_pairs;
   std::vector<LinkSphere> spheres;  ///< Approximations, sorted by link.
   /// What of the file does not count, or contradicts the rest, one line each: the name of another

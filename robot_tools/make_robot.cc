@@ -415,7 +415,8 @@ class RobotMaker {
     const LinkPairs held = samples.HeldInContact();
     if (!held.empty()) {
       Say("    the group does not move these, which touch as other joints stand by default: {}; "
-          "give those another position in the problems; without these pairs {} of {} are free",
+          "give those another position in the problems, or, if they are to touch, name them in "
+          "allowed_pairs; without these pairs {} of {} are free",
           FirstNames(held), samples.free_if_moved, samples.samples);
     }
     if (2 * samples.free_if_moved > samples.samples) return;

@@ -47,6 +47,39 @@ TEST(LoadRobot, PairsThatAJointConnectsAreCheckedIfSrdfOrFolderSaysSo) {
       {"robot.yaml:4: checked_pairs[0]", "never checked"});
 }
 
+TEST(LoadRobot, LinksThatAPlanarOrFloatingJointConnectsAreChecked) {
+  const TemporaryFolder folder;
+  folder.Write("cart.urdf", R"(<robot name="cart">
+    <link name="floor"/><link name="cart"/><link name="tray"/><link name="arm"/>
+    <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/></joint>
+    <joint name="lie" type="floating"><parent link="cart"/><child link="tray"/></joint>
+    <joint name="turn" type="continuous"><parent link="cart"/><child link="arm"/></joint>
+  </robot>)");
+  const auto load = [&](const std::string& pairs) {
+    folder.Write("robot.yaml",
+                 "name: cart\nurdf: cart.urdf\ngroups:\n"
+                 "  - {name: all, joints: [turn], tip_link: arm}\n" +
+                     pairs);
+    return LoadRobot(folder.path());
+  };
+  const auto checks = [&](const std::string& pairs, const char* a, const char* b) {
+    const Robot robot = load(pairs);
+    return robot.ChecksLinks(robot.model.FindLink(a), robot.model.FindLink(b));
+  };
+  EXPECT_TRUE(checks("", "floor", "cart"));
+  EXPECT_TRUE(checks("", "tray", "cart"));
+  EXPECT_FALSE(checks("", "arm", "cart"));
+  EXPECT_FALSE(checks("allowed_pairs: [[cart, tray]]\n", "tray", "cart"));
+  ExpectInputError([&] { load("checked_pairs: [[cart, tray]]\n"); },
+                   {"robot.yaml:5: checked_pairs[0]", "they are checked unless allowed_pairs"});
+
+  const std::string srdf = "<robot name='cart'><disable_collisions link1='tray' link2='";
+  folder.Write("cart.srdf", srdf + "cart'/></robot>");
+  EXPECT_FALSE(checks("srdf: cart.srdf\n", "tray", "cart"));
+  folder.Write("cart.srdf", srdf + "floor'/></robot>");
+  EXPECT_TRUE(checks("srdf: cart.srdf\n", "tray", "cart"));
+}
+
 TEST(LoadRobot, PairsThatAnSrdfLeavesCheckedAreNamed) {
   std::string urdf = "<robot name='row'><link name='frame'/>";
   std::string from = "frame";

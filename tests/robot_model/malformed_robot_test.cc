@@ -126,7 +126,7 @@ const MalformedFolder kMalformedRobots[] = {
     {"CheckedPairThatNoJointConnects",
      "allowed_pairs: [[base, hand]]",
      "checked_pairs: [[hand, base]]",
-     {":9:", "checked_pairs[0]", "no joint connects"}},
+     {":9:", "checked_pairs[0]", "no joint keeps the two"}},
     {"CheckedPairOfUnknownLink",
      "allowed_pairs: [[base, hand]]",
      "checked_pairs: [[base, claw]]",

@@ -507,9 +507,10 @@ TEST_F(MakeRobotTest, LinksAcrossAPlanarOrFloatingJointStayChecked) {
   };
   EXPECT_THAT(Make(),
               AllOf(HasSubstr("of all joints but planar and floating ones"),
-                    HasSubstr("4 pairs checked, whatever was sampled"), HasSubstr("(drive, lie)")));
+                    HasSubstr("5 pairs checked, whatever was sampled"), HasSubstr("(drive, lie)")));
   EXPECT_TRUE(checks("arm2", "cart"));
   EXPECT_TRUE(checks("arm1", "tray"));
+  EXPECT_TRUE(checks("cart", "tray"));
   // In contact by default, and so in every sample.
   Srdf(
       "<robot name='crane'><group name='jib'><chain base_link='floor' tip_link='arm2'/></group>"
