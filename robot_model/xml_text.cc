@@ -67,6 +67,9 @@ class TagChecker {
       Fail(tag.line, fmt::format("<{}>: the byte {} is no UTF-8; the file must be UTF-8 text",
                                  tag.element, tag.text.substr(*bad, 1)));
     }
+    if (HasControl(tag.text, "\n\r\t")) {
+      Fail(tag.line, fmt::format("<{}>: a control character is in it: {}", tag.element, tag.text));
+    }
     if (open_.empty() && has_outermost_) {
       Fail(tag.line, fmt::format("<{}> stands after the outermost element, of which XML has one",
                                  tag.element));
@@ -85,6 +88,12 @@ class TagChecker {
     }
     std::set<std::string_view> names;
     for (const XmlAttribute& attribute : tag.Attributes()) {
+      const std::string_view value = attribute.value;
+      if (attribute.name == "name" && (FindNameFault(value) || value.find("&#") != value.npos)) {
+        Fail(tag.line, fmt::format("{}<{}>: the name '{}' must be one line without tabs, other "
+                                   "control characters and references to characters (&#...;)",
+                                   Place(), tag.element, value));
+      }
       if (names.insert(attribute.name).second) continue;
       Fail(tag.line,
            fmt::format("{}<{}>: has the attribute {} twice", Place(), tag.element, attribute.name));

@@ -514,6 +514,13 @@ INSTANTIATE_TEST_SUITE_P(
                       "<link_sphere_approximation link='l1'><sphere center='0 0 0' radius='-1'/>"
                       "</link_sphere_approximation>",
                       {":2", "radius", "-1"}},
+        MalformedSrdf{"group_that_turns_direction",
+                      "\n<group name='\xe2\x81\xa6' />",
+                      {":3", "<group>", "control character"}},
+        MalformedSrdf{"state_of_two_lines",
+                      "<group name='a'><joint name='lift'/></group>\n"
+                      "<group_state name='up\ndown' group='a'/>",
+                      {":3", "<group_state>", "one line"}},
         MalformedSrdf{"not_closed", "<group name='a'>", {":", "<group>"}},
         MalformedSrdf{"xacro", "<xacro:include filename='x'/>", {":2", "xacro"}}),
     [](const auto& test) { return test.param.name; });
