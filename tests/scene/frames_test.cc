@@ -330,6 +330,18 @@ TEST(Frames, OfObjectsWhoseNamesBeginWithASlash) {
   };
   for (const char* frame : {"table", "/table"}) ExpectAt(ball(frame), 1, 0, 1);
   for (const char* frame : {"table/edge", "/table/edge"}) ExpectAt(ball(frame), 1, 2, 1);
+
+  // Of two that differ in it alone nobody could say which a frame means.
+  const std::string two = Replaced(WithTable(BallIn("base_link")), "id: ball", "id: /table");
+  ExpectInputError([&] { Ball(two); }, {"scene.yaml:", ": world.collision_objects[1].id: ",
+                                        "the object 'table' has a frame 'table' already"});
+  const std::string attached =
+      Replaced(kBallRequest, "start_state: {",
+               "start_state: {attached_collision_objects: [{link_name: gripper_link, object: {id: "
+               "/table, primitives: [{type: sphere, dimensions: [0.1]}], primitive_poses: "
+               "[{position: [0, 0, 0], orientation: [0, 0, 0, 1]}]}}], ");
+  ExpectInputError([&] { Ball(WithTable(BallIn("base_link")), attached); },
+                   {"request.yaml:", "object.id: ", "'table' has a frame 'table' already"});
 }
 
 TEST(Frames, OfObjectsComeBeforeFixedOnesOfTheirName) {
