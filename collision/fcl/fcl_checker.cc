@@ -106,9 +106,11 @@ void FclChecker::AddGeometry(Geometry geometry) {
     geometry.box_half_size = geometry.shape->box_half_size();
     geometry.pose = static_cast<int>(poses_.size());
     poses_.push_back(geometry.X_GS);
-    if (geometry.rigid_body != 0) moving_shapes_.push_back(static_cast<int>(geometries_.size()));
   }
+  if (geometry.rigid_body != 0) moving_.push_back(static_cast<int>(geometries_.size()));
   geometries_.push_back(geometry);
+  // Of what does not move, once for all.
+  ball_positions_.push_back(At(poses_, geometry.pose) * geometry.ball_center);
 }
 
 void FclChecker::AddLink(const LinkShapes& link) {
@@ -147,7 +149,8 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
   geometries_.clear();
   trees_.clear();
   object_shapes_.clear();
-  moving_shapes_.clear();
+  moving_.clear();
+  ball_positions_.clear();
   node_positions_.clear();
   poses_.assign(static_cast<std::size_t>(rigid_bodies_->size()), Pose());
 
@@ -168,7 +171,6 @@ MotionBound FclChecker::DoSetScene(const Scene& scene, std::span<const double> b
               rigid_bodies_->X_GL(link) * Pose::From(attached.object.X_WO), attached.object.shapes,
               attached.object.id);
   }
-  ball_positions_.assign(geometries_.size(), Eigen::Vector3d::Zero());
   placed_at_.assign(geometries_.size(), -1);
   geometry_bound_->Set(scene, base_positions);
   ListPairs(scene);
@@ -199,26 +201,34 @@ bool FclChecker::ChecksBodies(const PairRules& rules, const Scene& scene, const 
 
 void FclChecker::ListPairs(const Scene& scene) {
   const PairRules rules(robot(), scene);
-  const std::size_t num_bodies = bodies_.size();
-  std::vector<unsigned char> checked(num_bodies * num_bodies, 0);
-  for (std::size_t a = 0; a < num_bodies; ++a) {
-    for (std::size_t b = a + 1; b < num_bodies; ++b) {
-      checked[a * num_bodies + b] = ChecksBodies(rules, scene, bodies_[a], bodies_[b]) ? 1 : 0;
-    }
-  }
+  const int num_bodies = static_cast<int>(bodies_.size());
+  const int num_geometries = static_cast<int>(geometries_.size());
+  // Objects, of which there may be many, are checked with nothing but what comes after all of them.
+  const int first_attached = num_bodies - static_cast<int>(scene.attached.size());
+  const auto first_of_attached = static_cast<int>(
+      std::partition_point(geometries_.begin(), geometries_.end(),
+                           [&](const Geometry& g) { return g.body < first_attached; }) -
+      geometries_.begin());
 
   pairs_.clear();
   reaches_.clear();
   std::vector<Pair> standing;
-  const int num_geometries = static_cast<int>(geometries_.size());
+  int body = -1;
+  std::vector<unsigned char> checked(bodies_.size(), 0);  // with that body, of those after it
   for (int g = 0; g < num_geometries; ++g) {
-    for (int h = g + 1; h < num_geometries; ++h) {
-      const Geometry& a = At(geometries_, g);
-      const Geometry& b = At(geometries_, h);
-      if (At(checked, static_cast<std::size_t>(a.body) * num_bodies +
-                          static_cast<std::size_t>(b.body)) == 0) {
-        continue;
+    const Geometry& a = At(geometries_, g);
+    const bool is_object = At(bodies_, a.body).kind == Body::Kind::kObject;
+    if (a.body != body) {
+      body = a.body;
+      At(checked, body) = 0;
+      for (int b = is_object ? first_attached : body + 1; b < num_bodies; ++b) {
+        At(checked, b) = ChecksBodies(rules, scene, At(bodies_, body), At(bodies_, b)) ? 1 : 0;
       }
+    }
+    int reach_to_objects = -1;  // is that to any of them
+    for (int h = is_object ? first_of_attached : g + 1; h < num_geometries; ++h) {
+      const Geometry& b = At(geometries_, h);
+      if (At(checked, b.body) == 0) continue;
       const bool b_is_source =
           b.tree != nullptr && (a.tree == nullptr || b.tree->num_spheres() < a.tree->num_spheres());
       Pair pair{b_is_source ? h : g, b_is_source ? g : h, !OutOfReach(a, b) && !OutOfReach(b, a)};
@@ -226,8 +236,9 @@ void FclChecker::ListPairs(const Scene& scene) {
         standing.push_back(pair);
         continue;
       }
-      pair.reach = static_cast<int>(reaches_.size());
-      AddReach(a, b);
+      const bool is_to_object = At(bodies_, b.body).kind == Body::Kind::kObject;
+      pair.reach = is_to_object && reach_to_objects >= 0 ? reach_to_objects : AddReach(a, b);
+      if (is_to_object) reach_to_objects = pair.reach;
       pairs_.push_back(pair);
     }
   }
@@ -243,11 +254,10 @@ void FclChecker::ListPairs(const Scene& scene) {
     const double distance = Distance(pair, standing_closest_.distance_m);
     if (distance < standing_closest_.distance_m) SetClosest(pair, distance, &standing_closest_);
   }
-  by_bound_.reserve(pairs_.size());
   last_closest_ = {};
 }
 
-void FclChecker::AddReach(const Geometry& a, const Geometry& b) {
+int FclChecker::AddReach(const Geometry& a, const Geometry& b) {
   const std::size_t first = reaches_.size();
   reaches_.resize(first + group().joints.size(), 0.0);
   for (const auto& [moving, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
@@ -261,6 +271,7 @@ void FclChecker::AddReach(const Geometry& a, const Geometry& b) {
       At(reaches_, first + static_cast<std::size_t>(joint)) = At(bound.reach(), joint);
     }
   }
+  return static_cast<int>(first);
 }
 
 template <typename Takes>
@@ -299,13 +310,11 @@ void FclChecker::Place(std::span<const double> q) {
   ++placement_;
   rigid_bodies_->ComputePoses(
       q, std::span(poses_).first(static_cast<std::size_t>(rigid_bodies_->size())));
-  for (int g : moving_shapes_) {
+  for (int g : moving_) {
     const Geometry& geometry = At(geometries_, g);
-    At(poses_, geometry.pose) = At(poses_, geometry.rigid_body) * geometry.X_GS;
-  }
-  for (std::size_t g = 0; g < geometries_.size(); ++g) {
-    const Geometry& geometry = geometries_[g];
-    ball_positions_[g] = At(poses_, geometry.pose) * geometry.ball_center;
+    Pose& X_WS = At(poses_, geometry.pose);
+    if (geometry.tree == nullptr) X_WS = At(poses_, geometry.rigid_body) * geometry.X_GS;
+    At(ball_positions_, g) = X_WS * geometry.ball_center;
   }
 }
 
@@ -503,11 +512,6 @@ double FclChecker::LastClosestNow(std::span<const double> q, double at_most) {
 
 ClosestPair FclChecker::FindClosestWithin(std::span<const double> q, double at_most) {
   Place(q);
-  by_bound_.clear();
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    by_bound_.emplace_back(DistanceBound(pairs_[i]), static_cast<int>(i));
-  }
-  std::sort(by_bound_.begin(), by_bound_.end());
   double best = std::min(at_most, standing_closest_.distance_m);
   // Along a path the pair that was closest mostly is: what is further needs no distance. Ties still
   // go to the first by its bound, whatever was asked before.
@@ -517,6 +521,12 @@ ClosestPair FclChecker::FindClosestWithin(std::span<const double> q, double at_m
     of_last = LastClosestNow(q, best);
     best = std::min(best, std::nextafter(of_last, kInfinity));
   }
+  by_bound_.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const double bound = DistanceBound(pairs_[i]);
+    if (bound - kRoundingMargin < best) by_bound_.emplace_back(bound, static_cast<int>(i));
+  }
+  std::sort(by_bound_.begin(), by_bound_.end());
   int best_pair = -1;
   for (const auto& [bound, index] : by_bound_) {
     if (bound - kRoundingMargin >= best) break;

@@ -92,7 +92,8 @@ class FclChecker : public CollisionChecker {
     int source;
     int target;
     bool can_meet;
-    int reach = 0;  // where the bound on its relative motion begins in reaches_
+    int reach =
+        0;  // where the bound on its relative motion begins in reaches_; others may share it
   };
   /// Indices into pairs_: those that can meet (often hit first), then the others.
   struct PairList {
@@ -108,7 +109,8 @@ class FclChecker : public CollisionChecker {
   bool ChecksBodies(const class PairRules& rules, const Scene& scene, const Body& a,
                     const Body& b) const;
   bool OutOfReach(const Geometry& moving, const Geometry& carrier) const;
-  void AddReach(const Geometry& a, const Geometry& b);
+  /// Returns where it begins in reaches_.
+  int AddReach(const Geometry& a, const Geometry& b);
   template <typename Takes>
   PairList List(Takes takes) const;
 
@@ -141,13 +143,13 @@ class FclChecker : public CollisionChecker {
   std::vector<Pair> pairs_;                  // whose relative pose varies, in fixed order
   std::optional<Contact> standing_contact_;  // of pairs whose relative pose does not vary
   ClosestPair standing_closest_;
-  std::vector<double> reaches_;  // m/rad: n values by pair, see MotionBound
+  std::vector<double> reaches_;  // m/rad: n values each, see MotionBound
   PairList all_;
   PairList selected_;
 
   // Of the configuration checked last.
-  std::vector<Pose> poses_;         // rigid bodies, then shapes
-  std::vector<int> moving_shapes_;  // geometries whose shape's pose follows a moving body
+  std::vector<Pose> poses_;                      // rigid bodies, then shapes
+  std::vector<int> moving_;                      // geometries that are fixed to a moving body
   std::vector<Eigen::Vector3d> ball_positions_;  // in W, by geometry
   std::vector<Eigen::Vector3d> node_positions_;  // in W, see Geometry::first_node
   std::vector<std::int64_t> placed_at_;  // by geometry: the value of placement_ its nodes are of
