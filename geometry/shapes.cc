@@ -7,12 +7,16 @@
 #include <limits>
 #include <utility>
 
+#include "common/content_hash.h"
 #include "common/error.h"
 
 namespace planbench {
 namespace {
 
 using Eigen::Vector3d;
+
+// Changes with the layout of what is hashed, so that ids of different layouts never meet.
+constexpr const char* kMeshLayout = "planbench mesh 1";
 
 double FarthestDistance(const TriangleMesh& mesh, const Vector3d& from) {
   double farthest = 0;
@@ -121,6 +125,20 @@ struct TypeNameOf {
 
 }  // namespace
 
+std::string MeshId(const TriangleMesh& mesh) {
+  ContentHash hash;
+  hash.Add(kMeshLayout);
+  hash.Add(mesh.vertices.size());
+  for (const Vector3d& vertex : mesh.vertices) {
+    for (const double coordinate : vertex) hash.Add(coordinate);
+  }
+  hash.Add(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) hash.Add(static_cast<std::int64_t>(index));
+  }
+  return hash.HexDigest();
+}
+
 SharedMesh::SharedMesh() {
   static const SharedMesh empty = TriangleMesh();
   content_ = empty.content_;
@@ -134,12 +152,9 @@ SharedMesh::SharedMesh(TriangleMesh mesh) {
       for (const std::uint32_t index : triangle) content.box.extend(mesh.vertices[index]);
     }
   }
+  content.id = MeshId(mesh);
   content.mesh = std::move(mesh);
   content_ = std::make_shared<const Content>(std::move(content));
-}
-
-bool SharedMesh::operator==(const SharedMesh& other) const {
-  return content_ == other.content_ || content_->mesh == other.content_->mesh;
 }
 
 std::string ShapeTypeName(const Shape& shape) { return std::visit(TypeNameOf{}, shape); }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -56,25 +57,40 @@ struct TriangleMesh {
   bool operator==(const TriangleMesh&) const = default;
 };
 
-/// A mesh that its copies share and that nobody changes; without triangles by default.
+/// Content hash of a mesh's scaled vertices and triangles, 32 hexadecimal digits.
+std::string MeshId(const TriangleMesh& mesh);
+
+/// A mesh that its copies share and that nobody changes; without triangles by default. What is
+/// known of it is found out once.
 class SharedMesh {
+  struct Content;
+
  public:
+  /// Finds a mesh again for as long as a copy of it is left.
+  using Weak = std::weak_ptr<const Content>;
+
   SharedMesh();
   SharedMesh(TriangleMesh mesh);  // NOLINT(google-explicit-constructor): it is the same mesh
+  /// What a Weak has found.
+  explicit SharedMesh(std::shared_ptr<const Content> found) : content_(std::move(found)) {}
+  Weak weak() const { return content_; }
 
   operator const TriangleMesh&() const { return content_->mesh; }  // NOLINT: as above
   const TriangleMesh* operator->() const { return &content_->mesh; }
 
+  /// Its MeshId.
+  const std::string& id() const { return content_->id; }
   /// Around its triangles; empty if anything is wrong with it.
   const Eigen::AlignedBox3d& box() const { return content_->box; }
   /// What is wrong with it, as "has no triangles"; empty if all is well.
   const std::string& fault() const { return content_->fault; }
 
-  bool operator==(const SharedMesh& other) const;
+  bool operator==(const SharedMesh& other) const { return id() == other.id(); }
 
  private:
   struct Content {
     TriangleMesh mesh;
+    std::string id;
     Eigen::AlignedBox3d box;
     std::string fault;
   };

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "common/error.h"
-#include "scene/scene.h"
+#include "geometry/meshes_in_use.h"
 
 namespace planbench {
 namespace {
@@ -53,49 +53,7 @@ bool ParseThree(std::string_view line, Number* numbers) {
   return position == end;
 }
 
-}  // namespace
-
-fs::path MeshStoreFolder() {
-  if (const std::string store = Environment("PLANBENCH_MESH_STORE"); !store.empty()) {
-    return fs::absolute(store);
-  }
-  if (const std::string cache = Environment("XDG_CACHE_HOME"); !cache.empty()) {
-    return fs::absolute(cache) / "planbench" / "meshes";
-  }
-  if (const std::string home = Environment("HOME"); !home.empty()) {
-    return fs::absolute(home) / ".cache" / "planbench" / "meshes";
-  }
-  throw InputError("no folder for meshes: set PLANBENCH_MESH_STORE or HOME");
-}
-
-std::string StoreMesh(const TriangleMesh& mesh) {
-  const fs::path folder = MeshStoreFolder();
-  const fs::path file = folder / (MeshId(mesh) + ".obj");
-  const std::string uri = std::string(kFileScheme) + file.string();
-  std::error_code error;
-  if (fs::exists(file, error)) return uri;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
-
-  // A name of its own for every writer: several processes and threads may store the same mesh.
-  static std::atomic<int> num_written{0};
-  const fs::path temporary =
-      folder / fmt::format("{}.{}.{}.part", file.filename().string(), getpid(), ++num_written);
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << ToObj(mesh);
-  stream.close();
-  const bool written = stream.good();
-  if (written) fs::rename(temporary, file, error);
-  if (!written || error) {
-    std::error_code ignored;  // What failed first is what the message is about.
-    fs::remove(temporary, ignored);
-    throw InputError(fmt::format("{}: cannot be written{}{}", file.string(), error ? ": " : "",
-                                 error ? error.message() : ""));
-  }
-  return uri;
-}
-
-TriangleMesh LoadStoredMesh(const std::string& uri) {
+TriangleMesh ReadStoredMesh(const std::string& uri) {
   if (!uri.starts_with(kFileScheme)) {
     throw InputError(fmt::format("mesh '{}': not a file:// URI", uri));
   }
@@ -135,6 +93,53 @@ TriangleMesh LoadStoredMesh(const std::string& uri) {
   }
   if (mesh.triangles.empty()) throw InputError(file + ": the mesh has no triangles");
   return mesh;
+}
+
+}  // namespace
+
+fs::path MeshStoreFolder() {
+  if (const std::string store = Environment("PLANBENCH_MESH_STORE"); !store.empty()) {
+    return fs::absolute(store);
+  }
+  if (const std::string cache = Environment("XDG_CACHE_HOME"); !cache.empty()) {
+    return fs::absolute(cache) / "planbench" / "meshes";
+  }
+  if (const std::string home = Environment("HOME"); !home.empty()) {
+    return fs::absolute(home) / ".cache" / "planbench" / "meshes";
+  }
+  throw InputError("no folder for meshes: set PLANBENCH_MESH_STORE or HOME");
+}
+
+std::string StoreMesh(const SharedMesh& mesh) {
+  const fs::path folder = MeshStoreFolder();
+  const fs::path file = folder / (mesh.id() + ".obj");
+  const std::string uri = std::string(kFileScheme) + file.string();
+  std::error_code error;
+  if (fs::exists(file, error)) return uri;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
+
+  // A name of its own for every writer: several processes and threads may store the same mesh.
+  static std::atomic<int> num_written{0};
+  const fs::path temporary =
+      folder / fmt::format("{}.{}.{}.part", file.filename().string(), getpid(), ++num_written);
+  std::ofstream stream(temporary, std::ios::binary);
+  stream << ToObj(mesh);
+  stream.close();
+  const bool written = stream.good();
+  if (written) fs::rename(temporary, file, error);
+  if (!written || error) {
+    std::error_code ignored;  // What failed first is what the message is about.
+    fs::remove(temporary, ignored);
+    throw InputError(fmt::format("{}: cannot be written{}{}", file.string(), error ? ": " : "",
+                                 error ? error.message() : ""));
+  }
+  return uri;
+}
+
+SharedMesh LoadStoredMesh(const std::string& uri) {
+  static MeshesInUse meshes;
+  return meshes.Get(uri, [&] { return ReadStoredMesh(uri); });
 }
 
 }  // namespace planbench

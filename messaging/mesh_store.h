@@ -16,11 +16,11 @@ std::filesystem::path MeshStoreFolder();
 /// file is text in the OBJ format: one `v x y z` a vertex (m, shortest decimals that read back as
 /// the same doubles), one `f a b c` a triangle (vertices from 1). It appears whole or not at all.
 /// Throws InputError naming the file if it cannot be written.
-std::string StoreMesh(const TriangleMesh& mesh);
+std::string StoreMesh(const SharedMesh& mesh);
 
-/// Reads a file that StoreMesh wrote. Unlike LoadMesh it keeps
-/// every double and the order of vertices and triangles, so that MeshId stays. Throws InputError
-/// naming the file (and line) if it is missing, is no such file, or has no triangles.
-TriangleMesh LoadStoredMesh(const std::string& uri);
+/// Reads a file that StoreMesh wrote, or finds what was read from it and is in use. Unlike LoadMesh
+/// it keeps every double and the order of vertices and triangles, so that MeshId stays. Throws
+/// InputError naming the file (and line) if it is missing, is no such file, or has no triangles.
+SharedMesh LoadStoredMesh(const std::string& uri);
 
 }  // namespace planbench

@@ -65,7 +65,7 @@ struct Fields<PlacedShape> : On<lcmt_shape> {
         // The store holds the scaled triangles, wherever they came from, so that the receiver needs
         // neither the package the resource is in nor the sender's working folder.
         resource = StoreMesh(mesh->triangles);
-        id = MeshId(mesh->triangles);
+        id = mesh->triangles.id();
       }
     }
     io.Field("type", type, w.type);
@@ -100,7 +100,7 @@ struct Fields<PlacedShape> : On<lcmt_shape> {
     } catch (const InputError& error) {
       io.Require(false, "mesh_resource", "{}", error.what());
     }
-    const std::string found = MeshId(mesh->triangles);
+    const std::string& found = mesh->triangles.id();
     io.Require(found == id, "mesh_id", "{} is {}, not {}", resource, found, id);
   }
 };
@@ -138,11 +138,11 @@ struct Fields<Scene> : On<lcmt_scene> {
     io.List("object", scene.objects, w.object, w.num_objects);
     io.List("attached", scene.attached, w.attached, w.num_attached);
     if constexpr (Io::kReads) {
-      std::set<std::string_view> ids;
-      for (const SceneObject& object : scene.objects) ids.insert(object.id);
-      for (const AttachedObject& attached : scene.attached) {
-        io.Require(!ids.contains(attached.object.id), "attached",
-                   "'{}' is the name of an object of the world, too", attached.object.id);
+      std::set<std::string_view> attached;
+      for (const AttachedObject& one : scene.attached) attached.insert(one.object.id);
+      for (const SceneObject& object : scene.objects) {
+        io.Require(!attached.contains(object.id), "attached",
+                   "'{}' is the name of an object of the world, too", object.id);
       }
     }
     ListAllowedCollisions(io, scene.allowed_collisions, w);

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "common/error.h"
+#include "geometry/meshes_in_use.h"
 #include "geometry/octomap.h"
 #include "scene/moveit_fields.h"
 #include "scene/pose.h"
@@ -36,13 +39,23 @@ std::string ReadPrimitiveType(const YamlNode& node) {
             "'; known are: box (1), sphere (2), cylinder (3), cone (4)");
 }
 
+// A file is read once for all objects that are of it, be they of several scenes.
+SharedMesh LoadMeshOnce(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
+  static MeshesInUse meshes;
+  std::error_code ignored;  // LoadMesh tells what is wrong with the file.
+  const auto written = std::filesystem::last_write_time(file, ignored).time_since_epoch().count();
+  const std::string name = fmt::format("{} of {}, scaled by {} {} {}", file.string(), written,
+                                       scale.x(), scale.y(), scale.z());
+  return meshes.Get(name, [&] { return LoadMesh(file, scale); });
+}
+
 Mesh LoadMeshResource(const YamlNode& uri, const Eigen::Vector3d& scale,
                       const ResourceResolver& resources) {
   Mesh mesh;
   mesh.resource = uri.String();
   mesh.scale = scale;
   try {
-    mesh.triangles = LoadMesh(resources.Resolve(mesh.resource), scale);
+    mesh.triangles = LoadMeshOnce(resources.Resolve(mesh.resource), scale);
   } catch (const InputError& error) {
     uri.Fail(error.what());
   }

@@ -99,7 +99,4 @@ Scene InFrame(const Scene& scene, const std::string& frame, const Eigen::Isometr
 /// 32 hexadecimal digits. Throws std::invalid_argument if a mesh has no triangles (is not loaded).
 std::string SceneId(const Scene& scene);
 
-/// Content hash of a mesh's scaled vertices and triangles.
-std::string MeshId(const TriangleMesh& mesh);
-
 }  // namespace planbench

@@ -11,7 +11,6 @@ namespace {
 
 // Changes with the layout of what is hashed, so that ids of different layouts never meet.
 constexpr const char* kSceneLayout = "planbench scene 1";
-constexpr const char* kMeshLayout = "planbench mesh 1";
 
 void AddVector(const Eigen::Vector3d& vector, ContentHash* hash) {
   for (int i = 0; i < 3; ++i) hash->Add(vector[i]);
@@ -44,7 +43,7 @@ struct ShapeHasher {
     if (mesh.triangles->triangles.empty()) {
       throw std::invalid_argument("SceneId: the mesh '" + mesh.resource + "' is not loaded");
     }
-    hash->Add(MeshId(mesh.triangles));
+    hash->Add(mesh.triangles.id());
   }
 };
 
@@ -105,18 +104,6 @@ std::string SceneId(const Scene& scene) {
   hash.Add(scene.attached.size());
   for (const AttachedObject& attached : scene.attached) AddAttached(attached, &hash);
   AddAllowedCollisions(scene.allowed_collisions, &hash);
-  return hash.HexDigest();
-}
-
-std::string MeshId(const TriangleMesh& mesh) {
-  ContentHash hash;
-  hash.Add(kMeshLayout);
-  hash.Add(mesh.vertices.size());
-  for (const Eigen::Vector3d& vertex : mesh.vertices) AddVector(vertex, &hash);
-  hash.Add(mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t index : triangle) hash.Add(static_cast<std::int64_t>(index));
-  }
   return hash.HexDigest();
 }
 

@@ -109,6 +109,17 @@ TEST(BoundingSphere, OfAMeshTakesTheBetterOfTwoMethods) {
   EXPECT_EQ(ComputeBoundingSphere(point).radius, 0);
 }
 
+TEST(SharedMesh, KnowsItsIdAndIsEqualToThoseThatHaveIt) {
+  TriangleMesh triangle;
+  triangle.vertices = {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()};
+  triangle.triangles = {{0, 1, 2}};
+  TriangleMesh other = triangle;
+  other.vertices[1].x() = 2;
+  EXPECT_EQ(SharedMesh(triangle).id(), MeshId(triangle));
+  EXPECT_EQ(SharedMesh(triangle), SharedMesh(triangle));
+  EXPECT_NE(SharedMesh(triangle), SharedMesh(other));
+}
+
 TEST(BoundingSphere, RefusesAMeshThatIsNotLoaded) {
   ExpectInputError(
       [] {

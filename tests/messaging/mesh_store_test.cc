@@ -52,6 +52,20 @@ TEST_F(MeshStore, ResourcesGoThroughTheStoreToo) {
   EXPECT_EQ(received.triangles->vertices, mesh.triangles->vertices);
 }
 
+TEST_F(MeshStore, EqualMeshesAreReadOnce) {
+  Scene scene = ExampleScene();
+  scene.objects.push_back(scene.objects[1]);
+  scene.objects.back().id = "another";
+  const auto bytes = Encode(SceneMessage{"r", SceneId(scene), true, "", scene});
+  const auto first = Decode<SceneMessage>(bytes, "CH");
+  const auto second = Decode<SceneMessage>(bytes, "CH");
+  const auto mesh_of = [](const SceneObject& object) {
+    return std::get<Mesh>(object.shapes[0].shape).triangles.operator->();
+  };
+  EXPECT_EQ(mesh_of(first.scene.objects.back()), mesh_of(first.scene.objects[1]));
+  EXPECT_EQ(mesh_of(second.scene.objects[1]), mesh_of(first.scene.objects[1]));
+}
+
 TEST_F(MeshStore, MissingAndChangedFilesAreNoticed) {
   const std::vector<std::uint8_t> bytes = Encode(Example<SceneMessage>());
   const fs::path file = store_.path() / (MeshId(ExampleMesh()) + ".obj");

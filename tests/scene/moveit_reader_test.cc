@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -267,6 +268,21 @@ TEST_F(MeshFile, LoadsResourceAndAppliesScale) {
   again.scene = ParseScene(SceneToYaml(problem), resources_);
   EXPECT_EQ(SceneId(again.scene), SceneId(scene));
   EXPECT_EQ(SceneToYaml(again), SceneToYaml(problem));
+}
+
+TEST_F(MeshFile, IsReadOnceForObjectsOfTheSameScaleUntilItChanges) {
+  const std::string text = Scene("{resource: 'meshes/tri.obj', dimensions: [2, 3, 1]}");
+  const auto mesh_of = [](const planbench::Scene& scene) {
+    return std::get<Mesh>(scene.objects[0].shapes[0].shape).triangles;
+  };
+  const SharedMesh mesh = mesh_of(ParseScene(text, resources_));
+  EXPECT_EQ(mesh_of(ParseScene(text, resources_)).operator->(), mesh.operator->());
+  EXPECT_NE(mesh_of(ParseScene(Scene("{resource: 'meshes/tri.obj'}"), resources_)), mesh);
+  const std::filesystem::path file = folder_ / "meshes" / "tri.obj";
+  std::ofstream(file) << "v 0 0 0\nv 5 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::filesystem::last_write_time(
+      file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));
+  EXPECT_NE(mesh_of(ParseScene(text, resources_)), mesh);
 }
 
 TEST_F(MeshFile, MissingResourceNamesTheLineOfTheScene) {
