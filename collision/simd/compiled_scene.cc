@@ -84,7 +84,8 @@ CompiledScene::CompiledScene(const Robot& robot, const PlanningGroup& group, Col
   }
 }
 
-void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions) {
+void CompiledScene::Set(const Scene& scene, std::span<const double> base_positions,
+                        const std::function<bool(const Scene&)>& collides) {
   const PairRules rules(*robot_, scene);
   for (const AttachedObject& attached : scene.attached) {
     for (const PlacedShape& placed : attached.object.shapes) {
@@ -124,7 +125,7 @@ void CompiledScene::Set(const Scene& scene, std::span<const double> base_positio
   if (!attached_are_compiled_ || scene.attached != scene_.attached) {
     attached_are_compiled_ = false;
     scene_.attached = scene.attached;
-    AttachObjects(rules);
+    AttachObjects(rules, collides);
     attached_are_compiled_ = true;
   }
   Ball reach_W = robot_reach_W_;
@@ -196,32 +197,37 @@ bool CompiledScene::StandingMeshesCollide() const {
   return kernels::CheckBlock(links, nothing, &scratch, query).hits != 0;
 }
 
-void CompiledScene::AttachObjects(const PairRules& rules) {
+void CompiledScene::AttachObjects(const PairRules& rules,
+                                  const std::function<bool(const Scene&)>& collides) {
   compiled_robot_->Truncate(*without_attached_);
   attached_.clear();
   attached_meshes_.clear();
-  attached_stand_ = false;
+  attached_to_base_ = false;
+  bool some_stand = false;  // relative to something that they are checked with
   for (const AttachedObject& attached : scene_.attached) {
     std::vector<Ball> balls = CoverOf(attached.object, kAttachedBalls);
     if (balls.empty()) continue;
     const CompiledTree tree = Attach(attached.object, rules.LinkOf(attached), std::move(balls));
-    // Pairs of one body are the exact engine's to judge, once; see DoSetScene.
-    attached_stand_ = attached_stand_ || tree.body == 0;
+    attached_to_base_ = attached_to_base_ || tree.body == 0;
     for (const CompiledTree& link : compiled_robot_->links) {
       if (!rules.ChecksAttachedWithLink(attached, link.link)) continue;
       if (link.body == tree.body) {
-        attached_stand_ = true;
+        some_stand = true;
         continue;
       }
       compiled_robot_->AddAttachedPair(link, tree);
     }
     for (const auto& [other, other_tree] : attached_) {
       if (!rules.ChecksAttached(*other, attached)) continue;
-      attached_stand_ = attached_stand_ || other_tree.body == tree.body;
+      some_stand = some_stand || other_tree.body == tree.body;
       if (other_tree.body != tree.body) compiled_robot_->AddAttachedPair(other_tree, tree);
     }
     attached_.emplace_back(&attached, tree);
   }
+  Scene without_objects;
+  without_objects.attached = scene_.attached;
+  without_objects.allowed_collisions = scene_.allowed_collisions;
+  attached_collide_ = some_stand && collides(without_objects);
 }
 
 CompiledTree CompiledScene::Attach(const SceneObject& object, int link, std::vector<Ball> balls) {
@@ -243,25 +249,27 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
   // Objects that the matrix does not name count for every link, unless links allow by default; with
   // a field none does.
   const bool by_default = !scene_.allowed_collisions.default_entries().empty();
-  std::vector<unsigned char> checked(scene_.objects.size(), field_ == nullptr ? 1 : 0);
+  const int num_objects = static_cast<int>(world_.objects().size());
+  const auto object = [this](int i) -> const SceneObject& {
+    return At(scene_.objects, At(world_.objects(), i));
+  };
+  std::vector<unsigned char> checked(world_.objects().size(), field_ == nullptr ? 1 : 0);
   std::vector<int> named;
-  for (std::size_t i = 0; field_ == nullptr && i < scene_.objects.size(); ++i) {
-    if (by_default || allowed_names_.contains(scene_.objects[i].id)) {
-      named.push_back(static_cast<int>(i));
-    }
+  for (int i = 0; field_ == nullptr && i < num_objects; ++i) {
+    if (by_default || allowed_names_.contains(object(i).id)) named.push_back(i);
   }
   const auto add_all = [&](bool moving) {
     for (const CompiledTree& tree :
          named.empty() ? compiled_robot_->bodies : compiled_robot_->links) {
       if ((tree.body != 0) != moving) continue;
       for (int i : named) {
-        At(checked, i) = rules.ChecksLinkWithObject(tree.link, At(scene_.objects, i)) ? 1 : 0;
+        At(checked, i) = rules.ChecksLinkWithObject(tree.link, object(i)) ? 1 : 0;
       }
       world_.AddTree(tree, checked);
     }
   };
 
-  standing_ = {links_collide_, attached_stand_, links_distance_};
+  standing_ = {links_collide_ || attached_collide_, attached_to_base_, links_distance_};
   if (field_ == nullptr) add_all(false);
   if (!world_.kernel.trees.empty()) {
     JudgeStandingTrees();
@@ -270,8 +278,8 @@ void CompiledScene::CompileTrees(const PairRules& rules) {
   }
   add_all(true);
   for (const auto& [attached, tree] : attached_) {
-    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-      checked[i] = rules.ChecksAttachedWithObject(*attached, scene_.objects[i]) ? 1 : 0;
+    for (int i = 0; i < num_objects; ++i) {
+      At(checked, i) = rules.ChecksAttachedWithObject(*attached, object(i)) ? 1 : 0;
     }
     world_.AddTree(tree, checked);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -40,8 +41,11 @@ class CompiledScene {
 
   /// Compiles anew; what depends on the held joints, the allowed-collision matrix or the attached
   /// objects alone is kept while they stay. Throws InputError as PairRules and RequireSolid do, and
-  /// for a voxel grid that is too large.
-  void Set(const Scene& scene, std::span<const double> base_positions);
+  /// for a voxel grid that is too large. `collides`: whether the exact engine has the robot and
+  /// what is attached to it, in a scene without objects, always collide; asked when these have
+  /// changed.
+  void Set(const Scene& scene, std::span<const double> base_positions,
+           const std::function<bool(const Scene&)>& collides);
 
   /// What was set last.
   const Scene& scene() const { return scene_; }
@@ -64,7 +68,7 @@ class CompiledScene {
 
   void CompilePairs(const PairRules& rules);
   bool StandingMeshesCollide() const;
-  void AttachObjects(const PairRules& rules);
+  void AttachObjects(const PairRules& rules, const std::function<bool(const Scene&)>& collides);
   /// `balls`: a cover of the object.
   CompiledTree Attach(const SceneObject& object, int link, std::vector<Ball> balls);
   void CompileTrees(const PairRules& rules);
@@ -93,9 +97,10 @@ class CompiledScene {
   std::vector<std::pair<const AttachedObject*, CompiledTree>> attached_;  ///< Of scene_'s.
   std::list<RobotMeshes> attached_meshes_;  ///< Of these; trees point to them.
   bool attached_are_compiled_ = false;
-  bool attached_stand_ = false;  ///< Some do not move relative to something they are checked with.
-  double links_distance_ = 0;    ///< Of links that do not move relative to each other, m.
-  bool links_collide_ = false;   ///< Some of these do.
+  bool attached_collide_ = false;  ///< Always, with the robot or each other.
+  bool attached_to_base_ = false;  ///< Some do not move.
+  double links_distance_ = 0;      ///< Of links that do not move relative to each other, m.
+  bool links_collide_ = false;     ///< Some of these do.
   CompiledWorld world_;
   Standing standing_;
   MotionBound motion_bound_;

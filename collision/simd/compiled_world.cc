@@ -104,6 +104,7 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot, B
   kernel.bvh.clear();
   kernel.bvh_solids.clear();
   sources_.clear();
+  objects_.clear();
   meshes_before_ = std::move(meshes_);
   meshes_.clear();
   cones_are_doubtful_ = !robot.kernel.patches.empty();
@@ -111,10 +112,13 @@ void CompiledWorld::SetObjects(const Scene& scene, const CompiledRobot& robot, B
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     const Pose X_WO = Pose::From(object.X_WO);
+    const auto place = static_cast<int>(objects_.size());
     for (const PlacedShape& placed : object.shapes) {
       RequireSolid(placed.shape, object.id);
-      AddShape(placed.shape, X_WO * Pose::From(placed.X_FS), static_cast<int>(i), reach);
+      AddShape(placed.shape, X_WO * Pose::From(placed.X_FS), place, reach);
     }
+    const bool has_solid = !sources_.empty() && sources_.back().object == place;
+    if (has_solid) objects_.push_back(static_cast<int>(i));
   }
   meshes_before_.clear();
   if (kernel.solids.size() > kMaxListed) BuildHierarchy();
@@ -170,14 +174,8 @@ void CompiledWorld::AddShape(const Shape& shape, const Pose& X_WS, int object, c
 }
 
 int CompiledWorld::AddMesh(const SharedMesh& mesh, const Pose& X_WS) {
-  const auto find = [&](const std::vector<std::shared_ptr<const MeshTree>>& meshes) {
-    const auto found = std::find_if(
-        meshes.begin(), meshes.end(),
-        [&](const std::shared_ptr<const MeshTree>& tree) { return tree->mesh() == mesh; });
-    return found == meshes.end() ? nullptr : *found;
-  };
-  std::shared_ptr<const MeshTree> tree = find(meshes_);
-  if (tree == nullptr) tree = find(meshes_before_);
+  std::shared_ptr<const MeshTree>& tree = meshes_[mesh.id()];
+  if (tree == nullptr) tree = meshes_before_[mesh.id()];
   if (tree == nullptr) tree = std::make_shared<const MeshTree>(mesh);
 
   kernels::WorldMesh placed{};
@@ -189,7 +187,6 @@ int CompiledWorld::AddMesh(const SharedMesh& mesh, const Pose& X_WS) {
       placed.rotation[3 * row + column] = static_cast<float>(X_WS.rotation(column, row));
     }
   }
-  meshes_.push_back(std::move(tree));
   kernel.meshes.push_back(placed);
   return static_cast<int>(kernel.meshes.size()) - 1;
 }
@@ -220,7 +217,7 @@ void CompiledWorld::AddSolid(Solid solid, const Source& source) {
 std::vector<unsigned char> CompiledWorld::DoubtfulObjects(std::size_t num_objects) const {
   std::vector<unsigned char> doubtful(num_objects, 0);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (kernel.solids[i].doubtful) At(doubtful, sources_[i].object) = 1;
+    if (kernel.solids[i].doubtful) At(doubtful, At(objects_, sources_[i].object)) = 1;
   }
   return doubtful;
 }

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "collision/pair_rules.h"
@@ -30,8 +32,11 @@ class CompiledWorld {
   /// triangles. Of meshes that the objects set before had, too, the trees are kept.
   void SetObjects(const Scene& scene, const CompiledRobot& robot, Ball reach);
 
+  /// Those that have a solid, by their places in the scene, ascending.
+  const std::vector<int>& objects() const { return objects_; }
+
   /// Lists what a link's, a body's or an attached object's tree is to be tested against.
-  /// `checked[i]`: whether object i of the scene counts.
+  /// `checked[i]`: whether objects()[i] counts.
   void AddTree(const CompiledTree& tree, const std::vector<unsigned char>& checked);
 
   /// By object, of so many: whether one of its solids is doubtful.
@@ -42,7 +47,7 @@ class CompiledWorld {
  private:
   /// What a solid of the kernel's was made of.
   struct Source {
-    int object;              ///< Index in the scene.
+    int object;              ///< Index in objects().
     Eigen::Vector3d center;  ///< Bounding box in W: any orientation.
     Eigen::Matrix3d R_WS;
     Eigen::Vector3d half_size;
@@ -57,9 +62,11 @@ class CompiledWorld {
   void BuildNode(int first, int last);
 
   std::vector<Source> sources_;  ///< By solid.
+  std::vector<int> objects_;
   bool cones_are_doubtful_ = false;
-  std::vector<std::shared_ptr<const MeshTree>> meshes_;  ///< By mesh of the kernel's.
-  std::vector<std::shared_ptr<const MeshTree>> meshes_before_;
+  using MeshTrees = std::unordered_map<std::string, std::shared_ptr<const MeshTree>>;
+  MeshTrees meshes_;  ///< By their ids.
+  MeshTrees meshes_before_;
 };
 
 }  // namespace planbench

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "collision/at.h"
@@ -173,8 +172,8 @@ void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
   }
 }
 
-MeshTree::MeshTree(SharedMesh mesh) : mesh_(std::move(mesh)), solid_(mesh_) {
-  Builder(&tree_).Build(mesh_);
+MeshTree::MeshTree(const SharedMesh& mesh) : solid_(mesh) {
+  Builder(&tree_).Build(mesh);
   tree_.solid = &solid_;
   for (const Vector3d& point : solid_.component_points()) {
     auto& p = tree_.points.emplace_back();

@@ -26,15 +26,13 @@ void SetTriangle(const Corners& triangle, std::size_t i, kernels::TriangleGroup*
 class MeshTree {
  public:
   /// At least one triangle; indices must be valid, vertices finite.
-  explicit MeshTree(SharedMesh mesh);
+  explicit MeshTree(const SharedMesh& mesh);
   MeshTree(const MeshTree&) = delete;
   MeshTree& operator=(const MeshTree&) = delete;
 
-  const SharedMesh& mesh() const { return mesh_; }
   const kernels::TriangleTree& tree() const { return tree_; }
 
  private:
-  SharedMesh mesh_;
   SolidMesh solid_;
   kernels::TriangleTree tree_;
 };

@@ -54,7 +54,10 @@ SimdChecker::SimdChecker(const Robot& robot, const PlanningGroup& group, Collisi
 
 MotionBound SimdChecker::DoSetScene(const Scene& scene, std::span<const double> base_positions) {
   exact_is_set_ = false;
-  compiled_.Set(scene, base_positions);
+  compiled_.Set(scene, base_positions, [&](const Scene& without_objects) {
+    exact_.SetScene(without_objects, base_positions);
+    return exact_.AlwaysCollides();
+  });
   const CompiledScene::Standing& standing = compiled_.standing();
   always_collides_ = standing.collide || (standing.doubtful && Exact().AlwaysCollides());
   scratch_.Reset(compiled_.robot(), compiled_.world());

@@ -142,6 +142,37 @@ TEST_P(CollisionCheckerContract, AttachedObjectsMoveWithTheirLink) {
   EXPECT_TRUE(checker->IsFree(Slide(0.5)));
 }
 
+TEST_P(CollisionCheckerContract, WhatMayTouchIsToldApartAmongObjectsOutOfReach) {
+  const Robot robot = MakeRailRobot();
+  const auto checker = Make(robot);
+  for (const int num_pebbles : {0, 100}) {
+    Scene scene;
+    AddObject(&scene, "moon", Sphere{1}, Shifted(500, 0, 0));
+    AddObject(&scene, "shelf", Box{Eigen::Vector3d(1, 1, 1)}, Shifted(5, 0, 0));
+    for (int i = 0; i < num_pebbles; ++i) {
+      AddObject(&scene, "pebble" + std::to_string(i), Sphere{0.01}, Shifted(-3, 0, 0.1 * i - 5));
+    }
+    AddObject(&scene, "star", Sphere{1}, Shifted(0, 900, 0));
+    AddObject(&scene, "step", Box{Eigen::Vector3d(1, 1, 1)}, Shifted(0, 0, 3));
+    scene.attached = {
+        {"tool", {"pole", Shifted(3.25, 0, 0), {{Cylinder{0.5, 1}, Shifted(1, 0, 0)}}}, {}}};
+    const auto expect = [&](const std::string& a, const std::string& b, bool shelf, bool step) {
+      SCOPED_TRACE(a + " may touch " + b);
+      Scene allows = scene;
+      allows.allowed_collisions.SetEntry(a, b, true);
+      checker->SetScene(allows, Slide(0));
+      EXPECT_EQ(checker->IsFree(Slide(0.5)), !shelf);
+      EXPECT_EQ(checker->FindContact(Slide(0.5)).has_value(), shelf);
+      EXPECT_EQ(checker->IsFree(Slide(3)), !step);
+      EXPECT_EQ(checker->FindContact(Slide(3)).has_value(), step);
+    };
+    expect("pole", "shelf", false, true);
+    expect("pole", "moon", true, true);
+    expect("tool", "step", true, false);
+    expect("tool", "star", true, true);
+  }
+}
+
 TEST_P(CollisionCheckerContract, AttachedObjectsReachFurtherThanTheRobot) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);

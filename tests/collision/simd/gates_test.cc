@@ -77,7 +77,7 @@ void ExpectGatesHideNothing(const std::string& robot_name, CollisionModel model,
   const Robot robot = LoadRobot(PLANBENCH_SOURCE_DIR "/robots/" + robot_name);
   const PlanningGroup& group = robot.groups.front();
   CompiledScene compiled(robot, group, model);
-  compiled.Set(Scene(), FullPositions(robot.model, {}, {}, "test"));
+  compiled.Set(Scene(), FullPositions(robot.model, {}, {}, "test"), nullptr);
   const kernels::SphereRobot& gated = compiled.robot();
   const kernels::SphereRobot all = WithoutGates(gated);
   EXPECT_LT(all.pairs.size(), gated.pairs.size());
