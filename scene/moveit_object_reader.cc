@@ -252,8 +252,10 @@ SceneObject ReadAttachedShapes(const YamlNode& node, const std::string& link,
   SceneObject object = ReadCollisionObject(node, resources);
   const std::string frame = ReadFrame(node);
   if (frame.empty()) {
-    node.Warn("names no frame; taken in that of its link, '" + link + "'");
-  } else if (frame != link) {
+    node.Warn("names no frame; taken in the planning frame, and not in that of its link, '" + link +
+              "'");
+  }
+  if (frame != link) {
     const Eigen::Isometry3d X_LB = X_BL.inverse(Eigen::Isometry);
     object.X_WO = CanonicalPose(X_LB * frames->At(frame, FrameNode(node)) * object.X_WO);
   }

@@ -52,8 +52,8 @@ void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& res
 /// id already, and one without is the world's of that id, where it is; in either case that leaves
 /// the world. Beyond MoveIt, one without shapes may also name an attached object, which is then
 /// attached anew where it is: to another link, with other touch links. Without a frame objects are
-/// in that of their link. `frames` have the robot in that state, which is what tells where the link
-/// is. Throws InputError, also for links that the robot does not have.
+/// in the planning frame, with a warning. `frames` have the robot in that state, which is what
+/// tells where the link is. Throws InputError, also for links that the robot does not have.
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene);
 

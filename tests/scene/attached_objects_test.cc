@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -305,11 +306,23 @@ TEST(AttachedObjects, HaveASetOfTouchLinks) {
   }
 }
 
-TEST(AttachedObjects, WithoutAFrameAreInTheirLinksWithAWarning) {
-  const Problem problem = ParseProblem(
-      Attaching(kWorld, Replaced(kTool, "header: {frame_id: gripper_link}, ", "")), kToolRequest);
-  EXPECT_EQ(PlaceInLink(problem.scene.attached.at(0)), Vector3d(0.25, 0, 0.5));
-  EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("taken in that of its link")));
+TEST(AttachedObjects, WithoutAFrameAreInThePlanningFrameWithAWarning) {
+  // The planning frame `map`, one above the robot, has the gripper at (1, 0, 1).
+  const std::string world = std::string(kWorld) +
+                            "fixed_frame_transforms:\n  - {header: {frame_id: map}, "
+                            "child_frame_id: map, transform: {translation: [0, 0, 0], rotation: "
+                            "[0, 0, 0, 1]}}\n  - {header: {frame_id: map}, child_frame_id: "
+                            "base_link, transform: {translation: [0, 0, -1], rotation: [0, 0, 0, "
+                            "1]}}\n";
+  for (const char* header : {"", "header: {frame_id: ''}, "}) {
+    const std::string tool = Replaced(kTool, "header: {frame_id: gripper_link}, ", header);
+    for (const bool in_request : {false, true}) {
+      const Problem problem = in_request ? ParseProblem(world, Attaching(kToolRequest, tool))
+                                         : ParseProblem(Attaching(world, tool), kToolRequest);
+      EXPECT_TRUE(PlaceInLink(problem.scene.attached.at(0)).isApprox(Vector3d(-0.75, 0, -0.5)));
+      EXPECT_THAT(problem.warnings, Contains(HasSubstr("taken in the planning frame")));
+    }
+  }
 }
 
 TEST(AttachedObjects, NeedAShapeAndALink) {
