@@ -287,6 +287,8 @@ YamlNode YamlNode::Foreign(const YAML::Node& node, const std::string& key,
 
 bool YamlNode::IsNull() const { return overrides_.empty() && IsNullNode(node_); }
 
+bool YamlNode::IsBinary() const { return IsScalar() && ShortTag(node_) == "!!binary"; }
+
 std::string YamlNode::Where() const {
   std::string where = document_->origin;
   const YAML::Mark mark = node_.Mark();
@@ -480,7 +482,7 @@ std::string YamlNode::String() const {
 
 std::optional<int> YamlNode::RawByte() const {
   if (!IsScalar()) return std::nullopt;
-  const bool is_binary = ShortTag(node_) == "!!binary";
+  const bool is_binary = IsBinary();
   const std::string text = is_binary ? "" : node_.Scalar();
   const std::vector<std::uint8_t> bytes =
       is_binary ? Bytes() : std::vector<std::uint8_t>(text.begin(), text.end());
@@ -512,7 +514,7 @@ std::vector<std::string> YamlNode::Strings() const {
 }
 
 std::vector<std::uint8_t> YamlNode::Bytes() const {
-  if (IsScalar() && ShortTag(node_) == "!!binary") {
+  if (IsBinary()) {
     std::vector<std::uint8_t> bytes = YAML::DecodeBase64(node_.Scalar());
     if (bytes.empty() && !Trimmed(node_.Scalar()).empty()) Fail("is no base64");
     return bytes;

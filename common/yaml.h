@@ -34,6 +34,7 @@ class YamlNode {
   bool IsMap() const { return node_.IsMap() || !overrides_.empty(); }
   bool IsSequence() const { return node_.IsSequence(); }
   bool IsScalar() const { return node_.IsScalar() && !IsNull(); }
+  bool IsBinary() const;  ///< `!!binary`.
   bool IsNull() const;
 
   /// The value of `key`; throws if this is no map or lacks the key.

@@ -81,6 +81,22 @@ Eigen::Isometry3d ReadPose(const YamlNode& node) {
       PoseFromPositionOrientation(position, ReadQuaternion(node.At("orientation"))));
 }
 
+bool IsUnsetPose(const YamlNode& pose) {
+  for (const char* part : {"position", "orientation"}) {
+    const YamlNode node = pose.At(part);
+    if (node.IsMap()) {
+      for (const std::string& key : node.Keys()) {
+        if (node.At(key).Double() != 0) return false;
+      }
+    } else {
+      for (const double value : node.Doubles()) {
+        if (value != 0) return false;
+      }
+    }
+  }
+  return true;
+}
+
 std::string ReadFrame(const YamlNode& message) {
   const std::optional<YamlNode> header = message.Find("header");
   return header ? WithoutSlash(header->StringOr("frame_id", "")) : "";

@@ -37,6 +37,9 @@ Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
 /// geometry_msgs/Pose: {position: .., orientation: ..}. Canonical (scene/pose.h).
 Eigen::Isometry3d ReadPose(const YamlNode& node);
 
+/// Whether all seven numbers of a geometry_msgs/Pose are zero, as messages leave it unset.
+bool IsUnsetPose(const YamlNode& pose);
+
 /// header.frame_id of a message without a leading slash, "" if it has none.
 std::string ReadFrame(const YamlNode& message);
 /// Where ReadFrame's frame stands, for messages about it.

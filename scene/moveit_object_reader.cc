@@ -12,8 +12,8 @@
 
 #include "common/error.h"
 #include "geometry/meshes_in_use.h"
-#include "geometry/octomap.h"
 #include "scene/moveit_fields.h"
+#include "scene/moveit_octomap_reader.h"
 #include "scene/pose.h"
 
 namespace planbench {
@@ -148,22 +148,6 @@ std::vector<Eigen::Isometry3d> ReadShapePoses(const YamlNode& object, std::size_
   std::vector<Eigen::Isometry3d> poses;
   for (const YamlNode& node : nodes) poses.push_back(ReadPose(node));
   return poses;
-}
-
-bool IsUnsetPose(const YamlNode& pose) {
-  for (const char* part : {"position", "orientation"}) {
-    const YamlNode node = pose.At(part);
-    if (node.IsMap()) {
-      for (const std::string& key : node.Keys()) {
-        if (node.At(key).Double() != 0) return false;
-      }
-    } else {
-      for (const double value : node.Doubles()) {
-        if (value != 0) return false;
-      }
-    }
-  }
-  return true;
 }
 
 // How MoveIt tells a pose that is not set. Here it is one: who writes it means it.
@@ -380,31 +364,6 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
     frames->SetObject(id, "", ReadFrames(node, object));
     scene->objects.push_back(std::move(object));
   }
-}
-
-// Adds world.octomap, if it has data, as an object kOctomapId of boxes.
-void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {
-  const std::optional<YamlNode> with_pose = world.Find("octomap");
-  const std::optional<YamlNode> octomap = with_pose ? with_pose->Find("octomap") : std::nullopt;
-  const std::optional<YamlNode> data = octomap ? octomap->Find("data") : std::nullopt;
-  if (!data) return;
-  const std::vector<std::uint8_t> bytes = data->Bytes();
-  if (bytes.empty()) return;
-  SceneObject object;
-  object.id = kOctomapId;
-  const std::optional<YamlNode> origin = with_pose->Find("origin");
-  object.X_WO = frames.At(ReadFrame(*with_pose), FrameNode(*with_pose));
-  if (origin && !IsUnsetPose(*origin)) object.X_WO = object.X_WO * ReadPose(*origin);
-  object.X_WO = CanonicalPose(object.X_WO);
-  const std::string id = octomap->At("id").String();
-  const bool binary = ReadFlag(octomap->At("binary"));
-  const double resolution = octomap->At("resolution").PositiveDouble();
-  try {
-    object.shapes = OctomapBoxes(bytes, binary, id, resolution);
-  } catch (const InputError& error) {
-    data->Fail(error.what());
-  }
-  if (!object.shapes.empty()) scene->objects.push_back(std::move(object));
 }
 
 }  // namespace

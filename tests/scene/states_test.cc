@@ -1,9 +1,12 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "common/error.h"
 #include "common/numbers.h"
@@ -359,8 +362,8 @@ TEST(ContinuousJoints, OutsideTheGroupAreWhereTheyAreAtAnyTurn) {
   ExpectInputError([&] { read("3.5"); }, {"'a_joint' is not in group 'arm' and stays at 0.5"});
 }
 
-TEST(Octomap, IsAnObjectOfBoxes) {
-  const std::string scene = R"(robot_model_name: fetch
+Scene SceneOfOctomap(const std::string& data, const std::string& binary) {
+  return ParseProblem(R"(robot_model_name: fetch
 fixed_frame_transforms:
   - {header: {frame_id: camera}, child_frame_id: base_link,
      transform: {translation: [0, 0, 1], rotation: [0, 0, 0, 1]}}
@@ -368,11 +371,14 @@ world:
   octomap:
     header: {frame_id: camera}
     origin: {position: [0, 2, 0], orientation: [0, 0, 0, 0]}
-    octomap: {binary: false, id: OcTree, resolution: 0.0001, data: DATA}
-)";
+    octomap: {id: OcTree, resolution: 0.0001, data: )" +
+                      data + ", binary: " + binary + "}\n")
+      .scene;
+}
+
+TEST(Octomap, IsAnObjectOfBoxes) {
   // The root's last child is a leaf of log-odds 1.
-  const Scene full =
-      ParseProblem(Replaced(scene, "DATA", "[0, 0, 0, 0, -128, 0, 0, 128, 63, 0]")).scene;
+  const Scene full = SceneOfOctomap("[0, 0, 0, 0, -128, 0, 0, 128, 63, 0]", "false");
   ASSERT_EQ(full.objects.size(), 1u);
   EXPECT_EQ(full.objects[0].id, "<octomap>");
   ASSERT_EQ(full.objects[0].shapes.size(), 1u);
@@ -380,24 +386,46 @@ world:
                   .size.isApprox(Eigen::Vector3d::Constant(3.2768)));
   EXPECT_TRUE((full.objects[0].X_WO * full.objects[0].shapes[0].X_FS.translation())
                   .isApprox(Eigen::Vector3d(1.6384, 3.6384, 2.6384)));
-  const auto with = [&](const std::string& data, const std::string& binary) {
-    return ParseProblem(
-               Replaced(Replaced(scene, "DATA", data), "binary: false", "binary: " + binary))
-        .scene;
-  };
-  EXPECT_EQ(SceneId(with("[0, -128]", "true")), SceneId(full));
-  EXPECT_EQ(SceneId(with("!!binary AIA=", "1")), SceneId(full));
-  EXPECT_TRUE(with("[]", "true").objects.empty());
-  EXPECT_TRUE(with("[0, 64]", "true").objects.empty()) << "free only";
+  EXPECT_EQ(SceneId(SceneOfOctomap("[0, -128]", "true")), SceneId(full));
+  EXPECT_EQ(SceneId(SceneOfOctomap("!!binary AIA=", "1")), SceneId(full));
+  EXPECT_TRUE(SceneOfOctomap("[]", "true").objects.empty());
+  EXPECT_TRUE(SceneOfOctomap("[0, 64]", "true").objects.empty()) << "free only";
   for (const char* data : {"[1]", "[1, 2, 3, 4]", "!!binary AQIDBA==", "4a4b4c"}) {
     try {
-      with(data, "true");
+      SceneOfOctomap(data, "true");
       FAIL() << data;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("scene.yaml:9: world.octomap.octomap.data"));
       EXPECT_LT(std::string(error.what()).size(), 160u);
     }
   }
+}
+
+TEST(Octomap, MayBeAZlibStreamInHexadecimalDigits) {
+  const std::string id = SceneId(SceneOfOctomap("[0, -128]", "true"));
+  for (const char* digits : {"789C6368000000820081", "789c6368000000820081",
+                             "'7801010200FDFF008000820081'"}) {  // The last is stored, not packed.
+    EXPECT_EQ(SceneId(SceneOfOctomap(digits, "True")), id) << digits;
+  }
+  const auto refuse = [](const std::string& digits, const std::string& says) {
+    ExpectInputError([&] { SceneOfOctomap(digits, "true"); },
+                     {"scene.yaml:9: world.octomap.octomap.data: " + says});
+  };
+  for (const char* other : {"789C636800000082008", "799C6368000000820081", "789C63680000008200Z1",
+                            "AIA=", "''", "78", "789C 6368"}) {
+    refuse(other, "expected a sequence of bytes, !!binary, or a zlib stream in hexadecimal digits");
+  }
+  for (const char* damaged :
+       {"789C636800000082", "789C6368000000820082", "789CFFFFFFFF", "789C636800000082008100"}) {
+    refuse(damaged, "is no whole zlib stream");
+  }
+  const std::vector<Bytef> zeros((std::size_t{16} << 20) + 1);
+  uLongf size = compressBound(zeros.size());
+  std::vector<Bytef> packed(size);
+  ASSERT_EQ(compress2(packed.data(), &size, zeros.data(), zeros.size(), 1), Z_OK);
+  std::string digits;
+  for (std::size_t i = 0; i < size; ++i) digits += fmt::format("{:02X}", packed[i]);
+  refuse(digits, "unpacks to more than 16777216 bytes");
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ const std::map<std::string, std::vector<std::string>> kConfinedLibraries = {
     {"tinyxml2", {"tinyxml2.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
     {"xxHash", {"xxhash.h"}},
+    {"zlib", {"zlib.h"}},
 };
 
 std::string Read(const fs::path& path) {
