@@ -7,10 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "common/error.h"
+#include "common/text.h"
 #include "geometry/meshes_in_use.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_octomap_reader.h"
@@ -264,12 +266,29 @@ SceneObject FindNamed(const YamlNode& node, const std::string& id, const Attache
   return object;
 }
 
+// Why a name is no link.
+std::string NoLink(const std::string& name, const Robot& robot) {
+  if (std::any_of(robot.groups.begin(), robot.groups.end(),
+                  [&](const PlanningGroup& group) { return group.name == name; })) {
+    return "'" + name + "' is a planning group, no link";
+  }
+  std::vector<std::string_view> links;
+  for (const Link& link : robot.model.links()) links.push_back(link.name);
+  const std::string nearest = NearestName(name, links);
+  return fmt::format("the robot '{}' has no link '{}'{}", robot.name, name,
+                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
 // In file order, each once: in MoveIt they are a set.
-std::vector<std::string> ReadTouchLinks(const YamlNode& attached) {
+std::vector<std::string> ReadTouchLinks(const YamlNode& attached, const Robot& robot) {
   std::vector<std::string> links;
   for (const YamlNode& node : OptionalElements(attached, "touch_links")) {
     const std::string link = WithoutSlash(ReadName(node));
     if (link.empty()) node.Fail("must not be empty");
+    if (robot.model.FindLink(link) < 0) {
+      node.Warn(NoLink(link, robot) +
+                "; touch links are the robot's, objects may touch by the matrix alone");
+    }
     if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
   }
   return links;
@@ -281,10 +300,8 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
   AttachedObject attached;
   const YamlNode link = node.At("link_name");
   attached.link = WithoutSlash(link.String());
-  if (robot.model.FindLink(attached.link) < 0) {
-    link.Fail("the robot '" + robot.name + "' has no link '" + attached.link + "'");
-  }
-  attached.touch_links = ReadTouchLinks(node);
+  if (robot.model.FindLink(attached.link) < 0) link.Fail(NoLink(attached.link, robot));
+  attached.touch_links = ReadTouchLinks(node, robot);
   const YamlNode object = node.At("object");
   const Eigen::Isometry3d X_BL = frames->At(attached.link, link);
   if (HasShapes(object)) {

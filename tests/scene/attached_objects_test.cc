@@ -306,6 +306,23 @@ TEST(AttachedObjects, HaveASetOfTouchLinks) {
   }
 }
 
+TEST(AttachedObjects, TouchLinksThatAreNoneAreNamed) {
+  const auto warnings = [](const std::string& link) {
+    const std::string scene = Replaced(Attaching(kWorld, kTool), "/l_finger", link);
+    return ParseProblem(scene, kToolRequest).warnings;
+  };
+  EXPECT_THAT(warnings("mast"), IsEmpty());
+  const std::string where =
+      "scene.yaml:3: robot_state.attached_collision_objects[0].touch_links[0]: ";
+  EXPECT_THAT(warnings("Mast"), ElementsAre(HasSubstr(where + "the robot 'fetch' has no link "
+                                                              "'Mast'; did you mean 'mast'?")));
+  EXPECT_THAT(warnings("wall"), ElementsAre(AllOf(HasSubstr(where + "the robot 'fetch' has no link "
+                                                                    "'wall'; touch links"),
+                                                  HasSubstr("objects may touch by the matrix"))));
+  EXPECT_THAT(warnings("arm"),
+              ElementsAre(HasSubstr(where + "'arm' is a planning group, no link")));
+}
+
 TEST(AttachedObjects, WithoutAFrameAreInThePlanningFrameWithAWarning) {
   // The planning frame `map`, one above the robot, has the gripper at (1, 0, 1).
   const std::string world = std::string(kWorld) +
