@@ -67,6 +67,26 @@ std::optional<std::string> FindPartFault(const RobotModel& model, int position_i
 
 }  // namespace
 
+std::optional<PosePart> FindPosePart(const RobotModel& model, const std::string& name) {
+  const Joint* joint = nullptr;
+  const int index = PositionIndex(model, name, &joint);
+  if (joint != nullptr) return std::nullopt;
+  if (index >= 0) return PosePart{index};
+  for (const Joint& planar : model.joints()) {
+    if (planar.type != JointType::kPlanar) continue;
+    const int first = planar.position_index;
+    if (name == planar.name + "/x") return PosePart{first};
+    if (name == planar.name + "/y") return PosePart{first + 1};
+    if (name == planar.name + "/theta") return PosePart{first + 5, true};
+  }
+  return std::nullopt;
+}
+
+double PositionOf(const PosePart& part, const std::vector<double>& full) {
+  const auto i = static_cast<std::size_t>(part.position_index);
+  return part.is_angle ? 2 * std::atan2(full[i], full[i + 1]) : full[i];
+}
+
 std::optional<std::string> FindPoseFault(JointType type, const Eigen::Isometry3d& X_JC) {
   if (NumPositions(type) == 1) return "is not one that takes a pose";
   if (type == JointType::kFixed &&

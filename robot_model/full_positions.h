@@ -21,6 +21,17 @@ std::optional<std::string> FindPositionFault(const RobotModel& model, const std:
 std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std::string& name,
                                              double position);
 
+/// A part of a planar or floating joint's pose.
+struct PosePart {
+  int position_index = 0;  ///< In RobotModel::position_names; of an angle, that of rot_z.
+  bool is_angle = false;   ///< About a planar joint's z axis, which rot_z and rot_w tell.
+};
+/// The part of that name, nothing if there is none: one of RobotModel::position_names, or, as
+/// MoveIt has them of a planar joint, JOINT/x, JOINT/y, JOINT/theta.
+std::optional<PosePart> FindPosePart(const RobotModel& model, const std::string& name);
+/// Its value in full positions; an angle in [-2 pi, 2 pi].
+double PositionOf(const PosePart& part, const std::vector<double>& full);
+
 /// Why a joint of that type cannot have its child link at pose X_JC in its own frame ("is planar
 /// and cannot be tilted"), nothing if it can. Planar ones move in x and y, and turn about z.
 std::optional<std::string> FindPoseFault(JointType type, const Eigen::Isometry3d& X_JC);

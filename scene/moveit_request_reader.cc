@@ -53,11 +53,21 @@ const JointGoal* FindGoal(const std::vector<JointGoal>& goals, const std::string
   return found == goals.end() ? nullptr : &*found;
 }
 
-// Refuses a goal of a joint outside the group, unless it is met wherever the group is, or says the
-// same of a follower as `goals` say of its leader.
+// Refuses a goal of a joint outside the group, or of a part of a pose, unless it is met wherever
+// the group is, or says the same of a follower as `goals` say of its leader.
 void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& model,
                 const PlanningGroup& group, const std::vector<JointGoal>& goals,
                 const std::vector<double>& start) {
+  const auto require = [&](double position, bool is_continuous) {
+    if (Meets(goal, position)) return;
+    const double nearest_turn = goal.position + WrapAngle(position - goal.position);
+    if (is_continuous && Meets(goal, nearest_turn)) return;
+    node.Fail("the joint '" + goal.joint + "' is not in group '" + group.name + "' and stays at " +
+              std::to_string(position));
+  };
+  if (const std::optional<PosePart> part = FindPosePart(model, goal.joint)) {
+    return require(PositionOf(*part, start), part->is_angle);
+  }
   const int index = model.FindJoint(goal.joint);
   if (index < 0) node.Fail("the joint '" + goal.joint + "' is unknown");
   const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
@@ -77,11 +87,7 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
     }
     if (joint.position_index >= 0) position = joint.multiplier * position + joint.offset;
   }
-  if (Meets(goal, position)) return;
-  const double nearest_turn = goal.position + WrapAngle(position - goal.position);
-  if (joint.type == JointType::kContinuous && Meets(goal, nearest_turn)) return;
-  node.Fail("the joint '" + goal.joint + "' is not in group '" + group.name + "' and stays at " +
-            std::to_string(position));
+  require(position, joint.type == JointType::kContinuous);
 }
 
 // What is left of a group's joint limits by the goals, which are those of a set at `node`.

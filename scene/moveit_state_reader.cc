@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string_view>
 
 #include "common/text.h"
@@ -75,22 +74,36 @@ void ReadJointState(const YamlNode& node, const RobotModel& model, const JointSp
     node.Fail("has " + std::to_string(names.size()) + " joint names (name) but " +
               std::to_string(positions.size()) + " positions (position)");
   }
-  std::set<std::string> seen;
+  std::vector<YamlNode> nodes;  // Of the names that are read.
+  const auto add = [&](const std::string& name, double position, const YamlNode& at) {
+    const std::vector<std::string>& known = fields->joints.names;
+    if (std::find(known.begin(), known.end(), name) != known.end()) {
+      at.Fail("the joint '" + name + "' is named twice");
+    }
+    if (const auto fault = FindPositionFault(model, name, position)) {
+      at.Fail("the joint '" + name + "' " + *fault);
+    }
+    fields->joints.names.push_back(name);
+    fields->joints.positions.push_back(position);
+    nodes.push_back(at);
+  };
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = names[i].String();
     const double position = positions[i].Double();
-    if (!seen.insert(name).second) names[i].Fail("the joint '" + name + "' is named twice");
-    if (const auto fault = FindPositionFault(model, name, position)) {
-      names[i].Fail("the joint '" + name + "' " + *fault);
+    if (const std::optional<PosePart> part = FindPosePart(model, name)) {
+      const std::string* const parts =
+          &model.position_names()[static_cast<std::size_t>(part->position_index)];
+      add(parts[0], part->is_angle ? std::sin(position / 2) : position, names[i]);
+      if (part->is_angle) add(parts[1], std::cos(position / 2), names[i]);
+      continue;
     }
+    add(name, position, names[i]);
     std::optional<std::string> doubt = FindPositionDoubt(model, name, position);
     if (const int j = group.Find(name); j >= 0) doubt = group.FindTurnsDoubt(j, position);
     if (doubt) names[i].Warn("the joint '" + name + "' " + *doubt);
-    fields->joints.names.push_back(name);
-    fields->joints.positions.push_back(position);
   }
   for (const Joint& joint : model.joints()) {
-    if (NumPositions(joint.type) > 1) ReadParts(joint, model, names, &fields->joints);
+    if (NumPositions(joint.type) > 1) ReadParts(joint, model, nodes, &fields->joints);
   }
 }
 

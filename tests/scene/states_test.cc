@@ -91,10 +91,26 @@ TEST(StartState, PlanarAndFloatingJointsHoldTheirPose) {
     EXPECT_EQ(std::abs(problem.start.positions[at + 5]), 1);
     EXPECT_EQ(problem.start.positions[at + 6], 0);
   }
-  // By the names that MoveIt gives the parts.
   EXPECT_EQ(
       Parse("", "joint_state: {name: [drive/trans_x, wrist], position: [3, 0]}").start.positions[0],
       3);
+}
+
+TEST(StartState, APlanarJointsVariablesMayBeNamedAsInMoveIt) {
+  const auto state = [](const std::string& names, const std::string& positions) {
+    return Parse("", "joint_state: {name: [" + names + "], position: [" + positions + "]}");
+  };
+  const Problem problem = state("drive/theta, wrist, drive/x, drive/y", "1, 0.5, 3, 4");
+  EXPECT_THAT(problem.warnings, IsEmpty());
+  EXPECT_THAT(problem.start.names,
+              ElementsAre("drive/rot_z", "drive/rot_w", "wrist", "drive/trans_x", "drive/trans_y",
+                          "drive/rot_x", "drive/rot_y"));
+  EXPECT_THAT(problem.start.positions, ElementsAre(std::sin(0.5), std::cos(0.5), 0.5, 3, 4, 0, 0));
+  ExpectInputError([&] { state("wrist, drive/x, drive/trans_x", "0, 1, 1"); },
+                   {"joint_state.name[2]: the joint 'drive/trans_x' is named twice"});
+  ExpectInputError([&] { state("wrist, drive/rot_w, drive/theta", "0, 1, 1"); },
+                   {"joint_state.name[2]: the joint 'drive/rot_w' is named twice"});
+  ExpectInputError([&] { state("wrist, drive/z", "0, 1"); }, {"'drive/z' is unknown"});
 }
 
 TEST(StartState, RefusesWhatTheRobotCannotDo) {
@@ -278,6 +294,26 @@ TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
   refuse("{joint_name: drive, position: 0}", "'drive' has a pose");
   refuse("{joint_name: f2, position: 0.04}", "'f2' follows 'f1'; give a goal for that", "grip");
   refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}", "'f2'", "grip");
+}
+
+TEST(Goals, OfPartsOfAPoseMayOnlySayWhatIsSo) {
+  const auto goals = [](const std::string& more) {
+    Parse("", "joint_state: {name: [wrist, drive/x, drive/theta], position: [0, 3, 2]}",
+          "{joint_name: wrist, position: 1}, " + more);
+  };
+  for (const char* met :
+       {"{joint_name: drive/trans_x, position: 3}", "{joint_name: drive/x, position: 3}",
+        "{joint_name: drive/y, position: 0.1, tolerance_below: 0.2}",
+        "{joint_name: drive/theta, position: 2}",
+        "{joint_name: drive/theta, position: -4.283185307179586}",
+        "{joint_name: drive/rot_x, position: 0}"}) {
+    EXPECT_NO_THROW(goals(met)) << met;
+  }
+  ExpectInputError([&] { goals("{joint_name: drive/trans_x, position: 0}"); },
+                   {"'drive/trans_x' is not in group 'wrist' and stays at 3.0"});
+  ExpectInputError([&] { goals("{joint_name: drive/theta, position: -2}"); },
+                   {"'drive/theta' is not in group 'wrist' and stays at 2.0"});
+  ExpectInputError([&] { goals("{joint_name: drive/z, position: 0}"); }, {"'drive/z' is unknown"});
 }
 
 TEST(UnnamedGroup, IsThatOfTheGoalsJointsAndTheSessionSaysSo) {
