@@ -234,7 +234,9 @@ void YamlNode::CheckTree(std::vector<YAML::Node>* ancestors, int* last_position)
   const std::string tag = ShortTag(node_);
   const auto require = [&](std::initializer_list<std::string_view> known) {
     if (tag.empty() || std::find(known.begin(), known.end(), tag) != known.end()) return;
-    Fail("the tag '" + tag + "' is not known here");
+    const bool is_angle = tag == "!degrees" || tag == "!radians";
+    Fail(fmt::format("the tag '{}' is {}", tag,
+                     is_angle ? "one number's; write it before each" : "not known here"));
   };
   if (node_.IsSequence()) {
     require({"!!seq"});
@@ -410,7 +412,17 @@ void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
   });
 }
 
+void YamlNode::RequirePrinted() const {
+  if (!node_.IsScalar() || !node_.Scalar().ends_with('>')) return;
+  for (const char* beginning : {"<array type: ", "<sequence type: ", "<string length: "}) {
+    if (!node_.Scalar().starts_with(beginning)) continue;
+    Fail("was left out of the dump, which says " + KindOf(node_) +
+         "; use 'topic echo' without --noarr, --no-arr, --nostr and --no-str");
+  }
+}
+
 int YamlNode::Size() const {
+  RequirePrinted();
   if (!node_.IsSequence()) Fail("expected a sequence, found " + KindOf(node_));
   return static_cast<int>(node_.size());
 }
@@ -443,8 +455,10 @@ double YamlNode::Double() const {
   if (parsed && std::isfinite(value)) return value;
   const bool non_finite =
       parsed || (YAML::convert<double>::decode(node_, value) && !std::isfinite(value));
-  Fail(std::string("expected a ") + (non_finite ? "finite " : "") + "number, found " +
-       KindOf(node_));
+  const bool is_in_radians =
+      ShortTag(node_) == "!radians" || Argument(node_.Scalar(), "rad").has_value();
+  Fail(fmt::format("expected a {}number{}, found {}", non_finite ? "finite " : "",
+                   is_in_radians ? " or a product or quotient of such and pi" : "", KindOf(node_)));
 }
 
 double YamlNode::PositiveDouble() const {
@@ -475,6 +489,7 @@ bool YamlNode::Bool() const {
 
 std::string YamlNode::String() const {
   if (!IsScalar()) Fail("expected text, found " + KindOf(node_));
+  RequirePrinted();
   RequireTag({"!!str", "!!int", "!!float", "!!bool"}, "text");
   if (HasControl(node_.Scalar(), kLineBreaks)) Fail("a control character is in " + KindOf(node_));
   return node_.Scalar();
@@ -519,6 +534,7 @@ std::vector<std::uint8_t> YamlNode::Bytes() const {
     if (bytes.empty() && !Trimmed(node_.Scalar()).empty()) Fail("is no base64");
     return bytes;
   }
+  RequirePrinted();
   if (!IsSequence()) Fail("expected a sequence of bytes or !!binary, found " + KindOf(node_));
   std::vector<std::uint8_t> bytes;
   for (const YamlNode& element : Elements()) {

@@ -56,7 +56,8 @@ class YamlNode {
   int Size() const;
   YamlNode At(int index) const;
   /// All elements of a sequence; throws if this is no sequence, or has one of `...`, which is where
-  /// `ros2 topic echo` cuts a list.
+  /// `ros2 topic echo` cuts a list. Like every access to a list or a text it names what a dump has
+  /// left out (`--no-arr`, `--no-str`) as such.
   std::vector<YamlNode> Elements() const;
 
   /// A finite decimal number, exactly rounded; NaN and infinities throw. `!degrees 90` and
@@ -130,6 +131,8 @@ class YamlNode {
   // Refuses tags that are not known and merge keys that merge no maps.
   void CheckTree(std::vector<YAML::Node>* ancestors, int* last_position) const;
   void CheckMerge(const YAML::Node& value, const std::vector<YAML::Node>& ancestors) const;
+  // Refuses what stands for a list or a text that a dump has left out.
+  void RequirePrinted() const;
   // Refuses a scalar whose tag is not among `allowed` (short forms).
   void RequireTag(std::initializer_list<std::string_view> allowed, const char* wanted) const;
 

@@ -165,6 +165,7 @@ void FrameTree::CheckAgreement(const std::vector<FixedTransform>& transforms) co
 void FrameTree::SetObject(const std::string& id, const std::string& link,
                           const std::vector<ObjectFrame>& frames) {
   RemoveObject(id);
+  expected_.erase(WithoutSlash(id));
   ObjectFrames& object = objects_[id];
   object.link = link;
   for (const ObjectFrame& frame : frames) {
@@ -233,6 +234,11 @@ std::optional<FrameTree::InLink> FrameTree::OfObject(const std::string& name) co
 const Isometry3d& FrameTree::At(const std::string& name, const YamlNode& node) const {
   if (const PlacedObjectFrame* frame = UseOfObject(name)) return frame->X_BF;
   if (const Isometry3d* X_BF = Find(name)) return *X_BF;
+  for (const std::string& id : expected_) {
+    if (!(WithoutSlash(name) + "/").starts_with(id + "/")) continue;
+    node.Fail("the frame '" + name + "' is that of an object that comes later, or of this one; " +
+              "objects are in frames of those before them");
+  }
   std::vector<std::string_view> known;
   for (const auto& [frame, X_BF] : X_BF_) known.push_back(frame);
   for (const auto& [frame, placed] : object_frames_) known.push_back(frame);

@@ -50,6 +50,9 @@ struct ObjectFrame {
   std::optional<YamlNode> disputed_pose;
 };
 
+/// A name of tf without its leading slash.
+std::string WithoutSlash(const std::string& frame);
+
 /// Poses of named frames in the robot's base frame B (that of its root link), with the robot in one
 /// stance: the robot's links, its surroundings, the planning frame (also named ""), fixed frames,
 /// objects and their subframes.
@@ -76,6 +79,10 @@ class FrameTree {
   /// Both must know it.
   void MoveToBaseOf(const FrameTree& other, const std::string& still);
 
+  /// Whoever asks for a frame of an object before it is set is told that it comes later.
+  void ExpectObject(const std::string& id) {
+    if (!objects_.contains(id)) expected_.insert(WithoutSlash(id));
+  }
   /// Makes an object's frames known instead of those that it had: in the frame of a link, which
   /// they move with, or in the base frame (`link` ""). Those of the robot's links and surroundings
   /// and the planning frame keep their meaning. Throws InputError, at its node, for a frame of a
@@ -140,12 +147,10 @@ class FrameTree {
   const PlacedObjectFrame* UseOfObject(const std::string& name) const;
 
   std::set<std::string> not_of_objects_;           // Names that no object takes.
+  std::set<std::string> expected_;                 // Ids without slash.
   std::map<std::string, Eigen::Isometry3d> X_BF_;  // But for those of objects.
   std::map<std::string, ObjectFrames> objects_;    // By id.
   std::map<std::string, PlacedObjectFrame> object_frames_;
 };
-
-/// A name of tf without its leading slash.
-std::string WithoutSlash(const std::string& frame);
 
 }  // namespace planbench

@@ -209,6 +209,10 @@ const Messages& AllMessages() {
         {"cartesian_speed_end_effector_link"},
         {"cartesian_speed_limited_link"},
         {"max_cartesian_speed"}}},
+      {"moveit_msgs/MoveGroupGoal",
+       {{"request", "moveit_msgs/MotionPlanRequest"}, {"planning_options"}}},
+      {"moveit_msgs/MoveGroupActionGoal",
+       {{"header", "std_msgs/Header"}, {"goal_id"}, {"goal", "moveit_msgs/MoveGroupGoal"}}},
   };
   return messages;
 }

@@ -371,10 +371,14 @@ void WarnOfPlanesAround(const SceneObject& object, const YamlNode& node) {
 void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, const Robot& robot,
                      FrameTree* frames, Scene* scene) {
   std::set<std::string> ids;
-  for (const YamlNode& node : OptionalElements(world, "collision_objects")) {
+  const std::vector<YamlNode> nodes = OptionalElements(world, "collision_objects");
+  for (const YamlNode& node : nodes) {
+    if (const std::optional<YamlNode> id = node.Find("id")) frames->ExpectObject(id->String());
+  }
+  for (const YamlNode& node : nodes) {
     const std::string id = ReadObjectId(node.At("id"), robot);
-    if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
     SceneObject object = ReadCollisionObject(node, resources);
+    if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
     object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
     if (FindAttached(id, scene) != nullptr) continue;  // It has left the world.
     WarnOfPlanesAround(object, node);
@@ -463,6 +467,7 @@ void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& res
       if (needs_world || ids_after_world.contains(id)) {
         after_world.push_back(node);
         ids_after_world.insert(id);
+        frames->ExpectObject(id);
       } else {
         attacher.Attach(node);
       }
@@ -478,9 +483,9 @@ void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& res
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene) {
   Attacher attacher(resources, robot, frames, scene);
-  for (const YamlNode& node : OptionalElements(robot_state, "attached_collision_objects")) {
-    attacher.Attach(node);
-  }
+  const std::vector<YamlNode> nodes = OptionalElements(robot_state, "attached_collision_objects");
+  for (const YamlNode& node : nodes) frames->ExpectObject(node.At("object").At("id").String());
+  for (const YamlNode& node : nodes) attacher.Attach(node);
 }
 
 void DetachUnnamed(const YamlNode& robot_state, const YamlNode& is_diff, FrameTree* frames,

@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_fields.h"
+#include "scene/moveit_messages.h"
 #include "scene/moveit_object_reader.h"
 #include "scene/moveit_request_reader.h"
 #include "scene/moveit_scene_reader.h"
@@ -23,6 +24,22 @@ constexpr double kBeyondLimit = 1e-3;
 YamlNode Unwrapped(const YamlNode& file, const char* field) {
   if (!file.IsMap() || file.Keys() != std::vector<std::string>{field}) return file;
   return file.At(field);
+}
+
+// The request of a file that holds it alone, as a service's, or as the goal of MoveIt's action.
+YamlNode UnwrappedRequest(const YamlNode& file) {
+  const YamlNode message = Unwrapped(file, "motion_plan_request");
+  if (!message.IsMap()) return message;
+  const std::optional<YamlNode> action = message.Find("goal");
+  const YamlNode goal = action.value_or(message);
+  const std::optional<YamlNode> request = goal.IsMap() ? goal.Find("request") : std::nullopt;
+  if (!request) return message;
+  RequireKnownFields(message,
+                     action ? "moveit_msgs/MoveGroupActionGoal" : "moveit_msgs/MoveGroupGoal");
+  if (const auto options = goal.Find("planning_options")) {
+    options->Warn("are not read; the scene is that of its own file alone");
+  }
+  return *request;
 }
 
 RobotStateFields OptionalState(const YamlNode& message, const char* field, const Robot& robot,
@@ -198,7 +215,7 @@ auto ReadFor(const RequestGroup& chosen, const Read& read) {
 Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, const Robot& robot,
                      const ResourceResolver& resources) {
   const YamlNode planning_scene = Unwrapped(scene_file, "scene");
-  const YamlNode request = Unwrapped(request_file, "motion_plan_request");
+  const YamlNode request = UnwrappedRequest(request_file);
   RequireScene(planning_scene);
   RequireRequest(request);
   RequireRobot(planning_scene, robot);

@@ -345,6 +345,22 @@ TEST(YamlNode, ListsThatWereCutAreRefused) {
   EXPECT_EQ(Parse("a: '...'").At("a").String(), "...");
 }
 
+TEST(YamlNode, WhatADumpHasLeftOutIsRefusedAsSuch) {
+  for (const char* text :
+       {"<array type: float64, length: 3>", "<array type: double[4]>",
+        "<sequence type: double, length: 3>", "<string length: 5>", "<string length: <5>>"}) {
+    const YamlNode node = Parse("a: 1\nleft_out: '" + std::string(text) + "'").At("left_out");
+    for (const std::string& error :
+         {ErrorOf([&] { node.Elements(); }), ErrorOf([&] { node.Doubles(3); }),
+          ErrorOf([&] { node.Bytes(); }), ErrorOf([&] { node.String(); })}) {
+      EXPECT_EQ(error, "file.yaml:2: left_out: was left out of the dump, which says '" +
+                           std::string(text) +
+                           "'; use 'topic echo' without --noarr, --no-arr, --nostr and --no-str");
+    }
+  }
+  EXPECT_EQ(Parse("<octomap>").String(), "<octomap>");
+}
+
 TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
   for (const auto& [text, value] : std::map<std::string, double>{{"!degrees 90", kPi / 2},
                                                                  {"deg(90)", kPi / 2},
@@ -366,6 +382,11 @@ TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
         "rad(pi/)", "!degrees ninety", "!!bool 1", "!!binary AQI="}) {
     EXPECT_THROW(Parse(text).Double(), InputError) << text;
   }
+  for (const char* sum : {"rad(pi - 1)", "!radians pi - 1"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(sum).Double(); }),
+                HasSubstr("expected a number or a product or quotient of such and pi, found '"))
+        << sum;
+  }
   EXPECT_THAT(ErrorOf([] { Parse("!degrees 90").Int(); }),
               HasSubstr("expected an integer, found the tag '!degrees'"));
   EXPECT_THAT(ErrorOf([] { Parse("!degrees 90").String(); }), HasSubstr("'!degrees'"));
@@ -375,11 +396,15 @@ TEST(YamlNode, AnglesInDegreesAndInPartsOfPi) {
 TEST(YamlNode, UnknownTagsAreRefusedWhereverTheyStand) {
   for (const char* text :
        {"a: !foo 1", "a: !foo [1]", "a: !foo {b: 1}", "!foo a: 1", "a: !!python/tuple [1]",
-        "a: !degrees [1, 2]", "a: !!int {b: 1}", "a: !!map [1]", "a: {b: [1, {c: !deg 1}]}"}) {
+        "a: !!int {b: 1}", "a: !!map [1]", "a: {b: [1, {c: !deg 1}]}"}) {
     EXPECT_THAT(ErrorOf([&] { Parse(text); }), HasSubstr("is not known here")) << text;
   }
   EXPECT_EQ(ErrorOf([] { Parse("a: 1\nb: [1, {c: !deg 1}]"); }),
             "file.yaml:2: b[1].c: the tag '!deg' is not known here");
+  for (const char* text : {"a: !degrees [1, 2]", "a: !degrees {b: 1}"}) {
+    EXPECT_EQ(ErrorOf([&] { Parse(text); }),
+              "file.yaml:1: a: the tag '!degrees' is one number's; write it before each");
+  }
   const YamlNode node = Parse("a: !!map {b: !!seq [!!str x]}\nc: !!null ''\nd: !!bool yes");
   EXPECT_THAT(node.At("a").At("b").Strings(), ElementsAre("x"));
   EXPECT_FALSE(node.Find("c"));

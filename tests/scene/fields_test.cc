@@ -174,10 +174,28 @@ TEST(KnownFields, AServicesAnswerIsReadAsItsMessage) {
     }
     return result + "\n---\n";
   };
-  const Problem problem =
-      ParseProblem(indented("scene", kFullScene), indented("motion_plan_request", kFullRequest));
-  EXPECT_EQ(SceneId(problem.scene), SceneId(ParseProblem(kFullScene).scene));
-  EXPECT_EQ(problem.goal.size(), 2u);
+  const std::string id = SceneId(ParseProblem(kFullScene).scene);
+  const auto read = [&](const std::string& request) {
+    const Problem problem = ParseProblem(indented("scene", kFullScene), request);
+    EXPECT_EQ(SceneId(problem.scene), id);
+    EXPECT_EQ(problem.goal.size(), 2u);
+    return problem.warnings;
+  };
+  EXPECT_THAT(read(indented("motion_plan_request", kFullRequest)), ElementsAre());
+  // MoveIt's action, and the topic of its goals.
+  const std::string goal = indented("request", kFullRequest);
+  EXPECT_THAT(read(goal), ElementsAre());
+  const std::string with_options = "planning_options: {plan_only: true}\n" + goal;
+  const auto told = ElementsAre(HasSubstr("planning_options: are not read"));
+  EXPECT_THAT(read(with_options), told);
+  EXPECT_THAT(read("header: {seq: 1}\ngoal_id: {id: x}\n" +
+                   indented("goal", with_options.substr(0, with_options.find("---")))),
+              told);
+  ExpectInputError([&] { read("group_name: arm\n" + goal); },
+                   {"request.yaml:1: group_name: unknown field 'group_name' of "
+                    "moveit_msgs/MoveGroupGoal"});
+  ExpectInputError([&] { read("goal: {}\n" + std::string(kFullRequest)); },
+                   {"request.yaml:1: goal: unknown field 'goal' of moveit_msgs/MotionPlanRequest"});
 }
 
 TEST(KnownFields, ADifferenceIsTakenAsTheWholeWithAWarning) {
