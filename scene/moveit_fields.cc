@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "common/text.h"
 #include "scene/frame_tree.h"
@@ -15,6 +17,28 @@ namespace {
 // that was meant to be a rotation at all.
 constexpr double kRounding = 1e-3;
 constexpr double kFarthest = 0.05;
+
+// The fields of a vector and of a quaternion, a letter each.
+constexpr std::string_view kVector = "xyz";
+constexpr std::string_view kQuaternion = "xyzw";
+
+// The numbers of a list of so many, or of a map: what a message leaves out is 0.
+std::vector<double> Components(const YamlNode& node, std::string_view fields) {
+  if (!node.IsMap()) return node.Doubles(static_cast<int>(fields.size()));
+  std::vector<double> numbers;
+  for (const char field : fields) numbers.push_back(node.DoubleOr(std::string(1, field), 0));
+  return numbers;
+}
+
+Eigen::Isometry3d ReadPoseOf(const YamlNode& node, const char* position, const char* orientation) {
+  const std::optional<YamlNode> p = node.Find(position);
+  const std::optional<YamlNode> q = node.Find(orientation);
+  return CanonicalPose(
+      PoseFromPositionOrientation(p ? ReadVector3(*p) : Eigen::Vector3d(0, 0, 0),
+                                  q ? ReadQuaternion(*q)
+                                    : Normalised(Eigen::Quaterniond(0, 0, 0, 0), node,
+                                                 fmt::format("the {}, left out, ", orientation))));
+}
 
 }  // namespace
 
@@ -32,10 +56,7 @@ std::string ReadName(const YamlNode& node) {
 }
 
 Eigen::Vector3d ReadVector3(const YamlNode& node) {
-  const std::vector<double> xyz =
-      node.IsMap()
-          ? std::vector{node.At("x").Double(), node.At("y").Double(), node.At("z").Double()}
-          : node.Doubles(3);
+  const std::vector<double> xyz = Components(node, kVector);
   const Eigen::Vector3d vector(xyz[0], xyz[1], xyz[2]);
   RequireNear(vector, node);
   return vector;
@@ -48,15 +69,8 @@ void RequireNear(const Eigen::Vector3d& position, const YamlNode& node) {
 }
 
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
-  Eigen::Quaterniond q;
-  if (node.IsMap()) {
-    q = Eigen::Quaterniond(node.At("w").Double(), node.At("x").Double(), node.At("y").Double(),
-                           node.At("z").Double());
-  } else {
-    const std::vector<double> xyzw = node.Doubles(4);
-    q = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-  }
-  return Normalised(q, node);
+  const std::vector<double> xyzw = Components(node, kQuaternion);
+  return Normalised(Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]), node);
 }
 
 Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
@@ -76,25 +90,21 @@ Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
 }
 
 Eigen::Isometry3d ReadPose(const YamlNode& node) {
-  const Eigen::Vector3d position = ReadVector3(node.At("position"));
-  return CanonicalPose(
-      PoseFromPositionOrientation(position, ReadQuaternion(node.At("orientation"))));
+  return ReadPoseOf(node, "position", "orientation");
+}
+
+Eigen::Isometry3d ReadTransform(const YamlNode& node) {
+  return ReadPoseOf(node, "translation", "rotation");
 }
 
 bool IsUnsetPose(const YamlNode& pose) {
-  for (const char* part : {"position", "orientation"}) {
-    const YamlNode node = pose.At(part);
-    if (node.IsMap()) {
-      for (const std::string& key : node.Keys()) {
-        if (node.At(key).Double() != 0) return false;
-      }
-    } else {
-      for (const double value : node.Doubles()) {
-        if (value != 0) return false;
-      }
-    }
-  }
-  return true;
+  const auto is_zero = [](const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0; });
+  };
+  const std::optional<YamlNode> position = pose.Find("position");
+  const std::optional<YamlNode> orientation = pose.Find("orientation");
+  return (!position || is_zero(Components(*position, kVector))) &&
+         (!orientation || is_zero(Components(*orientation, kQuaternion)));
 }
 
 std::string ReadFrame(const YamlNode& message) {

@@ -13,7 +13,7 @@ namespace planbench {
 inline constexpr double kFarthestAway = 1e9;  ///< m; poses are multiplied, and must stay finite
 
 // Pieces that several MoveIt messages share. Every function throws InputError naming file, line and
-// field.
+// field. What a message leaves out is zero, as ROS has it; an orientation that is, no rotation.
 
 /// A name: not empty, in one line.
 std::string ReadName(const YamlNode& node);
@@ -36,6 +36,8 @@ Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
 
 /// geometry_msgs/Pose: {position: .., orientation: ..}. Canonical (scene/pose.h).
 Eigen::Isometry3d ReadPose(const YamlNode& node);
+/// geometry_msgs/Transform: {translation: .., rotation: ..}. Canonical.
+Eigen::Isometry3d ReadTransform(const YamlNode& node);
 
 /// Whether all seven numbers of a geometry_msgs/Pose are zero, as messages leave it unset.
 bool IsUnsetPose(const YamlNode& pose);

@@ -135,12 +135,29 @@ std::vector<YamlNode> OneOrMore(const YamlNode& node, const std::string& plural,
   return elements;
 }
 
-// Poses of `count` shapes; all may be left out (identity) if the object itself has a pose.
+// How MoveIt tells a pose that is not set. Here it is one: who writes it means it.
+bool MoveItPassesOver(const YamlNode& pose) {
+  const std::optional<YamlNode> orientation = pose.Find("orientation");
+  if (!orientation) return false;
+  const double w =
+      orientation->IsMap() ? orientation->DoubleOr("w", 0) : orientation->Doubles(4)[3];
+  return w == 1 && ReadPose(pose).matrix().isIdentity(0);
+}
+
+bool HasPose(const YamlNode& object) {
+  const std::optional<YamlNode> pose = object.Find("pose");
+  return pose && !IsUnsetPose(*pose);
+}
+
+// Poses of `count` shapes, the identity if none is given. Warns where nothing says where they are.
 std::vector<Eigen::Isometry3d> ReadShapePoses(const YamlNode& object, std::size_t count,
                                               const std::string& plural,
-                                              const std::string& singular, bool has_object_pose) {
+                                              const std::string& singular) {
   const std::vector<YamlNode> nodes = OneOrMore(object, plural, singular);
-  if (nodes.empty() && has_object_pose) {
+  if (nodes.empty()) {
+    if (count > 0 && !HasPose(object)) {
+      object.Warn("has neither a pose nor " + plural + "; taken at the origin of its frame");
+    }
     return std::vector<Eigen::Isometry3d>(count, Eigen::Isometry3d::Identity());
   }
   if (nodes.size() != count) {
@@ -150,18 +167,6 @@ std::vector<Eigen::Isometry3d> ReadShapePoses(const YamlNode& object, std::size_
   std::vector<Eigen::Isometry3d> poses;
   for (const YamlNode& node : nodes) poses.push_back(ReadPose(node));
   return poses;
-}
-
-// How MoveIt tells a pose that is not set. Here it is one: who writes it means it.
-bool MoveItPassesOver(const YamlNode& pose) {
-  const YamlNode orientation = pose.At("orientation");
-  const double w = orientation.IsMap() ? orientation.At("w").Double() : orientation.Doubles(4)[3];
-  return w == 1 && ReadPose(pose).matrix().isIdentity(0);
-}
-
-bool HasPose(const YamlNode& object) {
-  const std::optional<YamlNode> pose = object.Find("pose");
-  return pose && !IsUnsetPose(*pose);
 }
 
 void RequireAddOperation(const YamlNode& object) {
@@ -424,8 +429,7 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   object.id = ReadName(node.At("id"));
   RequireAddOperation(node);
 
-  const std::optional<YamlNode> pose = node.Find("pose");
-  if (HasPose(node)) object.X_WO = ReadPose(*pose);
+  if (HasPose(node)) object.X_WO = ReadPose(node.At("pose"));
 
   const std::vector<YamlNode> primitives = OptionalElements(node, "primitives");
   const std::vector<YamlNode> meshes = OneOrMore(node, "meshes", "mesh");
@@ -433,18 +437,16 @@ SceneObject ReadCollisionObject(const YamlNode& node, const ResourceResolver& re
   if (primitives.empty() && meshes.empty() && planes.empty()) {
     node.Fail("the object '" + object.id + "' has no shape (primitives, meshes or planes)");
   }
-  const auto primitive_poses = ReadShapePoses(node, primitives.size(), "primitive_poses",
-                                              "primitive_pose", pose.has_value());
+  const auto primitive_poses =
+      ReadShapePoses(node, primitives.size(), "primitive_poses", "primitive_pose");
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     object.shapes.push_back({ReadPrimitive(primitives[i]), primitive_poses[i]});
   }
-  const auto mesh_poses =
-      ReadShapePoses(node, meshes.size(), "mesh_poses", "mesh_pose", pose.has_value());
+  const auto mesh_poses = ReadShapePoses(node, meshes.size(), "mesh_poses", "mesh_pose");
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     object.shapes.push_back({ReadMesh(meshes[i], resources), mesh_poses[i]});
   }
-  const auto plane_poses =
-      ReadShapePoses(node, planes.size(), "plane_poses", "plane_pose", pose.has_value());
+  const auto plane_poses = ReadShapePoses(node, planes.size(), "plane_poses", "plane_pose");
   for (std::size_t i = 0; i < planes.size(); ++i) {
     object.shapes.push_back({HalfSpace{}, CanonicalPose(plane_poses[i] * ReadPlane(planes[i]))});
   }

@@ -22,8 +22,9 @@ Shape ReadPrimitive(const YamlNode& node);
 
 /// Reads a moveit_msgs/CollisionObject: id, `pose`, and one or more shapes, which are `primitives`
 /// with `primitive_poses`, `meshes` (or `mesh`) with `mesh_poses` and `planes` with `plane_poses`.
-/// The object's pose comes out in the frame that its header names (see AddSceneObjects). Poses of
-/// shapes may be left out if the object has a `pose`. A `pose` whose seven numbers are all zero
+/// The object's pose comes out in the frame that its header names (see AddSceneObjects). All poses
+/// of one kind of shapes may be left out, with a warning if there is no `pose` either, and are the
+/// identity then. A `pose` whose seven numbers are all zero
 /// counts as absent: that is how messages leave it unset. (In MoveIt 2 it is the identity that
 /// does.)
 ///

@@ -68,8 +68,7 @@ std::vector<FixedTransform> ReadFixedTransforms(const YamlNode& planning_scene) 
     FixedTransform fixed{
         .header = ReadFrame(node), .child = WithoutSlash(child.String()), .X = {}, .node = node};
     if (fixed.child.empty()) child.Fail("must not be empty");
-    fixed.X = CanonicalPose(PoseFromPositionOrientation(ReadVector3(transform.At("translation")),
-                                                        ReadQuaternion(transform.At("rotation"))));
+    fixed.X = ReadTransform(transform);
     transforms.push_back(fixed);
   }
   return transforms;

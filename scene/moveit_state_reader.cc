@@ -107,11 +107,6 @@ void ReadJointState(const YamlNode& node, const RobotModel& model, const JointSp
   }
 }
 
-Eigen::Isometry3d ReadTransform(const YamlNode& node) {
-  return CanonicalPose(PoseFromPositionOrientation(ReadVector3(node.At("translation")),
-                                                   ReadQuaternion(node.At("rotation"))));
-}
-
 const PlacedLink* FindPlaced(const std::string& joint, const std::vector<PlacedLink>& links) {
   const auto found = std::find_if(links.begin(), links.end(),
                                   [&](const PlacedLink& placed) { return placed.joint == joint; });

@@ -151,6 +151,15 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"VectorAsMap", "position: [1, 0, 0.5]", "position: {y: 0, x: 1.0, z: 5e-1}"},
         Dialect{"QuaternionAsMap", "orientation: [0, 0, 0.6, 0.8]",
                 "orientation: {w: 0.8, x: 0, y: 0, z: 0.6}"},
+        Dialect{"FieldsThatAreZeroLeftOut",
+                "{position: [1, 0, 0.5], orientation: [0, 0, 0.6, 0.8]}",
+                "{position: {z: 0.5, x: 1}, orientation: {w: 0.8, z: 0.6}}"},
+        Dialect{"PositionLeftOut",
+                "{position: [0, 0, 0], orientation: [0, 0, 0, 1]}\n        - "
+                "{position: [0.1,",
+                "{orientation: {w: 1}}\n        - {position: [0.1,"},
+        Dialect{"TranslationLeftOut", "{translation: [0, 0, 0], rotation: [0, 0, 0, 1]}",
+                "{rotation: {w: 1.0}}"},
         Dialect{"QuaternionOfOtherSign", "[0, 0, 0.6, 0.8]", "[0, 0, -0.6, -0.8]"},
         Dialect{"NegativeZero", "position: [1, 0, 0.5]", "position: [1, -0.0, 0.5]"},
         Dialect{"QuotedNumbersAndNames", "{type: sphere, dimensions: [0.05]}",
@@ -229,6 +238,30 @@ TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
       "orientation: [0, 0, 0, 1]}, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_EQ(scene.objects[0].X_WO.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_TRUE(scene.objects[0].shapes[0].X_FS.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST(MoveItReader, PosesThatNothingGivesAreTheIdentityWithAWarning) {
+  const auto read = [](const std::string& object) {
+    return ParseProblem(
+        "world: {collision_objects: [{id: ball, primitives: [{type: sphere, "
+        "dimensions: [1]}]" +
+        object + "}]}");
+  };
+  const auto at_origin = ElementsAre(HasSubstr(
+      "scene.yaml:1: world.collision_objects[0]: has neither a pose nor primitive_poses; taken"));
+  EXPECT_THAT(read("").warnings, at_origin);
+  EXPECT_THAT(read(", pose: {position: [0, 0, 0], orientation: [0, 0, 0, 0]}").warnings, at_origin);
+  EXPECT_THAT(read(", pose: {}, primitive_poses: []").warnings, at_origin);
+  const SceneObject ball = read("").scene.objects.at(0);
+  EXPECT_TRUE(ball.X_WO.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(ball.shapes.at(0).X_FS.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_THAT(read(", pose: {orientation: {w: 1}}").warnings, ElementsAre());
+  EXPECT_THAT(
+      read(", planes: [{coef: [0, 0, 1, 0]}], primitive_pose: {orientation: {w: 1}}").warnings,
+      ElementsAre(HasSubstr("has neither a pose nor plane_poses")));
+  EXPECT_THAT(read(", primitive_poses: [{position: {x: 3}}]").warnings,
+              ElementsAre(HasSubstr("primitive_poses[0]: the orientation, left out, is all zero; "
+                                    "taken as no rotation")));
 }
 
 class MeshFile : public testing::Test {
