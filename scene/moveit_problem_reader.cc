@@ -148,11 +148,26 @@ PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& star
                robot.virtual_joints.begin(), robot.virtual_joints.end(),
                [&](const VirtualJoint& joint) { return WithoutSlash(joint.parent_frame) == name; });
   };
-  for (const FixedTransform& transform : transforms) {
-    if (transform.header.empty() || is_of_robot(transform.header) || is_of_robot(transform.child)) {
-      continue;
+  const auto is_outside = [&](const FixedTransform& transform) {
+    return !transform.header.empty() && !is_of_robot(transform.header) &&
+           !is_of_robot(transform.child);
+  };
+  const auto guess = std::find_if(transforms.begin(), transforms.end(), is_outside);
+  if (guess != transforms.end()) {
+    for (const FixedTransform& transform : transforms) {
+      if (robot.model.FindLink(transform.child) < 0) continue;
+      const auto leads_on = [&](const FixedTransform& other) {
+        return is_outside(other) &&
+               (other.header == transform.header || other.child == transform.header);
+      };
+      if (std::none_of(transforms.begin(), transforms.end(), leads_on)) continue;
+      transform.node.Warn(fmt::format(
+          "taken as the pose of the frame '{}' in that of the link '{}', and so on outwards, as "
+          "nothing names the planning frame; if it says where the robot stands, give the planning "
+          "frame a transform to itself",
+          transform.header, transform.child));
     }
-    return {.name = transform.child, .is_guessed = true};
+    return {.name = guess->child, .is_guessed = true};
   }
   if (robot.virtual_joints.empty()) return {};
   return {WithoutSlash(robot.virtual_joints.front().parent_frame)};

@@ -1,9 +1,12 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "common/error.h"
 #include "scene/moveit_object_reader.h"
@@ -262,6 +265,29 @@ TEST(MoveItReader, PosesThatNothingGivesAreTheIdentityWithAWarning) {
   EXPECT_THAT(read(", primitive_poses: [{position: {x: 3}}]").warnings,
               ElementsAre(HasSubstr("primitive_poses[0]: the orientation, left out, is all zero; "
                                     "taken as no rotation")));
+}
+
+TEST(MoveItReader, AChainToALinkIsNamedWhereThePlanningFrameIsGuessed) {
+  const auto warnings = [](const std::vector<std::pair<std::string, std::string>>& chain) {
+    std::string scene = "fixed_frame_transforms:\n";
+    for (const auto& [header, child] : chain) {
+      scene += "  - {header: {frame_id: " + header + "}, child_frame_id: " + child +
+               ", transform: {rotation: {w: 1}}}\n";
+    }
+    return ParseProblem(scene).warnings;
+  };
+  const auto told = [](int line) {
+    return ElementsAre(HasSubstr(fmt::format(
+        "scene.yaml:{}: fixed_frame_transforms[{}]: taken as the pose of the frame 'odom' in that "
+        "of the link 'base_link'",
+        line, line - 2)));
+  };
+  EXPECT_THAT(warnings({{"map", "odom"}, {"odom", "base_link"}}), told(3));
+  EXPECT_THAT(warnings({{"odom", "base_link"}, {"odom", "map"}, {"base_link", "lens"}}), told(2));
+  // What is said otherwise, or can be meant in one way alone.
+  EXPECT_THAT(warnings({{"map", "map"}, {"map", "odom"}, {"odom", "base_link"}}), ElementsAre());
+  EXPECT_THAT(warnings({{"base_link", "odom"}, {"odom", "map"}}), ElementsAre());
+  EXPECT_THAT(warnings({{"camera", "map"}, {"lens", "base_link"}}), ElementsAre());
 }
 
 class MeshFile : public testing::Test {
