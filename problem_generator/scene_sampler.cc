@@ -35,14 +35,25 @@ struct Extent {
   Eigen::Vector3d high = -low;
 };
 
+// How far a shape reaches from its middle along the axes of the frame that it is placed in: exact,
+// whichever way it is turned.
+Eigen::Vector3d Reach(const PlacedShape& placed) {
+  const Eigen::Matrix3d R = placed.X_FS.linear();
+  if (const auto* box = std::get_if<Box>(&placed.shape)) return R.cwiseAbs() * (box->size / 2);
+  if (const auto* cylinder = std::get_if<Cylinder>(&placed.shape)) {
+    return cylinder->length / 2 * R.col(2).cwiseAbs() +
+           cylinder->radius * R.leftCols<2>().rowwise().norm();
+  }
+  return Eigen::Vector3d::Constant(std::get<Sphere>(placed.shape).radius);
+}
+
 Extent ExtentOf(const std::vector<PlacedShape>& shapes) {
   Extent extent;
   for (const PlacedShape& placed : shapes) {
-    const FclShape shape(placed.shape, "");
-    const Eigen::Vector3d center = placed.X_FS * shape.box_center();
-    const Eigen::Vector3d half = placed.X_FS.linear().cwiseAbs() * shape.box_half_size();
-    extent.low = extent.low.cwiseMin(center - half);
-    extent.high = extent.high.cwiseMax(center + half);
+    const Eigen::Vector3d center = placed.X_FS.translation();
+    const Eigen::Vector3d reach = Reach(placed);
+    extent.low = extent.low.cwiseMin(center - reach);
+    extent.high = extent.high.cwiseMax(center + reach);
   }
   return extent;
 }
@@ -52,36 +63,49 @@ Extent ExtentOf(const std::vector<PlacedShape>& shapes) {
 std::optional<Eigen::Isometry3d> StandOn(const Box& support, const Eigen::Isometry3d& X_pose,
                                          std::vector<PlacedShape> shapes) {
   for (PlacedShape& placed : shapes) placed.X_FS = X_pose * placed.X_FS;
+  constexpr double kRounding = 1e-9;  // m
   const Extent extent = ExtentOf(shapes);
   const Eigen::Vector3d half = 0.5 * support.size;
-  if ((extent.low.head<2>().array() < -half.head<2>().array()).any()) return std::nullopt;
-  if ((extent.high.head<2>().array() > half.head<2>().array()).any()) return std::nullopt;
+  const Eigen::Array2d edge = half.head<2>().array() + kRounding;
+  if ((extent.low.head<2>().array() < -edge).any()) return std::nullopt;
+  if ((extent.high.head<2>().array() > edge).any()) return std::nullopt;
   Eigen::Isometry3d X_SO = X_pose;
   X_SO.translation().z() += half.z() - extent.low.z();
   return X_SO;
 }
 
-double Distance(const PlacedShape& a, const PlacedShape& b, double at_most) {
-  const FclShape shape_a(a.shape, "");
-  const FclShape shape_b(b.shape, "");
-  const auto center = [](const PlacedShape& placed, const FclShape& shape) {
-    return Eigen::Vector3d(placed.X_FS * shape.bounding_sphere().center);
-  };
-  const double apart = (center(a, shape_a) - center(b, shape_b)).norm() -
-                       shape_a.bounding_sphere().radius - shape_b.bounding_sphere().radius;
-  if (apart > at_most) return at_most;
-  const Pose X_AB = Pose::From(a.X_FS.inverse() * b.X_FS);
-  return shape_a.Touches(shape_b, X_AB) ? 0 : shape_a.Distance(shape_b, X_AB, at_most);
+// A shape in the base frame, as FCL has it.
+struct Body {
+  FclShape shape;
+  Eigen::Isometry3d X_BS;
+};
+
+std::vector<Body> BodiesOf(const std::vector<PlacedShape>& shapes) {
+  std::vector<Body> bodies;
+  for (const PlacedShape& placed : shapes) {
+    bodies.push_back(Body{FclShape(placed.shape, ""), placed.X_FS});
+  }
+  return bodies;
 }
 
-// True if some of the shapes is nearer than `gap` to the object, its part `except` left out.
-bool TooNear(const std::vector<PlacedShape>& shapes, const SceneObject& object, int except,
+// True if they touch, or are nearer to each other than `gap`.
+bool TooNear(const Body& a, const Body& b, double gap) {
+  const BoundingSphere& around_a = a.shape.bounding_sphere();
+  const BoundingSphere& around_b = b.shape.bounding_sphere();
+  const double apart = (a.X_BS * around_a.center - b.X_BS * around_b.center).norm() -
+                       around_a.radius - around_b.radius;
+  if (apart > gap) return false;
+  const Pose X_AB = Pose::From(a.X_BS.inverse() * b.X_BS);
+  return a.shape.Touches(b.shape, X_AB) || a.shape.Distance(b.shape, X_AB, gap) < gap;
+}
+
+// True if some of the bodies is too near to some of the object's, its part `except` left out.
+bool TooNear(const std::vector<Body>& bodies, const std::vector<Body>& object, int except,
              double gap) {
-  for (std::size_t i = 0; i < object.shapes.size(); ++i) {
+  for (std::size_t i = 0; i < object.size(); ++i) {
     if (static_cast<int>(i) == except) continue;
-    for (const PlacedShape& shape : shapes) {
-      const double distance = Distance(shape, object.shapes[i], gap);
-      if (distance < gap || distance <= 0) return true;
+    for (const Body& body : bodies) {
+      if (TooNear(body, object[i], gap)) return true;
     }
   }
   return false;
@@ -103,7 +127,8 @@ std::optional<SampledScene> SampleScene(const ProblemSpec& spec, const Robot& ro
   scene.robot_name = robot.name;
   scene.world_frame = robot.model.links().front().name;
   scene.allowed_collisions = spec.allowed_collisions;
-  std::vector<int> scene_index;  // Of the specification's objects; -1: not in the scene.
+  std::vector<int> scene_index;           // Of the specification's objects; -1: not in the scene.
+  std::vector<std::vector<Body>> bodies;  // Of the scene's objects.
   for (const ObjectSpec& object : spec.objects) {
     const bool chosen = random->Chance(object.probability);
     std::vector<PlacedShape> shapes;
@@ -136,9 +161,10 @@ std::optional<SampledScene> SampleScene(const ProblemSpec& spec, const Robot& ro
       X_BO = about_base * X_BO;
     }
     for (PlacedShape& placed : shapes) placed.X_FS = CanonicalPose(X_BO * placed.X_FS);
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    std::vector<Body> own = BodiesOf(shapes);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
       const int except = static_cast<int>(i) == parent ? object.support_part : -1;
-      if (!TooNear(shapes, scene.objects[i], except, spec.object_gap_m)) continue;
+      if (!TooNear(own, bodies[i], except, spec.object_gap_m)) continue;
       rejections->Add(object.id + " too near to " + scene.objects[i].id, object.where);
       return std::nullopt;
     }
@@ -147,6 +173,7 @@ std::optional<SampledScene> SampleScene(const ProblemSpec& spec, const Robot& ro
     placed.id = object.id;
     placed.shapes = std::move(shapes);
     scene.objects.push_back(std::move(placed));
+    bodies.push_back(std::move(own));
   }
   return sampled;
 }

@@ -20,8 +20,9 @@ struct SampledScene {
   std::vector<std::optional<Eigen::Isometry3d>> poses;
 };
 
-/// Draws sizes, presence and poses. Nothing, counted in `rejections`, if objects come nearer to
-/// each other than the gap of the specification, or do not stand wholly on what they stand on.
+/// Draws sizes, presence and poses. Nothing, counted in `rejections`, if objects touch or come
+/// nearer to each other than the gap of the specification, or do not stand wholly on what they
+/// stand on.
 std::optional<SampledScene> SampleScene(const ProblemSpec& spec, const Robot& robot,
                                         RandomStream* random, Rejections* rejections);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "collision/fcl/fcl_shape.h"
 #include "tests/problem_generator/generator_support.h"
@@ -19,7 +21,6 @@ queries:
 )";
 constexpr char kHead[] = R"(setup: fetch_setup.yaml
 clearance: 0
-object_gap: 0.02
 min_joint_distance: 0
 effort: {scenes: 1, poses: 1, solutions: 1, ik_starts: 1}
 objects:
@@ -27,8 +28,8 @@ objects:
 
 class SceneSamplerTest : public testing::Test {
  protected:
-  ProblemSpec Spec(const std::string& objects) {
-    return folder_.Load(kHead + objects + kTail, fetch_);
+  ProblemSpec Spec(const std::string& objects, const std::string& gap = "0.02") {
+    return folder_.Load("object_gap: " + gap + "\n" + kHead + objects + kTail, fetch_);
   }
   std::optional<SampledScene> Sample(const ProblemSpec& spec, int problem) {
     RandomStream random("set", 1, problem, 0);
@@ -136,6 +137,54 @@ TEST_F(SceneSamplerTest, ObjectsKeepTheGapAndStandWhollyOnTheirSupport) {
   EXPECT_GT(reasons.at("thing too near to a"), 0);
   EXPECT_GT(reasons.at("a too near to shelf"), 0);
   EXPECT_GT(reasons.at("thing does not stand wholly on its support"), 0);
+}
+
+TEST_F(SceneSamplerTest, WithoutAGapObjectsThatTouchAreRefusedAlone) {
+  const auto is_made = [&](const std::string& one, const std::string& other, const char* x) {
+    return Sample(Spec("  - {id: wall, position: [1, 0, 0], parts: [{" + one +
+                           "}]}\n  - {id: thing, position: [" + x + ", 0, 0], parts: [{" + other +
+                           "}]}",
+                       "0"),
+                  1)
+        .has_value();
+  };
+  const std::string box = "box: [0.2, 0.2, 0.2]", cylinder = "cylinder: [0.2, 0.1]",
+                    sphere = "sphere: 0.1";
+  for (const std::string& one : {box, cylinder, sphere}) {
+    for (const std::string& other : {box, cylinder, sphere}) {
+      SCOPED_TRACE(one + " " + other);
+      EXPECT_TRUE(is_made(one, other, "3"));
+      EXPECT_TRUE(is_made(one, other, "1.201")) << "their bounding spheres meet";
+      EXPECT_FALSE(is_made(one, other, "1.199"));
+    }
+  }
+}
+
+TEST_F(SceneSamplerTest, WhatIsTurnedStandsAsFarDownAndAsFarOutAsItReaches) {
+  // Height of the object's frame above the face, nothing if it does not stand on it.
+  const auto height = [&](const std::string& part, const char* x) -> std::optional<double> {
+    const auto sampled =
+        Sample(Spec("  - {id: table, position: [1, 0, 0.5], parts: [{box: [1, 1, 0.2]}]}\n"
+                    "  - {id: thing, stands_on: table, position: [" +
+                    std::string(x) + ", 0], yaw: 0.3, parts: [{" + part + "}]}"),
+               1);
+    if (!sampled) return std::nullopt;
+    return sampled->poses[1]->translation().z() - 0.6;
+  };
+  const std::string sphere = "sphere: 0.1, rpy: [0.5, 0.6, 0.7]";
+  EXPECT_NEAR(height(sphere, "0").value(), 0.1, 1e-9);
+  EXPECT_TRUE(height(sphere, "0.4"));
+  EXPECT_FALSE(height(sphere, "0.401"));
+  const std::string upright = "cylinder: [0.3, 0.1]";
+  EXPECT_NEAR(height(upright, "0").value(), 0.15, 1e-9);
+  EXPECT_TRUE(height(upright, "-0.4"));
+  EXPECT_FALSE(height(upright, "-0.401"));
+  // Its axis leans by the angle between z and Ry(0.7) Rx(0.7) z, whose cosine is cos(0.7)^2.
+  const std::string leaning = "cylinder: [0.3, 0.1], rpy: [0.7, 0.7, 0]";
+  const double up = std::cos(0.7) * std::cos(0.7);
+  EXPECT_NEAR(height(leaning, "0").value(), 0.15 * up + 0.1 * std::sqrt(1 - up * up), 1e-9);
+  EXPECT_NEAR(height("box: [0.1, 0.1, 0.1], rpy: [0.7853981633974483, 0, 0]", "0").value(),
+              0.05 * std::sqrt(2), 1e-9);
 }
 
 TEST_F(SceneSamplerTest, AbsentObjectsTakeWhatStandsOnThemAlong) {
