@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -307,6 +308,9 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
       if (model.FindLink(link) < 0) partners.Fail("the robot has no such link");
       for (const YamlNode& partner : partners.Elements()) {
         if (model.FindLink(partner.String()) < 0) partner.Fail("the robot has no such link");
+        if (spec->allowed_collisions.Entry(link, partner.String())) {
+          partner.Fail(fmt::format("the pair of {} and {} is given twice", link, partner.String()));
+        }
         spec->allowed_collisions.SetEntry(link, partner.String(), true);
       }
     }
@@ -415,11 +419,14 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
   }
   const YamlNode queries = root.At("queries");
   if (queries.Size() == 0) queries.Fail("a specification needs at least one query");
+  double weights = 0;
   for (const YamlNode& node : queries.Elements()) {
     node.AllowOnly({"name", "weight", "start", "goal"});
     QuerySpec query;
-    query.name = node.At("name").String();
+    query.name = ReadName(node.At("name"));
     if (const auto weight = node.Find("weight")) query.weight = weight->PositiveDouble();
+    weights += query.weight;
+    if (std::isinf(weights)) node.Fail("the weights up to here add up to infinity");
     query.start = ReadEnd(node, "start", setup, spec.objects);
     query.goal = ReadEnd(node, "goal", setup, spec.objects);
     if (query.start.configuration && query.goal.configuration) {

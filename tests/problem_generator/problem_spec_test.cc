@@ -230,6 +230,23 @@ INSTANTIATE_TEST_SUITE_P(
                 "name: approach",
                 "name: approach\n    weight: 0",
                 {"spec.yaml:18: queries[0].weight"}},
+        BadSpec{
+            "WeightsThatAddUpToInfinity",
+            "queries:",
+            "queries:\n"
+            "  - {name: a, weight: 1e308, start: {configuration: tuck}, goal: {gripper: {object: "
+            "can, position: [0, 0, 1]}}}\n"
+            "  - {name: b, weight: 1e308, start: {configuration: tuck}, goal: {gripper: {object: "
+            "can, position: [0, 0, 1]}}}",
+            {"spec.yaml:18: queries[1]", "infinity"}},
+        BadSpec{"NamelessQuery",
+                "name: approach",
+                "name: ''",
+                {"spec.yaml:17: queries[0].name", "empty"}},
+        BadSpec{"QueryOfTwoLines",
+                "name: approach",
+                "name: \"approach\\nit\"",
+                {"spec.yaml:17: queries[0].name", "one line"}},
         BadSpec{"NothingToPlan",
                 "{gripper: {object: can, position: [-0.0335, 0, 0.03], "
                 "position_tolerance: 0.01}}",
@@ -327,7 +344,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetup{"UnknownLink",
                  "robot: fetch\ngroup: arm_with_torso\n"
                  "allowed_collisions:\n  base_link: [laser_link, tail]\n",
-                 {"fetch_setup.yaml:4: allowed_collisions.base_link[1]"}}),
+                 {"fetch_setup.yaml:4: allowed_collisions.base_link[1]"}},
+        BadSetup{"PairGivenTwice",
+                 "robot: fetch\ngroup: arm_with_torso\n"
+                 "allowed_collisions:\n  base_link: [laser_link]\n  laser_link: [base_link]\n",
+                 {"fetch_setup.yaml:5: allowed_collisions.laser_link[0]",
+                  "laser_link and base_link is given twice"}}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace
