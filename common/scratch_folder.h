@@ -4,14 +4,25 @@
 #include <stdlib.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
 #include "common/error.h"
+#include "common/file_kind.h"
 
 namespace planbench {
+
+/// The folder for what is temporary: $TMPDIR, else /tmp. Throws InputError naming it if it is none.
+inline std::filesystem::path TemporaryFiles() {
+  const char* told = std::getenv("TMPDIR");
+  const std::filesystem::path folder = told == nullptr || *told == '\0' ? "/tmp" : told;
+  if (IsFolder(folder)) return folder;
+  throw InputError(
+      fmt::format("TMPDIR: there is no folder '{}' for temporary files", folder.string()));
+}
 
 /// A new folder, removed with all it holds at the end.
 class ScratchFolder {

@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/scratch_folder.h"
 #include "common/sqlite.h"
 
 namespace planbench {
@@ -70,11 +69,10 @@ std::vector<int> UnsolvedIn(const fs::path& session, const std::vector<int>& ind
 Certification CertifyProblemSet(
     const fs::path& folder, std::vector<int> indices, const CertifierOptions& options,
     const std::function<void(const std::vector<int>& indices, int attempt)>& replace) {
-  const ScratchFolder scratch(fs::temp_directory_path() / "planbench_certify_");  // of sessions
   Certification certification;
   while (true) {
     const int round = ++certification.num_rounds;
-    const fs::path session = scratch.path() / fmt::format("round_{}", round);
+    const fs::path session = options.sessions / fmt::format("round_{}", round);
     // What is asked is whether there is a path, not how good it is.
     const int code = RunProgram(
         {options.driver.string(), "--launch", "--robot", options.robot.string(), "--problems",

@@ -13,6 +13,7 @@
 #include "common/command_line.h"
 #include "common/exit_codes.h"
 #include "common/progress_line.h"
+#include "common/scratch_folder.h"
 #include "common/sibling_program.h"
 #include "common/standard_output.h"
 #include "problem_generator/certifier.h"
@@ -81,7 +82,10 @@ int RunGenerator(const GeneratorFlags& flags) {
   const ProblemSpec spec = LoadProblemSpec(flags.spec, robot);
   RequireProblemFolder(flags.out, flags.replace);
   CertifierOptions certifier;
-  if (flags.certify) {
+  std::optional<ScratchFolder> sessions;
+  if (flags.certify) {  // what stands in its way is told before a set is made
+    sessions.emplace(TemporaryFiles() / "planbench_certify_");
+    certifier.sessions = sessions->path();
     certifier.driver = SiblingProgram("benchmark_driver");
     certifier.robot = flags.robot;
     certifier.time_limit_s = flags.certify_time_s;

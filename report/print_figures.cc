@@ -60,7 +60,7 @@ bool IsFigure(const std::vector<std::string>& kinds, const fs::path& name) {
 
 void PrintFigures(const Json& data, const fs::path& folder) {
   if (!IsInstalled("node")) throw InputError("--figures needs node: apt-get install nodejs");
-  const ScratchFolder scratch(fs::temp_directory_path() / "planbench-figures-");
+  const ScratchFolder scratch(TemporaryFiles() / "planbench-figures-");
   const fs::path script = scratch.path() / "figures.js";
   const fs::path numbers = scratch.path() / "figures.json";
   WriteFile(script, Script());

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <string>
+
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,6 +30,19 @@ TEST(ScratchFolderTest, OneThatCannotBeMadeIsNamed) {
   const TemporaryFolder temporary;
   temporary.Write("file", "");
   ExpectInputError([&] { ScratchFolder(temporary / "file/it-"); }, {"file/it-", "ot a directory"});
+}
+
+TEST(ScratchFolderTest, TheFolderForTemporaryFilesIsNamedIfItIsMissing) {
+  const TemporaryFolder temporary;
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("TMPDIR", temporary.path().c_str(), 1);
+  EXPECT_EQ(TemporaryFiles(), temporary.path());
+  setenv("TMPDIR", (temporary / "nowhere").c_str(), 1);
+  ExpectInputError([] { TemporaryFiles(); }, {"TMPDIR", (temporary / "nowhere").string()});
+  setenv("TMPDIR", "", 1);
+  EXPECT_EQ(TemporaryFiles(), "/tmp");
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }
 
 }  // namespace

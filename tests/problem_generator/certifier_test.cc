@@ -33,6 +33,7 @@ struct RunRow {
 class CertifierTest : public testing::Test {
  protected:
   CertifierTest() {
+    std::filesystem::create_directory(options_.sessions);
     WriteDriver("cp \"" + folder_.path().string() + "/$round\" $out/results.sqlite");
   }
 
@@ -76,7 +77,11 @@ class CertifierTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  CertifierOptions options_{.driver = "", .robot = "a/robot", .time_limit_s = 7.5, .max_rounds = 3};
+  CertifierOptions options_{.driver = "",
+                            .robot = "a/robot",
+                            .sessions = folder_ / "sessions",
+                            .time_limit_s = 7.5,
+                            .max_rounds = 3};
   std::vector<std::pair<std::vector<int>, int>> replacements_;
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "scene/problem.h"
 #include "tests/problem_generator/generator_support.h"
@@ -19,9 +20,10 @@ class MakeProblemsTest : public testing::Test {
     std::string output;
     std::string errors;
   };
-  Outcome Run(std::vector<std::string> arguments) {
+  Outcome Run(std::vector<std::string> arguments,
+              const std::map<std::string, std::string>& environment = {}) {
     arguments.insert(arguments.begin(), std::string(PLANBENCH_BIN_DIR) + "/make_problems");
-    ChildProcess process(arguments, folder_ / "process");
+    ChildProcess process(arguments, folder_ / "process", environment);
     return {process.Wait().value_or(-1), process.Output(), process.Errors()};
   }
   Outcome Make(const std::filesystem::path& spec, const std::string& out,
@@ -89,6 +91,18 @@ TEST_F(MakeProblemsTest, AFailureKeepsTheSetThatWasThere) {
   EXPECT_THAT(outcome.errors, HasSubstr("spec.yaml:19: queries[0].goal"));
   EXPECT_THAT(outcome.errors, HasSubstr("no inverse kinematics solution"));
   EXPECT_EQ(Contents("a"), before);
+}
+
+TEST_F(MakeProblemsTest, WithoutAFolderForTheSessionsOfCertifyingNothingIsMade) {
+  const std::string nowhere = folder_ / "nowhere", out = folder_ / "a";
+  const Outcome outcome =
+      Run({"--spec", ShippedProblems() / "box.yaml", "--robot",
+           std::string(PLANBENCH_SOURCE_DIR) + "/robots/fetch", "--out", out, "--certify"},
+          {{"TMPDIR", nowhere}});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_THAT(outcome.errors, HasSubstr(nowhere));
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST_F(MakeProblemsTest, BadUseEndsWithTwoAndOneLine) {
