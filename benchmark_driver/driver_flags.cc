@@ -11,10 +11,10 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
-#include "common/file_kind.h"
 #include "common/name_value.h"
 #include "results/recorded_flags.h"
 #include "results/session_plan.h"
+#include "robot_model/shipped_robots.h"
 
 namespace planbench {
 namespace {
@@ -138,7 +138,7 @@ std::string Recorded(const std::string& flag, const std::string& value) {
   if (!is_named && !kPaths.contains(flag)) return value;
   const std::size_t begin = is_named ? value.find('=') + 1 : 0;
   const std::filesystem::path path = value.substr(begin);
-  const bool is_shipped_robot = flag == "robot" && !IsFolder(path);
+  const bool is_shipped_robot = flag == "robot" && !IsRobotFolder(path);
   if (path.empty() || is_shipped_robot) return value;
   return value.substr(0, begin) + std::filesystem::absolute(path).lexically_normal().string();
 }

@@ -22,7 +22,7 @@ fs::path ShippedRobots() {
   fs::path above = ProgramFolder();
   while (above.has_relative_path()) {
     for (const char* robots : {"robots", "share/planbench/robots"}) {
-      if (IsFile(above / robots / "fetch/robot.yaml")) return above / robots;
+      if (IsRobotFolder(above / robots / "fetch")) return above / robots;
     }
     above = above.parent_path();
   }
@@ -31,8 +31,10 @@ fs::path ShippedRobots() {
 
 }  // namespace
 
+bool IsRobotFolder(const fs::path& path) { return IsFile(path / "robot.yaml"); }
+
 fs::path FindRobotFolder(const fs::path& folder_or_name) {
-  if (IsFolder(folder_or_name)) return folder_or_name;
+  if (IsRobotFolder(folder_or_name)) return folder_or_name;
   const fs::path shipped = ShippedRobots();
   std::vector<std::string> names;
   if (!shipped.empty()) {
@@ -41,6 +43,7 @@ fs::path FindRobotFolder(const fs::path& folder_or_name) {
       names.push_back(entry.path().filename().string());
     }
   }
+  if (IsFolder(folder_or_name)) return folder_or_name;  // whoever reads it tells what it lacks
   std::sort(names.begin(), names.end());
   throw InputError(
       fmt::format("{}: no such folder{}{}", folder_or_name.string(),

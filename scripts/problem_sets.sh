@@ -25,10 +25,14 @@ ensure_problem_set() {
   printf '%s\n' "$key" >"$out.key"
 }
 
-# The folder of a robot given by path (relative to FROM) or by the name of one that ships.
+# The folder of a robot given by path (relative to FROM) or by the name of one that ships, as the programs find it
+# (robot_model/shipped_robots.h).
 # robot_folder ROBOT FROM
 robot_folder() {
-  (cd "$2" && [ -d "$1" ] && realpath "$1") || printf '%s/robots/%s\n' "$PWD" "$1"
+  (cd "$2" && [ -f "$1/robot.yaml" ] && realpath "$1") && return
+  [ -f "robots/$1/robot.yaml" ] ||
+    die "--robot $1: there is no such folder with a robot.yaml, and no robot of that name ships; those are: $(cd robots && echo *)"
+  printf '%s/robots/%s\n' "$PWD" "$1"
 }
 
 # Names of the sets that are compared for a robot by default: the study's for the Fetch, problems/*_NAME.yaml for others.

@@ -273,6 +273,10 @@ TEST(DriverFlagsTest, FilesAndFoldersAreRecordedSoThatTheyHoldFromElsewhere) {
   EXPECT_EQ(flags.at("problems"), "/p");
   EXPECT_EQ(flags.at("resume"), (here.parent_path() / "s").string());
   EXPECT_EQ(options.robot.folder, robot) << "what is done does not depend on what is recorded";
+
+  std::filesystem::remove(folder / "robots/mine/robot.yaml");
+  ParseFlags({"--launch", "--robot", robot.string(), "--problems", "/p"}, &flags);
+  EXPECT_EQ(flags.at("robot"), robot) << "a folder of that name may be beside a robot that ships";
 }
 
 TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {

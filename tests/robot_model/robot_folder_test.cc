@@ -12,6 +12,7 @@
 
 #include "common/yaml.h"
 #include "robot_model/mesh_robot_id.h"
+#include "robot_model/shipped_robots.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
@@ -443,6 +444,19 @@ TEST(LoadRobot, ShippedRobotsHaveNothingToWarnOf) {
 TEST(LoadRobot, FindsShippedRobotsByName) {
   EXPECT_EQ(LoadRobot("panda").folder, fs::path(PLANBENCH_SOURCE_DIR) / "robots/panda");
   ExpectInputError([] { LoadRobot("pando"); }, {"pando: no such folder", "fetch, panda, ur5e"});
+}
+
+TEST(FindRobotFolder, AFolderCountsIfItIsARobots) {
+  const TemporaryFolder folder;
+  folder.Write("panda/notes.txt", "");
+  folder.Write("notes/notes.txt", "");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  EXPECT_EQ(FindRobotFolder("panda"), fs::path(PLANBENCH_SOURCE_DIR) / "robots/panda");
+  EXPECT_EQ(FindRobotFolder("notes"), "notes") << "its reader says what it lacks";
+  folder.Write("panda/robot.yaml", "");
+  EXPECT_EQ(FindRobotFolder("panda"), "panda");
+  fs::current_path(before);
 }
 
 TEST(Robot, FindsGroupsByName) {
