@@ -35,6 +35,10 @@ install_packages() {
 
 # LCM talks by UDP multicast, also within one machine; without any route for it, the loopback device gets one.
 ensure_multicast() {
+  command -v ip >/dev/null || {
+    say "there is no program ip (package iproute2) to tell whether there is a multicast route: going on as if there were"
+    return
+  }
   ip route get 239.255.76.67 >/dev/null 2>&1 && return
   say "no multicast route: giving the loopback device one (ip route add 224.0.0.0/4 dev lo)"
   as_root ip link set lo up multicast on
@@ -47,7 +51,8 @@ ensure_receive_buffer() {
   cap=$(cat /proc/sys/net/core/rmem_max 2>/dev/null || echo $wanted)
   [ "$cap" -ge $wanted ] && return
   say "raising net.core.rmem_max from $cap to $wanted, so that large messages are not lost"
-  as_root sysctl -q -w net.core.rmem_max=$wanted 2>/dev/null ||
+  # In a shell of its own, which die may leave.
+  (as_root sysctl -q -w net.core.rmem_max=$wanted) ||
     say "could not raise it: messages that get lost will be sent again"
 }
 
