@@ -12,8 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// benchmarks/compare with stand-ins for planner_benchmark, whose problems take `ms` 1, 2, ...
-/// times.
+/// benchmarks/compare with stand-ins for planner_benchmark, whose first three problems take `ms` 1,
+/// 2 and 3 times; of the others one is not solved, and the path of one the referee rejects.
 class CompareTest : public testing::Test {
  protected:
   CompareTest() {
@@ -27,13 +27,16 @@ class CompareTest : public testing::Test {
   void WriteBuild(const std::string& name, double ms, int configurations) {
     const fs::path program = folder_.Write(
         name + "/benchmarks/planner_benchmark",
-        "#!/usr/bin/env bash\nset -eu\nwhile [ $# -gt 1 ]; do [ $1 = --csv ] && csv=$2; shift; "
-        "done\n"
+        "#!/usr/bin/env bash\nset -eu\n"
+        "while [ $# -gt 1 ]; do case $1 in --csv) csv=$2 ;; --problems) set=$(basename $2) ;; "
+        "esac; "
+        "shift; done\n"
         "{ echo set,direction,problem,status,referee_valid,planning_ms,counters\n"
-        "for i in 1 2 3; do echo s,forward,$i,SOLVED,1,$(awk \"BEGIN {print $i * " +
+        "for i in 1 2 3; do echo $set,forward,$i,SOLVED,1,$(awk \"BEGIN {print $i * " +
             std::to_string(ms) +
-            "}\"),edges_checked=5,configurations_checked=" + std::to_string(configurations) +
-            "; done\necho s,forward,4,TIMED_OUT,0,99,configurations_checked=1; } > $csv\n");
+            "}\"),edges_checked=5 configurations_checked=" + std::to_string(configurations) +
+            "; done\necho $set,forward,4,TIMED_OUT,0,99,configurations_checked=1\n"
+            "echo $set,forward,5,SOLVED,0,0.1,configurations_checked=1; } > $csv\n");
     fs::permissions(program, fs::perms::owner_all);
   }
 
@@ -60,6 +63,21 @@ TEST_F(CompareTest, TellsTimesAndRatios) {
                                    " 3 3 4.000 4.000 6.00 0.50 0.50 0.50 3.00\n"));
   }
   EXPECT_THAT(output_, HasSubstr("rrtc all 6 6 4.000 4.000 6.00 0.50 0.50 0.50 3.00\n"));
+}
+
+TEST_F(CompareTest, SetsMayHaveOneNameAndCommas) {
+  for (const char* set : {"mine/box", "theirs/box", "c,d"}) {
+    folder_.Write(std::string(set) + "/scene0001.yaml", "");
+  }
+  ASSERT_EQ(Compare({folder_ / "a", folder_ / "b", "--rounds", "1", "--planners", "rrtc",
+                     folder_ / "mine", folder_ / "theirs/box", folder_ / "c,d"}),
+            0)
+      << errors_;
+  const std::string figures = " 3 3 4.000 4.000 6.00 0.50 0.50 0.50 3.00\n";
+  EXPECT_THAT(output_, HasSubstr("mine/box" + figures));
+  EXPECT_THAT(output_, HasSubstr("theirs/box" + figures));
+  EXPECT_THAT(output_, HasSubstr("rrtc c,d" + figures));
+  EXPECT_THAT(output_, HasSubstr("rrtc all 9 9 "));
 }
 
 TEST_F(CompareTest, RefusesBadUseInOneLine) {
