@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -27,14 +28,15 @@ class EntryScriptsTest : public testing::Test {
     }
     fs::copy(fs::path(PLANBENCH_SOURCE_DIR) / "scripts", checkout_ / "scripts");
     for (const char* robot : {"fetch", "panda"}) {
-      folder_.Write("checkout/robots/" + std::string(robot) + "/robot.yaml", "");
+      folder_.Write(fmt::format("checkout/robots/{}/robot.yaml", robot), "");
     }
-    const std::string note = "echo \"$(basename $0) $*\" >> " + (folder_ / "notes").string() + "\n";
+    const std::string note =
+        fmt::format("echo \"$(basename $0) $*\" >> {}\n", (folder_ / "notes").string());
     WriteProgram("checkout/build/release/bin/benchmark_driver", note + "exit ${CODE-0}\n");
     WriteProgram("checkout/build/release/bin/report", note);
     WriteProgram("bin/ctest", note);
     for (const char* program : {"cmake", "ip", "sysctl"}) {
-      WriteProgram("bin/" + std::string(program), "");
+      WriteProgram(fmt::format("bin/{}", program), "");
     }
   }
 
@@ -54,10 +56,11 @@ class EntryScriptsTest : public testing::Test {
                                         folder_ / "here",
                                         checkout_ / script};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    ChildProcess process(command, folder_ / "process",
-                         {{"PATH", (folder_ / "bin").string() + ":" + std::getenv("PATH")},
-                          {"PLANBENCH_SKIP_INSTALL", "1"},
-                          {"CODE", code}});
+    ChildProcess process(
+        command, folder_ / "process",
+        {{"PATH", fmt::format("{}:{}", (folder_ / "bin").string(), std::getenv("PATH"))},
+         {"PLANBENCH_SKIP_INSTALL", "1"},
+         {"CODE", code}});
     const int ended_with = process.Wait().value_or(-1);
     errors_ = process.Errors();
     notes_ = fs::exists(folder_ / "notes") ? ReadText(folder_ / "notes") : "";

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -169,6 +170,18 @@ TEST_F(SlurmTest, AShardWithoutALogIsNamedAndWhatWasMergedBeforeStays) {
   EXPECT_THAT(Read(folder_ / "log"), HasSubstr("no shard holds an event log"));
 }
 
+TEST_F(SlurmTest, JobsAreSoundWithoutFlagsAndWithAnyFolder) {
+  const fs::path out = folder_ / "a \"b\\c d";
+  ASSERT_EQ(Submit({"--tasks", "2", "--out", out, "--dry-run"}), 0) << errors_;
+  const std::string job = Read(out / "job");
+  EXPECT_THAT(job, HasSubstr("/benchmark_driver --launch --shard "));
+  // sbatch takes a word in quotes, in which a backslash stands before quotes and backslashes.
+  const std::string output = fmt::format("#SBATCH --output=\"{}", folder_.path().string());
+  EXPECT_THAT(job, HasSubstr(output + "/a \\\"b\\\\c d/logs/%a\"\n"));
+  EXPECT_THAT(Read(out / "merge"), HasSubstr(output + "/a \\\"b\\\\c d/logs/merge\"\n"));
+  ASSERT_EQ(Submit({"--tasks", "2", "--out", out, "--dry-run"}), 0) << errors_;
+}
+
 TEST_F(SlurmTest, RefusesBadUseInOneLine) {
   ASSERT_EQ(Submit({"--tasks", "2", "--out", out_, "--dry-run", "--seed", "1"}), 0) << errors_;
   EXPECT_THAT(output_, HasSubstr("2 of 2 shards to run"));
@@ -268,6 +281,14 @@ TEST(PlotSessionTest, ContestantsMayBeCalledAnything) {
   EXPECT_THAT(Read(picture), HasSubstr("Pupil (trained) forward"));
   EXPECT_THAT(Read(picture), HasSubstr("Heir (trained) forward"));
   EXPECT_THAT(Read(picture), HasSubstr("Other forward")) << "has learned from another set";
+
+  const std::string nowhere = folder / "nowhere/picture.svg";
+  ChildProcess refused(
+      {PLANBENCH_SOURCE_DIR "/scripts/plot_session", folder.path().string(), nowhere},
+      folder / "refused");
+  EXPECT_EQ(refused.Wait(), 2);
+  EXPECT_EQ(refused.Errors(), "plot_session: " + nowhere + ": cannot be written\n");
+  EXPECT_EQ(refused.Output(), "");
 }
 
 }  // namespace
