@@ -140,7 +140,7 @@ TEST_F(SceneSamplerTest, ObjectsKeepTheGapAndStandWhollyOnTheirSupport) {
 }
 
 TEST_F(SceneSamplerTest, WithoutAGapObjectsThatTouchAreRefusedAlone) {
-  const auto is_made = [&](const std::string& one, const std::string& other, const char* x) {
+  const auto is_made = [&](const std::string& one, const std::string& other, const std::string& x) {
     return Sample(Spec("  - {id: wall, position: [1, 0, 0], parts: [{" + one +
                            "}]}\n  - {id: thing, position: [" + x + ", 0, 0], parts: [{" + other +
                            "}]}",
@@ -162,11 +162,11 @@ TEST_F(SceneSamplerTest, WithoutAGapObjectsThatTouchAreRefusedAlone) {
 
 TEST_F(SceneSamplerTest, WhatIsTurnedStandsAsFarDownAndAsFarOutAsItReaches) {
   // Height of the object's frame above the face, nothing if it does not stand on it.
-  const auto height = [&](const std::string& part, const char* x) -> std::optional<double> {
+  const auto height = [&](const std::string& part, const std::string& x) -> std::optional<double> {
     const auto sampled =
         Sample(Spec("  - {id: table, position: [1, 0, 0.5], parts: [{box: [1, 1, 0.2]}]}\n"
                     "  - {id: thing, stands_on: table, position: [" +
-                    std::string(x) + ", 0], yaw: 0.3, parts: [{" + part + "}]}"),
+                    x + ", 0], yaw: 0.3, parts: [{" + part + "}]}"),
                1);
     if (!sampled) return std::nullopt;
     return sampled->poses[1]->translation().z() - 0.6;
