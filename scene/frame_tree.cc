@@ -21,7 +21,7 @@ bool Agree(const Isometry3d& a, const Isometry3d& b) {
 }  // namespace
 
 std::string WithoutSlash(const std::string& frame) {
-  return frame.starts_with('/') ? frame.substr(1) : frame;
+  return frame.substr(std::min(frame.find_first_not_of('/'), frame.size()));
 }
 
 FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFrame& planning_frame,
@@ -37,7 +37,10 @@ FrameTree::FrameTree(const Robot& robot, const Stance& stance, const PlanningFra
   for (FixedTransform& transform : named) {
     if (transform.header.empty()) transform.header = planning_frame.name;
   }
-  const std::vector<OutwardFrame> outward = FollowOutwards(named, planning_frame);
+  std::vector<OutwardFrame> outward;  // From the planning frame, unless it is a guess.
+  if (!planning_frame.is_guessed) {
+    outward = FollowOutwards(named, {{planning_frame.name, Isometry3d::Identity(), nullptr}});
+  }
   // What the file says comes before what the robot's description says, and that before what is
   // taken where neither says anything.
   Follow(named, outward);
@@ -74,32 +77,40 @@ void FrameTree::PlaceSurroundings(const Robot& robot) {
   }
 }
 
-void FrameTree::MoveToBaseOf(const FrameTree& other, const std::string& still) {
-  const Isometry3d& X_OF = *other.Find(still);
-  const Isometry3d& X_BF = *Find(still);
+void FrameTree::MoveToBaseOf(const FrameTree& other, const std::string& still,
+                             const YamlNode& node) {
+  const Isometry3d* X_OF = other.Find(still);
+  const Isometry3d* X_BF = Find(still);
+  if (X_OF == nullptr || X_BF == nullptr) {
+    node.Fail("has the robot stand in the frame '" + still +
+              "', which is unknown where it stands in the scene's own state; name one frame for "
+              "both, or a transform that joins them");
+  }
   // Not to round what has not moved.
-  if (X_OF.matrix() == X_BF.matrix()) return;
-  const Isometry3d X_OB = X_OF * X_BF.inverse(Eigen::Isometry);
+  if (X_OF->matrix() == X_BF->matrix()) return;
+  const Isometry3d X_OB = *X_OF * X_BF->inverse(Eigen::Isometry);
   for (auto& [name, X] : X_BF_) X = X_OB * X;
 }
 
 std::vector<FrameTree::OutwardFrame> FrameTree::FollowOutwards(
-    const std::vector<FixedTransform>& transforms, const PlanningFrame& planning_frame) {
-  if (planning_frame.is_guessed) return {};
+    const std::vector<FixedTransform>& transforms, const std::vector<OutwardFrame>& from) {
   std::map<std::string, std::vector<const FixedTransform*>> touching;
   for (const FixedTransform& transform : transforms) {
     touching[transform.header].push_back(&transform);
     touching[transform.child].push_back(&transform);
   }
-  std::vector<OutwardFrame> reached = {{planning_frame.name, Isometry3d::Identity(), nullptr}};
-  std::set<std::string> seen = {planning_frame.name};
+  std::vector<OutwardFrame> reached;
+  std::set<std::string> seen;
+  for (const OutwardFrame& first : from) {
+    if (seen.insert(first.name).second) reached.push_back(first);
+  }
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    const OutwardFrame from = reached[i];  // Not a reference: they grow.
-    for (const FixedTransform* transform : touching[from.name]) {
-      const bool is_from_header = transform->header == from.name;
+    const OutwardFrame last = reached[i];  // Not a reference: they grow.
+    for (const FixedTransform* transform : touching[last.name]) {
+      const bool is_from_header = transform->header == last.name;
       const std::string& other = is_from_header ? transform->child : transform->header;
       if (seen.insert(other).second) {
-        reached.push_back({other, from.X_PF * transform->X, transform});
+        reached.push_back({other, last.X_AF * transform->X, transform});
       }
     }
   }
@@ -112,20 +123,17 @@ void FrameTree::Follow(const std::vector<FixedTransform>& transforms,
     return Find(frame.name) != nullptr;
   });
   if (known != outward.end()) {
-    const Isometry3d X_BP = *Find(known->name) * known->X_PF.inverse(Eigen::Isometry);
-    for (const OutwardFrame& frame : outward) X_BF_.try_emplace(frame.name, X_BP * frame.X_PF);
+    const Isometry3d X_BP = *Find(known->name) * known->X_AF.inverse(Eigen::Isometry);
+    for (const OutwardFrame& frame : outward) X_BF_.try_emplace(frame.name, X_BP * frame.X_AF);
   }
-  for (bool progress = true; progress;) {
-    progress = false;
-    for (const FixedTransform& transform : transforms) {
-      const Isometry3d* header = Find(transform.header);
-      const Isometry3d* child = Find(transform.child);
-      if ((header == nullptr) == (child == nullptr)) continue;
-      const std::string& unknown = header == nullptr ? transform.header : transform.child;
-      const Isometry3d X_BF = (header == nullptr ? *child : *header) * transform.X;
-      X_BF_[unknown] = X_BF;
-      progress = true;
+  std::vector<OutwardFrame> from;
+  for (const FixedTransform& transform : transforms) {
+    for (const std::string* name : {&transform.header, &transform.child}) {
+      if (const Isometry3d* X_BF = Find(*name)) from.push_back({*name, *X_BF, nullptr});
     }
+  }
+  for (const OutwardFrame& frame : FollowOutwards(transforms, from)) {
+    X_BF_.try_emplace(frame.name, frame.X_AF);
   }
 }
 

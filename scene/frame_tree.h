@@ -14,7 +14,7 @@ namespace planbench {
 
 /// One of a scene's fixed_frame_transforms.
 struct FixedTransform {
-  std::string header;  ///< Frames, without a leading slash; the header's may be "".
+  std::string header;  ///< Frames, without leading slashes; the header's may be "".
   std::string child;
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   YamlNode node;
@@ -24,7 +24,7 @@ struct FixedTransform {
 struct PlacedLink {
   std::string joint;  ///< "" for a joint that the robot's description does not have.
   int link = 0;
-  std::string frame;  ///< F, without a leading slash; "" is the planning frame.
+  std::string frame;  ///< F, without leading slashes; "" is the planning frame.
   Eigen::Isometry3d X_FL = Eigen::Isometry3d::Identity();
   YamlNode node;  ///< Where the pose stands.
 };
@@ -37,7 +37,7 @@ struct Stance {
 
 /// The frame that a file is in.
 struct PlanningFrame {
-  std::string name;         ///< Without a leading slash; "" if nothing names it.
+  std::string name;         ///< Without leading slashes; "" if nothing names it.
   bool is_guessed = false;  ///< From what the transforms have in common; the file may mean another.
 };
 
@@ -50,7 +50,7 @@ struct ObjectFrame {
   std::optional<YamlNode> disputed_pose;
 };
 
-/// A name of tf without its leading slash.
+/// A name of tf without its leading slashes.
 std::string WithoutSlash(const std::string& frame);
 
 /// Poses of named frames in the robot's base frame B (that of its root link), with the robot in one
@@ -76,8 +76,8 @@ class FrameTree {
 
   /// Before objects are set: has all poses in the base frame of `other`, a stance of the same
   /// robot; `still` is the frame that stands still while the robot goes from the one to the other.
-  /// Both must know it.
-  void MoveToBaseOf(const FrameTree& other, const std::string& still);
+  /// Throws InputError, at `node`, if either does not know it.
+  void MoveToBaseOf(const FrameTree& other, const std::string& still, const YamlNode& node);
 
   /// Whoever asks for a frame of an object before it is set is told that it comes later.
   void ExpectObject(const std::string& id) {
@@ -96,7 +96,7 @@ class FrameTree {
   /// them.
   void SetObjectsOf(const FrameTree& other);
 
-  /// X_BF of a frame, null if it is unknown. A leading slash in `name` does not count.
+  /// X_BF of a frame, null if it is unknown. Leading slashes in `name` do not count.
   const Eigen::Isometry3d* Find(const std::string& name) const;
   /// The same for who uses it, at `node`: throws InputError there for an unknown one. Warns of one
   /// that MoveIt would have elsewhere, at the pose that is disputed.
@@ -111,11 +111,11 @@ class FrameTree {
   std::optional<InLink> OfObject(const std::string& name) const;
 
  private:
-  // A frame that transforms join to the planning frame P.
+  // A frame on the way outwards from others, whose poses are in A.
   struct OutwardFrame {
     std::string name;
-    Eigen::Isometry3d X_PF;
-    const FixedTransform* last;  // Which leads there; null for P itself.
+    Eigen::Isometry3d X_AF;
+    const FixedTransform* last;  // Which leads there; null for those that the way is from.
   };
   struct ObjectFrames {
     std::string link;  // "" for the base frame.
@@ -131,11 +131,11 @@ class FrameTree {
   void Place(const PlacedLink& placed, const std::string& frame, const RobotModel& model);
   // Places the parent frames of virtual joints that are not known by now.
   void PlaceSurroundings(const Robot& robot);
-  // P, and what transforms join to it, the nearest first; nothing for a guess.
+  // These frames, and what transforms join to them, the nearest first.
   static std::vector<OutwardFrame> FollowOutwards(const std::vector<FixedTransform>& transforms,
-                                                  const PlanningFrame& planning_frame);
-  // Places what is joined to P, if any of it is known, by the nearest that is; then follows the
-  // transforms from known frames to unknown ones, as far as they go.
+                                                  const std::vector<OutwardFrame>& from);
+  // Places what is joined to the planning frame, if any of it is known, by the nearest that is;
+  // then follows the transforms from known frames to unknown ones, as far as they go.
   void Follow(const std::vector<FixedTransform>& transforms,
               const std::vector<OutwardFrame>& outward);
   void WarnOfPlacedRobot(const std::vector<OutwardFrame>& outward, const RobotModel& model) const;

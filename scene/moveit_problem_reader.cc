@@ -255,8 +255,9 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   const PlanningFrame planning_frame = FindPlanningFrame(robot, start, scene_state, transforms);
   FrameTree frames(robot, at_start, planning_frame, transforms);
   FrameTree scene_frames(robot, in_scene, planning_frame, transforms);
-  scene_frames.MoveToBaseOf(frames,
-                            StillFrame(robot.model, start.placed_links, planning_frame.name));
+  scene_frames.MoveToBaseOf(
+      frames, StillFrame(robot.model, start.placed_links, planning_frame.name),
+      start.placed_links.empty() ? planning_scene : start.placed_links.front().node);
   Scene& scene = problem.scene;
   scene.name = planning_scene.StringOr("name", "");
   scene.robot_name = planning_scene.StringOr("robot_model_name", "");

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "common/error.h"
-#include "tests/scene/problem_texts.h"
+#include "scene/frame_tree.h"
+#include "tests/scene/frame_texts.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -14,44 +15,6 @@ using Eigen::Vector3d;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-// In these tests the robot's mast is turned by a quarter: the gripper is at (0, 1, 0), its x axis
-// along y.
-constexpr const char* kBallRequest = R"(
-start_state: {joint_state: {name: [a_joint, b_joint], position: [1.5707963267948966, 0]}}
-goal_constraints:
-  - joint_constraints: [{joint_name: a_joint, position: 1}, {joint_name: b_joint, position: 0}]
-)";
-
-std::string Transform(const std::string& header, const std::string& child,
-                      const std::string& translation, const std::string& rotation = "0, 0, 0, 1") {
-  return "  - {header: {frame_id: '" + header + "'}, child_frame_id: '" + child +
-         "', transform: {translation: [" + translation + "], rotation: [" + rotation + "]}}\n";
-}
-
-// A ball at (1, 0, 0) of a frame, and more of a scene.
-std::string BallIn(const std::string& frame, const std::string& more = "") {
-  return "robot_model_name: fetch\n" + more +
-         "world:\n  collision_objects:\n    - id: ball\n      header: {frame_id: '" + frame +
-         "'}\n      primitives: [{type: sphere, dimensions: [0.1]}]\n"
-         "      primitive_poses: [{position: [1, 0, 0], orientation: [0, 0, 0, 1]}]\n";
-}
-
-Vector3d PlaceOf(const SceneObject& object) {
-  return object.X_WO * object.shapes.front().X_FS.translation();
-}
-
-Vector3d Ball(const std::string& scene, const std::string& request = kBallRequest) {
-  return PlaceOf(ParseProblem(scene, request).scene.objects.at(0));
-}
-
-void ExpectAt(const Vector3d& actual, double x, double y, double z) {
-  EXPECT_TRUE((actual - Vector3d(x, y, z)).isZero(1e-9)) << actual.transpose();
-}
-
-constexpr const char* kTransforms = "fixed_frame_transforms:\n";
-// A quarter turn about z.
-constexpr const char* kQuarter = "0, 0, 0.7071067811865476, 0.7071067811865476";
 
 TEST(Frames, OfTheRobotsLinks) {
   ExpectAt(Ball(BallIn("base_link")), 1, 0, 0);
@@ -111,6 +74,47 @@ TEST(Frames, ChainsOfFixedTransforms) {
   }
 }
 
+TEST(Frames, LeadingSlashesDoNotCount) {
+  for (const char* slashes : {"/", "//", "///"}) {
+    const auto named = [&](const char* name) { return std::string(slashes) + name; };
+    EXPECT_EQ(WithoutSlash(named("")), "");
+    EXPECT_EQ(WithoutSlash(named("table//edge")), "table//edge");
+    ExpectAt(Ball(BallIn(named("r_finger"))), 0, 2, 0);
+    const std::string state =
+        "robot_state: {joint_state: {header: {frame_id: " + named("world") + "}}}\n";
+    ExpectAt(Ball(BallIn("world", state)), 1, 0, 0);
+    for (const auto& [header, child] :
+         {std::pair{named("map"), named("base_link")}, {named("base_link"), named("map")}}) {
+      ExpectAt(Ball(BallIn("map", kTransforms + Transform(header, child, "0, 2, 0"))), 1, 2, 0);
+    }
+    Robot robot = TextRobot();
+    robot.virtual_joints = {
+        {"stand", JointType::kFixed, named("odom"), robot.model.FindLink("base_link")}};
+    const Problem problem = ParseProblem(YamlNode::Parse(BallIn("odom"), "scene.yaml"),
+                                         YamlNode::Parse(kBallRequest, "request.yaml"), robot, {});
+    ExpectAt(PlaceOf(problem.scene.objects.at(0)), 1, 0, 0);
+  }
+}
+
+// The farthest first, which is the order that takes longest if the list is gone through for each.
+TEST(Frames, ALongChainIsFollowedInOneWalk) {
+  constexpr int kLength = 20000;
+  const Robot robot = TextRobot();
+  const YamlNode node = YamlNode::Parse("{}", "scene.yaml");
+  std::vector<FixedTransform> transforms;
+  for (int i = kLength; i > 0; --i) {
+    transforms.push_back({.header = i == 1 ? "base_link" : std::to_string(i - 1),
+                          .child = std::to_string(i),
+                          .X = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.5)),
+                          .node = node});
+  }
+  const FrameTree frames(robot, {.positions = robot.model.DefaultPositions(), .placed_links = {}},
+                         {.name = "map"}, transforms);
+  const Eigen::Isometry3d* last = frames.Find(std::to_string(kLength));
+  ASSERT_NE(last, nullptr);
+  ExpectAt(last->translation(), 0, 0, 0.5 * kLength);
+}
+
 TEST(Frames, ATransformSaidTwiceMustBeTheSame) {
   const std::string once = kTransforms + Transform("base_link", "camera", "0, 2, 0");
   ExpectAt(Ball(BallIn("camera", once + Transform("camera", "base_link", "0, 2, 0.0000001"))), 1, 2,
@@ -148,13 +152,6 @@ TEST(Frames, ThePlanningFrameIsTheRootsUnlessItIsPlaced) {
       kTransforms + Transform("map", "map", "0, 0, 0") + Transform("map", "base_link", "0, 7, 0");
   ExpectAt(Ball(BallIn("", placed)), 1, -7, 0);
   ExpectAt(Ball(BallIn("map", placed)), 1, -7, 0);
-}
-
-std::string RootAt(const std::string& frame, const std::string& translation,
-                   const std::string& rotation = "0, 0, 0, 1") {
-  return "  multi_dof_joint_state:\n    header: {frame_id: '" + frame +
-         "'}\n    joint_names: [world_joint]\n    transforms: [{translation: [" + translation +
-         "], rotation: [" + rotation + "]}]\n    twist: []\n    wrench: []\n";
 }
 
 // As of any other frame the numbers are its pose in the planning frame, whichever the header names.
@@ -255,6 +252,21 @@ TEST(Frames, TheWorldStandsStillWhereTheRequestPlacesTheRobotElsewhere) {
       [&] { Ball(BallIn("odom", Replaced(state, "'odom'", "'map'")), request); },
       {"request.yaml:6: start_state.multi_dof_joint_state.transforms[0]: places the robot in the "
        "frame 'odom', but the other file in 'map'"});
+}
+
+TEST(Frames, TheFrameThatTheStartPlacesTheRobotInMustBeKnownInTheScenesStateToo) {
+  const std::string request =
+      Replaced(Replaced(kBallRequest, "start_state: {joint_state: {name",
+                        "start_state:\n" + RootAt("map", "0, 0, 1") + "  joint_state: {name"),
+               "0]}}", "0]}");
+  const std::string scene =
+      BallIn("base_link", "robot_state:\n" + RootAt("", "0, 0, 0") + kTransforms +
+                              Transform("base_link", "base_link", "0, 0, 0"));
+  ExpectInputError(
+      [&] { Ball(scene, request); },
+      {"request.yaml:6: start_state.multi_dof_joint_state.transforms[0]: has the robot "
+       "stand in the frame 'map', which is unknown"});
+  EXPECT_NO_THROW(Ball(Replaced(scene, "''}\n    joint_names", "map}\n    joint_names"), request));
 }
 
 TEST(Frames, AVirtualJointAndATransformMustAgree) {
@@ -545,53 +557,6 @@ TEST(Frames, FixedOnesComeOutInTheBaseFrame) {
   for (const FrameTransform& frame : scene.fixed_frames) names.push_back(frame.frame);
   EXPECT_THAT(names, ElementsAre("camera", "lens"));
   ExpectAt(scene.fixed_frames[1].X_WF.translation(), 0, 2, 1);
-}
-
-TEST(Quaternions, AreNormalisedOrTakenAsNoRotationWithAWarning) {
-  const auto warnings = [](const std::string& quaternion) {
-    const Problem problem = ParseProblem(
-        Replaced(BallIn("base_link"), "orientation: [0, 0, 0, 1]", "orientation: " + quaternion),
-        kBallRequest);
-    EXPECT_TRUE(problem.scene.objects[0].shapes[0].X_FS.linear().isUnitary(1e-12));
-    return problem.warnings;
-  };
-  for (const char* fine :
-       {"[0, 0, 0, 1]", "[0, 0, 0.7071, 0.7071]", "[0, 0, 0.6, 0.8005]", "[0, 0, 0, -1]"}) {
-    EXPECT_THAT(warnings(fine), IsEmpty()) << fine;
-  }
-  EXPECT_THAT(
-      warnings("[0, 0, 0, 0]"),
-      ElementsAre("scene.yaml:7: world.collision_objects[0].primitive_poses[0].orientation: "
-                  "is all zero; taken as no rotation"));
-  EXPECT_THAT(warnings("{x: 0, y: 0, z: 0, w: 0}"), ElementsAre(HasSubstr("no rotation")));
-  EXPECT_THAT(warnings("[0, 0, 0, 2]"), ElementsAre(HasSubstr("length 2.000000")));
-  EXPECT_THAT(warnings("[0, 0, 0.6, 0.83]"), ElementsAre(HasSubstr("normalised")));
-  EXPECT_THAT(warnings("[0, 0, 0.6, 0.77]"), ElementsAre(HasSubstr("normalised")));
-  for (const char* bad : {"[0, 0, 0.6, 0.9]", "[0, 0, 1.57, 0]", "[0, 0.1, 0, 2]"}) {
-    EXPECT_THROW(warnings(bad), InputError) << bad;
-  }
-}
-
-TEST(Quaternions, EverywhereAlike) {
-  const std::string zero = "[0, 0, 0, 0]";
-  const Problem problem = ParseProblem(
-      "robot_model_name: fetch\nrobot_state:\n" +
-          Replaced(RootAt("odom", "0, 0, 1"), "[0, 0, 0, 1]", zero) +
-          "  attached_collision_objects:\n    - {link_name: gripper_link, object: {id: tool, "
-          "header: {frame_id: gripper_link}, primitives: [{type: sphere, dimensions: [1]}], "
-          "primitive_poses: [{position: [1, 0, 0], orientation: " +
-          zero + "}]}}\n" + kTransforms +
-          Replaced(Transform("camera", "odom", "0, 0, 1"), "[0, 0, 0, 1]", zero) +
-          "world: {collision_objects: [{id: ball, pose: {position: [1, 0, 0], orientation: " +
-          zero +
-          "}, meshes: [{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}], "
-          "mesh_poses: [{position: [0, 0, 1], orientation: " +
-          zero + "}]}]}\n",
-      kBallRequest);
-  EXPECT_EQ(problem.warnings.size(), 5u);
-  for (const std::string& warning : problem.warnings) {
-    EXPECT_THAT(warning, HasSubstr("is all zero; taken as no rotation"));
-  }
 }
 
 }  // namespace
