@@ -75,17 +75,19 @@ Eigen::Quaterniond ReadQuaternion(const YamlNode& node) {
 
 Eigen::Quaterniond Normalised(const Eigen::Quaterniond& q, const YamlNode& node,
                               const std::string& subject) {
-  const std::string length = std::to_string(q.norm());
+  const double length = q.coeffs().stableNorm();
   if (q.vec().isZero(0)) {
     if (q.w() == 0) node.Warn(subject + "is all zero; taken as no rotation");
     if (q.w() != 0 && std::abs(std::abs(q.w()) - 1) > kRounding) {
-      node.Warn(subject + "has length " + length + "; taken as no rotation");
+      node.Warn(fmt::format("{}has length {:g}; taken as no rotation", subject, length));
     }
     return Eigen::Quaterniond::Identity();
   }
-  const double off = std::abs(q.norm() - 1);
-  if (!(off <= kFarthest)) node.Fail(subject + "is no unit quaternion (length " + length + ")");
-  if (off > kRounding) node.Warn(subject + "has length " + length + "; normalised");
+  const double off = std::abs(length - 1);
+  if (!(off <= kFarthest)) {
+    node.Fail(fmt::format("{}is no unit quaternion (length {:g})", subject, length));
+  }
+  if (off > kRounding) node.Warn(fmt::format("{}has length {:g}; normalised", subject, length));
   return q.normalized();
 }
 

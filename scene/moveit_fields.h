@@ -26,8 +26,8 @@ void RequireNear(const Eigen::Vector3d& position, const YamlNode& node);
 
 /// geometry_msgs/Quaternion: [x, y, z, w] or a map of the four. Normalised; its length must be 1
 /// within 5 %. As in MoveIt, one of nothing but zeros is the identity, and so is one that has a w
-/// alone. Warns of these, and of a length that is off by more than rounding to a few digits makes
-/// it.
+/// alone, of whatever length. Warns of a length that is off by more than rounding to a few digits
+/// makes it.
 Eigen::Quaterniond ReadQuaternion(const YamlNode& node);
 /// The same for one whose numbers stand elsewhere; what is wrong with it is said at `node`, of
 /// `subject` ("the rotation ").
@@ -42,7 +42,7 @@ Eigen::Isometry3d ReadTransform(const YamlNode& node);
 /// Whether all seven numbers of a geometry_msgs/Pose are zero, as messages leave it unset.
 bool IsUnsetPose(const YamlNode& pose);
 
-/// header.frame_id of a message without a leading slash, "" if it has none.
+/// header.frame_id of a message without leading slashes, "" if it has none.
 std::string ReadFrame(const YamlNode& message);
 /// Where ReadFrame's frame stands, for messages about it.
 YamlNode FrameNode(const YamlNode& message);

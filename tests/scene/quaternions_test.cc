@@ -29,12 +29,18 @@ TEST(Quaternions, AreNormalisedOrTakenAsNoRotationWithAWarning) {
       ElementsAre("scene.yaml:7: world.collision_objects[0].primitive_poses[0].orientation: "
                   "is all zero; taken as no rotation"));
   EXPECT_THAT(warnings("{x: 0, y: 0, z: 0, w: 0}"), ElementsAre(HasSubstr("no rotation")));
-  EXPECT_THAT(warnings("[0, 0, 0, 2]"), ElementsAre(HasSubstr("length 2.000000")));
+  for (const char* w : {"2", "-3", "1e-12", "1e+308"}) {
+    const std::string length = w + (*w == '-' ? 1 : 0);
+    EXPECT_THAT(warnings("[0, 0, 0, " + std::string(w) + "]"),
+                ElementsAre(HasSubstr(": has length " + length + "; taken as no rotation")));
+  }
   EXPECT_THAT(warnings("[0, 0, 0.6, 0.83]"), ElementsAre(HasSubstr("normalised")));
   EXPECT_THAT(warnings("[0, 0, 0.6, 0.77]"), ElementsAre(HasSubstr("normalised")));
   for (const char* bad : {"[0, 0, 0.6, 0.9]", "[0, 0, 1.57, 0]", "[0, 0.1, 0, 2]"}) {
     EXPECT_THROW(warnings(bad), InputError) << bad;
   }
+  ExpectInputError([&] { warnings("[0, 0, 1e-9, 1e-9]"); },
+                   {"is no unit quaternion (length 1.41421e-09)"});
 }
 
 TEST(Quaternions, EverywhereAlike) {

@@ -215,12 +215,12 @@ TEST(StartState, PartsOfAPoseAreHeldToWhatAPoseIsHeldTo) {
                           "'drive' is all zero; taken as no rotation"));
   EXPECT_EQ(position(zero, "drive/rot_w"), 1);
   const Problem rounded = state("drive/rot_z, drive/rot_w", "0.72, 0.72");
-  EXPECT_THAT(rounded.warnings, ElementsAre(HasSubstr("length 1.018234; normalised")));
+  EXPECT_THAT(rounded.warnings, ElementsAre(HasSubstr("length 1.01823; normalised")));
   EXPECT_NEAR(position(rounded, "drive/rot_w"), std::sqrt(0.5), 1e-12);
 
   ExpectInputError([&] { state("drive/rot_w, drive/rot_z", "2, 2"); },
                    {"joint_state.name[2]: the rotation of joint 'drive' is no unit quaternion "
-                    "(length 2.828427)"});
+                    "(length 2.82843)"});
   ExpectInputError([&] { state("drive/trans_x", "1e300"); },
                    {"joint_state.name[1]: is beyond 1000000000 m"});
   for (const char* part : {"trans_x", "trans_y", "rot_w"}) {
