@@ -126,7 +126,8 @@ std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std:
   const int index = model.FindJoint(name);
   if (index < 0) return std::nullopt;
   const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
-  if (joint.type == JointType::kFixed && !IsFixedAt(joint, position)) {
+  if (joint.type == JointType::kFixed && !IsFixedAt(joint, position) &&
+      MayBeFixedAt(joint, position)) {
     return fmt::format(
         "is fixed; {} is a number of its origin, taken for where it was fixed, and does not count",
         position);

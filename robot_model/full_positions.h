@@ -16,8 +16,8 @@ namespace planbench {
 std::optional<std::string> FindPositionFault(const RobotModel& model, const std::string& name,
                                              double position);
 
-/// What is odd about a position that is taken all the same, nothing if nothing is: a fixed joint's
-/// that its origin does not show along or about the axis of its description.
+/// What is odd about a position without fault, nothing if nothing is: a fixed joint's that its
+/// origin does not show along or about the axis of its description.
 std::optional<std::string> FindPositionDoubt(const RobotModel& model, const std::string& name,
                                              double position);
 

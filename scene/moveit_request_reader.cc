@@ -54,19 +54,23 @@ const JointGoal* FindGoal(const std::vector<JointGoal>& goals, const std::string
 }
 
 // Refuses a goal of a joint outside the group, or of a part of a pose, unless it is met wherever
-// the group is, or says the same of a follower as `goals` say of its leader.
+// the group is, says the same of a follower as `goals` say of its leader, or of a fixed joint what
+// a start may say.
 void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& model,
                 const PlanningGroup& group, const std::vector<JointGoal>& goals,
                 const std::vector<double>& start) {
-  const auto require = [&](double position, bool is_continuous) {
-    if (Meets(goal, position)) return;
-    const double nearest_turn = goal.position + WrapAngle(position - goal.position);
-    if (is_continuous && Meets(goal, nearest_turn)) return;
-    node.Fail("the joint '" + goal.joint + "' is not in group '" + group.name + "' and stays at " +
-              std::to_string(position));
+  const auto is_met = [&](double position, bool is_continuous) {
+    return Meets(goal, position) ||
+           (is_continuous && Meets(goal, goal.position + WrapAngle(position - goal.position)));
   };
+  const auto fail = [&](const std::string& why, double position) {
+    node.Fail(fmt::format("the joint '{}' {} at {:g}", goal.joint, why, position));
+  };
+  std::string why = "is not in group '" + group.name + "' and stays";
   if (const std::optional<PosePart> part = FindPosePart(model, goal.joint)) {
-    return require(PositionOf(*part, start), part->is_angle);
+    const double position = PositionOf(*part, start);
+    if (!is_met(position, part->is_angle)) fail(why, position);
+    return;
   }
   const int index = model.FindJoint(goal.joint);
   if (index < 0) node.Fail("the joint '" + goal.joint + "' is unknown");
@@ -84,10 +88,17 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
         node.Fail("the joint '" + goal.joint + "' follows '" + leader + "'; give a goal for that");
       }
       position = of_leader->position;
+      why = "follows '" + leader + "', whose goal puts it";
     }
     if (joint.position_index >= 0) position = joint.multiplier * position + joint.offset;
   }
-  require(position, joint.type == JointType::kContinuous);
+  if (is_met(position, joint.type == JointType::kContinuous)) return;
+  if (joint.type == JointType::kFixed) {
+    const auto fault = FindPositionFault(model, goal.joint, goal.position);
+    if (!fault) return;
+    node.Fail("the joint '" + goal.joint + "' " + *fault);
+  }
+  fail(why, position);
 }
 
 // What is left of a group's joint limits by the goals, which are those of a set at `node`.

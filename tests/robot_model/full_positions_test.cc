@@ -76,6 +76,7 @@ TEST_F(FullPositionsTest, AFixedJointThatTellsNoAxisIsInDoubtAwayFromZero) {
     EXPECT_THAT(FindPositionDoubt(model_, "still", position).value_or(""),
                 HasSubstr("is fixed; " + std::string(position > 0 ? "0.065" : "-0.9")));
   }
+  EXPECT_FALSE(FindPositionDoubt(model_, "still", 0.1)) << "no number of its origin";
 }
 
 TEST(FullPositions, TheAxisOfAFixedJointTellsWhereItWasFixed) {

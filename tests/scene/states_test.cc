@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // A gripper on a cart: `drive` holds a pose, `wrist` is planned with, `f2` follows `f1` and `weld`
-// is fixed.
+// is fixed at 0.065.
 constexpr const char* kUrdf = R"(<robot name="cart">
   <link name="floor"/><link name="cart"/><link name="hand"/><link name="left"/><link name="right"/>
   <link name="pad"/>
@@ -32,7 +32,8 @@ constexpr const char* kUrdf = R"(<robot name="cart">
     <limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
   <joint name="f2" type="prismatic"><parent link="hand"/><child link="right"/><axis xyz="0 -1 0"/>
     <limit lower="0" upper="0.04" velocity="1" effort="1"/><mimic joint="f1"/></joint>
-  <joint name="weld" type="fixed"><parent link="right"/><child link="pad"/></joint>
+  <joint name="weld" type="fixed"><parent link="right"/><child link="pad"/>
+    <origin xyz="0 0.065 0"/><axis xyz="0 1 0"/></joint>
 </robot>)";
 
 Robot CartRobot() {
@@ -288,12 +289,26 @@ TEST(Goals, OfOtherJointsMayOnlySayWhatIsSo) {
     ExpectInputError([&] { goals(more, group); },
                      {"request.yaml:3: goal_constraints[0].joint_constraints", says});
   };
-  refuse("{joint_name: weld, position: 0.1}", "stays at 0");
+  refuse("{joint_name: weld, position: 0.1}", "'weld' is fixed and cannot be at 0.1");
   refuse("{joint_name: f1, position: 0.03}", "'f1' is not in group 'wrist' and stays at 0.02");
   refuse("{joint_name: f2, position: 0.03}", "'f2' is not in group 'wrist' and stays at 0.02");
   refuse("{joint_name: drive, position: 0}", "'drive' has a pose");
   refuse("{joint_name: f2, position: 0.04}", "'f2' follows 'f1'; give a goal for that", "grip");
-  refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}", "'f2'", "grip");
+  refuse("{joint_name: f1, position: 0.04}, {joint_name: f2, position: 0}",
+         "the joint 'f2' follows 'f1', whose goal puts it at 0.04", "grip");
+}
+
+TEST(Goals, OfAFixedJointAreTakenWhereAStartMayNameIt) {
+  const auto warnings = [](const std::string& weld) {
+    return Parse("", "joint_state: {name: [wrist], position: [0]}",
+                 "{joint_name: wrist, position: 1}, {joint_name: weld, position: " + weld + "}")
+        .warnings;
+  };
+  EXPECT_THAT(warnings("0.065"), IsEmpty());
+  EXPECT_THAT(warnings("0.03, tolerance_below: 0.05"), IsEmpty()) << "it is at 0, too";
+  EXPECT_THAT(warnings("-0.065"),
+              ElementsAre(HasSubstr("joint_constraints[1].position: the joint 'weld' is fixed; "
+                                    "-0.065 is a number of its origin")));
 }
 
 TEST(Goals, OfPartsOfAPoseMayOnlySayWhatIsSo) {
