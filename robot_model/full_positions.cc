@@ -153,6 +153,19 @@ void PutPositions(const RobotModel& model, const std::vector<std::string>& names
   }
 }
 
+std::string FollowerThatPuts(const RobotModel& model, int leader,
+                             const std::vector<std::string>& names) {
+  std::string puts;  // The last one does.
+  for (const std::string& name : names) {
+    const int index = model.FindJoint(name);
+    if (index == leader) return "";
+    if (index < 0) continue;
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+    if (joint.leader == leader && joint.position_index >= 0 && joint.multiplier != 0) puts = name;
+  }
+  return puts;
+}
+
 std::vector<double> FullPositionsWherePossible(const RobotModel& model,
                                                const std::vector<std::string>& names,
                                                const std::vector<double>& positions) {
@@ -190,10 +203,11 @@ std::vector<double> FullPositions(const RobotModel& model, const std::vector<std
             : joint.multiplier * full[static_cast<std::size_t>(joint.position_index)] +
                   joint.offset;
     if (std::abs(at - positions[i]) <= kAgreement) continue;
-    warnings->push_back(
-        fmt::format("{}: joint '{}' is given at {}, but follows joint '{}', which "
-                    "puts it at {}",
-                    origin, joint.name, positions[i], leader.name, at));
+    const std::string puts = FollowerThatPuts(model, joint.leader, names);
+    warnings->push_back(fmt::format(
+        "{}: joint '{}' is given at {}, but follows joint '{}', which {}puts it at {:g}", origin,
+        joint.name, positions[i], leader.name,
+        puts.empty() ? "" : fmt::format("is where '{}' has it, and ", puts), at));
   }
   return full;
 }

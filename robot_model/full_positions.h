@@ -51,6 +51,11 @@ std::vector<double> FullPositionsWherePossible(const RobotModel& model,
                                                const std::vector<std::string>& names,
                                                const std::vector<double>& positions);
 
+/// The one of `names` that, named without its leader, puts the joint of that index where it is; ""
+/// if none does.
+std::string FollowerThatPuts(const RobotModel& model, int leader,
+                             const std::vector<std::string>& names);
+
 /// Puts the named joints of full positions where `positions` have them, in the same way; others
 /// stay where they are.
 void PutPositions(const RobotModel& model, const std::vector<std::string>& names,

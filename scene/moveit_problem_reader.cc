@@ -71,16 +71,19 @@ void PlaceFollowers(const RobotModel& model, const std::vector<double>& full, Jo
 }
 
 // Joints outside the group stay where they are: no planner and no referee asks for their limits.
+// Those that none of the `names` of the start means are where a follower puts them.
 void WarnOfHeldJoints(const YamlNode& node, const RobotModel& model, const PlanningGroup& group,
-                      const std::vector<double>& full) {
+                      const std::vector<std::string>& names, const std::vector<double>& full) {
   std::vector<std::string> outside;
   for (const Joint& joint : model.joints()) {
     if (NumPositions(joint.type) != 1 || joint.leader >= 0) continue;
     if (group.space.Find(joint.name) >= 0) continue;
     const double position = full[static_cast<std::size_t>(joint.position_index)];
     if (position >= joint.lower - kBeyondLimit && position <= joint.upper + kBeyondLimit) continue;
-    outside.push_back(
-        fmt::format("'{}' at {} of [{}, {}]", joint.name, position, joint.lower, joint.upper));
+    const std::string puts = FollowerThatPuts(model, model.FindJoint(joint.name), names);
+    outside.push_back(fmt::format("'{}'{} at {:g} of [{}, {}]", joint.name,
+                                  puts.empty() ? "" : fmt::format(", where '{}' has it,", puts),
+                                  position, joint.lower, joint.upper));
   }
   if (outside.empty()) return;
   node.Warn(fmt::format("held joints are outside their limits: {}", fmt::join(outside, ", ")));
@@ -121,7 +124,7 @@ Stance ReadStart(const YamlNode& request, const RobotModel& model, const Plannin
     full[static_cast<std::size_t>(index)] = joints->positions[i];
   }
   PlaceFollowers(model, full, joints);
-  WarnOfHeldJoints(node, model, group, full);
+  WarnOfHeldJoints(node, model, group, joints->names, full);
   return {.positions = full, .placed_links = start.placed_links};
 }
 

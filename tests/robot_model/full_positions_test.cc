@@ -146,6 +146,13 @@ TEST_F(FullPositionsTest, AFollowerThatContradictsItsLeaderDoesNotCount) {
   }
   Full({"echo"}, {0});
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("joint 'still', which puts it at 0.3")));
+  // 0.1 - 0.3 / 2 is not quite -0.05.
+  Full({"grip_b", "grip_a"}, {0, 0.3});
+  EXPECT_THAT(warnings_, ElementsAre(testing::EndsWith("puts it at -0.05")));
+  // Where only followers are named, the last one tells.
+  EXPECT_NEAR(Full({"grip_b", "far"}, {0.1, 0.6}).back(), 0.6, 1e-12);
+  EXPECT_THAT(warnings_, ElementsAre("start: joint 'grip_b' is given at 0.1, but follows joint "
+                                     "'grip_a', which is where 'far' has it, and puts it at -0.2"));
 }
 
 TEST_F(FullPositionsTest, AFollowerAloneTellsWhereItsLeaderIs) {

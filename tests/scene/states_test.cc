@@ -269,6 +269,9 @@ TEST(StartState, WarnsOfHeldJointsOutsideTheirLimits) {
               ElementsAre("request.yaml:2: start_state: held joints are outside their limits: 'f1' "
                           "at 0.5 of [0, 0.04]"));
   EXPECT_EQ(problem.start.positions[0], 0.5) << "it is held there";
+  problem = Parse("", "joint_state: {name: [f2, wrist], position: [0.5, 0.2]}");
+  EXPECT_THAT(problem.warnings,
+              ElementsAre(HasSubstr("limits: 'f1', where 'f2' has it, at 0.5 of [0, 0.04]")));
   problem = Parse("", "joint_state: {name: [f1, wrist], position: [0.0405, 0.2]}");
   EXPECT_THAT(problem.warnings, IsEmpty()) << "measured";
   EXPECT_THAT(warnings("0.5", "grip"), IsEmpty()) << "planners say it of the group's own";
