@@ -33,6 +33,9 @@ constexpr double kWarmUpLimit = 1;  // s
 /// How often a run is made again because it was disturbed.
 constexpr int kMostRepeats = 2;
 
+/// Of how many deaths of the scene server a problem is the cause; one may be another's doing.
+constexpr int kServerDeaths = 2;
+
 /// Throws InputError if a process is not of the driver's build: on one machine or on several, a
 /// session compares planners, not versions of what is around them.
 void RequireSameBuild(const NodeStatusMessage& node) {
@@ -87,7 +90,8 @@ std::string Driver::Missing(bool need_logger) const {
   return fmt::format("{}", fmt::join(missing, ", "));
 }
 
-void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
+void Driver::Discover(bool need_logger, const std::function<void()>& watch,
+                      const std::function<int()>& server_deaths) {
   AwaitNodes(
       &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
@@ -111,7 +115,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch) {
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
-  CheckProblems(met, watch);
+  CheckProblems(met, watch, server_deaths);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
@@ -223,16 +227,23 @@ void Driver::Owe(const Known& known) {
   if (known.plan) flags_[kPlanSetting] = PlanText(*known.plan);
 }
 
-void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch) {
+void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch,
+                           const std::function<int()>& server_deaths) {
   std::set<ProblemKey> problems;
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
   std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
   for (const auto& [set, index] : problems) {
-    const std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
+    const int deaths_before = server_deaths();
+    std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
       watch();
-      return false;
+      return server_deaths() - deaths_before >= kServerDeaths;
     });
+    if (!answer) {
+      answer.emplace();
+      answer->ok = false;
+      answer->message = "the scene server died of it, twice";
+    }
     if (!answer->ok && met.contains({set, index})) {
       spdlog::error("{} {}: {}", set, index, answer->message);
     } else if (!answer->ok) {

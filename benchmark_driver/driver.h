@@ -35,8 +35,12 @@ class Driver {
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
   /// it, so that bad ones are known before the first run. `watch` is called while waiting and may
-  /// throw. Throws InputError naming what is missing or does not fit.
-  void Discover(bool need_logger, const std::function<void()>& watch);
+  /// throw. `server_deaths`: how often the scene server was started again, where that is known: a
+  /// problem on which it dies twice is bad. Throws InputError naming what is missing or does not
+  /// fit.
+  void Discover(
+      bool need_logger, const std::function<void()>& watch,
+      const std::function<int()>& server_deaths = [] { return 0; });
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded; a session that was to make others before it was resumed, in which one was not asked
   /// (num_not_asked), or which awaits shards, is not finished by that.
@@ -75,7 +79,8 @@ class Driver {
   /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
   /// One that has gone bad since the resumed session had runs of it (`met`) ends it no more than it
   /// would have ended that session, and is not left out either: the runs it has are recorded.
-  void CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch);
+  void CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch,
+                     const std::function<int()>& server_deaths);
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);

@@ -14,7 +14,6 @@
 namespace planbench {
 namespace {
 
-constexpr char kSceneServer[] = "scene_server";
 constexpr char kLogger[] = "logger";
 
 /// Shell text that runs the command $1 and ends as it ends. When told to end, as the kernel does
@@ -113,7 +112,7 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
 
 void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
                        const std::string& lcm_url, Supervisor* supervisor) {
-  std::vector<std::string> server = WithRobot("scene_server", options.robot);
+  std::vector<std::string> server = WithRobot(kSceneServer, options.robot);
   for (const std::filesystem::path& folder : options.problems) {
     server.insert(server.end(), {"--problems", folder.string()});
   }

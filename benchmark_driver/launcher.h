@@ -9,6 +9,9 @@
 
 namespace planbench {
 
+/// The name of the scene server that is launched.
+inline constexpr char kSceneServer[] = "scene_server";
+
 /// Checks that every contestant has a program: planner_PROGRAM in `program_folder`, or a command.
 /// Throws InputError.
 void RequirePrograms(const std::vector<LineUpEntry>& line_up,

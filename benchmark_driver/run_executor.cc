@@ -12,6 +12,7 @@
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
 #include "results/outcomes.h"
+#include "results/session_plan.h"
 
 namespace planbench {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 // Short, for a scene server that has just been started again; a repeated request is not worked on
 // twice.
 constexpr std::chrono::milliseconds kServerRetry{250};
-constexpr std::chrono::seconds kServerPatience{10};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
 
@@ -63,10 +63,11 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
 }  // namespace
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
-                         KernelFolders kernel)
+                         KernelFolders kernel, std::chrono::milliseconds patience)
     : registry_(registry),
       conditions_(std::move(conditions)),
       kernel_(std::move(kernel)),
+      patience_(patience),
       problems_(bus, channel::kProblemRequest, channel::kProblem,
                 ServersOnly(registry, channel::kProblem)),
       path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
@@ -74,14 +75,14 @@ RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions con
 
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
-                                            const Request& request,
+                                            const Request& request, const std::string& what,
                                             const std::function<bool()>& interrupted) {
   while (!interrupted()) {
-    if (auto reply = client->Call(request, kServerRetry, kServerPatience, interrupted)) {
+    if (auto reply = client->Call(request, kServerRetry, patience_, interrupted)) {
       return reply;
     }
     if (interrupted()) break;
-    spdlog::warn("waiting for the scene server's answer to {} ({})", request.request_id,
+    spdlog::warn("waiting for {} from the scene server ({})", what,
                  registry_->Live(NodeKind::kSceneServer).empty() ? "no scene server is live"
                                                                  : "it is live, but silent");
   }
@@ -94,7 +95,8 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
   request.request_id = UniqueId(fmt::format("{}/{}/{}", conditions_.request.run_id, set, index));
   request.problem_set = set;
   request.problem_index = index;
-  std::optional<ProblemMessage> problem = AskServer(&problems_, request, interrupted);
+  std::optional<ProblemMessage> problem =
+      AskServer(&problems_, request, "the problem " + LeftOutName(set, index), interrupted);
   if (problem && problem->ok && (problem->problem_set != set || problem->problem_index != index)) {
     problem->ok = false;
     problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
@@ -137,13 +139,14 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   request.collision_model = record.request.collision_model;
   request.step_m = conditions_.referee_step_m.value();
   request.with_clearance = conditions_.with_clearance;
-  std::optional<PathCheckReplyMessage> reply = AskServer(&path_checks_, request, interrupted);
+  const std::string what = "the verdict on " + check_id;
+  std::optional<PathCheckReplyMessage> reply = AskServer(&path_checks_, request, what, interrupted);
   if (!reply || reply->ok) return reply;
   // A scene server that was restarted meanwhile does not know the scene: asking for the problem
   // loads it again.
   if (!AskForProblem(run.problem_set, run.problem_index, interrupted)) return std::nullopt;
   request.request_id = UniqueId(check_id);
-  return AskServer(&path_checks_, request, interrupted);
+  return AskServer(&path_checks_, request, what, interrupted);
 }
 
 std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -21,9 +22,11 @@ inline constexpr char kFirstPathTime[] = "first_path_time";
 class RunExecutor {
  public:
   /// `conditions`: complete, the referee's step and the contestants' included. Answers of others
-  /// than the scene server that `registry` knows are none.
+  /// than the scene server that `registry` knows are none. For what it waits longer than
+  /// `patience` it says so, again and again.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
-              KernelFolders kernel = {});
+              KernelFolders kernel = {},
+              std::chrono::milliseconds patience = std::chrono::seconds(10));
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
   /// `interrupted`. The server also hands out the scene.
@@ -53,6 +56,7 @@ class RunExecutor {
                                              const std::function<bool()>& interrupted);
   template <typename Request, typename Reply>
   std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
+                                 const std::string& what,  // That it is asked for, in words.
                                  const std::function<bool()>& interrupted);
 
   /// The answer to a run's request, which gets the path that is to be improved.
@@ -67,6 +71,7 @@ class RunExecutor {
   NodeRegistry* registry_;
   SessionConditions conditions_;
   KernelFolders kernel_;
+  std::chrono::milliseconds patience_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::mutex mutex_;

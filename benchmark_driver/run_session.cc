@@ -207,7 +207,13 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
   const Subscription statuses = ReportPlannersThatComeUp(&bus, planners, supervisor.get());
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  driver.Discover(options.launch, watch);
+  // The driver counts what a problem makes die.
+  int counted = 0;
+  driver.Discover(options.launch, watch, [&] {
+    const int deaths = supervisor ? supervisor->NumRestarts(kSceneServer) : 0;
+    if (std::exchange(counted, deaths) != deaths) supervisor->CameUp(kSceneServer);
+    return deaths;
+  });
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

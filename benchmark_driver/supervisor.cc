@@ -74,9 +74,12 @@ void Supervisor::Start(ChildSpec spec) {
   children_.push_back(std::move(child));
 }
 
-int Supervisor::num_restarts() const {
+int Supervisor::NumRestarts(const std::string& name) const {
   const std::scoped_lock lock(mutex_);
-  return num_restarts_;
+  for (const Child& child : children_) {
+    if (child.spec.name == name) return child.num_restarts;
+  }
+  return 0;
 }
 
 void Supervisor::CameUp(const std::string& name) {
@@ -145,7 +148,7 @@ void Supervisor::Reap(Child* child) {
     return;
   }
   spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
-  ++num_restarts_;
+  ++child->num_restarts;
   child->restart_at = now + kRestartDelay;
 }
 

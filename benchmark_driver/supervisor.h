@@ -48,8 +48,8 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// Restarts made so far; for tests.
-  int num_restarts() const;
+  /// How often that child was started again.
+  int NumRestarts(const std::string& name) const;
 
   static constexpr int kMaxQuickDeaths = 5;
   static constexpr std::chrono::seconds kQuick{5};
@@ -61,6 +61,7 @@ class Supervisor {
     bool wanted = true;
     bool was_started = false;
     int quick_deaths = 0;
+    int num_restarts = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
     off_t log_begin = 0;   // of the log, where this process began to write
@@ -75,7 +76,6 @@ class Supervisor {
   mutable std::mutex mutex_;
   std::vector<Child> children_;
   bool stopping_ = false;
-  int num_restarts_ = 0;
   std::thread
       thread_;  // starts every child: the kernel's death signal is tied to the starting thread
 };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <regex>
 #include <set>
@@ -494,6 +495,28 @@ TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
   for (const int index : {1, 3}) server.RefuseProblem(index, "is odd");
   options.conditions.request.run_id = "another";  // What was asked before is answered as before.
   ExpectNotDiscovered(options, {"all 3 problems are bad"});
+}
+
+TEST_F(DriverTest, AProblemOfWhichTheSceneServerDiesTwiceIsBad) {
+  std::atomic<int> num_deaths = 5;  // of others
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  const FakeLogger logger(&bus_);
+  server.BeforeAnswers([&](const ProblemRequestMessage& request) {
+    if (request.problem_index == 1) ++num_deaths;  // somebody killed it
+    if (request.problem_index != 2) return;
+    num_deaths += 2;
+    // As a process that has died would, it does not answer while it is waited for.
+    server.problem_requests().WaitForOne(
+        [](const ProblemRequestMessage& next) { return next.problem_index == 3; });
+  });
+  DriverOptions options = Options();
+  options.problem_indices = {};
+  options.skip_bad_problems = true;
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  driver.Discover(true, Idle, [&] { return num_deaths.load(); });
+  EXPECT_EQ(driver.left_out(),
+            (std::map<std::string, std::string>{{"cans 2", "the scene server died of it, twice"}}));
 }
 
 TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {

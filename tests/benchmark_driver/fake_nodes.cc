@@ -78,13 +78,18 @@ void Reannounce(NodeRegistry* registry, FakePlanner* planner) {
 }
 
 FakeSceneServer::FakeSceneServer(Bus* bus)
-    : judge_([](const PathCheckRequestMessage&) { return Verdict(true); }),
+    : before_answers_([](const ProblemRequestMessage&) {}),
+      judge_([](const PathCheckRequestMessage&) { return Verdict(true); }),
       problem_requests_(bus, channel::kProblemRequest),
       path_checks_(bus, channel::kPathCheckRequest),
       problems_(bus, channel::kProblemRequest, channel::kProblem,
                 [this](const ProblemRequestMessage& request) {
                   if (request.problem_index > 3) throw InputError("no such problem");
-                  const std::scoped_lock lock(mutex_);
+                  std::unique_lock lock(mutex_);
+                  const auto before_answer = before_answers_;
+                  lock.unlock();
+                  before_answer(request);
+                  lock.lock();
                   const auto refused = refused_.find(request.problem_index);
                   if (refused != refused_.end()) throw InputError(refused->second);
                   ProblemMessage problem;
@@ -117,6 +122,11 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
 void FakeSceneServer::RefuseProblem(int index, const std::string& reason) {
   const std::scoped_lock lock(mutex_);
   refused_[index] = reason;
+}
+
+void FakeSceneServer::BeforeAnswers(std::function<void(const ProblemRequestMessage&)> handler) {
+  const std::scoped_lock lock(mutex_);
+  before_answers_ = std::move(handler);
 }
 
 void FakeSceneServer::ServeProblem(int index) {

@@ -70,6 +70,8 @@ class FakeSceneServer {
   void RefuseProblem(int index, const std::string& reason);
   /// Serves one that it refused from now on.
   void ServeProblem(int index);
+  /// What it does before it answers a request for a problem.
+  void BeforeAnswers(std::function<void(const ProblemRequestMessage&)> handler);
   /// What the referee says instead.
   void OnPathCheck(std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> handler);
   static PathCheckReplyMessage Verdict(bool valid, const std::string& reason = "");
@@ -80,6 +82,7 @@ class FakeSceneServer {
  private:
   std::mutex mutex_;
   std::map<int, std::string> refused_;
+  std::function<void(const ProblemRequestMessage&)> before_answers_;
   std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> judge_;
   MessageCollector<ProblemRequestMessage> problem_requests_;
   MessageCollector<PathCheckRequestMessage> path_checks_;

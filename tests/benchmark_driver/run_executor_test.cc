@@ -394,6 +394,16 @@ TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
   EXPECT_THAT(record->message, HasSubstr("no verdict"));
 }
 
+TEST_F(RunExecutorTest, TellsWhichProblemItWaitsFor) {
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, std::chrono::milliseconds(1));
+  int num_asked = 0;
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(executor.AskForProblem("cans", 2, [&] { return ++num_asked >= 10; }));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("waiting for the problem cans 2 from the scene server (no scene server is "
+                        "live)"));
+}
+
 TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {
   interrupted_ = true;
   EXPECT_FALSE(Execute());  // no scene server either

@@ -111,7 +111,7 @@ TEST_F(SupervisorTest, RestartsWhatDies) {
                           "[ $(wc -l < $OUT) -ge 3 ] || exit 1\n"
                           "exec sleep 1000"));
   AwaitOutput(3);
-  EXPECT_EQ(supervisor.num_restarts(), 2);
+  EXPECT_EQ(supervisor.NumRestarts("child"), 2);
   EXPECT_FALSE(Hopeless(supervisor));
 }
 
@@ -122,7 +122,7 @@ TEST_F(SupervisorTest, RestartsWhatIsKilled) {
   kill(first, SIGKILL);
   const pid_t second = std::stoi(AwaitOutput(2).at(1));
   EXPECT_NE(first, second);
-  EXPECT_EQ(supervisor.num_restarts(), 1);
+  EXPECT_EQ(supervisor.NumRestarts("child"), 1);
 }
 
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
@@ -145,7 +145,7 @@ TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
                           "exit 2"));
   ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
   ExpectInputError([&] { supervisor.ThrowIfHopeless(); }, {"child: robot.yaml:3: no"});
-  EXPECT_EQ(supervisor.num_restarts(), 0);
+  EXPECT_EQ(supervisor.NumRestarts("child"), 0);
   EXPECT_EQ(Lines(out_).size(), 1u);
 }
 
@@ -225,7 +225,7 @@ TEST_F(SupervisorTest, StopsInTheOrderAskedTheRestLastStartedFirst) {
   std::vector<std::string> lines = Lines(out_);
   lines.erase(lines.begin(), lines.begin() + 4);
   EXPECT_EQ(lines, (std::vector<std::string>{"c stopped", "a stopped", "d stopped", "b stopped"}));
-  EXPECT_EQ(supervisor.num_restarts(), 0);
+  for (const char* name : {"a", "b", "c", "d"}) EXPECT_EQ(supervisor.NumRestarts(name), 0);
 }
 
 TEST_F(SupervisorTest, KillsWhatDoesNotEnd) {
