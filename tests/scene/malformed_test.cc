@@ -295,7 +295,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "'c_joint' is unknown"},
         Mistake{"GoalOfAFixedJoint", kRequest, "joint_name: b_joint", "joint_name: l", "l, pos",
                 "goal_constraints[0].joint_constraints[1].joint_name",
-                "not in group 'arm' and stays at 0"},
+                "the joint 'l' is fixed and cannot be at -3.14159"},
         Mistake{"GoalLacksAJoint", kRequest,
                 "      - {joint_name: b_joint, position: -3.141592653589793}\n", "",
                 "joint_name: a_joint", "goal_constraints[0].joint_constraints",
