@@ -328,9 +328,9 @@ TEST(Goals, OfPartsOfAPoseMayOnlySayWhatIsSo) {
     EXPECT_NO_THROW(goals(met)) << met;
   }
   ExpectInputError([&] { goals("{joint_name: drive/trans_x, position: 0}"); },
-                   {"'drive/trans_x' is not in group 'wrist' and stays at 3.0"});
+                   {"'drive/trans_x' is not in group 'wrist' and stays at 3"});
   ExpectInputError([&] { goals("{joint_name: drive/theta, position: -2}"); },
-                   {"'drive/theta' is not in group 'wrist' and stays at 2.0"});
+                   {"'drive/theta' is not in group 'wrist' and stays at 2"});
   ExpectInputError([&] { goals("{joint_name: drive/z, position: 0}"); }, {"'drive/z' is unknown"});
 }
 
