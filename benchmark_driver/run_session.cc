@@ -25,6 +25,7 @@
 #include "benchmark_driver/supervisor.h"
 #include "benchmark_driver/tables.h"
 #include "collision/collision_checker.h"
+#include "collision/link_geometry.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
@@ -42,17 +43,22 @@
 namespace planbench {
 namespace {
 
+void Warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+}
+
 /// Says what is odd about the robots, once for all the processes that load them. Throws InputError
 /// if the robot lacks the geometry of a contestant's collision model.
 void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& line_up) {
   const Robot robot = options.robot.Load();
-  for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
+  Warn(robot.warnings);
   std::set<CollisionModel> checked;
   for (const LineUpEntry& entry : line_up) {
     const CollisionModel model =
         entry.contestant.collision_model.value_or(options.conditions.request.collision_model);
     if (!checked.insert(model).second) continue;
     try {
+      if (model == CollisionModel::kMeshes) Warn(OddSizes(robot));
       MakeCollisionChecker(robot, robot.Group(""), model);
     } catch (const InputError& error) {
       throw InputError(fmt::format("--collision-model {} (of '{}'): {}", EnumName(model),
@@ -60,10 +66,9 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
     }
   }
   if (!options.referee_robot) return;
-  for (const std::string& warning :
-       LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages()).warnings) {
-    spdlog::warn("{}", warning);
-  }
+  const Robot referee = LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages());
+  Warn(referee.warnings);
+  Warn(OddSizes(referee));
 }
 
 std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
@@ -73,7 +78,7 @@ std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
     references.push_back(
         ImportResults(file, name, options.conditions.request.time_limit_s, &warnings));
   }
-  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  Warn(warnings);
   return references;
 }
 

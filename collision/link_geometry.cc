@@ -7,6 +7,7 @@
 
 #include "collision/at.h"
 #include "common/error.h"
+#include "robot_model/odd_size.h"
 
 namespace planbench {
 
@@ -29,6 +30,17 @@ std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot) {
     links.push_back(std::move(geometry));
   }
   return links;
+}
+
+std::vector<std::string> OddSizes(const Robot& robot) {
+  std::vector<std::string> odd;
+  for (const auto& [link, shapes] : LoadLinkGeometry(robot)) {
+    for (const PlacedShape& placed : shapes) {
+      auto line = OddSize(At(robot.model.links(), link).name, placed.shape);
+      if (line) odd.push_back(*std::move(line));
+    }
+  }
+  return odd;
 }
 
 std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "geometry/shapes.h"
@@ -16,6 +17,10 @@ struct LinkGeometry {
 /// That of every link that has any, in link order. Throws InputError for a mesh that cannot be
 /// read.
 std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot);
+
+/// What is odd about the sizes of it (OddSize), a line each: what else reads the meshes says
+/// nothing of it. Throws as LoadLinkGeometry does.
+std::vector<std::string> OddSizes(const Robot& robot);
 
 /// Balls that cover it, as bounds on its motion take them: vertices, bounding spheres.
 std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links);

@@ -8,35 +8,12 @@
 #include <variant>
 
 #include "common/error.h"
+#include "robot_model/odd_size.h"
 
 namespace planbench {
 namespace {
 
 using Eigen::Vector3d;
-
-// Links are larger than a millimetre and smaller than this, m.
-constexpr double kLeastExtent = 1e-3;
-constexpr double kGreatestExtent = 20;
-
-// Greatest extent along an axis, m.
-double ExtentOf(const Shape& shape) {
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  if (mesh == nullptr) return 2 * ComputeBoundingSphere(shape).radius;
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : mesh->triangles->vertices) box.extend(vertex);
-  return box.sizes().maxCoeff();
-}
-
-void RemarkSize(const std::string& link, const Shape& shape, const SayLine& say) {
-  const double extent = ExtentOf(shape);
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  if (mesh != nullptr && (extent < kLeastExtent || extent > kGreatestExtent)) {
-    say(fmt::format("link '{}', {}: is {:.3g} m large: check its unit, and scale= in the URDF",
-                    link, mesh->resource, extent));
-  } else if (extent > kGreatestExtent) {
-    say(fmt::format("link '{}': a shape is {:.3g} m large: URDFs are in metres", link, extent));
-  }
-}
 
 // `filled`: holes; `solid`: what the mesh is without them.
 void RemarkSurface(const std::string& link, const Mesh& mesh, int filled, const SolidMesh& solid,
@@ -85,7 +62,7 @@ void Load(const Link& link, const ResourceResolver& resources, Mesh* mesh) {
 void LoadAndRemark(const Link& link, const ResourceResolver& resources, Shape* shape,
                    const SayLine& say) {
   if (auto* mesh = std::get_if<Mesh>(shape)) Load(link, resources, mesh);
-  RemarkSize(link.name, *shape, say);
+  if (const auto odd = OddSize(link.name, *shape)) say(*odd);
 }
 
 bool IsMissing(const Shape& shape, const ResourceResolver& resources) {

@@ -100,12 +100,6 @@ void BallTree::SetHulls(std::size_t most) {
   hull_.slack += slack;
 }
 
-int BallTree::Depth() const {
-  int depth = 0;
-  for (const BallTree& child : children_) depth = std::max(depth, child.Depth());
-  return depth + 1;
-}
-
 std::vector<Ball> BallTree::Leaves() const {
   if (children_.empty()) return {ball_};
   std::vector<Ball> leaves;

@@ -46,8 +46,6 @@ class BallTree {
   int patch() const { return patch_; }
   /// Of what is below; of no points where there are but balls.
   const Hull& hull() const { return hull_; }
-  /// Levels below and including this one.
-  int Depth() const;
   /// In tree order.
   std::vector<Ball> Leaves() const;
 

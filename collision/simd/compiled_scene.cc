@@ -236,11 +236,8 @@ CompiledTree CompiledScene::Attach(const SceneObject& object, int link, std::vec
     LinkGeometry geometry{link, object.shapes};
     for (PlacedShape& placed : geometry.shapes) placed.X_FS = object.X_WO * placed.X_FS;
     const RobotMeshes& meshes = attached_meshes_.emplace_back(geometry, balls);
-    const LinkMeshes& shapes = meshes.links.front();
     // Nothing tells whether what has no area is inside of something.
-    if (!shapes.points.empty() && shapes.tree.Depth() <= kernels::kMaxDepth) {
-      return compiled_robot_->AddTree(meshes);
-    }
+    if (!meshes.links.front().points.empty()) return compiled_robot_->AddTree(meshes);
   }
   return compiled_robot_->AddTree(link, TreeAround(object, std::move(balls)));
 }

@@ -28,6 +28,9 @@ constexpr double kLongestEdge = 0.1;
 constexpr double kShortestCut = 0.02;
 /// A ball around more than one triangle is no larger, m.
 constexpr double kLargestBall = 0.15;
+/// Of a link, at most. Of one that needs more (a crane, or millimetres taken for metres) the three
+/// lengths above are longer: the verdict is the same, at more cost.
+constexpr std::size_t kMostCuts = 1 << 16;
 /// Of a link, at most: the largest. Hulls tell more than ever smaller balls.
 constexpr std::size_t kMostMiddles = 64;
 /// Of the search for small balls.
@@ -113,14 +116,14 @@ std::vector<Vector3d> CornersOf(std::span<const Piece> pieces) {
 /// Makes patches of the triangles of a link, whole ones by index.
 class PatchMaker {
  public:
-  PatchMaker(int link, const std::vector<Corners>& triangles,
+  PatchMaker(int link, const std::vector<Corners>& triangles, double largest_ball,
              std::vector<RobotMeshes::Patch>* patches)
-      : link_(link), triangles_(triangles), patches_(patches) {}
+      : link_(link), triangles_(triangles), largest_ball_(largest_ball), patches_(patches) {}
 
   BallTree MakeTree(std::span<Piece> pieces) {
     const std::vector<Vector3d> corners = CornersOf(pieces);
     const Ball ball = BallAround(corners);
-    if (pieces.size() == 1 || (NumTriangles(pieces) <= kMost && ball.radius <= kLargestBall)) {
+    if (pieces.size() == 1 || (NumTriangles(pieces) <= kMost && ball.radius <= largest_ball_)) {
       AddPatch(pieces);
       return {ball, static_cast<int>(patches_->size()) - 1,
               MakeHull(corners, kernels::kMostPoints)};
@@ -190,6 +193,7 @@ class PatchMaker {
 
   int link_;
   const std::vector<Corners>& triangles_;
+  double largest_ball_;  // m
   std::vector<RobotMeshes::Patch>* patches_;
 };
 
@@ -231,17 +235,23 @@ BallTree Join(std::vector<BallTree> trees) {
   return BallTree(std::move(children), kNumSteps);
 }
 
-/// Trees of patches of a link's triangles under balls about the middles, or one tree without any.
-void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& middles, int link,
-              std::vector<RobotMeshes::Patch>* patches, std::vector<BallTree>* trees) {
-  PatchMaker maker(link, triangles, patches);
-  std::vector<std::vector<Piece>> parts(std::max<std::size_t>(1, middles.size()));
+/// A link's triangles in pieces, of each middle those that its ball is to enclose.
+struct Pieces {
+  std::vector<std::vector<Piece>> of_middles;  ///< One list without middles.
+  double coarseness = 1;  ///< The lengths that they are cut to are so much longer.
+  std::size_t num_cuts = 0;
+};
+
+Pieces CutTriangles(const std::vector<Corners>& triangles, const std::vector<Ball>& middles,
+                    double coarseness) {
+  Pieces pieces;
+  pieces.coarseness = coarseness;
+  pieces.of_middles.resize(std::max<std::size_t>(1, middles.size()));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     Cut(triangles[i], [&](const Corners& piece, double longest) {
       std::size_t best = 0;
-      if (middles.empty()) {
-        if (longest > kLongestEdge) return false;
-      } else {
+      bool is_large = middles.empty() && longest > coarseness * kLongestEdge;
+      if (!middles.empty()) {
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t m = 0; m < middles.size(); ++m) {
           if ((piece[0] - middles[m].center).norm() - middles[m].radius >= least) continue;
@@ -250,12 +260,28 @@ void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& mi
           least = beyond;
           best = m;
         }
-        if (least > 0 && longest > kShortestCut) return false;
+        is_large = least > 0 && longest > coarseness * kShortestCut;
       }
-      parts[best].push_back({piece, i});
+      if (is_large && pieces.num_cuts < kMostCuts) {
+        ++pieces.num_cuts;
+        return false;
+      }
+      pieces.of_middles[best].push_back({piece, i});
       return true;
     });
   }
+  return pieces;
+}
+
+/// Trees of patches of a link's triangles under balls about the middles, or one tree without any.
+void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& middles, int link,
+              std::vector<RobotMeshes::Patch>* patches, std::vector<BallTree>* trees) {
+  Pieces pieces = CutTriangles(triangles, middles, 1);
+  while (pieces.num_cuts == kMostCuts) {
+    pieces = CutTriangles(triangles, middles, 2 * pieces.coarseness);
+  }
+  std::vector<std::vector<Piece>>& parts = pieces.of_middles;
+  PatchMaker maker(link, triangles, pieces.coarseness * kLargestBall, patches);
   for (std::size_t m = 0; m < parts.size(); ++m) {
     if (parts[m].empty()) continue;
     BallTree tree = maker.MakeTree(parts[m]);

@@ -1,5 +1,6 @@
 // The meshes model: the URDF's collision geometry instead of spheres.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "collision/collision_checker.h"
+#include "collision/link_geometry.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/expect_input_error.h"
@@ -50,6 +52,8 @@ constexpr char kBoxGeometry[] = R"(<box size="0.5 1 0.25"/>)";
 constexpr char kMeshGeometry[] = R"(<mesh filename="meshes/box.obj" scale="0.5 1 0.25"/>)";
 
 std::vector<double> Slide(double z) { return {z}; }
+
+Eigen::Isometry3d AtHeight(double z) { return Eigen::Isometry3d(Eigen::Translation3d(0, 0, z)); }
 
 TEST(MeshesModelTest, AMeshFileOfABoxIsTheBox) {
   const TemporaryFolder folder;
@@ -135,6 +139,23 @@ TEST(MeshesModelTest, TheMotionBoundReachesTheCornersOfTheGeometry) {
   ASSERT_EQ(checker->motion_bound().reach().size(), 1u);
   EXPECT_GE(checker->motion_bound().reach()[0], std::hypot(1.25, 0.125));
   EXPECT_LE(checker->motion_bound().reach()[0], 1.3);
+}
+
+TEST(MeshesModelTest, MillimetresTakenForMetresAreJudgedWithoutMuchMemoryAndTold) {
+  const TemporaryFolder folder;
+  folder.Write("meshes/box.obj", ObjText(BoxMesh({20, 20, 200})));
+  Robot robot = RailRobotWith(R"(<mesh filename="meshes/box.obj"/>)", folder.path());
+  for (const double radius_m : {0.0, 0.04}) {  // With a sphere pieces are cut smaller still.
+    if (radius_m > 0) robot.spheres.push_back({1, Eigen::Vector3d::Zero(), radius_m});
+    const auto checker = MakeCollisionChecker(robot, robot.groups.front(), CollisionModel::kMeshes);
+    // From 100.5 m on; the tool reaches 100.25 m above the slide's position.
+    checker->SetScene(SceneWith("lamp", Box{{1, 1, 1}}, AtHeight(101)), Slide(0));
+    EXPECT_TRUE(checker->IsFree(Slide(0.2)));
+    EXPECT_FALSE(checker->IsFree(Slide(0.3)));
+  }
+  EXPECT_THAT(OddSizes(robot), testing::ElementsAre("link 'tool', meshes/box.obj: is 200 m large: "
+                                                    "check its unit, and scale= in the URDF"));
+  EXPECT_THAT(OddSizes(RailRobotWith(kBoxGeometry)), testing::IsEmpty());
 }
 
 TEST(MeshesModelTest, RefusesRobotsWithoutTheirGeometry) {

@@ -4,6 +4,23 @@
 #include <numeric>
 
 namespace planbench::kernels {
+namespace {
+
+/// Levels of the deepest tree of balls.
+std::size_t DepthOf(const std::vector<Node>& nodes) {
+  std::vector<std::size_t> depths(nodes.size(), 1);
+  std::size_t deepest = 0;
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    for (std::int32_t k = 0; k < nodes[i].num_children; ++k) {
+      depths[i] =
+          std::max(depths[i], 1 + depths[static_cast<std::size_t>(nodes[i].first_child + k)]);
+    }
+    deepest = std::max(deepest, depths[i]);
+  }
+  return deepest;
+}
+
+}  // namespace
 
 SphereScratch::SphereScratch() : buffers_(std::make_unique<Buffers>()) {}
 SphereScratch::~SphereScratch() = default;
@@ -34,7 +51,7 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
   }
   b.all_solids.resize(world.solids.size());
   std::iota(b.all_solids.begin(), b.all_solids.end(), 0);
-  b.lists.resize(world.solids.size() * static_cast<std::size_t>(kMaxDepth));
+  b.lists.resize(world.solids.size() * DepthOf(robot.nodes));
 }
 
 }  // namespace planbench::kernels

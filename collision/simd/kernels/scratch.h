@@ -23,7 +23,7 @@ struct SphereScratch::Buffers {
   /// Tests: indices of world trees, then of pairs behind no gate.
   std::vector<std::int32_t> order;
   std::vector<std::int32_t> all_solids;  ///< 0, 1, 2, ...
-  std::vector<std::int32_t> lists;
+  std::vector<std::int32_t> lists;       ///< Of solids, one for every level of a tree of balls.
 };
 
 }  // namespace planbench::kernels

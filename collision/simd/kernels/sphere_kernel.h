@@ -32,12 +32,9 @@ struct Body {
   float axis[3] = {0, 0, 1};                        ///< Of a prismatic joint, in P.
 };
 
-/// Levels of a tree of balls, at most (its builder sees to it): each may hold a list of solids.
-inline constexpr int kMaxDepth = 16;
-
 /// A ball of a tree, in its body's frame (m): if it has no children a sphere of the robot, or what
 /// encloses a patch of triangles; else it encloses all of its descendants. Children stand next to
-/// each other.
+/// each other, behind their parent.
 struct Node {
   float center[3];
   float radius;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collision/simd/ball_tree.h"
+#include "collision/simd/kernels/scratch.h"
 #include "collision/simd/kernels/sphere_kernel.h"
 #include "collision/simd/simd_checker.h"
 #include "robot_model/full_positions.h"
@@ -123,8 +124,21 @@ TEST(BallTreeTest, EveryNodeEnclosesWhatIsBelow) {
       }
       EXPECT_TRUE(covered);
     }
-    EXPECT_LE(tree.Depth(), 8);
   }
+}
+
+TEST(SphereScratchTest, HasAListForEveryLevelOfTheDeepestTree) {
+  kernels::SphereRobot robot;
+  robot.nodes.resize(40);  // one ball in another
+  for (std::size_t i = 0; i < robot.nodes.size(); ++i) {
+    robot.nodes[i].first_child = static_cast<std::int32_t>(i + 1);
+    robot.nodes[i].num_children = i + 1 < robot.nodes.size() ? 1 : 0;
+  }
+  kernels::SphereWorld world;
+  world.solids.resize(3);
+  kernels::SphereScratch scratch;
+  scratch.Reset(robot, world);
+  EXPECT_GE(scratch.buffers().lists.size(), 3u * 40);
 }
 
 }  // namespace
