@@ -18,8 +18,9 @@ namespace planbench {
 struct Contact {
   std::string body_a;  ///< A link or attached object.
   std::string body_b;
-  /// Depth of the deepest pair of their shapes, m, >= 0: exact for spheres; of other shapes how far
-  /// one would have to be moved, along the best of the directions tried, to come free.
+  /// Depth of the deepest pair of their shapes, m, >= 0: exact for spheres, unless closed parts of
+  /// a mesh overlap (then it may be less); of other shapes how far one would have to be moved,
+  /// along the best of the directions tried, to come free.
   double depth_m = 0;
   bool operator==(const Contact&) const = default;
 };
