@@ -77,6 +77,11 @@ class TagChecker {
     has_outermost_ = true;
     CheckAttributes(tag);
     RefuseXacro(tag);
+    if (tag.element.ends_with(":include")) {
+      Fail(tag.line, fmt::format("<{}> is not followed; include the file first: "
+                                 "xmllint --xinclude {} > {}",
+                                 tag.element, origin_, ExpandedName()));
+    }
     if (!tag.empty) open_.push_back(tag);
   }
 
@@ -194,21 +199,35 @@ std::size_t EndOf(std::string_view text, std::size_t at, std::string_view begin,
   return found == std::string_view::npos ? text.size() : found + end.size();
 }
 
-// Parsers read a declaration up to the first '>', which ends the first of its definitions.
-void RefuseDefinitions(std::string_view text, const std::string& origin) {
-  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+// Refuses text before the outermost element, for which parsers take the document for empty, and
+// definitions: parsers read a declaration up to the first '>', which ends the first of them.
+void CheckProlog(std::string_view text, const std::string& origin) {
+  const auto fail = [&](std::size_t at, const std::string& what) {
+    throw InputError(
+        fmt::format("{}:{}: {}", origin, 1 + std::ranges::count(text.substr(0, at), '\n'), what));
+  };
+  std::size_t end = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // Of what has been read.
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', end)) {
+    const std::size_t stray = text.find_first_not_of(" \t\r\n", end);
+    if (stray < at) {
+      const std::string_view line = text.substr(stray, text.find_first_of("\r\n<", stray) - stray);
+      fail(stray,
+           fmt::format("text stands before the first element: '{}'", Abridged(Escaped(line), 100)));
+    }
     const std::string_view rest = text.substr(at);
     if (rest.starts_with("<!--")) {
-      at = EndOf(text, at, "<!--", "-->");
+      end = EndOf(text, at, "<!--", "-->");
     } else if (rest.starts_with("<?")) {
-      at = EndOf(text, at, "<?", "?>");
+      end = EndOf(text, at, "<?", "?>");
     } else if (rest.starts_with("<!DOCTYPE")) {
-      const std::size_t end = FindUnquoted(rest, 0, "[>");
-      if (end == rest.size() || rest[end] == '>') return;
-      throw InputError(fmt::format(
-          "{}:{}: <!DOCTYPE> holds definitions ([...]), which are not read; write their values "
-          "where they are used, and leave them out",
-          origin, 1 + std::ranges::count(text.substr(0, at), '\n')));
+      const std::size_t length = FindUnquoted(rest, 0, "[>");
+      if (length == rest.size()) return;
+      if (rest[length] == '[') {
+        fail(at,
+             "<!DOCTYPE> holds definitions ([...]), which are not read; write their values where "
+             "they are used, and leave them out");
+      }
+      end = at + length + 1;
     } else {
       return;
     }
@@ -297,7 +316,7 @@ std::optional<std::vector<double>> ReadNumbers(std::string_view value) {
 
 void CheckXmlText(std::string_view text, const std::string& origin) {
   RefuseUtf16(text, origin);
-  RefuseDefinitions(text, origin);
+  CheckProlog(text, origin);
   const TagChecker checked(text, origin);
 }
 

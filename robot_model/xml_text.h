@@ -50,9 +50,9 @@ std::optional<std::vector<double>> ReadNumbers(std::string_view value);
 
 /// Refuses (InputError with file and line) what XML parsers pass over in silence, or report without
 /// a place: text that is no UTF-8, control characters in tags, in names also ends of lines and
-/// references to characters, definitions of entities, elements that are not closed or follow the
-/// outermost one, what is no attribute, and what xacro would have to expand first. `origin` names
-/// the text.
+/// references to characters, definitions of entities, text before the first element, elements that
+/// are not closed or follow the outermost one, what is no attribute, and what xacro or XInclude
+/// would have to expand first. `origin` names the text.
 void CheckXmlText(std::string_view text, const std::string& origin);
 
 }  // namespace planbench
