@@ -5,8 +5,10 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <charconv>
+#include <fstream>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -93,9 +95,31 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
   }
 }
 
+// Assimp takes a unit that is no number for a metre, and scales by any other.
+void CheckUnit(std::string_view text, const std::string& file) {
+  const std::size_t at = text.find("<unit ");
+  if (at == std::string_view::npos) return;
+  const std::string_view tag = text.substr(at, text.find('>', at) - at);
+  const std::size_t meter = tag.find(" meter=");
+  if (meter == std::string_view::npos) return;
+  const std::string_view quoted = tag.substr(meter + std::string_view(" meter=").size());
+  if (quoted.size() < 2) return;
+  const std::string_view value = quoted.substr(1, quoted.find(quoted.front(), 1) - 1);
+  std::string plain(value);
+  std::ranges::replace(plain, ',', '.');  // As some write it.
+  std::string_view words = plain;
+  const std::optional<double> length = ParseNumber(TakeWord(&words));
+  if (length && *length > 0) return;
+  throw InputError(
+      fmt::format("{}:{}: <unit meter=\"{}\">: must be the length of the file's unit in metres, "
+                  "above 0",
+                  file, 1 + std::ranges::count(text.substr(0, at), '\n'), Printable(value)));
+}
+
 // Refuses what assimp has no message for: it ends the process at a <skew>.
 void CheckCollada(const std::string& text, const std::string& file) {
   RefuseUtf16(text, file);
+  CheckUnit(text, file);
   if (text.find("<skew") != std::string::npos) {
     throw InputError(file + ": <skew> cannot be read; export the mesh with transforms applied");
   }
@@ -124,6 +148,16 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
   Eigen::Matrix4d scaling = Eigen::Matrix4d::Identity();
   scaling.diagonal().head<3>() = scale;
   AddNode(*scene, *scene->mRootNode, scaling, builder);
+}
+
+// Of Git LFS, what stands in a file's place until that is fetched.
+void RefusePointer(const fs::path& path) {
+  constexpr std::string_view kBegin = "version https://git-lfs";
+  std::string begin(kBegin.size(), '\0');
+  std::ifstream(path).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin != kBegin) return;
+  throw InputError(path.string() +
+                   ": is a pointer of Git LFS, not the mesh; fetch it: git lfs pull");
 }
 
 void AddStl(const fs::path& path, const Vector3d& scale, MeshBuilder* builder) {
@@ -225,6 +259,12 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
     return ResolvePackage(*this, uri, uri.substr(kPackageScheme.size()));
   }
   if (uri.starts_with(kFileScheme)) return ResolveFile(uri, uri.substr(kFileScheme.size()));
+  const std::string lower = LowerCase(uri.substr(0, uri.find('/')));
+  if (lower == "file:" && uri.starts_with(lower)) return ResolveFile(uri, uri.substr(lower.size()));
+  if (lower == "package:" || lower == "file:") {
+    throw InputError(fmt::format(
+        "resource '{}': expected package://NAME/path or file:///FOLDER/FILE, in lower case", uri));
+  }
   if (uri.find("://") != std::string::npos) {
     throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
   }
@@ -254,6 +294,7 @@ TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
                                  scale.x(), scale.y(), scale.z()));
   }
 
+  RefusePointer(path);
   const std::string format = LowerCase(path.extension().string());
   MeshBuilder builder(file);
   if (format == ".stl") {

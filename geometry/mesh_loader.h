@@ -10,9 +10,9 @@ namespace planbench {
 
 /// Finds the files that URIs name. package://NAME/rest resolves through the packages given by name
 /// (`--package-path NAME=DIR`), else through a folder called NAME: in base_folder, base_folder
-/// itself or beside it, or so for the two folders above it. file:// URIs (of no host, or localhost)
-/// and absolute paths are taken as they are, relative paths from base_folder. URIs write characters
-/// as %20; other names may, where no file has the name as it is.
+/// itself or beside it, or so for the two folders above it. file:// and file:/ URIs (of no host, or
+/// localhost) and absolute paths are taken as they are, relative paths from base_folder. URIs write
+/// characters as %20; other names may, where no file has the name as it is.
 struct ResourceResolver {
   std::filesystem::path base_folder;
   std::map<std::string, std::filesystem::path> packages;

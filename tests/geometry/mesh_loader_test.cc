@@ -369,6 +369,29 @@ TEST_F(LoadMeshTest, RefusesBadFilesByName) {
   }
 }
 
+TEST_F(LoadMeshTest, PointersOfGitLfsAreToldFromMeshes) {
+  for (const char* name : {"pointer.stl", "pointer.dae", "pointer.obj"}) {
+    const auto file = folder_.Write(
+        name, "version https://git-lfs.github.com/spec/v1\noid sha256:1f\nsize 6284\n");
+    ExpectInputError([&file] { LoadMesh(file); }, {file.string(), "Git LFS", "git lfs pull"});
+  }
+}
+
+TEST_F(LoadMeshTest, RefusesUnitsOfColladaThatAreNone) {
+  const std::string dae = Dae(UnevenBoxMesh());
+  const auto with_unit = [&](const std::string& meter) {
+    std::string text = dae;
+    const std::string own = "meter=\"1\"";
+    return folder_.Write("unit.dae", text.replace(text.find(own), own.size(), meter));
+  };
+  for (const std::string bad : {"0", "-1", "cm", ""}) {
+    const auto file = with_unit("meter='" + bad + "'");
+    ExpectInputError([&file] { LoadMesh(file); },
+                     {file.string() + ":3: <unit meter=\"" + bad + "\">", "above 0"});
+  }
+  EXPECT_NO_THROW(LoadMesh(with_unit("meter='0,1'")));
+}
+
 TEST_F(LoadMeshTest, RefusesScalesThatFlattenOrAreNoNumbers) {
   const auto file = folder_.Write("box.stl", BinaryStl(UnevenBoxMesh()));
   ExpectInputError([&] { LoadMesh(file, Vector3d(1, 0, 1)); }, {file.string(), "scale"});

@@ -57,6 +57,7 @@ TEST_F(ResourceResolverTest, AGivenPackageIsNotLookedForInTheBaseFolder) {
 TEST_F(ResourceResolverTest, TakesFileUrisAbsoluteAndRelativePaths) {
   const fs::path own = folder_.path() / "robot/meshes/own.stl";
   EXPECT_EQ(resolver_.Resolve("file://" + own.string()), own);
+  EXPECT_EQ(resolver_.Resolve("file:" + own.string()), own);
   EXPECT_EQ(resolver_.Resolve(own.string()), own);
   EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), own);
 }
@@ -90,6 +91,11 @@ TEST_F(ResourceResolverTest, SaysWhatItTriedAndHowToMendIt) {
   ExpectInputError([&] { resolver_.Resolve("meshes/a.stl"); }, {"meshes/a.stl", "no file"});
   ExpectInputError([&] { resolver_.Resolve("meshes"); }, {"meshes", "no file"});  // A folder.
   ExpectInputError([&] { resolver_.Resolve("http://host/a.stl"); }, {"http://host/a.stl"});
+  for (const char* uri : {"package:/robot/meshes/own.stl", "PACKAGE://robot/meshes/own.stl",
+                          "File:///meshes/own.stl"}) {
+    ExpectInputError([&] { resolver_.Resolve(uri); },
+                     {uri, "package://NAME/path", "file:///FOLDER/FILE", "lower case"});
+  }
   ExpectInputError([&] { resolver_.Resolve("file://meshes/own.stl"); },
                    {"file://meshes/own.stl", "machine 'meshes'", "file:///"});
   ExpectInputError([&] { resolver_.Resolve("package://lost"); }, {"package://NAME/path"});
