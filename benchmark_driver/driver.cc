@@ -100,6 +100,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   served_ = *registry_.ProblemSets();
   CompleteConditions();
   const PlannedCall call = PlanCall(options_, PlannedPlanners(), served_);
+  for (const std::string& line : ShortOfRange(options_, call)) spdlog::warn("{}", line);
   schedule_ = MakeSchedule(call, options_.conditions.request);
   std::set<std::string> sets;
   for (const ScheduledRun& run : schedule_) sets.insert(run.problem_set);

@@ -123,6 +123,17 @@ PlannedCall PlanCall(const DriverOptions& options, std::vector<PlannedPlanner> p
   return call;
 }
 
+std::vector<std::string> ShortOfRange(const DriverOptions& options, const PlannedCall& call) {
+  std::vector<std::string> lines;
+  const std::size_t wanted = options.problem_indices.size();
+  for (const auto& [name, indices] : call.sets) {
+    if (indices.size() >= wanted) continue;
+    lines.push_back(fmt::format("--problems-range: of the {} problems of that range '{}' has {}",
+                                wanted, name, indices.size()));
+  }
+  return lines;
+}
+
 std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,
                       Direction direction, int trial) {
   return Derive(session_seed, problem_set, problem_index, EnumName(direction), trial);

@@ -40,6 +40,9 @@ PlannedPlanner PlanPlanner(const Contestant& contestant, Directions directions, 
 PlannedCall PlanCall(const DriverOptions& options, std::vector<PlannedPlanner> planners,
                      const ProblemSetsMessage& served);
 
+/// A line for each set of a call that has fewer problems than the options' range selects.
+std::vector<std::string> ShortOfRange(const DriverOptions& options, const PlannedCall& call);
+
 /// The seed of a run: a hash, so that neither problems, directions, trials nor sessions share
 /// sequences of samples. Below 2^63.
 std::uint64_t RunSeed(std::uint64_t session_seed, const std::string& problem_set, int problem_index,

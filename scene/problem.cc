@@ -31,7 +31,7 @@ const ProblemFiles* ProblemSet::Find(int index) const {
 }
 
 std::optional<int> ProblemIndexOf(const fs::path& scene_or_request_file) {
-  static const std::regex kName(R"((?:scene|request)(\d+)\.yaml)");
+  static const std::regex kName(R"((?:scene|request)(\d+)\.ya?ml)");
   const std::string name = scene_or_request_file.filename().string();
   std::smatch match;
   if (!std::regex_match(name, match, kName)) return std::nullopt;

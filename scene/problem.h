@@ -49,7 +49,7 @@ struct Problem {
   std::vector<std::string> warnings;  ///< What was read otherwise than written, a line each.
 };
 
-/// sceneNNNN.yaml and requestNNNN.yaml of one folder.
+/// sceneNNNN.yaml and requestNNNN.yaml of one folder, or .yml.
 struct ProblemFiles {
   int index = 0;
   std::filesystem::path scene;

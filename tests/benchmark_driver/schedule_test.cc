@@ -211,6 +211,14 @@ TEST(ScheduleTest, AShardIsThatOfTheSameProblemsWhoeverIsAsked) {
   ExpectInputError([&] { Schedule(options, {seedless}); }, {"--shard 6/6", "no more than 5 parts"});
 }
 
+TEST(ScheduleTest, SetsThatHaveLessThanTheRangeAreNamed) {
+  DriverOptions options;
+  EXPECT_THAT(ShortOfRange(options, PlanCall(options, {Of("a")}, Served())), testing::IsEmpty());
+  options.problem_indices = {2, 3};
+  EXPECT_THAT(ShortOfRange(options, PlanCall(options, {Of("a")}, Served())),
+              ElementsAre("--problems-range: of the 2 problems of that range 'cage' has 1"));
+}
+
 TEST(ScheduleTest, WhatIsNotServedIsNamed) {
   DriverOptions options;
   options.sets = {"kitchen"};

@@ -57,6 +57,17 @@ TEST_F(ProblemSetFolder, ListsPairsByIndex) {
   EXPECT_EQ(ListProblemSet(folder_ / ".").name, "my_set");
 }
 
+TEST_F(ProblemSetFolder, YamlFilesMayEndInYml) {
+  for (const char* name : {"scene1.yml", "request1.yaml", "scene2.yml"}) Touch(name);
+  const ProblemSet set = ListProblemSet(folder_);
+  ASSERT_EQ(set.problems.size(), 2);
+  EXPECT_EQ(set.problems[0].scene, folder_ / "scene1.yml");
+  EXPECT_EQ(set.problems[0].request, folder_ / "request1.yaml");
+  EXPECT_EQ(set.problems[1].request, folder_ / "request2.yml");
+  Touch("scene0001.yaml");
+  EXPECT_THAT(Error(), testing::HasSubstr("have the same number"));
+}
+
 TEST_F(ProblemSetFolder, MissingFolder) {
   fs::remove_all(folder_);
   EXPECT_THAT(Error(), testing::HasSubstr(folder_.string()));
