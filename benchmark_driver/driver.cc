@@ -120,7 +120,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
-  num_runs_ = static_cast<int>(known.done.size() + schedule_.size()) + num_owed_;
+  num_runs_ = static_cast<int>(known.done.size() + schedule_.size() - repeats_.size()) + num_owed_;
 }
 
 Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
@@ -152,10 +152,13 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     const bool was_asked = WasAsked(record);
     if (!was_asked && is_in_call) continue;  // it is to be made
     (was_asked ? known.done : known.not_asked).insert(record.request_id);
+    const RunStanding standing = StandingOf(record);
+    if (is_in_call && IsToRepeat(standing)) repeats_[record.request_id] = standing.repeats;
     Keep(record);
   }
-  std::erase_if(schedule_,
-                [&](const ScheduledRun& run) { return known.done.contains(run.request_id); });
+  std::erase_if(schedule_, [&](const ScheduledRun& run) {
+    return known.done.contains(run.request_id) && !repeats_.contains(run.request_id);
+  });
   awaited_shards_ = AwaitedShards(known.last, known.plan);
   AddEarlier(earlier.sessions, &options_.conditions);
   for (const SessionMessage& session : earlier.sessions) {
@@ -391,7 +394,7 @@ const RunRow& Driver::Keep(const RunRecordMessage& record) {
     attempt->second = Suffices(record);
     needs_other = !attempt->second;
   }
-  return runs_.Add(record, needs_other);
+  return runs_.Add(record, needs_other, repeats_.contains(record.request_id));
 }
 
 void Driver::GiveUp(const std::string& planner, const std::string& reason) {
@@ -438,56 +441,67 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
   return record;
 }
 
+bool Driver::IsToRepeat(const RunStanding& attempt) const {
+  return options_.repeat_disturbed && attempt.disturbed && attempt.repeats < kMostRepeats;
+}
+
+bool Driver::IsNeedless(const ScheduledRun& run, bool* waits) {
+  const std::scoped_lock lock(mutex_);
+  if (!run.unless_solved || !suffices_.at(*run.unless_solved)) return false;
+  *waits = repeats_.contains(*run.unless_solved);  // and a repeat may yet fail
+  if (*waits) return true;
+  if (repeats_.erase(run.request_id) == 0) --num_runs_;  // else it has a record, which stands
+  progress_->Drop();
+  return true;
+}
+
+bool Driver::TakeIn(RunRecordMessage* record) {
+  const std::scoped_lock lock(mutex_);
+  const auto before = repeats_.find(record->request_id);
+  const int repeats = before == repeats_.end() ? 0 : before->second + 1;
+  if (repeats > 0) repeats_.erase(before);
+  if (repeats > 0 && !WasAsked(*record)) {  // the attempt that was disturbed stands
+    progress_->Drop();
+    return false;
+  }
+  std::map<std::string, double>& counters = record->result.result.counters;
+  const bool answered = !record->result.request_id.empty();
+  if (answered) {
+    counters["disturbed"] =
+        IsDisturbed(counters, record->roundtrip_time_s, options_.max_disturbance) ? 1 : 0;
+  }
+  if (answered || repeats > 0) counters["repeats"] = repeats;
+  if (IsToRepeat(StandingOf(*record))) repeats_[record->request_id] = repeats;
+  return true;
+}
+
 void Driver::RunLane(const std::vector<ScheduledRun>& lane,
                      const std::function<bool()>& interrupted) {
   Clients clients;
-  std::map<std::string, int> num_repeats;  // of runs that were disturbed, by request id
   std::vector<ScheduledRun> left = lane;
   while (!left.empty()) {
     std::vector<ScheduledRun> again;
-    std::set<std::string> put_off;
-    const auto put_off_run = [&](const ScheduledRun& run) {
-      put_off.insert(run.request_id);
-      again.push_back(run);
-    };
     for (const ScheduledRun& run : left) {
-      if (run.unless_solved && put_off.contains(*run.unless_solved)) {
-        put_off_run(run);  // it is not known yet whether it is needed
-        continue;
-      }
-      if (const std::scoped_lock lock(mutex_);
-          run.unless_solved && suffices_.at(*run.unless_solved)) {
-        --num_runs_;
-        progress_->Drop();
+      if (bool waits = false; IsNeedless(run, &waits)) {
+        if (waits) again.push_back(run);
         continue;
       }
       std::optional<RunRecordMessage> record = Make(run, &clients, interrupted);
       if (!record) return;
-      std::map<std::string, double>& counters = record->result.result.counters;
-      const bool disturbed =
-          IsDisturbed(counters, record->roundtrip_time_s, options_.max_disturbance);
-      int& repeats = num_repeats[run.request_id];
-      if (disturbed && options_.repeat_disturbed && repeats < kMostRepeats) {
-        ++repeats;
-        put_off_run(run);
-        continue;
-      }
-      if (!record->result.request_id.empty()) {  // an answer came
-        counters["disturbed"] = disturbed ? 1 : 0;
-        counters["repeats"] = repeats;
-      }
+      if (!TakeIn(&*record)) continue;
       recorder_.Record(*record);
       const std::scoped_lock lock(mutex_);
       num_not_asked_ += WasAsked(*record) ? 0 : 1;
       progress_->Add(Keep(*record));
+      if (repeats_.contains(run.request_id)) again.push_back(run);
     }
     left = std::move(again);
   }
 }
 
 bool Driver::Run(const std::function<bool()>& interrupted, const std::function<void()>& watch) {
-  progress_ =
-      std::make_unique<ProgressBar>(static_cast<int>(runs_.size() + schedule_.size()), runs_);
+  progress_ = std::make_unique<ProgressBar>(
+      static_cast<int>(runs_.size() + schedule_.size() - repeats_.size()), runs_);
   recorder_.Record(Session(false));
 
   std::vector<std::vector<ScheduledRun>> lanes;

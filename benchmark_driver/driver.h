@@ -18,6 +18,7 @@
 #include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/run_rows.h"
 #include "benchmark_driver/schedule.h"
+#include "messaging/asked_runs.h"
 #include "messaging/bus.h"
 #include "messaging/node_registry.h"
 #include "results/session_plan.h"
@@ -106,7 +107,17 @@ class Driver {
   /// Whether a run has to be made as far as records tell.
   bool IsToDo(const ScheduledRun& run, const Known& known) const;
   SessionMessage Session(bool finished) const;
+  bool IsToRepeat(const RunStanding& attempt) const;
+  /// Whether a run is not to be made, since its forward attempt found a path; `waits`: as far as is
+  /// known, that one being to be repeated.
+  bool IsNeedless(const ScheduledRun& run, bool* waits);
+  /// Tells in an attempt's record whether it was disturbed and which repeat it is, and whether
+  /// another is to follow in `repeats_`. False for a repeat that was not asked for: none is
+  /// recorded.
+  bool TakeIn(RunRecordMessage* record);
   /// Makes the runs of a lane, then those that were disturbed again, if they are to be repeated.
+  /// Every attempt is recorded at once, a repeat's record in the place of the one before, so that a
+  /// session that is interrupted lacks no run for having been disturbed, as long ones are sooner.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
   PlannerClient::Terms TermsOf(const std::string& planner) const;
   using Clients = std::map<std::string, std::unique_ptr<PlannerClient>>;
@@ -145,6 +156,9 @@ class Driver {
   /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows
   /// yet whether they are needed.
   std::map<std::string, bool> suffices_;
+  /// Of runs whose recorded attempt was disturbed and gives way to a repeat's, by request id: which
+  /// repeat that attempt was.
+  std::map<std::string, int> repeats_;
   std::set<std::string> one_of_two_;  ///< Request ids (ScheduledRun::is_one_of_two).
   std::unique_ptr<ProgressBar> progress_;
 };

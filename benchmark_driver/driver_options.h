@@ -30,7 +30,7 @@ struct DriverOptions {
   /// Share of a run's time beyond which what kept its planner from working makes it a disturbed
   /// one.
   double max_disturbance = 0.1;
-  bool repeat_disturbed = false;  ///< At the end, and record what was less disturbed.
+  bool repeat_disturbed = false;  ///< At the end, in the place of what was disturbed.
   KernelFolders kernel;
 
   /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).

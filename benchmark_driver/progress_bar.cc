@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace planbench {
 
 ProgressBar::ProgressBar(int num_runs, const RunRows& earlier)
-    : line_(num_runs, static_cast<int>(earlier.size())) {
+    : line_(num_runs,
+            static_cast<int>(std::count_if(earlier.rows().begin(), earlier.rows().end(),
+                                           [](const RunRow& run) { return !run.is_to_repeat; }))) {
   for (const RunRow& run : earlier.rows()) Count(run);
 }
 
 void ProgressBar::Count(const RunRow& run) {
+  if (run.is_to_repeat) return;
   ++num_done_;
   Tally& tally = tallies_[*run.planner];
   ++tally.done;

@@ -11,7 +11,8 @@ namespace planbench {
 /// Progress of a session on stderr, with running success counts. Not thread-safe.
 class ProgressBar {
  public:
-  /// `earlier`: runs of an earlier part of the session, which count among the `num_runs`.
+  /// `earlier`: runs of an earlier part of the session, which count among the `num_runs`. Those
+  /// that are to be repeated count when they have been.
   ProgressBar(int num_runs, const RunRows& earlier);
 
   void Add(const RunRow& run);

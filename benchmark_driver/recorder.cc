@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/lookup.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 
 namespace planbench {
@@ -62,7 +63,7 @@ void Recorder::OnAck(const AckMessage& ack, const Origin& origin) {
 
 void Recorder::Record(const RunRecordMessage& record) {
   std::unique_lock lock(mutex_);
-  spool_.Add({record.request_id, Encode(record)});
+  spool_.Add({RunRecordAckId(record), Encode(record)});
   LookAround();
   if (nobody_) bus_->Publish(channel::kRunRecord, record);  // others may watch
   Deliver(&lock, false);

@@ -1,5 +1,7 @@
 #include "benchmark_driver/run_rows.h"
 
+#include <algorithm>
+
 #include "benchmark_driver/effort_table.h"
 #include "common/lookup.h"
 #include "messaging/asked_runs.h"
@@ -8,11 +10,23 @@
 
 namespace planbench {
 
-const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
+RunRow& RunRows::PlaceFor(const RunRecordMessage& record) {
+  if (StandingOf(record).repeats > 0) {
+    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](const RunRow& row) {
+      return row.problem_index == record.problem_index && row.trial == record.trial &&
+             row.direction == record.request.direction && *row.planner == record.planner &&
+             *row.problem_set == record.problem_set;
+    });
+    if (known != rows_.end()) return *known = RunRow();
+  }
+  return rows_.emplace_back();
+}
+
+const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other, bool is_to_repeat) {
   const PlanResult& result = record.result.result;
   const auto counter = [&](const char* name) { return Lookup(result.counters, name).value_or(0); };
   const auto& mesh_verdict = record.path_check.mesh_verdict;
-  RunRow& row = rows_.emplace_back();
+  RunRow& row = PlaceFor(record);
   row.problem_set = Shared(record.problem_set);
   row.planner = Shared(record.planner);
   row.contestant = Shared(record.contestant);
@@ -30,6 +44,7 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other) {
   row.needs_other = needs_other;
   row.disturbed = counter("disturbed") > 0;
   row.repeated = counter("repeats") > 0;
+  row.is_to_repeat = is_to_repeat;
   for (std::size_t i = 0; i < kNumOddTimes; ++i) {
     row.odd_times_s[i] = counter(kOddTimes[i].counter);
   }

@@ -32,6 +32,7 @@ struct RunRow {
   bool needs_other = false;  ///< It failed, and the other direction is to be tried, too.
   bool disturbed = false;
   bool repeated = false;
+  bool is_to_repeat = false;  ///< It gives way to the attempt that is to follow.
   OddTimesFound odd_times_s = {};
   AnswerTimes answer_times;
   std::optional<bool> mesh_valid;         ///< The raw path, if meshes judged it.
@@ -52,13 +53,16 @@ class RunRows {
   RunRows(RunRows&&) = default;
   RunRows& operator=(RunRows&&) = default;
 
-  const RunRow& Add(const RunRecordMessage& record, bool needs_other = false);
+  /// In the place of the row of the attempt that the record repeats, if there is one.
+  const RunRow& Add(const RunRecordMessage& record, bool needs_other = false,
+                    bool is_to_repeat = false);
 
   const std::deque<RunRow>& rows() const { return rows_; }
   std::size_t size() const { return rows_.size(); }
   bool empty() const { return rows_.empty(); }
 
  private:
+  RunRow& PlaceFor(const RunRecordMessage& record);
   const std::string* Shared(const std::string& text) { return &*texts_.insert(text).first; }
 
   std::set<std::string> texts_;

@@ -163,8 +163,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
       // The start as a number again, in us since the Unix epoch (IsoTime).
       find_run_(connection_.Prepare(
           "SELECT id, status, scene_id, roundtrip_time, "
-          "strftime('%s', substr(start_time, 1, 19)) * 1000000 + substr(start_time, 21, 6) "
-          "FROM runs WHERE run_id = ? AND request_id = ?")),
+          "strftime('%s', substr(start_time, 1, 19)) * 1000000 + substr(start_time, 21, 6), "
+          "disturbed, repeats FROM runs WHERE run_id = ? AND request_id = ?")),
       find_equal_run_(connection_.Prepare(FindEqualRunSql())),
       delete_run_(connection_.Prepare("DELETE FROM runs WHERE id = ?")),
       insert_run_(connection_.Prepare(InsertRunSql())),
@@ -251,7 +251,9 @@ std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecor
   if (!find_run_.Step()) return std::nullopt;
   const auto status = static_cast<PlanStatus>(find_run_.Int(1));
   const bool was_asked = TellsOfRequest(find_run_.Double(3), status, !find_run_.Text(2).empty());
-  const KnownRun known = {find_run_.Int(0), {was_asked, find_run_.Int(4)}};
+  const KnownRun known = {
+      find_run_.Int(0),
+      {was_asked, find_run_.Int(4), find_run_.Int(5) != 0, static_cast<int>(find_run_.Int(6))}};
   find_run_.Reset();
   return known;
 }

@@ -6,6 +6,7 @@
 
 #include "common/file_kind.h"
 #include "logger/session_json.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log_reader.h"
@@ -115,7 +116,7 @@ std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* 
       database_.Store(session);
     } else if (message.channel == channel::kRunRecord) {
       const auto record = Decode<RunRecordMessage>(message.bytes, message.channel);
-      *id = record.request_id;
+      *id = RunRecordAckId(record);
       switch (database_.Store(record)) {
         case ResultsDatabase::Outcome::kStored:
           // A record that replaces another is no further run.

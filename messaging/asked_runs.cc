@@ -1,5 +1,10 @@
 #include "messaging/asked_runs.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/lookup.h"
 #include "planning/asked_request.h"
 
 namespace planbench {
@@ -12,10 +17,23 @@ bool Suffices(const RunRecordMessage& forward) {
   return forward.result.result.Solves() || !WasAsked(forward);
 }
 
-RunStanding StandingOf(const RunRecordMessage& run) { return {WasAsked(run), run.start_utime}; }
+RunStanding StandingOf(const RunRecordMessage& run) {
+  const auto counter = [&](const char* name) {
+    return Lookup(run.result.result.counters, name).value_or(0);
+  };
+  constexpr double kMost = 1e6;  // of a damaged record
+  return {WasAsked(run), run.start_utime, counter("disturbed") > 0,
+          static_cast<int>(std::clamp(counter("repeats"), 0.0, kMost))};
+}
+
+std::string RunRecordAckId(const RunRecordMessage& run) {
+  const int repeats = StandingOf(run).repeats;
+  return repeats == 0 ? run.request_id : fmt::format("{}#{}", run.request_id, repeats);
+}
 
 bool Replaces(const RunStanding& record, const RunStanding& known) {
-  return !known.was_asked && (record.was_asked || record.start_utime > known.start_utime);
+  if (!known.was_asked) return record.was_asked || record.start_utime > known.start_utime;
+  return record.was_asked && known.disturbed && record.repeats > known.repeats;
 }
 
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
@@ -23,7 +41,8 @@ bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
 }
 
 bool Contradicts(const RunStanding& record, const RunStanding& known) {
-  return record.was_asked && known.was_asked;
+  return record.was_asked && known.was_asked && !Replaces(record, known) &&
+         !Replaces(known, record);
 }
 
 bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known) {

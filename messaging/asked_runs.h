@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "messaging/messages.h"
 
@@ -19,16 +20,23 @@ bool Suffices(const RunRecordMessage& forward);
 struct RunStanding {
   bool was_asked = false;
   std::int64_t start_utime = 0;  ///< us since the Unix epoch.
+  bool disturbed = false;
+  int repeats = 0;  ///< Which repeat it is of an attempt that was disturbed; 0: none.
 };
 RunStanding StandingOf(const RunRecordMessage& run);
 
+/// What a record's acknowledgement names it by: one of a disturbed attempt is none of its repeat.
+std::string RunRecordAckId(const RunRecordMessage& run);
+
 /// A run has one record. Of two that differ the first stands, but for this: whether `record` stands
 /// in the place of `known`, which tells of no request, since it tells of one or, of none either, of
-/// a later attempt. The other way round `record` is to be passed over.
+/// a later attempt; or which was disturbed, since it is of a later repeat. The other way round
+/// `record` is to be passed over.
 bool Replaces(const RunStanding& record, const RunStanding& known);
 bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
 
-/// Whether two records of a run that differ cannot both be true: each tells of a request.
+/// Whether two records of a run that differ cannot both be true: each tells of a request, and
+/// neither of a repeat of the other.
 bool Contradicts(const RunStanding& record, const RunStanding& known);
 bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known);
 

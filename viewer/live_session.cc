@@ -143,13 +143,14 @@ void LiveSession::HearRecord(const RunRecordMessage& record) {
   // Recorded runs are repeated until they are acknowledged; a request's messages carry the process
   // of the driver behind the run's id.
   const RunStanding standing = StandingOf(record);
-  const auto [seen, is_new] = seen_.try_emplace(record.request_id, standing);
-  if (!is_new && !Replaces(standing, seen->second)) return;
-  seen->second = standing;
+  const auto [seen, is_new] = seen_.try_emplace(record.request_id);
+  if (!is_new && !Replaces(standing, seen->second.standing)) return;
+  const bool is_solved = record.status == PlanStatus::kSolved;
   std::erase_if(records_, [&](const auto& one) { return one.request_id == record.request_id; });
   auto& [num_runs, num_solved] = tallies_[record.contestant];
   num_runs += is_new;
-  num_solved += record.status == PlanStatus::kSolved;
+  num_solved += static_cast<int>(is_solved) - static_cast<int>(seen->second.is_solved);
+  seen->second = {standing, is_solved};
   records_.push_front(record);
   if (records_.size() > kRunsShown) records_.pop_back();
   shown_ = record;

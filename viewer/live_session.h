@@ -76,7 +76,11 @@ class LiveSession {
   ImprovementRule progress_rule_;  ///< Of the last request, until it is answered.
   std::map<std::string, std::pair<int, int>> tallies_;  ///< Runs and solved, by contestant.
   std::deque<RunRecordMessage> records_;                ///< The newest first.
-  std::map<std::string, RunStanding> seen_;             ///< Of records, by request id.
+  struct Seen {
+    RunStanding standing;
+    bool is_solved = false;
+  };
+  std::map<std::string, Seen> seen_;  ///< Of records, by request id.
   std::int64_t view_number_ = 0;
   std::int64_t num_undecodable_ = 0;
 };

@@ -1,19 +1,14 @@
 #include "benchmark_driver/driver.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <regex>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "tests/benchmark_driver/driver_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -92,104 +87,6 @@ TEST_F(DriverTest, OfBothDirectionsAFailureNeedsTheOther) {
   MakeAll(&driver);
   ASSERT_EQ(driver.runs().size(), 4u);
   for (const RunRow& run : driver.runs().rows()) EXPECT_EQ(run.needs_other, !run.confirmed());
-}
-
-/// A machine that keeps a planner from working at requests that begin with an id: how often.
-class DisturbedMachine {
- public:
-  DisturbedMachine(FakePlanner* planner, std::map<std::string, int> times)
-      : planner_(planner), left_(std::move(times)) {
-    Write();
-    planner_->OnRequest([this](const PlanRequest& request) { OnRequest(request); });
-  }
-  ~DisturbedMachine() {
-    planner_->OnRequest([](const PlanRequest&) {});
-  }
-  DisturbedMachine(const DisturbedMachine&) = delete;
-  DisturbedMachine& operator=(const DisturbedMachine&) = delete;
-  KernelFolders folders() const { return {folder_ / "proc", folder_ / "sys"}; }
-
- private:
-  void OnRequest(const PlanRequest& request) {
-    const std::string run = request.request_id.substr(0, request.request_id.find('@'));
-    const bool warms_up = request.request_id.ends_with("/warm-up");
-    const auto left = left_.find(run);
-    if (!warms_up && left != left_.end() && seen_.insert(request.request_id).second &&
-        left->second > 0) {
-      --left->second;
-      waited_ns_ += 1'000'000'000'000;  // far longer than any run, of which so much counts
-      Write();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // longer than counts for nothing
-    }
-    planner_->Solve(request);
-  }
-  void Write() const {
-    folder_.Write(fmt::format("proc/{}/task/1/schedstat", getpid()),
-                  fmt::format("0 {} 1\n", waited_ns_));
-  }
-
-  FakePlanner* planner_;
-  std::map<std::string, int> left_;
-  std::set<std::string> seen_;
-  std::int64_t waited_ns_ = 0;
-  TemporaryFolder folder_;
-};
-
-TEST_F(DriverTest, DisturbedRunsAreMadeAgainAtTheEnd) {
-  FakePlanner planner(&bus_);
-  const DisturbedMachine machine(
-      &planner, {{"run/cans/1/arm/forward/1", 2}, {"run/cans/1/arm/backward/1", 9}});
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
-  Driver driver(&bus_, options, LineUp({"arm"}), {});
-  MakeAll(&driver);
-  std::vector<std::string> told;
-  for (const RunRecordMessage& record : logger.records().messages()) {
-    const auto& counters = record.result.result.counters;
-    told.push_back(fmt::format("{} disturbed {} after {}", record.request_id,
-                               counters.at("disturbed"), counters.at("repeats")));
-  }
-  EXPECT_EQ(told, (std::vector<std::string>{"run/cans/2/arm/forward/1 disturbed 0 after 0",
-                                            "run/cans/2/arm/backward/1 disturbed 0 after 0",
-                                            "run/cans/1/arm/forward/1 disturbed 0 after 2",
-                                            "run/cans/1/arm/backward/1 disturbed 1 after 2"}));
-  EXPECT_EQ(Ids(logger.records()).size(), 4u);
-}
-
-TEST_F(DriverTest, WhatDependsOnADisturbedRunWaitsForIt) {
-  FakePlanner planner(&bus_);
-  const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kAuto;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
-  Driver driver(&bus_, options, LineUp({"arm"}), {});
-  MakeAll(&driver);
-  EXPECT_EQ(Ids(logger.records()),
-            (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/forward/1"}));
-  EXPECT_EQ(driver.num_runs(), 2);
-}
-
-TEST_F(DriverTest, DisturbedRunsAreMarkedWhereTheyAreNotRepeated) {
-  FakePlanner planner(&bus_);
-  const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.kernel = machine.folders();
-  Driver driver(&bus_, options, LineUp({"arm"}), {});
-  MakeAll(&driver);
-  EXPECT_TRUE(driver.runs().rows().front().disturbed);
-  const RunRecordMessage first = logger.records().messages().at(0);
-  EXPECT_EQ(first.request_id, "run/cans/1/arm/forward/1");
-  EXPECT_DOUBLE_EQ(first.result.result.counters.at("waiting_time"), first.roundtrip_time_s);
-  EXPECT_EQ(first.result.result.counters.at("disturbed"), 1);
-  EXPECT_EQ(first.result.result.counters.at("repeats"), 0);
 }
 
 TEST_F(DriverTest, EveryPlannerAnswersARequestBeforeItsFirstRun) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "messaging/asked_runs.h"
 namespace planbench {
 
 Path FakePath() { return {{0, 0}, {1, 0.5}}; }
@@ -159,7 +160,7 @@ FakeLogger::FakeLogger(Bus* bus, const std::string& name,
       record_subscription_(bus->Subscribe<RunRecordMessage>(channel::kRunRecord,
                                                             [this](const RunRecordMessage& record) {
                                                               Answer(channel::kRunRecordAck,
-                                                                     record.request_id);
+                                                                     RunRecordAckId(record));
                                                             })),
       session_subscription_(
           bus->Subscribe<SessionMessage>(channel::kSession, [this](const SessionMessage& session) {

@@ -30,5 +30,23 @@ TEST(ProgressBarTest, CountsRunsAndSuccessesByPlanner) {
               testing::ContainsRegex("\\] 4/7  0:00 .*  ara 1/2  rrtc 1/2\n"));
 }
 
+TEST(ProgressBarTest, ARunThatIsToBeRepeatedCountsWhenItHasBeen) {
+  testing::internal::CaptureStderr();
+  {
+    RunRows runs;
+    RunRecordMessage record = Record("ara", PlanStatus::kTimedOut);
+    runs.Add(record, false, true);
+    ProgressBar bar(3, runs);
+    record.trial = 2;
+    bar.Add(runs.Add(record, false, true));
+    record.status = PlanStatus::kSolved;
+    record.result.result.counters["repeats"] = 1;
+    bar.Add(runs.Add(record));
+    EXPECT_EQ(runs.size(), 2u);
+  }
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::ContainsRegex("\\] 1/3  0:00 .*  ara 1/1\n"));
+}
+
 }  // namespace
 }  // namespace planbench

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "messaging/asked_runs.h"
 #include "tests/benchmark_driver/fake_nodes.h"
 
 namespace planbench {
@@ -175,6 +176,27 @@ TEST_F(RecorderTest, AcknowledgementOfTheBeginningIsNoneOfTheEnd) {
   bus_.Publish(channel::kSessionAck, AckMessage{"run", "logger", true, ""});  // late
   recorder_.Record(end);
   EXPECT_GE(logger.sessions().Count([](const SessionMessage& s) { return s.finished; }), 2u);
+}
+
+TEST_F(RecorderTest, AcknowledgementOfADisturbedAttemptIsNoneOfItsRepeat) {
+  FakeLogger logger(&bus_);
+  logger.num_to_ignore = 1'000'000;
+  AwaitLogger();
+  recorder_.silence_patience = recorder_.return_patience = std::chrono::milliseconds(0);
+  RunRecordMessage repeat = RunOf("a");
+  repeat.result.result.counters["repeats"] = 1;
+  recorder_.Record(RunOf("a"));
+  recorder_.Record(repeat);
+  const auto await_acks = [&](const std::string& id, std::size_t num_left) {
+    bus_.Publish(channel::kRunRecordAck, AckMessage{id, "logger", true, ""});
+    EXPECT_TRUE(
+        registry_.WaitUntil([&] { return recorder_.num_unrecorded() == num_left; }, kTestPatience));
+  };
+  await_acks("a", 1);
+  EXPECT_FALSE(recorder_.Complete());  // sends the repeat
+  await_acks("a", 1);
+  EXPECT_FALSE(recorder_.Complete());
+  await_acks(RunRecordAckId(repeat), 0);
 }
 
 TEST_F(RecorderTest, AcknowledgementOfAnotherRecordOrByAStrangerIsNone) {

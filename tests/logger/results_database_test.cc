@@ -274,6 +274,39 @@ TEST_F(ResultsDatabaseTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   EXPECT_EQ(database_.Store(crashed), Outcome::kContradicts);
 }
 
+TEST_F(ResultsDatabaseTest, ADisturbedRunGivesWayToItsRepeat) {
+  std::vector<RunRecordMessage> attempts;
+  for (int repeats = 0; repeats < 3; ++repeats) {
+    RunRecordMessage record = SampleRecord();
+    record.result.result.counters["disturbed"] = repeats < 2 ? 1 : 0;
+    record.result.result.counters["repeats"] = repeats;
+    attempts.push_back(record);
+    EXPECT_EQ(database_.Store(record), Outcome::kStored);
+    EXPECT_EQ(Count("runs"), Int(1));
+    EXPECT_EQ(Count("progress"), Int(2));
+  }
+  for (const RunRecordMessage& record : attempts) {
+    EXPECT_EQ(database_.Store(record), Outcome::kAlreadyStored) << "as when a log is read anew";
+  }
+  EXPECT_EQ(Run("repeats"), Int(2));
+  RunRecordMessage other = attempts.back();
+  other.result.result.planning_time_s /= 2;
+  EXPECT_EQ(database_.Store(other), Outcome::kContradicts);
+  other.result.result.counters["repeats"] = 3;
+  EXPECT_EQ(database_.Store(other), Outcome::kContradicts) << "the last was not disturbed";
+}
+
+TEST_F(ResultsDatabaseTest, ADisturbedRunGivesWayToARepeatThatKilledThePlanner) {
+  RunRecordMessage disturbed = SampleRecord();
+  disturbed.result.result.counters["disturbed"] = 1;
+  RunRecordMessage crashed = UnansweredRecord("request-1");
+  crashed.roundtrip_time_s = 0.5;
+  crashed.result.result.counters["repeats"] = 1;
+  database_.Store(disturbed);
+  EXPECT_EQ(database_.Store(crashed), Outcome::kStored);
+  EXPECT_EQ(Run("solved"), Int(0));
+}
+
 TEST_F(ResultsDatabaseTest, ARunInWhichThePlannerCrashedStands) {
   RunRecordMessage crashed = UnansweredRecord("request-1");
   crashed.roundtrip_time_s = 0.5;

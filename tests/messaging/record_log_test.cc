@@ -101,6 +101,19 @@ TEST_F(RecordLogTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   EXPECT_EQ(recorded.runs[1], Record("b", 1));
 }
 
+TEST_F(RecordLogTest, ADisturbedRunGivesWayToItsLastRepeatWhateverTheOrder) {
+  std::vector<RunRecordMessage> attempts(3, Record("a"));
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    attempts[i].result.result.counters = {{"disturbed", 1}, {"repeats", static_cast<double>(i)}};
+  }
+  for (const std::size_t i : {1u, 0u, 2u, 1u}) {
+    Add(channel::kRunRecord, Encode(attempts[i]));
+  }
+  const RecordedSession recorded = Read();
+  ASSERT_EQ(recorded.runs.size(), 1u);
+  EXPECT_EQ(recorded.runs[0], attempts[2]);
+}
+
 TEST_F(RecordLogTest, TornLastEventIsNoError) {
   Add(channel::kRunRecord, Encode(Record("a")));
   Add(channel::kRunRecord, Encode(Record("b")));

@@ -113,6 +113,21 @@ TEST_F(LiveSessionTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   EXPECT_EQ(state["runs"][0]["time_s"], 0.25);
 }
 
+TEST_F(LiveSessionTest, ADisturbedRunGivesWayToItsRepeatAndCountsOnce) {
+  Hear(channel::kSession, bus_.session);
+  bus_.record.result.result.counters["disturbed"] = 1;
+  Hear(channel::kRunRecord, bus_.record);
+  for (const PlanStatus status : {PlanStatus::kSolved, PlanStatus::kTimedOut}) {
+    bus_.record.status = status;
+    ++bus_.record.result.result.counters["repeats"];
+    Hear(channel::kRunRecord, bus_.record);
+    const Json state = State();
+    EXPECT_EQ(state["runs"].size(), 1u);
+    EXPECT_EQ(state["contestants"][0]["runs"], 1);
+    EXPECT_EQ(state["contestants"][0]["solved"], status == PlanStatus::kSolved ? 1 : 0);
+  }
+}
+
 TEST_F(LiveSessionTest, KnowsWhoIsThereAndWhoIsGone) {
   NodeStatusMessage node;
   node.name = "ara";
