@@ -40,7 +40,8 @@ class ResultsDatabase {
   enum class Outcome { kStored, kAlreadyStored, kContradicts };
   /// Stores a run. Of records with the same run_id and request_id the first that tells of a request
   /// counts, or, if none does, the one of the last attempt, and of a disturbed attempt and its
-  /// repeats the last (asked_runs.h); others repeat or contradict it. Throws InputError for a record that contradicts itself.
+  /// repeats the last (asked_runs.h); others repeat or contradict it. Throws InputError for a
+  /// record that contradicts itself.
   Outcome Store(const RunRecordMessage& record);
 
   /// SessionJson of every session, oldest first.

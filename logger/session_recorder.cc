@@ -26,9 +26,14 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, bool resum
                  split_bytes),
       database_(folder_.results()) {
   if (!resume) return;
-  if (IsFile(folder_.run_json())) bus_ = ReadBusJson(folder_.run_json());
   // Not of a device or a pipe, which might never end.
-  if (IsFile(folder_.event_log())) Restore();
+  const bool has_log = IsFile(folder_.event_log());
+  if (IsFile(folder_.run_json())) {
+    bus_ = ReadBusJson(folder_.run_json());
+  } else if (has_log && HoldsEvent(folder_.event_log())) {
+    bus_ = kBusNotTold;
+  }
+  if (has_log) Restore();
 }
 
 void SessionRecorder::Restore() {
@@ -90,7 +95,8 @@ void SessionRecorder::Recover() {
 
 bool SessionRecorder::Report(const std::string& bus) {
   bus_ = AddBusJson(bus_, bus);
-  if (!bus.empty() || event_log_.num_files() > 1) DescribeSessions();
+  is_bus_told_ = true;
+  if (!bus.empty() || event_log_.num_files() > 1 || IsFile(folder_.run_json())) DescribeSessions();
   spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
@@ -105,7 +111,8 @@ bool SessionRecorder::Report(const std::string& bus) {
 }
 
 void SessionRecorder::DescribeSessions() {
-  WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(), bus_);
+  WriteRunJson(folder_.run_json(), database_.Sessions(), event_log_.num_files(),
+               is_bus_told_ ? bus_ : AddBusJson(bus_, kBusNotTold));
 }
 
 std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* id) {

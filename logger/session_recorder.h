@@ -48,8 +48,10 @@ class SessionRecorder {
   /// To be called after a failure, before the next message. Throws like Record.
   void Recover();
 
-  /// Logs what was recorded, and which sessions have fewer runs here than they tell of. `bus`
-  /// is BusJson's. True if every run record and session that came could be stored.
+  /// Logs what was recorded, and which sessions have fewer runs here than they tell of. `bus`: what
+  /// was odd on it since the recorder began (results/bus_json.h); until then run.json tells that it
+  /// is not known, which stands if the process is killed. True if every run record and session that
+  /// came could be stored.
   bool Report(const std::string& bus = "");
 
   const SessionFolder& folder() const { return folder_; }
@@ -73,7 +75,8 @@ class SessionRecorder {
   ResultsDatabase database_;
   RecorderTally tally_;
   std::set<std::pair<std::string, std::string>> counted_;  ///< Runs: run id and request id.
-  std::string bus_;  ///< BusJson's of the parts of the session before, and of this one at its end.
+  std::string bus_;           ///< Of the parts of the session before, and of this one at its end.
+  bool is_bus_told_ = false;  ///< Of this one.
 };
 
 }  // namespace planbench

@@ -287,13 +287,13 @@ std::string NoRuns(const ComparedSessions& compared) {
 /// What the logger saw of the bus, by which all others heard the same session.
 std::string OnTheBus(const BusRecord& bus) {
   std::vector<std::string> odd;
-  const auto add = [&](std::int64_t count, const char* what) {
-    if (count > 0) odd.push_back(fmt::format("{} {}", count, what));
+  const auto add = [&](std::int64_t count, const char* one, const char* several, const char* what) {
+    if (count > 0) odd.push_back(fmt::format("{} {} {}", count, count == 1 ? one : several, what));
   };
-  add(bus.lost, "messages did not reach the logger");
-  add(bus.dropped, "messages were more than it could keep up with");
-  add(bus.malformed, "packets were none of LCM's");
-  add(bus.contradictions, "messages told otherwise than those believed");
+  add(bus.lost, "message", "messages", "did not reach the logger");
+  add(bus.dropped, "message was", "messages were", "more than it could keep up with");
+  add(bus.malformed, "packet was", "packets were", "none of LCM's");
+  add(bus.contradictions, "message", "messages", "told otherwise than those believed");
   if (odd.empty()) return "no message was lost on the bus, as far as the logger saw.";
   return fmt::format(
       "on the bus {}; runs are sent until they are recorded, so that none is missing for that.",

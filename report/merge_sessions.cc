@@ -246,29 +246,23 @@ class Merge {
   std::string bus() const { return shares_.bus(); }
 
   std::string Summary(const fs::path& out) const {
-    return fmt::format("{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}",
-                       out.string(), runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s",
-                       num_repeated_,
-                       missing_shards_.empty()
-                           ? ""
-                           : fmt::format("; shards missing: {}", fmt::join(missing_shards_, "; ")),
-                       without_bus_.empty()
-                           ? ""
-                           : fmt::format("; without run.json, so that what was lost on the bus is "
-                                         "not known: {}",
-                                         fmt::join(without_bus_, ", ")),
-                       passed_over_.empty() ? "" : "; ", fmt::join(passed_over_, "; "));
+    return fmt::format(
+        "{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}", out.string(),
+        runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s", num_repeated_,
+        missing_shards_.empty()
+            ? ""
+            : fmt::format("; shards missing: {}", fmt::join(missing_shards_, "; ")),
+        without_bus_.empty() ? ""
+                             : fmt::format("; what was lost on the bus is not known: {}",
+                                           fmt::join(without_bus_, ", ")),
+        passed_over_.empty() ? "" : "; ", fmt::join(passed_over_, "; "));
   }
 
  private:
   void AddShares(const std::string& folder, const std::vector<SessionMessage>& told) {
     const fs::path run_json = fs::path(folder) / "run.json";
-    std::string bus;
-    if (IsFile(run_json)) {
-      bus = ReadBusJson(run_json);
-    } else {
-      without_bus_.push_back(folder);
-    }
+    const std::string bus = IsFile(run_json) ? ReadBusJson(run_json) : kBusNotTold;
+    if (bus.find(kLogsNotToldOf) != std::string::npos) without_bus_.push_back(folder);
     try {
       shares_.Add(told, bus);
     } catch (const InputError& error) {

@@ -48,7 +48,7 @@ void SessionShares::Add(const std::vector<SessionMessage>& told, const std::stri
         Keep(part, share);
         id += " " + part;
         own_s -= share.total_time_s;
-        own_bus = WithoutBusJson(own_bus, share.bus);
+        if (bus != kBusNotTold) own_bus = WithoutBusJson(own_bus, share.bus);
       }
     }
     if (session.last != session.merged) own.emplace_back(id, std::max(0.0, own_s));
@@ -105,9 +105,14 @@ std::map<std::string, SessionShares::Share> SessionShares::Parse(const std::stri
 
 /// A session that went on tells of more time, and with that of what it lost since.
 void SessionShares::Keep(const std::string& id, const Share& share) {
-  Share& known = by_id_[id];
+  const auto [place, is_new] = by_id_.try_emplace(id, share);
+  if (is_new) return;
+  Share& known = place->second;
   const bool is_later = share.total_time_s > known.total_time_s && !share.bus.empty();
-  if (is_later || known.bus.empty()) known.bus = share.bus;
+  const bool is_told = share.bus != kBusNotTold;
+  if (known.bus == kBusNotTold || (is_told && (is_later || known.bus.empty()))) {
+    known.bus = share.bus;
+  }
   known.total_time_s = std::max(known.total_time_s, share.total_time_s);
 }
 

@@ -78,9 +78,9 @@ std::string WithoutBusJson(const std::string& all, const std::string& part) {
 }
 
 void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus) {
-  if (bus.empty()) return;
   Json run = Json::parse(ReadText(run_json));
-  run[kBus] = Json::parse(bus);
+  run.erase(kBus);
+  if (!bus.empty()) run[kBus] = Json::parse(bus);
   WriteFile(run_json, run.dump(2) + "\n");
 }
 

@@ -158,7 +158,8 @@ std::vector<Field> Fields() {
   return fields;
 }
 
-/// "bus" of the folder's run.json, which the logger writes there where anything was odd.
+/// "bus" of the folder's run.json, which the logger writes there where anything was odd; nothing
+/// if that is not told.
 std::optional<BusRecord> ReadBusRecord(const std::filesystem::path& run_json) {
   if (!IsFile(run_json)) return std::nullopt;
   BusRecord record;
@@ -171,6 +172,8 @@ std::optional<BusRecord> ReadBusRecord(const std::filesystem::path& run_json) {
   for (const auto& one : bus.value("contradictions", nlohmann::json::array())) {
     record.contradictions += one.value("count", std::int64_t{0});
   }
+  const bool is_odd = record.malformed + record.lost + record.dropped + record.contradictions > 0;
+  if (!is_odd && bus.contains(kLogsNotToldOf)) return std::nullopt;
   return record;
 }
 

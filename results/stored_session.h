@@ -88,7 +88,7 @@ struct StoredSession {
   std::map<std::string, std::string> flags;     ///< Of the driver.
   std::map<std::string, std::string> left_out;  ///< Problems without runs, and why.
   std::map<std::string, std::string> machine;   ///< What the driver says of its own.
-  std::optional<BusRecord> bus;  ///< Of its folder; nothing if that holds no run.json.
+  std::optional<BusRecord> bus;                 ///< Of its folder; nothing if that does not tell.
 
   std::vector<StoredContestant> contestants;
   std::vector<StoredRun> runs;

@@ -8,6 +8,7 @@
 #include "logger/session_recorder.h"
 #include "messaging/channels.h"
 #include "messaging/event_log_reader.h"
+#include "results/bus_json.h"
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/expect_input_error.h"
@@ -67,6 +68,25 @@ TEST_F(RebuildTest, ASplitEventLogIsOne) {
             DumpDatabase(temporary_ / "live" / "results.sqlite"));
   EXPECT_NE(TextOf(temporary_ / "rebuilt" / "run.json").find("\"event_log_files\": 1"),
             std::string::npos);
+}
+
+TEST_F(RebuildTest, WhatWasLostOnTheBusIsAsTheLogsFolderTellsOrNotTold) {
+  const auto log = Live({Received(channel::kSession, SampleSession())});
+  const auto bus_of = [&](const std::filesystem::path& file) {
+    LoggerOptions options = Options();
+    std::filesystem::remove_all(options.out);
+    EXPECT_TRUE(RebuildSession(file, options));
+    return ReadBusJson(options.out / "run.json");
+  };
+  EXPECT_EQ(bus_of(log), "") << "nothing was";
+  WriteBusJson(temporary_ / "live" / "run.json", R"({"lost_messages":3})");
+  EXPECT_EQ(bus_of(log), R"({"lost_messages":3})");
+  std::filesystem::copy_file(log, temporary_ / "copy.lcmlog");
+  EXPECT_EQ(bus_of(temporary_ / "copy.lcmlog"), kBusNotTold);
+  std::filesystem::copy_file(temporary_ / "live" / "run.json", temporary_ / "run.json");
+  EXPECT_EQ(bus_of(temporary_ / "copy.lcmlog"), R"({"lost_messages":3})");
+  std::filesystem::copy_file(log, temporary_ / "another.lcmlog");
+  EXPECT_EQ(bus_of(temporary_ / "copy.lcmlog"), kBusNotTold) << "it may be the other's";
 }
 
 TEST_F(RebuildTest, ATornLastEventIsLeftOut) {

@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "messaging/channels.h"
 #include "messaging/event_log_reader.h"
+#include "results/bus_json.h"
 #include "sample_messages.h"
 #include "session_files.h"
 #include "tests/support/temporary_folder.h"
@@ -226,6 +227,24 @@ TEST_F(SessionRecorderTest, WhatWasLostOnTheBusIsThatOfAllParts) {
   EXPECT_EQ(lost(), 3);
   Open(true)->Report(R"({"lost_messages": 4})");
   EXPECT_EQ(lost(), 7);
+}
+
+TEST_F(SessionRecorderTest, WhatWasLostOnTheBusIsNotKnownOfAPartWhoseEndIsLacking) {
+  const auto told = [&] { return ReadBusJson(Folder() / "run.json"); };
+  {
+    const auto recorder = Open();
+    recorder->Record(Received(channel::kSession, SampleSession()));
+    EXPECT_EQ(told(), kBusNotTold);
+    recorder->Report();
+    EXPECT_EQ(told(), "");
+  }
+  Open(true)->Record(Received(channel::kSession, SampleSession()));  // as if it were killed then
+  EXPECT_EQ(told(), kBusNotTold);
+  Open(true)->Report();
+  EXPECT_EQ(told(), kBusNotTold);
+  std::filesystem::remove(Folder() / "run.json");
+  Open(true)->Report(R"({"lost_messages":4})");
+  EXPECT_EQ(told(), R"({"logs_not_told_of":1,"lost_messages":4})");
 }
 
 TEST_F(SessionRecorderTest, AReplayBuildsAnEqualDatabase) {

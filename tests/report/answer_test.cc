@@ -89,9 +89,13 @@ TEST_F(ReportTest, TheBusIsTold) {
                R"({"bus": {"malformed_packets": 0, "lost_messages": 3, "dropped_messages": 1,
                            "contradictions": [{"count": 2}, {"count": 5}]}})");
   EXPECT_TRUE(cautions().at(1).starts_with(
-      "example: on the bus 3 messages did not reach the logger, 1 messages were more than it could "
+      "example: on the bus 3 messages did not reach the logger, 1 message was more than it could "
       "keep up with, 7 messages told otherwise"))
       << cautions().at(1);
+  folder.Write("example/run.json", R"({"bus": {"logs_not_told_of": 1}})");
+  EXPECT_EQ(cautions().size(), 1u);
+  folder.Write("example/run.json", R"({"bus": {"logs_not_told_of": 1, "lost_messages": 1}})");
+  EXPECT_TRUE(cautions().at(1).starts_with("example: on the bus 1 message did not reach"));
   folder.Write("example/run.json", "{\"sessions\": [");
   EXPECT_THROW(cautions(), InputError);
 }

@@ -318,6 +318,20 @@ TEST_F(MergeSessionsTest, WhatWasLostOnTheBusIsAddedUp) {
   EXPECT_THAT(errors_, HasSubstr("two/run.json"));
 }
 
+TEST_F(MergeSessionsTest, ThatNothingWasLostOnTheBusIsToldIfAllPartsTellIt) {
+  Write("one", Session("early", 1000, 1), {{.contestant = "A", .problem = 1}});
+  Write("two", Session("later", 2000, 1), {{.contestant = "A", .problem = 2}});
+  folder_.Write("one/run.json", "{}");
+  ASSERT_EQ(MergeTo("half", {"one", "two"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("lost on the bus is not known: " + (folder_ / "two").string()));
+  EXPECT_FALSE(ReadSessions(folder_ / "half").sessions.front().bus);
+  folder_.Write("two/run.json", "{}");
+  ASSERT_EQ(MergeTo("all", {"two", "half", "one"}), kExitOk) << errors_;
+  const std::optional<BusRecord> bus = ReadSessions(folder_ / "all").sessions.front().bus;
+  ASSERT_TRUE(bus);
+  EXPECT_EQ(bus->lost, 0);
+}
+
 TEST_F(MergeSessionsTest, WhatAPartTookAndLostCountsOnce) {
   for (const int shard : {1, 2, 3}) {
     SessionMessage part = Session(fmt::format("part{}", shard), std::int64_t{1000} * shard, 1);
