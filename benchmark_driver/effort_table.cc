@@ -13,13 +13,13 @@
 #include "benchmark_driver/text_table.h"
 #include "common/lookup.h"
 #include "planning/path_measures.h"
+#include "results/quality.h"
 #include "results/reason_count.h"
-#include "results/statistics.h"
 
 namespace planbench {
 namespace {
 
-/// A column of the table of effort and quality: a median over solved runs.
+/// A column of the table of effort and quality: a median over problems.
 struct EffortColumn {
   std::string heading;
   std::function<std::optional<double>(const RunRecordMessage&)> read;  ///< Nothing: left out.
@@ -113,22 +113,26 @@ std::string EffortTable(const SessionResults& results) {
   const std::vector<EffortColumn>& columns = EffortColumns();
   std::vector<std::string> header = {"set", "contestant"};
   for (const EffortColumn& column : columns) header.push_back(column.heading);
-  TextTable table("Effort and quality over the confirmed runs, medians", std::move(header), 2);
+  TextTable table("Effort and quality of confirmed runs, medians over problems", std::move(header),
+                  2);
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       std::vector<std::string> row = {set.name, one.label()};
       for (std::size_t i = 0; i < columns.size(); ++i) {
-        std::vector<double> values;
+        ValuesByProblem values;
         for (const RunRow* run : one.runs) {
-          if (run->confirmed() && !std::isnan(run->effort[i])) values.push_back(run->effort[i]);
+          if (!run->confirmed() || std::isnan(run->effort[i])) continue;
+          values[run->problem_index].push_back(run->effort[i]);
         }
-        row.push_back(columns[i].format(Summarize(std::move(values)).median));
+        row.push_back(columns[i].format(SummarizeByProblem(values).median));
       }
       table.Add(std::move(row));
     }
   }
   return table.Format(
-      "bus: the driver's round trip less the planner's own time. checking: share of collision "
+      "A problem counts once, by the median of its runs; medians over different problems do not "
+      "compare. bus: the driver's round trip less the planner's own time. checking: share of "
+      "collision "
       "checking in the search. length: joint space, L2, rad and m. clearance: least along the raw "
       "path. -: not told, or not measured.\n\n");
 }

@@ -192,29 +192,34 @@ std::string PairTable(const SessionResults& results, bool all) {
 /// Planning times of the attempts themselves, by direction.
 std::string DirectionTable(const SessionResults& results) {
   TextTable table("Planning time of confirmed attempts by direction, ms",
-                  {"set", "contestant", "direction", "attempts", "confirmed", "median", "mean",
-                   "25 %", "75 %", "95 %"},
+                  {"set", "contestant", "direction", "attempts", "confirmed", "problems", "median",
+                   "mean", "25 %", "75 %", "95 %"},
                   3);
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       for (const Direction direction : EnumValues<Direction>()) {
-        int attempts = 0;
-        std::vector<double> times;
+        int attempts = 0, confirmed = 0;
+        ValuesByProblem times_s;
         for (const RunRow* run : one.runs) {
           if (run->direction != direction) continue;
           ++attempts;
-          if (run->confirmed()) times.push_back(run->time_s);
+          if (!run->confirmed()) continue;
+          ++confirmed;
+          times_s[run->problem_index].push_back(run->time_s);
         }
         if (attempts == 0) continue;
-        const Summary s = Summarize(std::move(times));
+        const Summary s = SummarizeByProblem(times_s);
         table.Add({set.name, one.label(), std::string(EnumName(direction)), Count(attempts),
-                   Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
+                   Count(confirmed), Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
                    Milliseconds(s.lower_quartile), Milliseconds(s.upper_quartile),
                    Milliseconds(s.percentile_95)});
       }
     }
   }
-  return table.Format("Every attempt counts, each trial for itself.\n") + "\n";
+  return table.Format(
+             "Attempts of either direction for themselves; a problem counts once, by the median of "
+             "its confirmed ones.\n") +
+         "\n";
 }
 
 /// Class of planner by contestant's name, of those that made runs; empty if all are of one.

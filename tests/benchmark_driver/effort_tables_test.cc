@@ -55,6 +55,18 @@ TEST(EffortTablesTest, EffortIsTheMedianOfTheSolved) {
   EXPECT_THAT(Full(records), Not(HasSubstr(kMeshes)));
 }
 
+TEST(EffortTablesTest, AProblemCountsOnceHoweverManyTrialsItHas) {
+  std::vector<RunRecordMessage> records;
+  for (int trial = 1; trial <= 4; ++trial) {
+    // Problem 1 has the trials 1 to 3.
+    records.push_back(OfProblem(trial < 4 ? 1 : 2, AttemptOf(PlanStatus::kSolved, 1)));
+    records.back().trial = trial;
+    records.back().result.result.counters = {{"edges_checked", trial < 4 ? trial : 10}};
+  }
+  EXPECT_THAT(Row(Full(records), kEffort, "box ARA*"), StartsWith("1.000 - - 6 "));
+  EXPECT_THAT(Full(records), HasSubstr("medians over different problems do not"));
+}
+
 TEST(EffortTablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
   // Of problem i the m-th measure is m i, half as much on the simplified path.
   std::vector<RunRecordMessage> records;

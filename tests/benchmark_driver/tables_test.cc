@@ -40,10 +40,21 @@ TEST(TablesTest, TimesIncludeFailedAttempts) {
 
 TEST(TablesTest, DirectionsAreToldApartInTheFullTables) {
   const std::string text = Full(FourProblems());
-  EXPECT_EQ(Row(text, kDirections, "box ARA* forward"), "4 1 100.0 100.0 100.0 100.0 100.0");
-  EXPECT_EQ(Row(text, kDirections, "box ARA* backward"), "4 2 30.0 30.0 25.0 35.0 39.0");
-  EXPECT_EQ(Row(text, kDirections, "box RRT-Connect forward"), "2 1 5.123 5.123 5.123 5.123 5.123");
+  EXPECT_EQ(Row(text, kDirections, "box ARA* forward"), "4 1 1 100.0 100.0 100.0 100.0 100.0");
+  EXPECT_EQ(Row(text, kDirections, "box ARA* backward"), "4 2 2 30.0 30.0 25.0 35.0 39.0");
+  EXPECT_EQ(Row(text, kDirections, "box RRT-Connect forward"),
+            "2 1 1 5.123 5.123 5.123 5.123 5.123");
   EXPECT_EQ(Row(text, kDirections, "box RRT-Connect backward"), "");
+}
+
+TEST(TablesTest, OfAttemptsAProblemCountsOnceHoweverManyTrialsItHas) {
+  std::vector<RunRecordMessage> records;
+  for (int trial = 1; trial <= 3; ++trial) {
+    records.push_back(AttemptOf(PlanStatus::kSolved, trial));
+    records.back().trial = trial;
+  }
+  records.push_back(OfProblem(2, AttemptOf(PlanStatus::kSolved, 10)));
+  EXPECT_EQ(Row(Full(records), kDirections, "box ARA* forward"), "4 4 2 6000 6000 4000 8000 9600");
 }
 
 TEST(TablesTest, PairsAreComparedProblemByProblem) {
