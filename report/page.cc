@@ -46,7 +46,9 @@ std::string Page(std::string_view html, const std::string& scripts) {
 }  // namespace
 
 std::string ReportPage(const Json& data, const EmbeddedViews& views) {
-  std::string scripts = DataElement("data", data) + DataElement("view-notes", views.notes);
+  std::vector<std::string> notes = views.notes;
+  if (!views.extent.empty()) notes.push_back(views.extent);
+  std::string scripts = DataElement("data", data) + DataElement("view-notes", notes);
   // Each in an element of its own: read when it is looked at.
   for (const auto& [attempt, view] : views.by_attempt) {
     scripts += DataElement(fmt::format("view-{}", attempt), view);

@@ -93,10 +93,10 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
     }
   }
   if (embedded.by_attempt.size() < candidates.size()) {
-    embedded.notes.push_back(fmt::format(
+    embedded.extent = fmt::format(
         "The page holds the 3D views of {} of {} attempts; view --session FOLDER --run "
         "RUN{} shows any.",
-        embedded.by_attempt.size(), candidates.size(), knows_robots ? "" : " --robot DIR"));
+        embedded.by_attempt.size(), candidates.size(), knows_robots ? "" : " --robot DIR");
   }
   return embedded;
 }

@@ -37,8 +37,10 @@ class RecordedViews {
 struct EmbeddedViews {
   /// By the run's place among those of all contestants, in their order.
   std::map<std::size_t, Json> by_attempt;
-  /// Of what is missing why, and where it is to be had.
+  /// What cannot be shown and why: what is wrong with an event log, say.
   std::vector<std::string> notes;
+  /// How many there are, and where others are to be had; "" if there are no others.
+  std::string extent;
 };
 EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes);
 

@@ -17,6 +17,7 @@
 #include "report/output_folder.h"
 #include "report/page.h"
 #include "report/print_figures.h"
+#include "report/recorded_views.h"
 #include "report/session_shares.h"
 #include "results/imported_results.h"
 #include "results/ompl_log.h"
@@ -158,7 +159,9 @@ int Run(Flags flags) {
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);
   if (!flags.figures.empty()) PrintFigures(data, flags.figures);
-  WriteFile(flags.out, ReportPage(data, EmbedViews(compared, kMostBytesOfViews)));
+  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews);
+  for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
+  WriteFile(flags.out, ReportPage(data, views));
   std::cout << "report: " << flags.out << "\n";
   return kExitOk;
 }

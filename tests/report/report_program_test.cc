@@ -54,6 +54,21 @@ TEST_F(ReportProgramTest, WritesThePageAndTheTables) {
   EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr(",12,24,24,24,100,"));
 }
 
+TEST_F(ReportProgramTest, AnEventLogThatLacksAFileIsNamed) {
+  WriteSession(folder_ / "example", ExampleRuns(), ExampleSession());
+  {
+    EventLog log(folder_ / "example" / "example.lcmlog", EventLog::Mode::kNew, 1);
+    for (int i = 0; i < 3; ++i) {
+      log.Write({channel::kSession, Encode(ExampleSession()), i});
+    }
+  }
+  std::filesystem::remove(folder_ / "example" / "example.lcmlog.01");
+  ASSERT_EQ(Run({Path("example"), "--out", Path("page.html")}), kExitOk);
+  EXPECT_THAT(errors_, HasSubstr("no 3D views: "));
+  EXPECT_THAT(errors_, HasSubstr("example.lcmlog.01 is missing"));
+  EXPECT_THAT(ReadText(folder_ / "page.html"), HasSubstr("example.lcmlog.01 is missing"));
+}
+
 TEST_F(ReportProgramTest, TablesOfAnEarlierReportAreReplaced) {
   SessionMessage later;
   later.start_utime = 60'000'000;
