@@ -66,6 +66,10 @@ std::string SessionJson(const SessionMessage& session) {
   json["robot"] = {{"name", session.robot_name}, {"id", request.robot_id}};
   json["flags"] = session.settings;
   json["left_out"] = session.left_out;
+  json["contestants"] = Json::array();
+  for (const Contestant& one : session.conditions.contestants) {
+    json["contestants"].push_back(one.name);
+  }
   json["nodes"] = Json::array();
   for (const NodeStatusMessage& node : session.nodes) json["nodes"].push_back(NodeJson(node));
   return Dump(json, -1);

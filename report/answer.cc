@@ -435,7 +435,8 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     const std::string& name = compared.session_names()[i];
     const int num_runs = static_cast<int>(session.runs.size());
     const int num_awaiting = compared.num_awaiting()[i];
-    const int num_lacking = session.num_runs - num_runs - num_awaiting - session.num_not_asked;
+    int num_lacking = session.num_runs - num_runs - num_awaiting - session.num_not_asked;
+    for (const auto& [contestant, number] : session.strangers) num_lacking -= number;
     if (session.imported) {
       cautions.push_back(fmt::format(
           "{}: {} runs from elsewhere, on another machine or under other conditions; no referee "
@@ -461,6 +462,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
           name, Count(session.num_not_asked, num_runs > 0 ? "more run" : "run"),
           reason.empty() ? "" : fmt::format(" ({})", reason),
           session.num_not_asked == 1 ? "it" : "them"));
+    }
+    for (const auto& [contestant, number] : session.strangers) {
+      cautions.push_back(fmt::format(
+          "{}: {} of '{}', which the session does not have as a contestant: damaged, and counted "
+          "as missing.",
+          name, Count(number, "more record"), contestant));
     }
     if (num_awaiting > 0) {
       cautions.push_back(fmt::format(

@@ -177,8 +177,13 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
   }
   if (num_late > 0) {
     warnings->push_back(
-        fmt::format("{}: {} solved rows took longer than their time limit and count as TIMED_OUT",
-                    file_name, num_late));
+        num_late == 1
+            ? fmt::format(
+                  "{}: 1 solved row took longer than its time limit and counts as TIMED_OUT",
+                  file_name)
+            : fmt::format("{}: {} solved rows took longer than their time limits and count as "
+                          "TIMED_OUT",
+                          file_name, num_late));
   }
   return session;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -260,6 +261,7 @@ class Reader {
       }
       session.flags = details.value("flags", session.flags);
       session.left_out = details.value("left_out", session.left_out);
+      told_contestants_[session.run_id] = details.value("contestants", std::set<std::string>());
       for (const auto& node : details.value("nodes", nlohmann::json::array())) {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);
@@ -285,6 +287,11 @@ class Reader {
         "ORDER BY runs.id");
     while (select.Step()) {
       StoredSession& session = Session(select.Text(0));
+      const std::set<std::string>& told = told_contestants_[session.run_id];
+      if (!told.empty() && !told.contains(select.Text(2))) {
+        ++session.strangers[select.Text(2)];
+        continue;
+      }
       StoredRun run;
       for (std::size_t i = 0; i < fields.size(); ++i) {
         fields[i].set(&run, select.Value(static_cast<int>(i) + 4));
@@ -335,6 +342,8 @@ class Reader {
   std::filesystem::path file_;
   SqliteConnection connection_;
   std::map<std::string, StoredSession> sessions_;
+  /// Names by session; none where it does not tell, as those of before.
+  std::map<std::string, std::set<std::string>> told_contestants_;
   /// Session and index of a run, by its id.
   std::map<std::int64_t, std::pair<StoredSession*, std::size_t>> places_;
   /// By session and `plannerConfigs.id`.

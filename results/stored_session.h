@@ -96,6 +96,9 @@ struct StoredSession {
   /// among `runs`.
   int num_not_asked = 0;
   ReasonCount why_not_asked;
+  /// How many runs are of a contestant that the session does not have, by its name as it stands:
+  /// their records are damaged, and they are not among `runs` either.
+  std::map<std::string, int> strangers;
 };
 
 struct StoredSessions {

@@ -161,6 +161,7 @@ TEST_F(SessionRecorderTest, RunJsonDescribesTheSessions) {
   EXPECT_EQ(session.at("time_limit_s"), 60.0);
   EXPECT_EQ(session.at("robot").at("name"), "fetch");
   EXPECT_EQ(session.at("flags").at("planners"), "ara,rrtc");
+  EXPECT_TRUE(session.at("contestants").is_array());
   const auto& node = session.at("nodes").at(0);
   EXPECT_EQ(node.at("name"), "rrtc");
   EXPECT_EQ(node.at("kind"), "planner");

@@ -316,6 +316,30 @@ TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
               testing::Contains("example: 1 of 5 runs are not recorded."));
 }
 
+TEST_F(ReportTest, ARecordOfWhomTheSessionDoesNotHaveIsNamedAndNoContestant) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  const std::vector<MadeRun> runs = {{.contestant = "A"},
+                                     {.contestant = "B"},
+                                     {.contestant = "B", .problem = 2},
+                                     {.contestant = "C"}};
+  WriteSession(folder / "whoever", runs, session);
+  EXPECT_EQ(ComparedSessions(ReadSessions(folder / "whoever").sessions).contestants().size(), 3u)
+      << "who takes part is not told";
+  for (const char* name : {"A", "B"}) {
+    session.conditions.contestants.emplace_back().planner = name;
+    session.conditions.contestants.back().name = name;
+  }
+  WriteSession(folder / "example", runs, session);
+  const ComparedSessions compared(ReadSessions(folder / "example").sessions);
+  EXPECT_EQ(compared.contestants().size(), 2u);
+  const std::vector<std::string> cautions = Cautions(compared);
+  EXPECT_THAT(cautions, testing::Contains(
+                            "example: 1 more record of 'C', which the session does not have as a "
+                            "contestant: damaged, and counted as missing."));
+  EXPECT_THAT(cautions, testing::Not(testing::Contains(testing::HasSubstr("recorded"))));
+}
+
 TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
