@@ -66,7 +66,6 @@ class OmplSilence {
 };
 
 bool SetParameter(ob::ParamSet* parameters, const std::string& key, const std::string& value) {
-  const OmplSilence silence;
   try {
     return parameters->setParam(key, value);
   } catch (const std::exception&) {  // what OMPL's conversion of numbers throws
@@ -204,8 +203,7 @@ class OmplPlanner::Workspace {
           query.ReportSolution(/*lower_bound=*/0, best, space_->num_samples());
         });
     const ob::PlannerPtr planner = MakePlanner(settings, "settings", problem);
-    const ob::PlannerStatus status =
-        planner->solve(ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
+    const ob::PlannerStatus status = Solve(settings, query, planner.get());
 
     SearchResult result;
     if (problem->hasExactSolution()) {
@@ -249,6 +247,9 @@ class OmplPlanner::Workspace {
   /// InputError, prefixed by `origin`, for parameters that it refuses.
   ob::PlannerPtr MakePlanner(const RrtcSettings& settings, const std::string& origin,
                              const ob::ProblemDefinitionPtr& problem) const {
+    // What it refuses it throws; its warnings are of names that it gives itself, and of being set
+    // up twice.
+    const OmplSilence silence;
     ob::PlannerPtr planner = settings.ompl_algorithm->make(si_);
     ob::ParamSet& parameters = planner->params();
     if (settings.range && HasRange(*settings.ompl_algorithm, *planner)) {
@@ -272,6 +273,16 @@ class OmplPlanner::Workspace {
             fmt::format("{}: ompl.{}: '{}' is no value of this parameter", origin, key, value));
       }
     }
+    const auto is = [&parameters](const char* key, const char* wanted) {
+      std::string value;
+      return parameters.getParam(key, value) && value == wanted;
+    };
+    if (is("ordered_sampling", "1") && is("informed_sampling", "0") &&
+        is("sample_rejection", "0")) {  // OMPL would crash.
+      throw InputError(origin +
+                       ": ompl.ordered_sampling: orders what informed_sampling or "
+                       "sample_rejection draws: set one of them, too");
+    }
     planner->setProblemDefinition(problem);
     try {
       planner->setup();
@@ -283,6 +294,19 @@ class OmplPlanner::Workspace {
   }
 
  private:
+  /// Throws InputError if OMPL gives up with an exception of its own: some settings it looks at
+  /// only here.
+  static ob::PlannerStatus Solve(const RrtcSettings& settings, const SearchQuery& query,
+                                 ob::Planner* planner) {
+    try {
+      return planner->solve(
+          ob::PlannerTerminationCondition([&query] { return query.ShouldStop(); }));
+    } catch (const ompl::Exception& error) {
+      throw InputError(fmt::format("{} refused the request within its search: {}",
+                                   settings.AlgorithmName(), error.what()));
+    }
+  }
+
   ob::ProblemDefinitionPtr MakeProblem(const SearchQuery& query) const {
     const ob::ProblemDefinitionPtr problem = EmptyProblem();
     ob::State* start = space_->allocState();
@@ -316,7 +340,6 @@ OmplPlanner::OmplPlanner(const Robot& robot, RrtcSettings settings, const std::s
   }
   // Refuses bad parameters now rather than at the first request.
   const Workspace& workspace = *workspaces_.begin()->second;
-  const OmplSilence silence;  // It would miss a start and a goal.
   const ob::PlannerPtr planner = workspace.MakePlanner(settings_, origin, workspace.EmptyProblem());
   has_range_ = Workspace::HasRange(*settings_.ompl_algorithm, *planner);
 }

@@ -150,6 +150,8 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
                  {"1e300 is more than 1000000"});
   expect_refused("algorithm: KPIECE1\nompl: {failed_expansion_score_factor: 5}",
                  {"rrtc.yaml", "KPIECE1 cannot be set up", "score factor must be in the range"});
+  expect_refused("algorithm: RRTstar\nompl: {ordered_sampling: 1}",
+                 {"rrtc.yaml", "ompl.ordered_sampling", "informed_sampling or sample_rejection"});
   expect_refused("algorithm: RRT\nompl: 3", {"rrtc.yaml:2", "ompl"});
   expect_refused("ompl: {goal_bias: 0.1}", {"rrtc.yaml:1", "ompl", "RRT-Connect"});
   expect_refused("range: 2\nmetric: sum", {"rrtc.yaml:2", "metric", "RRT-Connect"});
@@ -249,6 +251,8 @@ TEST_F(RrtcPlannerTest, DefaultsAndChoicesOfOmplsParametersAreAccepted) {
   for (const std::string text :
        {"{algorithm: RRT, ompl: {goal_bias: 0, intermediate_states: true}}",
         "{algorithm: RRTstar, ompl: {goal_bias: 1, rewire_factor: 1.1, use_k_nearest: 0}}",
+        "{algorithm: RRTstar, ompl: {informed_sampling: 1, ordered_sampling: 1}}",
+        "{algorithm: InformedRRTstar, ompl: {ordered_sampling: true}}",
         "{algorithm: BITstar, ompl: {samples_per_batch: 100, rewire_factor: 1.1}}",
         "{algorithm: LazyPRM, ompl: {max_nearest_neighbors: 5, range: 10000}}",
         "{algorithm: RRTsharp, ompl: {rejection_variant: 0}}",
