@@ -17,8 +17,8 @@ namespace {
 constexpr int kMaxBlock = 64;
 /// Stretches that an edge seldom has more of: room for them is made before there is one.
 constexpr std::size_t kUsualStretches = 256;
-/// Within an edge, whether to stop is asked after this many samples: seldom enough to cost nothing,
-/// often enough where each is the work of an exact engine on meshes.
+/// Whether to stop is asked after this many samples: seldom enough to cost nothing, often enough
+/// where each is the work of an exact engine on meshes.
 constexpr std::int64_t kSamplesUnasked = 64;
 /// Certified edges are first cut into stretches of this many edge resolutions ...
 constexpr double kFirstStretch = 4;
@@ -91,6 +91,7 @@ void EdgeChecker::RequireSize(std::span<const double> q) const {
 void EdgeChecker::StopWhen(std::function<bool()> should_stop) {
   should_stop_ = std::move(should_stop);
   stopped_ = false;
+  unasked_ = 0;
 }
 
 bool EdgeChecker::GiveUp() {
@@ -158,7 +159,6 @@ std::optional<double> EdgeChecker::FindBlocked(std::span<const double> from,
   RequireSize(from);
   RequireSize(to);
   const double motion = Move(from, to, &motion_);
-  unasked_ = 0;
   return method_ == EdgeCheck::kFixed ? FindBlockedSample(from, motion, from_is_free)
                                       : FindBlockedStretch(from, motion);
 }

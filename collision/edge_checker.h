@@ -62,9 +62,9 @@ class EdgeChecker {
   /// m, or in the unit of the sampling of its own.
   double edge_resolution() const { return resolution_; }
 
-  /// A long edge can take long. `should_stop` is asked within edges, every so many configurations;
-  /// once it says yes, edges that need more are given up: they count as blocked, and Stopped says
-  /// so. An empty function: never.
+  /// A long edge can take long, and so can many short ones. `should_stop` is asked every so many
+  /// configurations of edges, within one or not; when it says yes, the edge at hand is given up: it
+  /// counts as blocked, and Stopped says so. An empty function: never.
   void StopWhen(std::function<bool()> should_stop);
   /// True if an edge was given up since StopWhen.
   bool Stopped() const { return stopped_; }
@@ -130,7 +130,7 @@ class EdgeChecker {
   Counters counters_;
   std::function<bool()> should_stop_;
   bool stopped_ = false;
-  std::int64_t unasked_ = 0;  ///< Configurations of the edge at hand since should_stop_ was asked.
+  std::int64_t unasked_ = 0;  ///< Configurations of edges since should_stop_ was asked.
 
   // Scratch.
   std::vector<double> motion_;         ///< The edge's signed motion, by joint.

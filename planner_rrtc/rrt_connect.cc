@@ -117,7 +117,8 @@ int RrtConnect::Extend(int k, double* reached) {
   int node = Add(candidate.tree, reached, candidate.near.node);
   if (settings_->extension == Extension::kStep) return node;
   const double* sample = samples_.data() + At(k);
-  for (int i = 1; i * range_ < candidate.near.distance; ++i) {
+  // Of a tiny range more than an int counts; edges given up end them.
+  for (double i = 1; i * range_ < candidate.near.distance; ++i) {
     const double t = std::min(1.0, (i + 1) * range_ / candidate.near.distance);
     flat_.Interpolate(nodes.Positions(candidate.near.node), sample, t, step_.data());
     if (!IsValidEdge(nodes.Positions(node), step_.data())) break;
@@ -134,11 +135,10 @@ int RrtConnect::Connect(int tree, const double* q) {
     const ScopedTimer timer(&nearest_ticks_);
     near = nodes.Nearest(q);
   }
-  const int num_steps = std::max(1, static_cast<int>(std::ceil(near.distance / range_)));
+  const double num_steps = std::max(1.0, std::ceil(near.distance / range_));
   int node = near.node;
-  for (int i = 1; i <= num_steps; ++i) {
-    flat_.Interpolate(nodes.Positions(near.node), q, static_cast<double>(i) / num_steps,
-                      step_.data());
+  for (double i = 1; i <= num_steps; ++i) {
+    flat_.Interpolate(nodes.Positions(near.node), q, i / num_steps, step_.data());
     if (!IsValidEdge(nodes.Positions(node), step_.data())) return -1;
     if (i < num_steps) node = Add(tree, step_.data(), node);
   }

@@ -315,8 +315,9 @@ SearchResult Planner::SearchFor(const std::string& algorithm, const GoalBox& goa
       std::reverse(query->initial_path_.begin(), query->initial_path_.end());
     }
   }
-  // A turn ends between edges: one given up would be lost to a search that goes on.
-  edges.StopWhen([query] { return query->IsOver(); });
+  // A turn ends between edges where there are more: one given up would be lost to a search that
+  // goes on.
+  edges.StopWhen([query] { return query->GoesOn() ? query->IsOver() : query->ShouldStop(); });
   SearchResult result = Search(*query);
   query->turn_ends_s_.reset();
   RequireSearchStatus(algorithm, result.status);

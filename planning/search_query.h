@@ -75,6 +75,8 @@ class SearchQuery {
   };
   /// ShouldStop, of the request whatever the turn.
   bool IsOver() const;
+  /// Whether searches of this planner go on in later turns, as far as is known.
+  bool GoesOn() const { return num_steps_ > 0; }
   /// Done so far, of all goals: configurations checked, and steps between them.
   double Work() const;
 

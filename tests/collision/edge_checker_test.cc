@@ -305,6 +305,22 @@ TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
   }
 }
 
+TEST(EdgeCheckerTest, ManyShortEdgesAreGivenUpAsOneLongOneIs) {
+  const Robot robot = MakePendulum();
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    SCOPED_TRACE(EnumName(method));
+    ScriptedChecker checker(robot, 1);
+    EdgeChecker edges(&checker, 1e-3, method);
+    edges.StopWhen([] { return true; });
+    const std::vector<double> from = {0, 0}, near = {1e-6, 0};
+    int num_free = 0;
+    while (num_free < 1000 && edges.IsValidEdge(from, near)) ++num_free;
+    EXPECT_TRUE(edges.Stopped());
+    EXPECT_GT(num_free, 0);
+    EXPECT_LE(edges.counters().configurations, 2 * 64);
+  }
+}
+
 TEST(EdgeCheckerTest, CertifiesWhatIsAttachedFarAwayWithoutListingTheWholeEdge) {
   const Robot robot = MakePendulum();
   const std::vector<double> from = {0, 0};

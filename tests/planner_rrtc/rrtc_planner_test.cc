@@ -306,6 +306,18 @@ TEST_F(RrtcPlannerTest, BadRangesOfARequestAreRefused) {
   }
 }
 
+TEST_F(RrtcPlannerTest, MotionsWithoutEndEndWithTheTimeLimit) {
+  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  request.time_limit_s = 0.05;
+  for (const std::string settings :
+       {"{range: 1e-7}", "{range: 1e-300}", "{range: 1e-7, algorithm: RRTConnect}"}) {
+    const PlanResult result =
+        MakeRrtcPlanner(robot_, Settings(settings))->Plan(request, PostsScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kTimedOut) << settings;
+    EXPECT_LT(result.counters.at("edges_checked"), 1e6) << "of more than a million: " << settings;
+  }
+}
+
 TEST_F(RrtcPlannerTest, ByDefaultTheRangeShrinksAsTheSearchLasts) {
   EXPECT_EQ(ShrinkingRange(0), 2);
   EXPECT_NEAR(ShrinkingRange(50), 1.3, 1e-12);

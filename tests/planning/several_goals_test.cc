@@ -111,6 +111,20 @@ TEST_F(SeveralGoals, ShareTheTime) {
   EXPECT_EQ(num_searches_, 1);
 }
 
+TEST_F(SeveralGoals, ATurnEndsThoughItsSearchAsksForNothingButEdges) {
+  PlanRequest request = RequestFor({{0.5, 0, 0}, {0.4, 0, 0}});
+  request.time_limit_s = 1;
+  Plan(
+      [](SearchQuery& query) {
+        while (!query.edges().Stopped()) {
+          query.edges().IsValidEdge(query.start(), query.goal().nominal);
+        }
+        return Ended(PlanStatus::kTimedOut);
+      },
+      request);
+  EXPECT_EQ(num_searches_, 2);
+}
+
 TEST_F(SeveralGoals, OneThatTakesAllTheMemoryLeavesTheOthers) {
   const PlanRequest request = RequestFor({{0.5, 0, 0}, {0.4, 0, 0}, {0.3, 0, 0}});
   int num_searches = 0;
