@@ -163,6 +163,33 @@ std::optional<double> EdgeChecker::FindBlocked(std::span<const double> from,
                                       : FindBlockedStretch(from, motion);
 }
 
+double EdgeChecker::FindFreePart(std::span<const double> from, std::span<const double> to) {
+  RequireSize(from);
+  RequireSize(to);
+  const ScopedTimer timer(&counters_.ticks);
+  ++counters_.edges;
+  if (!space().WithinLimits(from) || !space().WithinLimits(to)) return 0;
+  std::optional<double> found = FindBlocked(from, to, /*from_is_free=*/true);
+  if (!found) return 1;
+  const double motion = Move(from, to, &motion_);
+  // What was found need not be the first that blocks: that lies between these.
+  double free = 0;
+  double blocked = *found;
+  std::vector<double> begin(from.begin(), from.end()), end(from.size());
+  while ((blocked - free) * motion > resolution_ && !stopped_) {
+    const double middle = (free + blocked) / 2;
+    space().Interpolate(from, to, middle, end);
+    found = FindBlocked(begin, end, /*from_is_free=*/true);
+    if (found) {
+      blocked = free + *found * (middle - free);
+    } else {
+      free = middle;
+      begin.swap(end);
+    }
+  }
+  return free;
+}
+
 double EdgeChecker::Move(std::span<const double> from, std::span<const double> to,
                          std::vector<double>* motion) const {
   const bool squares = sampling_ && sampling_->euclidean;

@@ -85,6 +85,11 @@ class EdgeChecker {
   std::optional<double> FindBlocked(std::span<const double> from, std::span<const double> to,
                                     bool from_is_free = false);
 
+  /// The part of the edge out of `from`, which is free, up to which it is free by the method: 1 if
+  /// all of it is, 0 if `to` is outside the limits; else it is blocked no further on than the edge
+  /// resolution. Takes little more than two edges.
+  double FindFreePart(std::span<const double> from, std::span<const double> to);
+
   /// Number of even intervals that the fixed method divides an edge into (its samples - 1), at
   /// least 1: a whole number, of any size.
   double NumIntervals(std::span<const double> from, std::span<const double> to) const;

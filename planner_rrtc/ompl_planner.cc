@@ -122,12 +122,17 @@ class EdgeMotionValidator final : public ob::MotionValidator {
     ++(valid ? valid_ : invalid_);
     return valid;
   }
-  /// The valid stretch of an invalid motion is not measured: s1 counts as the last valid state.
+  /// The last valid state is at most an edge resolution before what is not.
   bool checkMotion(const ob::State* s1, const ob::State* s2,
                    std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(s1, s2)) return true;
-    if (last_valid.first != nullptr && last_valid.first != s1) si_->copyState(last_valid.first, s1);
-    last_valid.second = 0;
+    const std::size_t n = si_->getStateDimension();
+    const double part = (*edges_)->FindFreePart({OmplPositions(s1), n}, {OmplPositions(s2), n});
+    ++(part == 1 ? valid_ : invalid_);
+    if (part == 1) return true;
+    if (last_valid.first != nullptr) {
+      si_->getStateSpace()->interpolate(s1, s2, part, last_valid.first);
+    }
+    last_valid.second = part;
     return false;
   }
 

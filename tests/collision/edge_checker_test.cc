@@ -1,5 +1,6 @@
 #include "collision/edge_checker.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +33,7 @@ class ScriptedChecker : public CollisionChecker {
   int BatchSize() const override { return batch_size_; }
 
   Predicate collides = [](std::span<const double>) { return false; };
+  double clearance = 1;  ///< m, of whatever does not collide.
   std::vector<std::vector<double>> asked;
 
  protected:
@@ -44,7 +46,7 @@ class ScriptedChecker : public CollisionChecker {
   }
   std::optional<Contact> DoFindContact(std::span<const double>) override { return std::nullopt; }
   ClosestPair DoFindClosest(std::span<const double> q) override {
-    return {collides(q) ? 0.0 : 1.0, "", ""};
+    return {collides(q) ? 0.0 : clearance, "", ""};
   }
 
  private:
@@ -302,6 +304,30 @@ TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
     EXPECT_FALSE(edges.Stopped());
     EXPECT_TRUE(edges.IsValidEdge(from, to));
     EXPECT_GT(edges.counters().configurations - configurations, 4 * 64);
+  }
+}
+
+TEST(EdgeCheckerTest, FindsHowFarAnEdgeIsFree) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0, 0}, to = {1, 0}, outside = {1.5, 0};
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    for (const double first : {0.0005, 0.3, 0.77, 0.99}) {
+      SCOPED_TRACE(fmt::format("{}, blocked from {}", EnumName(method), first));
+      ScriptedChecker checker(robot, 4);
+      checker.clearance = 1e-3;
+      // A second obstacle behind it, which is found first where it holds the middle.
+      checker.collides = [first](std::span<const double> q) {
+        return (q[0] >= first && q[0] < first + 0.01) || (q[0] > 0.45 && first < 0.45);
+      };
+      EdgeChecker edges(&checker, 1e-3, method);
+      const double part = edges.FindFreePart(from, to);
+      EXPECT_LE(part, first + checker.clearance);
+      EXPECT_GE(part, first - 2e-3);
+      EXPECT_EQ(edges.counters().edges, 1);
+      EXPECT_EQ(edges.FindFreePart(from, outside), 0);
+      checker.collides = [](std::span<const double>) { return false; };
+      EXPECT_EQ(edges.FindFreePart(from, to), 1);
+    }
   }
 }
 

@@ -245,6 +245,13 @@ TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
 TEST_F(RrtcPlannerTest, ParametersOfOmplsPlannersTakeEffect) {
   EXPECT_NE(Solve("{algorithm: RRT, ompl: {goal_bias: 0.05}}").counters,
             Solve("{algorithm: RRT, ompl: {goal_bias: 0.5}}").counters);
+  for (const std::string algorithm : {"KPIECE1", "BKPIECE1", "STRIDE"}) {
+    const auto with = [&](const std::string& fraction) {
+      return Solve(fmt::format("{{algorithm: {}, range: 2, ompl: {{min_valid_path_fraction: {}}}}}",
+                               algorithm, fraction));
+    };
+    EXPECT_NE(with("0.05").counters, with("1").counters) << algorithm;
+  }
 }
 
 TEST_F(RrtcPlannerTest, DefaultsAndChoicesOfOmplsParametersAreAccepted) {
