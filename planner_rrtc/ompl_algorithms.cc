@@ -51,7 +51,8 @@ ob::PlannerPtr MakeScanning(const ob::SpaceInformationPtr& si) {
 }
 
 /// OMPL's PRM divides its time between growing and expanding by the clock and looks for solutions
-/// in a second thread, so that no two runs are alike. The same roadmap, grown only, in one thread.
+/// in a second thread, so that no two runs are alike. The same roadmap, grown only, in one thread,
+/// towards one sample of the goal.
 template <bool kStar>
 class RepeatablePrm final : public og::PRM {
  public:
@@ -95,8 +96,9 @@ constexpr std::array kAlgorithms = {
     OmplAlgorithm{"LazyPRM", kSampleThenSearch, false, true, Make<og::LazyPRM>},
     OmplAlgorithm{"LazyPRMstar", kSampleThenSearch, false, true, Make<og::LazyPRMstar>},
     OmplAlgorithm{"PDST", kSamplingGuided, false, false, Make<og::PDST>},
-    OmplAlgorithm{"PRM", kSampleThenSearch, false, true, Make<RepeatablePrm<false>>},
-    OmplAlgorithm{"PRMstar", kSampleThenSearch, false, true, Make<RepeatablePrm<true>>},
+    OmplAlgorithm{"PRM", kSampleThenSearch, false, true, Make<RepeatablePrm<false>>, "grown only"},
+    OmplAlgorithm{"PRMstar", kSampleThenSearch, false, true, Make<RepeatablePrm<true>>,
+                  "grown only"},
     OmplAlgorithm{"ProjEST", kSamplingGuided, false, false, Make<og::ProjEST>},
     OmplAlgorithm{"RRT", kSamplingGuided, false, false, MakeScanning<og::RRT>},
     OmplAlgorithm{"RRTConnect", kSamplingGuided, false, true, MakeScanning<og::RRTConnect>},

@@ -60,7 +60,7 @@ class FirstJointsProjection final : public ob::ProjectionEvaluator {
   const JointSpace& joints_;
 };
 
-/// A JointSampler for OMPL. Adds the number of its samples of the whole space to *num_samples.
+/// A JointSampler for OMPL. Adds the number of its samples to *num_samples.
 class OmplSampler final : public ob::StateSampler {
  public:
   OmplSampler(const ob::StateSpace* space, JointSampler sampler, std::int64_t* num_samples)
@@ -71,6 +71,7 @@ class OmplSampler final : public ob::StateSampler {
     sampler_.Sample(OmplPositions(state));
   }
   void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
+    ++*num_samples_;
     for (unsigned int j = 0; j < space_->getDimension(); ++j) {
       const double offset = distance * (2 * UniformFraction(sampler_.generator()) - 1);
       OmplPositions(state)[j] = OmplPositions(near)[j] + offset;
@@ -78,6 +79,7 @@ class OmplSampler final : public ob::StateSampler {
     space_->enforceBounds(state);
   }
   void sampleGaussian(ob::State* state, const ob::State* mean, double std_dev) override {
+    ++*num_samples_;
     std::normal_distribution<double> normal(0, std_dev);
     for (unsigned int j = 0; j < space_->getDimension(); ++j) {
       OmplPositions(state)[j] = OmplPositions(mean)[j] + normal(*sampler_.generator());

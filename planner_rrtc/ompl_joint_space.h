@@ -34,7 +34,7 @@ class OmplJointSpace final : public ompl::base::StateSpace {
   /// The first sampler allocated from here on has this seed, every further one the next. Begins to
   /// count samples.
   void SeedSamplers(SamplerKind kind, std::uint64_t seed);
-  /// Configurations drawn from the whole space by all samplers since they were seeded.
+  /// Configurations drawn by all samplers since they were seeded, from the whole space or near one.
   std::int64_t num_samples() const { return num_samples_; }
   /// Time that planners have spent on nearest neighbours since the samplers were seeded, where
   /// their structure adds it here.

@@ -10,7 +10,7 @@
 namespace planbench {
 
 /// Any of OMPL's geometric planners, over one state space, one validator and samplers that depend
-/// on the request's seed alone. Counts iterations (configurations drawn from the whole space).
+/// on the request's seed alone. Counts iterations (configurations drawn, goals not among them).
 class OmplPlanner final : public Planner {
  public:
   /// `settings` name an OMPL algorithm. Throws InputError, beginning with `origin`, for parameters

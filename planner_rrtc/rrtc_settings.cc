@@ -49,7 +49,10 @@ std::string_view RrtcSettings::AlgorithmName() const {
 }
 
 std::string RrtcSettings::VariantName() const {
-  if (ompl_algorithm != nullptr) return fmt::format("{} (OMPL)", AlgorithmName());
+  if (ompl_algorithm != nullptr) {
+    const std::string_view variant = ompl_algorithm->variant;
+    return fmt::format("{} (OMPL{}{})", AlgorithmName(), variant.empty() ? "" : ", ", variant);
+  }
   std::string variant =
       fmt::format("{}, {}", EnumName(extension), balance ? "balanced" : "alternating");
   const bool connect = extension == Extension::kConnect;

@@ -35,7 +35,7 @@ struct RrtcSettings {
   SamplerKind sampler = SamplerKind::kUniform;
   /// Longest motion added to a tree, in the metric, of every algorithm that has such a limit
   /// (others take it for nothing, so that a line-up may give it to all). None (`default`): the
-  /// algorithm's own choice, for RRT-Connect ShrinkingRange, for OMPL's 20 % of the space's extent.
+  /// algorithm's own choice, for RRT-Connect ShrinkingRange, for OMPL's its own.
   std::optional<double> range;
 
   // Of RRT-Connect:
@@ -67,7 +67,7 @@ struct RrtcSettings {
   std::string_view AlgorithmName() const;
   /// The algorithm's name and what makes it this variant: "RRT-Connect (canonical)" extends by one
   /// step and alternates, as Kuffner and LaValle's first; "(balanced)" connects from both trees and
-  /// grows the smaller one; OMPL's have "(OMPL)".
+  /// grows the smaller one; OMPL's have "(OMPL)", and what of it is not as in OMPL.
   std::string VariantName() const;
 };
 

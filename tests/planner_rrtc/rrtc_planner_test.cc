@@ -228,6 +228,13 @@ TEST_F(RrtcPlannerTest, ItsNameSaysWhichVariantItIs) {
   EXPECT_EQ(name("{domain_radius: 4}"), "RRT-Connect (balanced, dynamic domain)");
 }
 
+TEST_F(RrtcPlannerTest, OmplsPlannersCountWhatTheyDraw) {
+  for (const OmplAlgorithm& algorithm : OmplAlgorithms()) {
+    const PlanResult result = Solve(fmt::format("{{algorithm: {}, range: 1}}", algorithm.name));
+    EXPECT_GT(result.counters.at("iterations"), 0) << algorithm.name;
+  }
+}
+
 TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
   const PlannerDescription description =
       MakeRrtcPlanner(robot_, Settings("{algorithm: BITstar, ompl: {samples_per_batch: 50}}"))
@@ -238,8 +245,9 @@ TEST_F(RrtcPlannerTest, DescribesOmplsPlannersUnderTheirNames) {
   EXPECT_FALSE(description.bidirectional);
   EXPECT_TRUE(MakeRrtcPlanner(robot_, Settings("algorithm: BiEST"))->Describe().bidirectional);
   EXPECT_EQ(description.settings.at("ompl.samples_per_batch"), "50");
-  EXPECT_EQ(MakeRrtcPlanner(robot_, Settings("algorithm: PRM"))->Describe().planner_class,
-            PlannerClass::kSampleThenSearch);
+  const PlannerDescription prm = MakeRrtcPlanner(robot_, Settings("algorithm: PRM"))->Describe();
+  EXPECT_EQ(prm.planner_class, PlannerClass::kSampleThenSearch);
+  EXPECT_EQ(prm.algorithm, "PRM (OMPL, grown only)");
 }
 
 TEST_F(RrtcPlannerTest, ParametersOfOmplsPlannersTakeEffect) {
