@@ -214,6 +214,10 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
     std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
       return lower_bounds[a] < lower_bounds[b];
     });
+    const Path& initial = resolved.initial_path;
+    std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i) {
+      return !initial.empty() && goals[i].Contains(query->space(), initial.back());
+    });
   }
   const std::vector<double> known_before = lower_bounds;
 

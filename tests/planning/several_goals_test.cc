@@ -67,6 +67,29 @@ TEST_F(SeveralGoals, TheNearestIsTriedFirst) {
   }
 }
 
+TEST_F(SeveralGoals, TheOneThatAPathIsGivenToIsTriedFirst) {
+  const std::vector<Configuration> goals = {{0.5, 0, 0}, {0.6, 1, 0}, {0.6, 2, 0}};
+  PlannerDescription able = ScriptedPlanner::Able();
+  able.improve = true;
+  for (const Direction direction : {Direction::kForward, Direction::kBackward}) {
+    PlanRequest request = RequestFor(goals);
+    request.direction = direction;
+    request.initial_joint_names = {"shoulder", "elbow", "wrist"};
+    request.initial_path = {start_, {0.6, 0, 1}, goals[2]};
+    const auto keep_it = [](SearchQuery& query) {
+      if (query.initial_path().empty()) return Ended(PlanStatus::kExhausted);
+      SearchResult result = StraightLine(query);
+      result.path = query.initial_path();
+      return result;
+    };
+    ScriptedPlanner planner(robot_, keep_it, able);
+    const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_EQ(result.path, request.initial_path);
+    EXPECT_EQ(planner.num_searches, 1);
+  }
+}
+
 TEST_F(SeveralGoals, AreInvalidTogether) {
   const PlanResult result = Plan(StraightLine, RequestFor({{0, 0, 0}, {0, 0, -3}}), PostsScene());
   EXPECT_EQ(result.status, PlanStatus::kGoalInvalid);
