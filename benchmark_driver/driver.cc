@@ -115,7 +115,8 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
     met.emplace(record.problem_set, record.problem_index);
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
-  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel);
+  executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
+                                            first_planners_);
   CheckProblems(met, watch, server_deaths);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
@@ -320,8 +321,9 @@ void Driver::AddContestant(const LineUpEntry& entry) {
       (directions == Directions::kBackward || directions == Directions::kBoth)) {
     throw InputError("--directions: the planner '" + name + "' cannot search backward");
   }
-  if (!planner->can_anytime && request.anytime) {
-    throw InputError("--anytime: the planner '" + name + "' is no anytime planner");
+  if (!planner->can_anytime && request.anytime && !entry.finds_first_paths_only) {
+    throw InputError(fmt::format(
+        "--anytime: the planner '{}' is no anytime planner: leave it out by --planners", name));
   }
   if (const std::string& first = contestant.first_path_of; !first.empty()) {
     if (!planner->can_improve) {
@@ -332,26 +334,36 @@ void Driver::AddContestant(const LineUpEntry& entry) {
           "--parallel: '{}' cannot search for '{}' and for itself at the same time", first, name));
     }
   }
-  // Of planners that are one algorithm, each also has the name that tells it apart.
+  // Of planners that would have one name, each also has the one that tells it apart.
   if (contestant.name.empty()) {
-    contestant.name = planner->algorithm;
+    const std::string own = contestant.name = NameOf(contestant);
     for (const LineUpEntry& other : line_up_) {
-      if (other.contestant.planner == name) continue;
-      const auto found = registry_.Find(other.contestant.planner, NodeKind::kPlanner);
-      const std::string& its_name = other.contestant.name;
-      if (contestant.name == its_name ||
-          (its_name.empty() && found && found->algorithm == planner->algorithm)) {
-        contestant.name = fmt::format("{} [{}]", planner->algorithm, name);
+      if (other.contestant.planner != name && NameOf(other.contestant) == own) {
+        contestant.name = fmt::format("{} [{}]", own, name);
       }
     }
   }
-  options_.conditions.contestants.push_back(std::move(contestant));
+  (entry.finds_first_paths_only ? first_planners_ : options_.conditions.contestants)
+      .push_back(std::move(contestant));
   planners_[name] = *planner;
+}
+
+std::string Driver::NameOf(const Contestant& contestant) const {
+  if (!contestant.name.empty()) return contestant.name;
+  const auto planner = registry_.Find(contestant.planner, NodeKind::kPlanner);
+  std::string name = planner ? planner->algorithm : "";
+  for (const LineUpEntry& other : line_up_) {
+    if (other.contestant.planner == contestant.first_path_of) {
+      name = fmt::format("{} after {}", name, NameOf(other.contestant));
+    }
+  }
+  return name;
 }
 
 std::vector<PlannedPlanner> Driver::PlannedPlanners() const {
   std::vector<PlannedPlanner> planned;
   for (const LineUpEntry& entry : line_up_) {
+    if (entry.finds_first_paths_only) continue;
     planned.push_back(PlanPlanner(entry.contestant, entry.directions.value_or(options_.directions),
                                   options_.trials, planners_));
   }
@@ -436,7 +448,8 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
   record->planner_class = planner.planner_class;
   record->settings = planner.settings;
   if (requests.size() > 1) {
-    record->settings.merge(FirstPathTraining(planners_.at(requests.front().planner).settings));
+    const std::string& first = requests.front().planner;
+    record->settings.merge(FirstPathSettings(first, planners_.at(first).settings));
   }
   return record;
 }

@@ -85,6 +85,8 @@ class Driver {
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);
+  /// In tables: the line-up's, or what the planner says of itself and whose path it improves.
+  std::string NameOf(const Contestant& contestant) const;
   std::vector<PlannedPlanner> PlannedPlanners() const;
   /// What is known of the session when this call goes on with it; of a new one that is the call.
   struct Known {
@@ -142,6 +144,7 @@ class Driver {
   int num_owed_ = 0;                    // of those the resumed session's that are not to do
   std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's
+  std::vector<Contestant> first_planners_;       // who find paths for contestants and are none
   std::unique_ptr<RunExecutor> executor_;
 
   /// By name, as found: processes that are described otherwise are not asked.

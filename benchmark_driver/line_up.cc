@@ -122,6 +122,7 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
     LineUpEntry one = entry;
     for (const auto& [key, value] : choice) {
       one.settings.push_back(key + "=" + value);
+      one.swept.push_back(key);
       one.contestant.planner += AsNodeName("_" + key + "_" + value);
       if (!one.contestant.name.empty()) one.contestant.name += fmt::format(", {} {}", key, value);
     }
@@ -183,6 +184,31 @@ std::vector<LineUpEntry> Pick(std::vector<LineUpEntry> entries,
   return picked;
 }
 
+/// Adds whose paths the entries improve and who is not among them.
+void AddFirstPlanners(std::vector<LineUpEntry> all, std::vector<LineUpEntry>* entries) {
+  for (std::size_t i = 0, num_contestants = entries->size(); i < num_contestants; ++i) {
+    const std::string first = (*entries)[i].contestant.first_path_of;
+    if (first.empty() || !Find(entries, first).empty()) continue;
+    for (LineUpEntry* entry : Find(&all, first)) {
+      entry->finds_first_paths_only = true;
+      entries->push_back(*entry);
+    }
+  }
+}
+
+/// Throws InputError for a setting of which the contestant's name tells another value.
+void RequireNotSwept(const LineUpEntry& entry, const std::string& setting) {
+  const std::string key = setting.substr(0, setting.find('='));
+  for (const std::string& swept : entry.swept) {
+    if (key == swept || key.starts_with(swept + ".") || swept.starts_with(key + ".")) {
+      throw InputError(
+          fmt::format("--set: '{}' has {} from its sweep, by which it is named: change "
+                      "it in the line-up",
+                      entry.contestant.planner, swept));
+    }
+  }
+}
+
 void RequireDistinct(const std::vector<LineUpEntry>& entries) {
   std::map<std::string, std::string> by_channel;
   std::map<std::string, std::string> by_name;
@@ -241,7 +267,9 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
                                     const std::optional<std::filesystem::path>& robot_folder) {
   std::vector<LineUpEntry> entries;
   if (flags.file) {
-    entries = Pick(ReadLineUp(*flags.file, robot_folder), flags.planners, *flags.file);
+    const std::vector<LineUpEntry> all = ReadLineUp(*flags.file, robot_folder);
+    entries = Pick(all, flags.planners, *flags.file);
+    AddFirstPlanners(all, &entries);
   } else {
     static const std::vector<std::string> kOwn = {"ara", "rrtc"};
     for (const std::string& planner : flags.planners.empty() ? kOwn : flags.planners) {
@@ -264,6 +292,7 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
         throw InputError("--set: '" + planner +
                          "' is started by its own command; give settings there");
       }
+      RequireNotSwept(*entry, setting);
       entry->settings.push_back(setting);
     }
   }

@@ -155,7 +155,7 @@ void Replay::CompareSettings(const RunRecordMessage& run) const {
   };
   compare("algorithm", run.algorithm, planner->algorithm);
   std::map<std::string, std::string> own_settings = run.settings;
-  EraseFirstPathTraining(&own_settings);
+  EraseFirstPathSettings(&own_settings);
   std::set<std::string> keys;
   for (const auto& [key, value] : own_settings) keys.insert(key);
   for (const auto& [key, value] : planner->settings) keys.insert(key);

@@ -61,9 +61,11 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   }
   const std::vector<std::string> missing_runs = MissingRuns(log.string(), recorded);
   Complete(recorded, &options.line_up);
-  const std::vector<LineUpEntry> line_up = MakeLineUp(
+  std::vector<LineUpEntry> line_up = MakeLineUp(
       options.line_up,
       options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
+  // First paths are in the requests.
+  std::erase_if(line_up, [](const LineUpEntry& entry) { return entry.finds_first_paths_only; });
   std::vector<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.push_back(entry.contestant.planner);
 

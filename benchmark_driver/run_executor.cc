@@ -63,9 +63,11 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
 }  // namespace
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
-                         KernelFolders kernel, std::chrono::milliseconds patience)
+                         KernelFolders kernel, std::vector<Contestant> first_planners,
+                         std::chrono::milliseconds patience)
     : registry_(registry),
       conditions_(std::move(conditions)),
+      first_planners_(std::move(first_planners)),
       kernel_(std::move(kernel)),
       patience_(patience),
       problems_(bus, channel::kProblemRequest, channel::kProblem,
@@ -194,18 +196,31 @@ PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMes
   // A planner that could not be asked for its part was not asked for the run (asked_runs.h).
   if (answer.roundtrip_time_s == 0) return answer;
   answer.roundtrip_time_s += first.roundtrip_time_s;
-  if (answer.outcome == PlannerClient::Outcome::kResult) AddBefore(found, &answer.result.result);
+  if (answer.outcome != PlannerClient::Outcome::kResult) return answer;
+  PlanResult& result = answer.result.result;
+  AddBefore(found, &result);
+  if (result.status == PlanStatus::kTimedOut) {
+    // As one that took the whole time: a path in hand when the limit comes counts.
+    result.status = PlanStatus::kSolved;
+    result.message = fmt::format("the path of '{}': '{}' had {:.3g} s left, and no path by then",
+                                 planners[0]->planner(), planners[1]->planner(), rest.time_limit_s);
+    result.planning_time_s = std::min(result.planning_time_s, request->time_limit_s);
+    result.path = found.path;
+    result.cost = found.cost;
+    result.epsilon = found.epsilon;
+    answer.result.joint_names = first.result.joint_names;
+  }
   return answer;
 }
 
 const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
-  const auto found =
-      std::find_if(conditions_.contestants.begin(), conditions_.contestants.end(),
-                   [&](const Contestant& contestant) { return contestant.planner == run.planner; });
-  if (found == conditions_.contestants.end()) {
-    throw std::logic_error("no contestant '" + run.planner + "'");
+  for (const std::vector<Contestant>* planners : {&conditions_.contestants, &first_planners_}) {
+    const auto found = std::find_if(planners->begin(), planners->end(), [&](const Contestant& one) {
+      return one.planner == run.planner;
+    });
+    if (found != planners->end()) return *found;
   }
-  return *found;
+  throw std::logic_error("no contestant '" + run.planner + "'");
 }
 
 PlanRequest RunExecutor::RequestOf(const ScheduledRun& run, const ProblemMessage& problem) const {
@@ -231,6 +246,7 @@ bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerCl
   if (!problem->ok) return true;  // the run will say so
   PlanRequest request = RequestOf(run, *problem);
   request.request_id += "/warm-up";
+  request.anytime = false;  // of which who finds first paths need not be capable
   request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
   const PlannerClient::Answer answer = planner->Solve(request, interrupted);
   if (answer.outcome == PlannerClient::Outcome::kInterrupted) return false;

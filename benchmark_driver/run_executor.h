@@ -21,11 +21,12 @@ inline constexpr char kFirstPathTime[] = "first_path_time";
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
-  /// `conditions`: complete, the referee's step and the contestants' included. Answers of others
-  /// than the scene server that `registry` knows are none. For what it waits longer than
-  /// `patience` it says so, again and again.
+  /// `conditions`: complete, the referee's step and the contestants' included; `first_planners`
+  /// likewise, who are no contestants and find paths that these improve. Answers of others than the
+  /// scene server that `registry` knows are none. For what it waits longer than `patience` it says
+  /// so, again and again.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
-              KernelFolders kernel = {},
+              KernelFolders kernel = {}, std::vector<Contestant> first_planners = {},
               std::chrono::milliseconds patience = std::chrono::seconds(10));
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
@@ -70,6 +71,7 @@ class RunExecutor {
 
   NodeRegistry* registry_;
   SessionConditions conditions_;
+  std::vector<Contestant> first_planners_;
   KernelFolders kernel_;
   std::chrono::milliseconds patience_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;

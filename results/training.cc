@@ -12,6 +12,7 @@ namespace planbench {
 namespace {
 
 constexpr char kFirstPath[] = "first_path_";
+constexpr char kFirstPathOf[] = "first_path_of";
 
 bool Lists(const std::string& list, const std::string& separator, const std::string& item) {
   return !list.empty() &&
@@ -26,17 +27,18 @@ std::string TrainedMark(const std::vector<std::string>& trained_on, std::size_t 
   return fmt::format("(trained on {})", fmt::join(trained_on, ", "));
 }
 
-std::map<std::string, std::string> FirstPathTraining(
-    const std::map<std::string, std::string>& first_planner) {
-  std::map<std::string, std::string> told;
+std::map<std::string, std::string> FirstPathSettings(
+    const std::string& first_planner, const std::map<std::string, std::string>& its_settings) {
+  std::map<std::string, std::string> told = {{kFirstPathOf, first_planner}};
   for (const char* key : {kLearnedFrom, kLearnedScenes}) {
-    const std::string value = Lookup(first_planner, key).value_or("");
+    const std::string value = Lookup(its_settings, key).value_or("");
     if (!value.empty()) told[kFirstPath + std::string(key)] = value;
   }
   return told;
 }
 
-void EraseFirstPathTraining(std::map<std::string, std::string>* settings) {
+void EraseFirstPathSettings(std::map<std::string, std::string>* settings) {
+  settings->erase(kFirstPathOf);
   for (const char* key : {kLearnedFrom, kLearnedScenes}) {
     settings->erase(kFirstPath + std::string(key));
   }

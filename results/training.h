@@ -19,13 +19,13 @@ inline constexpr char kTrainedOnNote[] =
     "(trained): has learned from problems of the sets, or of those named, which are therefore no "
     "test.";
 
-/// Settings of a contestant that is given the path of another (`first_path_of`), by which it tells
-/// what that one, of such settings, has learned from; none if that is nothing.
-std::map<std::string, std::string> FirstPathTraining(
-    const std::map<std::string, std::string>& first_planner);
+/// Settings of a contestant that is given the path of another, by which it tells whose
+/// (`first_path_of`) and, if that one, of such settings, has learned from something, from what.
+std::map<std::string, std::string> FirstPathSettings(
+    const std::string& first_planner, const std::map<std::string, std::string>& its_settings);
 
 /// Takes them away.
-void EraseFirstPathTraining(std::map<std::string, std::string>* settings);
+void EraseFirstPathSettings(std::map<std::string, std::string>* settings);
 
 /// What a contestant of such settings, or the one whose path it is given, has learned from.
 class Training {

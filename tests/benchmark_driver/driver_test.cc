@@ -326,9 +326,34 @@ TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {
   ASSERT_FALSE(driver.runs().empty());
   for (const RunRecordMessage& record : logger.records().messages()) {
     if (record.planner != "arm") continue;
+    EXPECT_EQ(record.settings.at("first_path_of"), "first");
     EXPECT_EQ(record.settings.at("first_path_learned_from"), "books, cans");
     EXPECT_EQ(record.settings.at("first_path_learned_scenes"), "01234567");
   }
+}
+
+TEST_F(DriverTest, WhoFindsFirstPathsOnlyIsNoContestantAndNeedNotBeAnytime) {
+  FakePlanner planner(&bus_);
+  planner.status.can_improve = planner.status.can_anytime = true;
+  planner.Restart();
+  FakePlanner first(&bus_, "first");
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
+  line_up[0].contestant.first_path_of = "first";
+  line_up[1].finds_first_paths_only = true;
+  DriverOptions options = Options();
+  options.conditions.request.anytime = true;
+  Driver driver(&bus_, options, line_up, {});
+  MakeAll(&driver);
+  ASSERT_EQ(driver.conditions().contestants.size(), 1u);
+  EXPECT_EQ(driver.conditions().contestants[0].name, "Fake* after Fake*");
+  ASSERT_FALSE(logger.records().messages().empty());
+  for (const RunRecordMessage& record : logger.records().messages()) {
+    EXPECT_EQ(record.planner, "arm");
+  }
+  ASSERT_FALSE(first.requests().messages().empty());
+  for (const PlanRequest& request : first.requests().messages()) EXPECT_FALSE(request.anytime);
 }
 
 TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {

@@ -132,6 +132,12 @@ TEST_F(LineUpTest, TheNameOfASweepStandsForAllOfIt) {
   EXPECT_THAT(entries[1].settings, ElementsAre("range=2", "balance=false", "sampler=halton"));
   EXPECT_EQ(entries[2].contestant.first_path_of, "rrtc_range_2");
 
+  for (const std::string name : {"rrtc", "rrtc_range_1"}) {
+    flags.settings = {{name, "range=3"}};
+    ExpectInputError([&] { MakeLineUp(flags, robot()); },
+                     {"--set", "'rrtc_range_1'", "range", "sweep"});
+  }
+  flags.settings = {};
   flags.commands = {{"rrtc", "./rrtc"}};
   ExpectInputError([&] { MakeLineUp(flags, robot()); },
                    {"--planner-command", "'rrtc' stands for several", "rrtc_range_1"});
@@ -143,6 +149,14 @@ TEST_F(LineUpTest, TheNameOfASweepStandsForAllOfIt) {
   flags.planners = {"improved", "rrtc_range_2"};
   flags.settings = {};
   EXPECT_EQ(MakeLineUp(flags, robot())[0].contestant.first_path_of, "rrtc_range_2");
+}
+
+TEST_F(LineUpTest, MapsOfASweepAreTheSweeps) {
+  LineUpFlags flags = Flags("contestants: {rrt: {program: rrtc, sweep: {ompl.goal_bias: [0.1]}}}");
+  flags.settings = {{"rrt", "ompl={goal_bias: 0.2}"}};
+  ExpectInputError([&] { MakeLineUp(flags, robot()); }, {"--set", "ompl.goal_bias"});
+  flags.settings = {{"rrt", "ompl.goal=0.2"}};
+  EXPECT_NO_THROW(MakeLineUp(flags, robot()));
 }
 
 TEST_F(LineUpTest, TheExamplesOfTheDocumentationAreRead) {
@@ -231,6 +245,7 @@ TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
   rrtc: {}
   stomp: {program: trajopt, first_path_of: chomp}
   self: {program: trajopt, first_path_of: self}
+  lost: {program: trajopt, first_path_of: nobody}
 )";
   LineUpFlags flags = Flags(text);
   flags.planners = {"chomp", "rrtc"};
@@ -240,9 +255,17 @@ TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
     flags.planners = planners;
     ExpectInputError([&] { MakeLineUp(flags, robot()); }, parts);
   };
-  expect_refused({"chomp"}, {"'chomp'", "first_path_of", "'rrtc' is not among the planners"});
+  expect_refused({"lost"}, {"'lost'", "first_path_of", "'nobody' is not among the planners"});
   expect_refused({"stomp", "chomp", "rrtc"}, {"'stomp'", "'chomp' does not find a path by itself"});
   expect_refused({"self"}, {"'self' does not find a path by itself"});
+
+  flags.planners = {"chomp"};
+  flags.settings = {{"rrtc", "range=1"}};
+  const auto entries = MakeLineUp(flags, robot());
+  EXPECT_THAT(Planners(entries), ElementsAre("chomp", "rrtc"));
+  EXPECT_FALSE(entries[0].finds_first_paths_only);
+  EXPECT_TRUE(entries[1].finds_first_paths_only) << "it was not chosen";
+  EXPECT_THAT(entries[1].settings, ElementsAre("range=1"));
 }
 
 }  // namespace

@@ -395,7 +395,7 @@ TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
 }
 
 TEST_F(RunExecutorTest, TellsWhichProblemItWaitsFor) {
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, std::chrono::milliseconds(1));
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, std::chrono::milliseconds(1));
   int num_asked = 0;
   testing::internal::CaptureStdout();
   EXPECT_FALSE(executor.AskForProblem("cans", 2, [&] { return ++num_asked >= 10; }));
@@ -546,6 +546,23 @@ TEST_F(FirstPathTest, WithoutAnybodyToImproveItTheRunWasNotAsked) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record->message, "given up: it");
   EXPECT_FALSE(WasAsked(*record));
+}
+
+TEST_F(FirstPathTest, IsTheAnswerIfThereIsNoOtherWhenTheLimitComes) {
+  FirstAnswers(Found(6 * kTick));
+  PlanResult late;
+  late.status = PlanStatus::kTimedOut;
+  late.message = "the path given was not checked in time";
+  late.planning_time_s = late.total_time_s = late.phases.search_s = 2 * kTick;
+  AnswerWith(late);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
+  EXPECT_EQ(record->message, "the path of 'first': 'arm' had 0.0156 s left, and no path by then");
+  EXPECT_EQ(record->result.result.path, Found(kTick).path);
+  EXPECT_EQ(record->result.result.planning_time_s, 7 * kTick);
+  EXPECT_EQ(record->result.result.total_time_s, 8 * kTick);
+  EXPECT_EQ(record->result.joint_names, (std::vector<std::string>{"a", "b"}));
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {
