@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +85,7 @@ TEST(LoadRobot, PairsThatAnSrdfLeavesCheckedAreNamed) {
   std::string urdf = "<robot name='row'><link name='frame'/>";
   std::string from = "frame";
   for (int i = 1; i <= 8; ++i) {
-    const std::string link = "l" + std::to_string(i);
+    const std::string link = fmt::format("l{}", i);
     urdf += "<link name='" + link +
             "'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
             "<joint name='j" +
