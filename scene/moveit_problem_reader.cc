@@ -157,13 +157,13 @@ PlanningFrame FindPlanningFrame(const Robot& robot, const RobotStateFields& star
   };
   const auto guess = std::find_if(transforms.begin(), transforms.end(), is_outside);
   if (guess != transforms.end()) {
+    std::set<std::string> outside;  // Frames that lead on.
+    for (const FixedTransform& transform : transforms) {
+      if (is_outside(transform)) outside.insert({transform.header, transform.child});
+    }
     for (const FixedTransform& transform : transforms) {
       if (robot.model.FindLink(transform.child) < 0) continue;
-      const auto leads_on = [&](const FixedTransform& other) {
-        return is_outside(other) &&
-               (other.header == transform.header || other.child == transform.header);
-      };
-      if (std::none_of(transforms.begin(), transforms.end(), leads_on)) continue;
+      if (!outside.contains(transform.header)) continue;
       transform.node.Warn(fmt::format(
           "taken as the pose of the frame '{}' in that of the link '{}', and so on outwards, as "
           "nothing names the planning frame; if it says where the robot stands, give the planning "
@@ -206,15 +206,12 @@ void RequireNamesOfOne(const YamlNode& matrix, const Robot& robot, const Scene& 
   for (const AttachedObject& attached : scene.attached) require(attached.object.id);
 }
 
-// Adds a frame, if it is known and no link, where it is in the base frame.
+// Adds a frame, if it is known, no link and not yet `added`, where it is in the base frame.
 void AddFixedFrame(const std::string& name, const FrameTree& frames, const RobotModel& model,
-                   std::vector<FrameTransform>* fixed) {
+                   std::set<std::string>* added, std::vector<FrameTransform>* fixed) {
   const Eigen::Isometry3d* X_BF = frames.Find(name);
   if (X_BF == nullptr || name.empty() || model.FindLink(name) >= 0) return;
-  if (std::none_of(fixed->begin(), fixed->end(),
-                   [&](const FrameTransform& known) { return known.frame == name; })) {
-    fixed->push_back({name, *X_BF});
-  }
+  if (added->insert(name).second) fixed->push_back({name, *X_BF});
 }
 
 // What `read` reads for that group. Its errors say why it is that group.
@@ -265,9 +262,10 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   scene.name = planning_scene.StringOr("name", "");
   scene.robot_name = planning_scene.StringOr("robot_model_name", "");
   scene.world_frame = robot.model.links().front().name;
+  std::set<std::string> fixed;
   for (const FixedTransform& transform : transforms) {
     for (const std::string& name : {transform.header, transform.child}) {
-      AddFixedFrame(name, frames, robot.model, &scene.fixed_frames);
+      AddFixedFrame(name, frames, robot.model, &fixed, &scene.fixed_frames);
     }
   }
   AddSceneObjects(planning_scene, resources, robot, &scene_frames, &scene);
@@ -292,7 +290,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   problem.workspace = ReadWorkspace(request, frames);
   // Nothing else tells of its frame, once all that is given in one is in the base frame.
   if (problem.workspace) {
-    AddFixedFrame(problem.workspace->frame, frames, robot.model, &scene.fixed_frames);
+    AddFixedFrame(problem.workspace->frame, frames, robot.model, &fixed, &scene.fixed_frames);
   }
   problem.time_limit_s = ReadTimeLimit(request);
   problem.warnings = scene_file.warnings();
