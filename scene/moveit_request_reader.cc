@@ -101,6 +101,32 @@ void RequireMet(const JointGoal& goal, const YamlNode& node, const RobotModel& m
   fail(why, position);
 }
 
+// A quaternion and its negative are one rotation: full positions with those of held poses in the
+// sign of goals that name all of one that is not 0.
+std::vector<double> WithSignsOf(const std::vector<std::pair<JointGoal, YamlNode>>& goals,
+                                const RobotModel& model, std::vector<double> full) {
+  for (const Joint& joint : model.joints()) {
+    if (NumPositions(joint.type) <= 1) continue;
+    const int first = joint.position_index + 3;  // After x, y, z.
+    double dot = 0;
+    double named = 0;  // Squared length of the parts that have a goal.
+    for (const auto& [goal, name] : goals) {
+      const std::optional<PosePart> part = FindPosePart(model, goal.joint);
+      if (!part || part->is_angle) continue;
+      if (part->position_index < first || part->position_index > first + 3) continue;
+      const double held = PositionOf(*part, full);
+      dot += goal.position * held;
+      named += held * held;
+    }
+    if (dot >= 0 || named < 1 - 1e-6) continue;
+    for (int i = first; i <= first + 3; ++i) {
+      double& position = full[static_cast<std::size_t>(i)];
+      position = 0 - position;  // Messages need no -0.
+    }
+  }
+  return full;
+}
+
 // What is left of a group's joint limits by the goals, which are those of a set at `node`.
 JointSpace Narrowed(const JointSpace& space, const std::vector<JointGoal>& goals,
                     const YamlNode& node) {
@@ -160,7 +186,8 @@ std::vector<JointGoal> ReadAlternatives(const YamlNode& constraints, const Robot
       others.emplace_back(goal, name);
     }
   }
-  for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, start);
+  const std::vector<double> held = WithSignsOf(others, model, start);
+  for (const auto& [goal, name] : others) RequireMet(goal, name, model, group, goals, held);
   for (JointGoal& goal : goals) {
     goal.position = group.space.WithoutTurns(group.space.Find(goal.joint), goal.position);
   }

@@ -332,6 +332,18 @@ TEST(Goals, OfPartsOfAPoseMayOnlySayWhatIsSo) {
   ExpectInputError([&] { goals("{joint_name: drive/theta, position: -2}"); },
                    {"'drive/theta' is not in group 'wrist' and stays at 2"});
   ExpectInputError([&] { goals("{joint_name: drive/z, position: 0}"); }, {"'drive/z' is unknown"});
+
+  const auto turned = [&](double z, double w) {
+    goals(
+        fmt::format("{{joint_name: drive/rot_w, position: {}}}, {{joint_name: drive/rot_z, "
+                    "position: {}}}, {{joint_name: drive/theta, position: 2}}",
+                    w, z));
+  };
+  EXPECT_NO_THROW(turned(std::sin(1.0), std::cos(1.0)));
+  EXPECT_NO_THROW(turned(-std::sin(1.0), -std::cos(1.0))) << "the same rotation";
+  ExpectInputError([&] { turned(-std::sin(1.0), std::cos(1.0)); }, {"'drive/rot_w' is not in"});
+  ExpectInputError([&] { goals("{joint_name: drive/rot_z, position: -0.8414709848078965}"); },
+                   {"'drive/rot_z' is not in group 'wrist' and stays at 0.841471"});
 }
 
 TEST(UnnamedGroup, IsThatOfTheGoalsJointsAndTheSessionSaysSo) {
