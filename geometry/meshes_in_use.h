@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -17,8 +18,11 @@ class MeshesInUse {
   /// Throws what `read` throws.
   SharedMesh Get(const std::string& name, const std::function<TriangleMesh()>& read);
 
+  /// How many names are remembered: those of meshes that were in use when the last one was read.
+  std::size_t size() const;
+
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, SharedMesh::Weak> meshes_;
 };
 

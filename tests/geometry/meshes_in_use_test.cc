@@ -40,10 +40,19 @@ TEST(MeshesInUse, ReadsAMeshOnceForAllThatHaveIt) {
   EXPECT_EQ(num_read, 3) << "kept though nobody has it";
 }
 
+TEST(MeshesInUse, ForgetsTheNamesOfMeshesThatNobodyHas) {
+  MeshesInUse meshes;
+  const SharedMesh kept = meshes.Get("kept", OneTriangle);
+  for (const char* name : {"a", "b", "c"}) meshes.Get(name, OneTriangle);
+  EXPECT_EQ(meshes.size(), 2) << "the one in use, and the last";
+  EXPECT_EQ(meshes.Get("kept", OneTriangle).operator->(), kept.operator->());
+}
+
 TEST(MeshesInUse, WhatCannotBeReadIsTriedAgain) {
   MeshesInUse meshes;
   const auto fail = []() -> TriangleMesh { throw InputError("a.obj: cannot be read"); };
   ExpectInputError([&] { meshes.Get("a", fail); }, {"a.obj"});
+  EXPECT_EQ(meshes.size(), 0);
   EXPECT_EQ(meshes.Get("a", OneTriangle), SharedMesh(OneTriangle()));
 }
 
