@@ -98,7 +98,7 @@ ProblemSet ListProblemSet(const fs::path& folder) {
   }
   if (by_index.empty()) {
     throw InputError(folder.string() +
-                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml)");
+                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml, or .yml)");
   }
   ProblemSet set;
   set.name = ProblemSetNameOf(folder);

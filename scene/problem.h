@@ -36,7 +36,7 @@ struct Workspace {
 /// One motion-planning problem: a MoveIt scene and request.
 struct Problem {
   std::string set;  ///< Name of the problem set, "" outside one.
-  int index = 0;    ///< NNNN of sceneNNNN.yaml.
+  int index = 0;    ///< NNNN of sceneNNNN.yaml or .yml.
   Scene scene;
   std::string group;  ///< Planning group, may be empty (the robot's first).
   /// Every joint that the scene's robot_state or the request's start_state names, the latter's
@@ -80,8 +80,8 @@ void RequireProblemFiles(const std::filesystem::path& scene, const std::filesyst
 /// the folder is missing or holds no problem, or if two files have the same number.
 ProblemSet ListProblemSet(const std::filesystem::path& folder);
 
-/// NNNN of sceneNNNN.yaml or requestNNNN.yaml (any number of digits), nothing for other names.
-/// Throws InputError if the number is too large.
+/// NNNN of sceneNNNN.yaml or requestNNNN.yaml (any number of digits), or .yml; nothing for other
+/// names. Throws InputError if the number is too large.
 std::optional<int> ProblemIndexOf(const std::filesystem::path& scene_or_request_file);
 
 /// Name of a problem set: its folder's, links not followed.

@@ -56,8 +56,8 @@ std::vector<fs::path> SetFolders(const fs::path& folder) {
   FindSetFolders(folder, &above, &found);
   if (found.empty()) {
     throw InputError(folder.string() +
-                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml), nor does "
-                     "any folder below it");
+                     ": holds no problems (pairs of sceneNNNN.yaml and requestNNNN.yaml, or .yml), "
+                     "nor does any folder below it");
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -99,7 +99,8 @@ TEST_F(ProblemSetFolder, ItsNameIsOneLineOfText) {
 }
 
 TEST_F(ProblemSetFolder, EmptyFolder) {
-  EXPECT_THAT(Error(), testing::HasSubstr("holds no problems"));
+  EXPECT_THAT(Error(), testing::HasSubstr("holds no problems (pairs of sceneNNNN.yaml and "
+                                          "requestNNNN.yaml, or .yml)"));
 }
 
 TEST_F(ProblemSetFolder, ListsProblemsThatLackAFile) {
