@@ -20,6 +20,7 @@ class TrajectoryCost {
 
   double clearance() const { return clearance_; }
   double smoothness() const { return smoothness_; }
+  void set_smoothness(double weight) { smoothness_ = weight; }
 
   /// Distances of many rows can take long. `should_stop` is asked between some dozens of them.
   void StopWhen(std::function<bool()> should_stop) { should_stop_ = std::move(should_stop); }

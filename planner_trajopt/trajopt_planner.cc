@@ -53,9 +53,11 @@ class TrajectorySearch {
     if (!query_->initial_path().empty()) {
       KeepInitialPath();
       is_given_ = true;
+      if (!path_.empty()) cost_.set_smoothness(settings_.given_smoothness);
       Trajectory trajectory = Through(query_->space(), query_->initial_path(), settings_.waypoints);
       Optimise(&trajectory);
       is_given_ = false;
+      cost_.set_smoothness(settings_.smoothness);
     }
     while (MayGoOn() && !(settings_.guesses && guesses_.count() == *settings_.guesses)) {
       Trajectory trajectory = guesses_.Next();
@@ -73,8 +75,10 @@ class TrajectorySearch {
       result.message = "cancelled";
     } else {
       result.status = query_->ShouldStop() ? PlanStatus::kTimedOut : PlanStatus::kExhausted;
-      result.message = fmt::format("in collision all the same: {} optimised from {}",
-                                   EnumName(settings_.algorithm), Beginnings());
+      result.message = is_given_unchecked_
+                           ? "the path given was not checked in time"
+                           : fmt::format("in collision all the same: {} optimised from {}",
+                                         EnumName(settings_.algorithm), Beginnings());
     }
     return result;
   }
@@ -97,7 +101,10 @@ class TrajectorySearch {
   void KeepInitialPath() {
     const Path& path = query_->initial_path();
     for (std::size_t i = 1; i < path.size(); ++i) {
-      if (!query_->edges().IsValidEdge(path[i - 1], path[i], /*from_is_free=*/i > 1)) return;
+      if (!query_->edges().IsValidEdge(path[i - 1], path[i], /*from_is_free=*/i > 1)) {
+        is_given_unchecked_ = query_->edges().Stopped();
+        return;
+      }
     }
     path_ = path;
     length_ = Length(Corners(query_->space(), path));
@@ -158,7 +165,8 @@ class TrajectorySearch {
   std::unique_ptr<Optimiser> optimiser_;
   std::vector<double> distances_;  ///< Of the trajectory at hand.
   std::int64_t num_iterations_ = 0;
-  bool is_given_ = false;  ///< What is optimised is the path given.
+  bool is_given_ = false;            ///< What is optimised is the path given.
+  bool is_given_unchecked_ = false;  ///< The time was up before that was checked to its end.
   Path path_;
   double length_ = 0;
 };

@@ -28,8 +28,9 @@ std::string TrajoptSettings::VariantName() const {
 }
 
 TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings& defaults) {
-  node.AllowOnly({"algorithm", "waypoints", "clearance", "smoothness", "iterations", "patience",
-                  "guesses", "rollouts", "noise", "gain", "step", "gradient_step"});
+  node.AllowOnly({"algorithm", "waypoints", "clearance", "smoothness", "given_smoothness",
+                  "iterations", "patience", "guesses", "rollouts", "noise", "gain", "step",
+                  "gradient_step"});
   TrajoptSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) {
     settings.algorithm = value->Enum<TrajoptAlgorithm>();
@@ -64,10 +65,12 @@ TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings&
   positive("gain", &settings.gain);
   positive("step", &settings.step);
   positive("gradient_step", &settings.gradient_step);
-  if (const auto value = node.Find("smoothness")) {
-    settings.smoothness = value->Double();
-    if (settings.smoothness < 0) value->Fail("must not be negative");
-  }
+  const auto not_negative = [&node](const char* key, double* setting) {
+    const auto value = node.Find(key);
+    if (value && (*setting = value->Double()) < 0) value->Fail("must not be negative");
+  };
+  not_negative("smoothness", &settings.smoothness);
+  not_negative("given_smoothness", &settings.given_smoothness);
   return settings;
 }
 
@@ -77,6 +80,7 @@ std::map<std::string, std::string> DescribeSettings(const TrajoptSettings& setti
       {"waypoints", fmt::format("{}", settings.waypoints)},
       {"clearance", fmt::format("{}", settings.clearance)},
       {"smoothness", fmt::format("{}", settings.smoothness)},
+      {"given_smoothness", fmt::format("{}", settings.given_smoothness)},
       {"iterations", fmt::format("{}", settings.iterations)},
       {"patience", fmt::format("{}", settings.patience)},
       {"guesses", settings.guesses ? fmt::format("{}", *settings.guesses) : "unlimited"}};
@@ -98,8 +102,8 @@ TrajoptSettings SettingsOfRequest(const TrajoptSettings& settings,
   for (const auto& [key, text] : parameters) {
     request.Override(key, text, "request parameter " + key);
   }
-  request.AllowOnly({"waypoints", "clearance", "smoothness", "iterations", "patience", "rollouts",
-                     "noise", "gain", "step", "gradient_step"});
+  request.AllowOnly({"waypoints", "clearance", "smoothness", "given_smoothness", "iterations",
+                     "patience", "rollouts", "noise", "gain", "step", "gradient_step"});
   // A parameter without a value is a mistake, not a wish for the default.
   for (const std::string& key : request.Keys()) request.At(key).String();
   return ReadTrajoptSettings(request, settings);

@@ -23,8 +23,10 @@ struct TrajoptSettings {
   int waypoints = 48;
   /// Distance from obstacles from which on they cost nothing, m.
   double clearance = 0.05;
-  /// Weight of the squared length of motions beside the cost of obstacles.
+  /// Weight of the squared length of motions beside the cost of obstacles, where what is optimised
+  /// has to get out of these first ...
   double smoothness = 0.001;
+  double given_smoothness = 0.3;  ///< ... and of a path given that is free and to become shorter.
   /// Iterations that a guess has at most.
   int iterations = 200;
   /// A guess is given up after this many iterations without a lower cost.

@@ -8,7 +8,7 @@ namespace planbench {
 enum class PlanStatus {
   kSolved = 0,
   kTimedOut = 1,
-  kExhausted = 2,     ///< The search space is provably empty of solutions.
+  kExhausted = 2,     ///< All that was to be tried was: a whole search space, or guesses.
   kStartInvalid = 3,  ///< The start is outside the limits or in collision.
   kGoalInvalid = 4,
   kInvalidRequest = 5,

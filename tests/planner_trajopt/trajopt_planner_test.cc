@@ -62,6 +62,7 @@ TEST_F(TrajoptPlannerTest, RefusesBadSettingsByFileLineAndKey) {
   expect_refused("rollouts: 1", {"trajopt.yaml:1", "rollouts", "1"});
   expect_refused("guesses: some", {"trajopt.yaml:1", "guesses", "some"});
   expect_refused("smoothness: -1", {"trajopt.yaml:1", "smoothness"});
+  expect_refused("given_smoothness: -1", {"trajopt.yaml:1", "given_smoothness"});
   expect_refused("\nstep: 0.1", {"trajopt.yaml:2", "step", "CHOMP only"});
   expect_refused("algorithm: CHOMP\nnoise: 0.1", {"trajopt.yaml:2", "noise", "STOMP only"});
 }
@@ -202,7 +203,23 @@ TEST_F(TrajoptPlannerTest, APathThatIsGivenIsImproved) {
     EXPECT_GT(result.counters.at("iterations"), 0);
     const JointSpace& space = robot_.groups.front().space;
     EXPECT_LT(PathLength(space, result.path), 0.9 * PathLength(space, detour));
+    request.parameters["smoothness"] = "0.1";
+    EXPECT_EQ(planner->Plan(request, PostsScene(), nullptr).path, result.path) << "of guesses";
+    request.parameters = {{"given_smoothness", "0.001"}};
+    EXPECT_NE(planner->Plan(request, PostsScene(), nullptr).path, result.path);
   }
+}
+
+TEST_F(TrajoptPlannerTest, APathThatIsGivenIsNotSaidToCollideIfThereWasNoTimeToCheckIt) {
+  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  request.initial_joint_names = {"shoulder", "elbow", "wrist"};
+  request.initial_path = {{0.6, 0, 0}, {-0.6, 0, 0}};
+  request.edge_resolution_m = 1e-4;
+  request.time_limit_s = 1e-6;
+  const PlanResult result =
+      MakeTrajoptPlanner(robot_, Settings(""))->Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(result.message, "the path given was not checked in time");
 }
 
 }  // namespace
