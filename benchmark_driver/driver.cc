@@ -248,6 +248,7 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
       answer.emplace();
       answer->ok = false;
       answer->message = "the scene server died of it, twice";
+      executor_->TakeAsAnswer(set, index, *answer);
     }
     if (!answer->ok && met.contains({set, index})) {
       spdlog::error("{} {}: {}", set, index, answer->message);

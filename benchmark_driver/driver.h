@@ -36,9 +36,9 @@ class Driver {
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
   /// it, so that bad ones are known before the first run. `watch` is called while waiting and may
-  /// throw. `server_deaths`: how often the scene server was started again, where that is known: a
-  /// problem on which it dies twice is bad. Throws InputError naming what is missing or does not
-  /// fit.
+  /// throw. `server_deaths`: how often the scene server died after it had come up, where that is
+  /// known: a problem on which it does so twice is bad. Throws InputError naming what is missing or
+  /// does not fit.
   void Discover(
       bool need_logger, const std::function<void()>& watch,
       const std::function<int()>& server_deaths = [] { return 0; });

@@ -107,6 +107,11 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
   return problem;
 }
 
+void RunExecutor::TakeAsAnswer(const std::string& set, int index, const ProblemMessage& answer) {
+  const std::scoped_lock lock(mutex_);
+  problems_known_[{set, index}] = answer;
+}
+
 std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
                                                      const std::function<bool()>& interrupted) {
   const std::pair key(run.problem_set, run.problem_index);
@@ -120,8 +125,7 @@ std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
     problem = AskForProblem(run.problem_set, run.problem_index, interrupted);
     if (!problem || problem->ok) break;
   }
-  const std::scoped_lock lock(mutex_);
-  if (problem && problem->ok) problems_known_.emplace(key, *problem);
+  if (problem && problem->ok) TakeAsAnswer(run.problem_set, run.problem_index, *problem);
   return problem;
 }
 

@@ -33,6 +33,8 @@ class RunExecutor {
   /// `interrupted`. The server also hands out the scene.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
+  /// The answer for all runs of that problem: the scene server is not asked for it any more.
+  void TakeAsAnswer(const std::string& set, int index, const ProblemMessage& answer);
   /// Whom a run asks, one after the other: the contestant whose path its planner improves, if it
   /// does, and its planner.
   std::vector<ScheduledRun> RequestsOf(const ScheduledRun& run) const;

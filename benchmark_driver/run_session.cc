@@ -125,15 +125,14 @@ void WriteTables(const std::filesystem::path& file, const std::string& tables) {
   if (!stream) spdlog::error("cannot write {}: {}", file.string(), std::strerror(errno));
 }
 
-/// A planner that comes up has not died of its start: a request may be what it dies of. Scene
-/// server and logger, without which no run is made, are to stay up.
-Subscription ReportPlannersThatComeUp(Bus* bus, const std::set<std::string>& planners,
-                                      Supervisor* supervisor) {
+/// Children that come up have not died of their start: a request may be what they die of.
+Subscription ReportWhoComesUp(Bus* bus, NodeKind kind, const std::set<std::string>& children,
+                              Supervisor* supervisor) {
   if (supervisor == nullptr) return {};
   return bus->Subscribe<NodeStatusMessage>(
       channel::kNodeStatus, [=, instances = std::map<std::string, std::string>()](
                                 const NodeStatusMessage& status) mutable {
-        if (status.kind != NodeKind::kPlanner || !planners.contains(status.name)) return;
+        if (status.kind != kind || !children.contains(status.name)) return;
         std::string& instance = instances[status.name];
         if (std::exchange(instance, status.instance) != status.instance) {
           supervisor->CameUp(status.name);
@@ -210,15 +209,17 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   };
   std::set<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
-  const Subscription statuses = ReportPlannersThatComeUp(&bus, planners, supervisor.get());
+  const Subscription planner_statuses =
+      ReportWhoComesUp(&bus, NodeKind::kPlanner, planners, supervisor.get());
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  // The driver counts what a problem makes die.
-  int counted = 0;
-  driver.Discover(options.launch, watch, [&] {
-    const int deaths = supervisor ? supervisor->NumRestarts(kSceneServer) : 0;
-    if (std::exchange(counted, deaths) != deaths) supervisor->CameUp(kSceneServer);
-    return deaths;
-  });
+  {
+    // Until its problems are read: then it is to stay up, as the logger, for without it no run is
+    // made.
+    const Subscription server_statuses =
+        ReportWhoComesUp(&bus, NodeKind::kSceneServer, {kSceneServer}, supervisor.get());
+    driver.Discover(options.launch, watch,
+                    [&] { return supervisor ? supervisor->NumDeathsAtWork(kSceneServer) : 0; });
+  }
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

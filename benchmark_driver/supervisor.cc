@@ -13,6 +13,7 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "benchmark_driver/machine.h"
 #include "common/error.h"
@@ -74,17 +75,20 @@ void Supervisor::Start(ChildSpec spec) {
   children_.push_back(std::move(child));
 }
 
-int Supervisor::NumRestarts(const std::string& name) const {
+int Supervisor::NumDeathsAtWork(const std::string& name) const {
   const std::scoped_lock lock(mutex_);
   for (const Child& child : children_) {
-    if (child.spec.name == name) return child.num_restarts;
+    if (child.spec.name == name) return child.num_deaths_at_work;
   }
   return 0;
 }
 
 void Supervisor::CameUp(const std::string& name) {
   const std::scoped_lock lock(mutex_);
-  if (Child* child = Find(name)) child->quick_deaths = 0;
+  Child* child = Find(name);
+  if (child == nullptr) return;
+  child->quick_deaths = 0;
+  child->came_up = true;
 }
 
 std::map<std::string, std::string> Supervisor::Hopeless() const {
@@ -132,6 +136,7 @@ void Supervisor::Reap(Child* child) {
   waitpid(child->pid, &status, 0);
   child->pid = -1;
   if (!child->wanted) return;
+  child->num_deaths_at_work += std::exchange(child->came_up, false);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;
@@ -148,7 +153,6 @@ void Supervisor::Reap(Child* child) {
     return;
   }
   spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
-  ++child->num_restarts;
   child->restart_at = now + kRestartDelay;
 }
 

@@ -39,8 +39,8 @@ class Supervisor {
   /// killed. Others follow, the last started first.
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
-  /// That child's process does its work, so that it did not die of its start: deaths until now do
-  /// not count.
+  /// That child's process does its work, so that it will not have died of its start: quick deaths
+  /// until now do not count.
   void CameUp(const std::string& name);
   /// Why children, by name, are not started again: one ended with exit code 2 (bad input: a restart
   /// would not help), or died kMaxQuickDeaths times in a row within kQuick of its start.
@@ -48,8 +48,8 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// How often that child was started again.
-  int NumRestarts(const std::string& name) const;
+  /// How often that child died after it had come up.
+  int NumDeathsAtWork(const std::string& name) const;
 
   static constexpr int kMaxQuickDeaths = 5;
   static constexpr std::chrono::seconds kQuick{5};
@@ -61,7 +61,8 @@ class Supervisor {
     bool wanted = true;
     bool was_started = false;
     int quick_deaths = 0;
-    int num_restarts = 0;
+    bool came_up = false;  // this process
+    int num_deaths_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
     off_t log_begin = 0;   // of the log, where this process began to write

@@ -477,6 +477,35 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   EXPECT_FALSE(logger.sessions().messages().back().finished);
 }
 
+TEST_F(DriverTest, AProblemOfWhichTheSceneServerDiesIsNotAskedForInAResumedSession) {
+  std::atomic<int> num_deaths = 0;
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  server.ServeProblem(2);
+  server.BeforeAnswers([&](const ProblemRequestMessage& request) {
+    if (request.problem_index != 2) return;
+    num_deaths += 2;
+    server.problem_requests().WaitForOne(
+        [](const ProblemRequestMessage& next) { return next.problem_index == 3; });
+  });
+  options.problem_indices = {1, 2, 3};
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  driver.Discover(true, Idle, [&] { return num_deaths.load(); });
+  EXPECT_TRUE(driver.Run(Never, Idle));
+  EXPECT_EQ(driver.num_not_asked(), 1);
+  ASSERT_EQ(driver.runs().size(), 3u);
+  for (const RunRow& run : driver.runs().rows()) {
+    EXPECT_EQ(run.asked, run.problem_index != 2);
+    if (!run.asked) {
+      EXPECT_EQ(*run.message, "no problem: the scene server died of it, twice");
+    }
+  }
+}
+
 TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedSession) {
   FakePlanner planner(&bus_);
   SolveSecondBackwardOnly(&planner);
