@@ -459,14 +459,9 @@ bool Driver::IsToRepeat(const RunStanding& attempt) const {
   return options_.repeat_disturbed && attempt.disturbed && attempt.repeats < kMostRepeats;
 }
 
-bool Driver::IsNeedless(const ScheduledRun& run, bool* waits) {
-  const std::scoped_lock lock(mutex_);
-  if (!run.unless_solved || !suffices_.at(*run.unless_solved)) return false;
-  *waits = repeats_.contains(*run.unless_solved);  // and a repeat may yet fail
-  if (*waits) return true;
-  if (repeats_.erase(run.request_id) == 0) --num_runs_;  // else it has a record, which stands
-  progress_->Drop();
-  return true;
+Driver::Need Driver::NeedOf(const ScheduledRun& run) const {
+  if (!run.unless_solved || !suffices_.at(*run.unless_solved)) return Need::kMake;
+  return repeats_.contains(*run.unless_solved) ? Need::kWait : Need::kDrop;
 }
 
 bool Driver::TakeIn(RunRecordMessage* record) {
@@ -496,9 +491,15 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
   while (!left.empty()) {
     std::vector<ScheduledRun> again;
     for (const ScheduledRun& run : left) {
-      if (bool waits = false; IsNeedless(run, &waits)) {
-        if (waits) again.push_back(run);
-        continue;
+      {
+        const std::scoped_lock lock(mutex_);
+        const Need need = NeedOf(run);
+        if (need == Need::kWait) again.push_back(run);
+        if (need == Need::kDrop) {
+          if (repeats_.erase(run.request_id) == 0) --num_runs_;  // else it has a record
+          progress_->Drop();
+        }
+        if (need != Need::kMake) continue;
       }
       std::optional<RunRecordMessage> record = Make(run, &clients, interrupted);
       if (!record) return;

@@ -110,9 +110,10 @@ class Driver {
   bool IsToDo(const ScheduledRun& run, const Known& known) const;
   SessionMessage Session(bool finished) const;
   bool IsToRepeat(const RunStanding& attempt) const;
-  /// Whether a run is not to be made, since its forward attempt found a path; `waits`: as far as is
-  /// known, that one being to be repeated.
-  bool IsNeedless(const ScheduledRun& run, bool* waits);
+  /// A run whose forward attempt found a path is not made, and waits while that one is to be
+  /// repeated, which may yet fail. `mutex_` is held.
+  enum class Need { kMake, kWait, kDrop };
+  Need NeedOf(const ScheduledRun& run) const;
   /// Tells in an attempt's record whether it was disturbed and which repeat it is, and whether
   /// another is to follow in `repeats_`. False for a repeat that was not asked for: none is
   /// recorded.
