@@ -235,8 +235,10 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
                   "waited for a processor, or the hypervisor had the processors")
       ->check(Positive(1))
       ->capture_default_str();
-  app->add_flag("--repeat-disturbed", options->repeat_disturbed,
-                "make disturbed runs again at the end, twice at most, and record the last");
+  app->add_flag(
+      "--repeat-disturbed", options->repeat_disturbed,
+      "make disturbed runs again at the end, twice at most, each recorded in the place of "
+      "the one before");
   app->add_option("--discovery-timeout", options->discovery_timeout_s,
                   "how long to wait for the other processes, s; default: 5, with --launch 60")
       ->check(Positive());
