@@ -277,7 +277,9 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
   std::erase_if(schedule_, [&](const ScheduledRun& run) {
     return bad.contains({run.problem_set, run.problem_index});
   });
-  if (schedule_.empty() && !bad.empty() && runs_.empty()) {
+  const bool none_made = std::none_of(runs_.rows().begin(), runs_.rows().end(),
+                                      [](const RunRow& run) { return run.asked; });
+  if (schedule_.empty() && !bad.empty() && none_made) {
     throw InputError(fmt::format("all {} problems are bad: none is left to run", bad.size()));
   }
 }

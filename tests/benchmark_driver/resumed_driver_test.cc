@@ -477,6 +477,21 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   EXPECT_FALSE(logger.sessions().messages().back().finished);
 }
 
+TEST_F(DriverTest, ASessionThatMadeNothingIsRefusedProblemsThatAreAllBad) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  std::erase_if(earlier.runs, [](const auto& record) { return record.problem_index != 2; });
+  server.RefuseProblem(3, "request0003.yaml: is missing");
+  options.problem_indices = {3};
+  options.skip_bad_problems = true;
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  ExpectInputError([&] { driver.Discover(true, Idle); }, {"all 1 problems are bad"});
+}
+
 TEST_F(DriverTest, AProblemOfWhichTheSceneServerDiesIsNotAskedForInAResumedSession) {
   std::atomic<int> num_deaths = 0;
   const FakePlanner planner(&bus_);
