@@ -16,6 +16,7 @@ ProgressBar::ProgressBar(int num_runs, const RunRows& earlier)
 void ProgressBar::Count(const RunRow& run) {
   if (run.is_to_repeat) return;
   ++num_done_;
+  if (!run.asked) return;  // it has been dealt with, and tells nothing of the planner
   Tally& tally = tallies_[*run.planner];
   ++tally.done;
   tally.solved += run.confirmed();

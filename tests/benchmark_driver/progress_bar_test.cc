@@ -10,6 +10,7 @@ RunRecordMessage Record(const std::string& planner, PlanStatus status) {
   RunRecordMessage record;
   record.planner = planner;
   record.status = status;
+  record.roundtrip_time_s = 1;
   return record;
 }
 
@@ -28,6 +29,20 @@ TEST(ProgressBarTest, CountsRunsAndSuccessesByPlanner) {
   }
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
               testing::ContainsRegex("\\] 4/7  0:00 .*  ara 1/2  rrtc 1/2\n"));
+}
+
+TEST(ProgressBarTest, RunsThatWereNotAskedForAreNoAttempts) {
+  testing::internal::CaptureStderr();
+  {
+    RunRows runs;
+    RunRecordMessage not_asked = Record("ara", PlanStatus::kNoAnswer);
+    not_asked.roundtrip_time_s = 0;
+    runs.Add(not_asked);
+    ProgressBar bar(2, runs);
+    bar.Add(runs.Add(Record("ara", PlanStatus::kSolved)));
+  }
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::ContainsRegex("\\] 2/2  0:00 .*  ara 1/1\n"));
 }
 
 TEST(ProgressBarTest, ARunThatIsToBeRepeatedCountsWhenItHasBeen) {
