@@ -196,7 +196,8 @@ std::vector<std::string> Recorder::Shortcomings() const {
   const std::scoped_lock lock(mutex_);
   std::vector<std::string> lines;
   if (loggers_.empty() && spool_.size() > 0) {
-    lines.push_back(fmt::format("none of {} runs is recorded: no logger was live", spool_.size()));
+    lines.push_back(
+        fmt::format("none of {} run records is stored: no logger was live", spool_.size()));
   }
   for (const auto& [place, logger] : loggers_) {
     const std::size_t missing = spool_.size() - logger.Count();
@@ -205,7 +206,7 @@ std::vector<std::string> Recorder::Shortcomings() const {
                             : !logger.trouble.empty() ? logger.trouble
                             : !logger.live            ? "it has left the bus"
                                                       : "it does not answer";
-    lines.push_back(fmt::format("{} of {} runs are not recorded by the logger '{}' ({}): {}",
+    lines.push_back(fmt::format("{} of {} run records are not stored by the logger '{}' ({}): {}",
                                 missing, spool_.size(), logger.name, logger.place, why));
   }
   return lines;

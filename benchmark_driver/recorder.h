@@ -42,7 +42,7 @@ class Recorder {
   /// Records that the logger with the most of them does not have; for tests.
   std::size_t num_unrecorded() const;
   /// What is not recorded and why, in a line for each logger that lacks something; empty if nothing
-  /// is.
+  /// is. In records, of which a run that was repeated has several.
   std::vector<std::string> Shortcomings() const;
 
  private:

@@ -85,7 +85,7 @@ TEST_F(RecorderTest, WithoutLoggerIsPublishedAndSaidOnce) {
   EXPECT_EQ(recorder_.num_unrecorded(), 2u);
   EXPECT_EQ(watched.WaitFor(2).size(), 2u);
   EXPECT_FALSE(recorder_.Complete());
-  EXPECT_THAT(recorder_.Shortcomings(), ElementsAre(HasSubstr("none of 2 runs is recorded")));
+  EXPECT_THAT(recorder_.Shortcomings(), ElementsAre(HasSubstr("none of 2 run records is stored")));
   const std::string said = testing::internal::GetCapturedStdout();
   EXPECT_EQ(said.find("NOBODY RECORDS"), said.rfind("NOBODY RECORDS")) << said;
   EXPECT_THAT(said, HasSubstr("NOBODY RECORDS"));

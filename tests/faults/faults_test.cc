@@ -287,7 +287,7 @@ TEST_F(FaultsTest, ADiskThatStaysFullEndsWithTheCommandThatGoesOn) {
   const rlimit full = {4096, RLIM_INFINITY};
   ASSERT_EQ(prlimit(*logger, RLIMIT_FSIZE, &full, nullptr), 0);
   EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
-  EXPECT_THAT(driver->Errors(), HasSubstr("of 120 runs are not recorded by the logger"));
+  EXPECT_THAT(driver->Errors(), HasSubstr("of 120 run records are not stored by the logger"));
   const std::string output = driver->Output();
   const std::string begin = "Go on with: benchmark_driver ";
   const std::size_t at = output.find(begin);
