@@ -1,7 +1,5 @@
 #include "benchmark_driver/run_rows.h"
 
-#include <algorithm>
-
 #include "benchmark_driver/effort_table.h"
 #include "common/lookup.h"
 #include "messaging/asked_runs.h"
@@ -10,23 +8,14 @@
 
 namespace planbench {
 
-RunRow& RunRows::PlaceFor(const RunRecordMessage& record) {
-  if (StandingOf(record).repeats > 0) {
-    const auto known = std::find_if(rows_.begin(), rows_.end(), [&](const RunRow& row) {
-      return row.problem_index == record.problem_index && row.trial == record.trial &&
-             row.direction == record.request.direction && *row.planner == record.planner &&
-             *row.problem_set == record.problem_set;
-    });
-    if (known != rows_.end()) return *known = RunRow();
-  }
-  return rows_.emplace_back();
-}
-
 const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other, bool is_to_repeat) {
   const PlanResult& result = record.result.result;
   const auto counter = [&](const char* name) { return Lookup(result.counters, name).value_or(0); };
   const auto& mesh_verdict = record.path_check.mesh_verdict;
-  RunRow& row = PlaceFor(record);
+  const auto before = to_repeat_.extract(record.request_id);
+  RunRow& row = before ? *before.mapped() : rows_.emplace_back();
+  row = RunRow();
+  if (is_to_repeat) to_repeat_[record.request_id] = &row;
   row.problem_set = Shared(record.problem_set);
   row.planner = Shared(record.planner);
   row.contestant = Shared(record.contestant);

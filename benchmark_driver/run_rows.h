@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -53,7 +54,7 @@ class RunRows {
   RunRows(RunRows&&) = default;
   RunRows& operator=(RunRows&&) = default;
 
-  /// In the place of the row of the attempt that the record repeats, if there is one.
+  /// In the place of the row of its run that was to give way (`is_to_repeat`), if there is one.
   const RunRow& Add(const RunRecordMessage& record, bool needs_other = false,
                     bool is_to_repeat = false);
 
@@ -62,11 +63,11 @@ class RunRows {
   bool empty() const { return rows_.empty(); }
 
  private:
-  RunRow& PlaceFor(const RunRecordMessage& record);
   const std::string* Shared(const std::string& text) { return &*texts_.insert(text).first; }
 
   std::set<std::string> texts_;
   std::deque<RunRow> rows_;
+  std::map<std::string, RunRow*> to_repeat_;  // by request id
 };
 
 }  // namespace planbench

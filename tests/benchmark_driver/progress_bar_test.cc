@@ -50,9 +50,10 @@ TEST(ProgressBarTest, ARunThatIsToBeRepeatedCountsWhenItHasBeen) {
   {
     RunRows runs;
     RunRecordMessage record = Record("ara", PlanStatus::kTimedOut);
+    record.request_id = "1";
     runs.Add(record, false, true);
     ProgressBar bar(3, runs);
-    record.trial = 2;
+    record.request_id = "2";
     bar.Add(runs.Add(record, false, true));
     record.status = PlanStatus::kSolved;
     record.result.result.counters["repeats"] = 1;
