@@ -154,7 +154,9 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     if (!was_asked && is_in_call) continue;  // it is to be made
     (was_asked ? known.done : known.not_asked).insert(record.request_id);
     const RunStanding standing = StandingOf(record);
-    if (is_in_call && IsToRepeat(standing)) repeats_[record.request_id] = standing.repeats;
+    const bool is_to_repeat = IsToRepeat(standing);
+    if (is_to_repeat && is_in_call) repeats_[record.request_id] = standing.repeats;
+    num_owed_repeats_ += is_to_repeat && !is_in_call;
     Keep(record);
   }
   std::erase_if(schedule_, [&](const ScheduledRun& run) {
@@ -563,7 +565,8 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(Session(complete && num_owed_ + num_not_asked_ == 0 && awaited_shards_.empty()));
+  recorder_.Record(Session(complete && num_owed_ + num_owed_repeats_ + num_not_asked_ == 0 &&
+                           awaited_shards_.empty()));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);
   return recorded;

@@ -43,8 +43,8 @@ class Driver {
       bool need_logger, const std::function<void()>& watch,
       const std::function<int()>& server_deaths = [] { return 0; });
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
-  /// recorded; a session that was to make others before it was resumed, in which one was not asked
-  /// (num_not_asked), or which awaits shards, is not finished by that.
+  /// recorded; a session that was to make others before it was resumed, or to repeat them, in which
+  /// one was not asked (num_not_asked), or which awaits shards, is not finished by that.
   bool Run(const std::function<bool()>& interrupted, const std::function<void()>& watch);
 
   /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
@@ -59,6 +59,10 @@ class Driver {
   /// Of them those that the resumed session was to make and this call is not; some may have a
   /// record, of that they were not asked for.
   int num_owed() const { return num_owed_; }
+  /// Disturbed runs of the resumed session that are still to be made again, and not by this call.
+  int num_owed_repeats() const { return num_owed_repeats_; }
+  /// These, and those of this call.
+  int num_to_repeat() const { return num_owed_repeats_ + static_cast<int>(repeats_.size()); }
   /// Shards that the session, once merged of others, does not hold: it is not finished without.
   /// In lines.
   const std::vector<std::string>& awaited_shards() const { return awaited_shards_; }
@@ -143,6 +147,7 @@ class Driver {
   std::vector<ScheduledRun> schedule_;  // what is left to do
   int num_runs_ = 0;                    // of the session, those done earlier included
   int num_owed_ = 0;                    // of those the resumed session's that are not to do
+  int num_owed_repeats_ = 0;
   std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::vector<Contestant> first_planners_;       // who find paths for contestants and are none

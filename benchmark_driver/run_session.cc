@@ -244,8 +244,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
-  const SessionTables tables = MakeTables(driver.conditions(), driver.runs(), reference_attempts,
-                                          num_missing, driver.left_out(), driver.num_owed());
+  const SessionTables tables =
+      MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing,
+                 driver.left_out(), driver.num_owed(), driver.num_to_repeat());
   if (supervisor) {
     StopProcesses(line_up, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);
@@ -263,9 +264,16 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     spdlog::warn("{} not asked for: a session that is resumed makes them",
                  number == 1 ? "1 run was" : fmt::format("{} runs were", number));
   }
+  std::vector<std::string> owed;
   if (const int number = driver.num_owed(); number > 0) {
-    spdlog::warn("{} of the session's earlier plan not made: it is not finished; go on with: {}",
-                 number == 1 ? "1 run was" : fmt::format("{} runs were", number),
+    owed.push_back(fmt::format("not made: {}", number));
+  }
+  if (const int number = driver.num_owed_repeats(); number > 0) {
+    owed.push_back(fmt::format("disturbed and not made again: {}", number));
+  }
+  if (!owed.empty()) {
+    spdlog::warn("runs of the session's earlier plan {}; it is not finished; go on with: {}",
+                 fmt::join(owed, ", "),
                  ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume)));
   }
   if (const std::vector<std::string>& awaited = driver.awaited_shards(); !awaited.empty()) {

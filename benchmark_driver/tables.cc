@@ -238,8 +238,9 @@ std::map<std::string, std::string> ClassesIfSeveral(const SessionResults& result
   return classes;
 }
 
-/// How many runs other work on the machine held up (machine.h); "" if none.
-std::string Disturbances(const SessionResults& results) {
+/// How many runs other work on the machine held up (machine.h), of which some are still to be made
+/// again; "" if none.
+std::string Disturbances(const SessionResults& results, int num_to_repeat) {
   int runs = 0, disturbed = 0, repeated = 0;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& contestant : set.contestants) {
@@ -251,12 +252,16 @@ std::string Disturbances(const SessionResults& results) {
     }
   }
   if (disturbed + repeated == 0) return "";
-  return BreakLines(
-      fmt::format("{} of {} runs were DISTURBED by other work on the machine beyond "
-                  "--max-disturbance{}.\n",
-                  disturbed, runs,
-                  repeated == 0 ? "; --repeat-disturbed makes such runs again"
-                                : fmt::format("; {} had been, and were made again", repeated)));
+  std::string text = fmt::format(
+      "{} of {} runs were DISTURBED by other work on the machine beyond "
+      "--max-disturbance",
+      disturbed, runs);
+  if (num_to_repeat > 0) {
+    text += fmt::format("; {} of them still to be made again (--resume)", num_to_repeat);
+  }
+  if (repeated > 0) text += fmt::format("; {} had been, and were made again", repeated);
+  if (num_to_repeat + repeated == 0) text += "; --repeat-disturbed makes such runs again";
+  return BreakLines(text + ".\n");
 }
 
 /// Whose times are odd and whose simplified paths were rejected, a line each; "" if nobody's.
@@ -299,7 +304,8 @@ std::string EdgesOf(const Contestant& contestant, const SessionResults& results)
 }
 
 /// What the contestants are, and what holds of all the figures.
-std::string Preface(const SessionConditions& conditions, const SessionResults& results) {
+std::string Preface(const SessionConditions& conditions, const SessionResults& results,
+                    int num_to_repeat) {
   std::string text = "Contestants\n";
   const std::map<std::string, std::string> classes = ClassesIfSeveral(results);
   for (const Contestant& one : results.contestants()) {
@@ -317,7 +323,7 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
   }
-  return text + Remarks(results) + Disturbances(results) + "\n";
+  return text + Remarks(results) + Disturbances(results, num_to_repeat) + "\n";
 }
 
 /// What is in no table since it was not made, or awaits what was not, and why; "" if nothing. Of
@@ -370,13 +376,14 @@ std::string LeftOut(const std::map<std::string, std::string>& left_out) {
 
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing,
-                         const std::map<std::string, std::string>& left_out, int num_owed) {
+                         const std::map<std::string, std::string>& left_out, int num_owed,
+                         int num_to_repeat) {
   const SessionResults results(conditions, runs, references);
   const std::string missing =
       Missing(static_cast<int>(runs.size()), num_missing, num_owed, results) + LeftOut(left_out);
   if (results.sets().empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
-  const std::string begin =
-      missing + Preface(conditions, results) + SuccessTable(results) + TimeTable(results);
+  const std::string begin = missing + Preface(conditions, results, num_to_repeat) +
+                            SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results);
   return {begin + PairTable(results, false) + meshes + FailureSummary(results),
           begin + DirectionTable(results) + PairTable(results, true) + EffortTable(results) +

@@ -145,6 +145,40 @@ TEST_F(DriverTest, AResumedSessionMakesTheRepeatsThatAreOwed) {
   }
 }
 
+TEST_F(DriverTest, ASessionThatOwesRepeatsIsNotFinished) {
+  FakePlanner planner(&bus_);
+  const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kForward;
+  options.kernel = machine.folders();
+  options.repeat_disturbed = true;
+  EarlierSession earlier;
+  {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    MakeAll(&driver);
+    EXPECT_EQ(driver.num_to_repeat(), 0);
+    earlier = {{logger.sessions().messages().front()}, EachOnce(logger.records().messages())};
+  }
+  // As if it had been interrupted before the repeat.
+  std::erase_if(earlier.runs, [](const auto& record) { return StandingOf(record).repeats > 0; });
+  ASSERT_EQ(earlier.runs.size(), 2u);
+  for (const int problem : {2, 1}) {
+    options.problem_indices = {problem};
+    Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+    driver.Discover(true, Idle);
+    EXPECT_EQ(driver.num_to_repeat(), 1);
+    EXPECT_TRUE(driver.Run(Never, Idle));
+    const int num_owed = problem == 2 ? 1 : 0;
+    EXPECT_EQ(driver.num_owed_repeats(), num_owed);
+    EXPECT_EQ(driver.num_to_repeat(), num_owed);
+    EXPECT_EQ(driver.num_owed(), 0);
+    EXPECT_EQ(driver.num_runs(), 2);
+    EXPECT_EQ(logger.sessions().messages().back().finished, num_owed == 0);
+  }
+}
+
 TEST_F(DriverTest, AFailedAttemptThatWasDisturbedDoesNotHoldUpTheOther) {
   FakePlanner planner(&bus_);
   const std::string forward = "run/cans/2/arm/forward/1", backward = "run/cans/2/arm/backward/1";

@@ -323,6 +323,12 @@ TEST(TablesTest, DisturbedRunsAreCounted) {
   records[1].result.result.counters = {{"disturbed", 0}, {"repeats", 0}};
   EXPECT_THAT(Brief(records),
               HasSubstr(fmt::format("1 of {} runs were DISTURBED", records.size())));
+  EXPECT_THAT(Brief(records), HasSubstr("--repeat-disturbed"));
+  const auto interrupted = [&] {
+    return MakeTables(Conditions(), Rows(records), {}, 0, {}, 0, 1).brief;
+  };
+  EXPECT_THAT(interrupted(), HasSubstr("; 1 of them"));
+  EXPECT_THAT(interrupted(), Not(HasSubstr("--repeat-disturbed")));
   records[1].result.result.counters["repeats"] = 2;
   EXPECT_THAT(Brief(records), HasSubstr("; 1 had been, and"));
 }
