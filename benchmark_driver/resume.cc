@@ -11,6 +11,7 @@
 
 #include "benchmark_driver/logger_lock.h"
 #include "common/error.h"
+#include "messaging/asked_runs.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
 #include "results/reproduce.h"

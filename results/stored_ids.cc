@@ -10,8 +10,10 @@ namespace planbench {
 
 std::string StoredIds::Text() const {
   if (runs.empty()) return "the session " + sessions.front();
-  if (runs.size() == 1) return "1 run, " + runs.front();
-  return fmt::format("{} runs, the first of them {}", runs.size(), runs.front());
+  const RunId& first = runs.front();
+  const std::string repeat = first.repeats > 0 ? fmt::format(" (repeat {})", first.repeats) : "";
+  if (runs.size() == 1) return fmt::format("1 run, {}{}", first.request_id, repeat);
+  return fmt::format("{} runs, the first of them {}{}", runs.size(), first.request_id, repeat);
 }
 
 StoredIds ReadStoredIds(const std::filesystem::path& session_folder) {
@@ -28,8 +30,15 @@ StoredIds ReadStoredIds(const std::filesystem::path& session_folder) {
     read("SELECT name FROM sqlite_master WHERE name IN ('runs', 'sessions')", &tables);
     if (tables.size() < 2) return stored;
     read("SELECT run_id FROM sessions ORDER BY start_utime, run_id", &stored.sessions);
+    std::vector<std::string> column;  // which databases of before do not have
+    read("SELECT name FROM pragma_table_info('runs') WHERE name = 'repeats'", &column);
     // Those that other programs appended have no session.
-    read("SELECT request_id FROM runs WHERE run_id IS NOT NULL ORDER BY id", &stored.runs);
+    SqliteStatement select = connection.Prepare(
+        fmt::format("SELECT request_id, {} FROM runs WHERE run_id IS NOT NULL ORDER BY id",
+                    column.empty() ? "0" : "repeats"));
+    while (select.Step()) {
+      stored.runs.push_back({select.Text(0), static_cast<int>(select.Int(1))});
+    }
   } catch (const SqliteError& error) {
     throw InputError(error.what());
   }

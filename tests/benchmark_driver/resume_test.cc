@@ -338,6 +338,27 @@ TEST_F(LoggedSessionTest, WhatTheLogLacksOfTheDatabaseIsNotMadeAgain) {
   ExpectNotResumed({"3 runs"});
 }
 
+TEST_F(LoggedSessionTest, ARepeatThatTheLogLacksIsNotMadeAgain) {
+  WriteLog({0, 1, 2});
+  const auto attempt = [](int repeats) {
+    MadeRun run = {.contestant = "A", .problem = 4, .counters = {{"disturbed", 1}}};
+    if (repeats > 0) run.counters["repeats"] = repeats;
+    return MakeRecord(run, "s", 4);
+  };
+  const auto log = [&](int repeats) {
+    EventLog(path_ / "s.lcmlog", EventLog::Mode::kAppend)
+        .Write({channel::kRunRecord, Encode(attempt(repeats)), 3});
+  };
+  {
+    ResultsDatabase database(path_ / "results.sqlite");
+    for (const int repeats : {0, 1}) database.Store(attempt(repeats));
+  }
+  log(0);
+  ExpectNotResumed({"1 run, s-4 (repeat 1)"});
+  log(2);  // the database is behind
+  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 4u);
+}
+
 TEST_F(LoggedSessionTest, TheFolderBesideIsNamedAlsoOfOneThatIsHere) {
   WriteLog({2});
   const std::filesystem::path before = std::filesystem::current_path();
