@@ -118,10 +118,22 @@ struct Part {
   bool Counts(const SessionMessage& one) const { return TellsOfParts(one) || &one == &session(); }
 };
 
+/// Run ids of a session and of those that it was merged of.
+using Origins = std::set<std::string>;
+
 struct Run {
   std::string folder;
   RunRecordMessage record;
+  const Origins* origins;
 };
+
+/// Whether both tell of a request, in sessions that have nothing in common: neither is a repeat of
+/// the other.
+bool AreOfStrangers(const Run& a, const Run& b) {
+  return WasAsked(a.record) && WasAsked(b.record) &&
+         std::none_of(a.origins->begin(), a.origins->end(),
+                      [&](const std::string& run_id) { return b.origins->contains(run_id); });
+}
 
 /// `id` with the run id that it begins with replaced.
 std::string Renamed(const std::string& id, const std::string& from, const std::string& to) {
@@ -177,7 +189,8 @@ class Merge {
                         log.string(), record.request_id, record.run_id));
       }
       part->second.request_ids.insert(record.request_id);
-      runs_.push_back({folder, std::move(record)});
+      const Origins* origins = &origins_[record.run_id];
+      runs_.push_back({folder, std::move(record), origins});
     }
   }
 
@@ -206,11 +219,13 @@ class Merge {
         continue;
       }
       Run& known = united[place->second];
-      if (Replaces(record, known.record)) {
+      const bool are_of_strangers = AreOfStrangers(run, known);
+      if (!are_of_strangers && Replaces(record, known.record)) {
         known = std::move(run);
         continue;
       }
-      if (known.record == record || !Contradicts(record, known.record)) continue;
+      if (known.record == record) continue;
+      if (!are_of_strangers && !Contradicts(record, known.record)) continue;
       throw InputError(fmt::format(
           "--merge: {} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
           "are not parts of one session",
@@ -265,6 +280,11 @@ class Merge {
     if (bus.find(kLogsNotToldOf) != std::string::npos) without_bus_.push_back(folder);
     try {
       shares_.Add(told, bus);
+      for (const SessionMessage& session : told) {
+        Origins& origins = origins_[session.run_id];
+        origins.insert(session.run_id);
+        origins.merge(SessionShares::MergedRunIds(session.settings));
+      }
     } catch (const InputError& error) {
       throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
     }
@@ -411,7 +431,8 @@ class Merge {
   }
 
   std::vector<fs::path> logs_;
-  std::map<std::string, Part> parts_;  ///< By run id.
+  std::map<std::string, Part> parts_;       ///< By run id.
+  std::map<std::string, Origins> origins_;  ///< By run id.
   std::vector<Run> runs_;
   std::size_t num_repeated_ = 0;
   std::vector<std::string> missing_shards_;  ///< In lines.

@@ -514,6 +514,31 @@ TEST_F(MergeSessionsTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   EXPECT_FALSE(ReadSessions(folder_ / "alone").sessions.front().finished) << "it is to be made";
 }
 
+TEST_F(MergeSessionsTest, ARepeatStandsInThePlaceOfTheAttemptOfItsOwnSessionAlone) {
+  const MadeRun disturbed = {.contestant = "A", .time_s = 2, .counters = {{"disturbed", 1}}};
+  const MadeRun repeat = {.contestant = "A", .counters = {{"repeats", 1}}};
+  const MadeRun other = {.contestant = "A", .problem = 2};
+  const SessionMessage later = Session("later", 2'000'000, 1);
+  Write("early", Session("early", 1'000'000, 1), {other});
+  Write("begun", later, {disturbed});
+  Write("resumed", later, {repeat});
+  Write("stranger", Session("stranger", 3'000'000, 1), {repeat});
+  ASSERT_EQ(MergeTo("both", {"early", "begun"}), kExitOk) << errors_;
+  int number = 0;
+  for (const std::vector<std::string>& folders : std::vector<std::vector<std::string>>{
+           {"begun", "resumed"}, {"resumed", "begun"}, {"both", "resumed"}, {"resumed", "both"}}) {
+    const std::string whole = fmt::format("whole{}", ++number);
+    ASSERT_EQ(MergeTo(whole, folders), kExitOk) << errors_;
+    for (const StoredRun& run : ReadSessions(folder_ / whole).sessions.front().runs) {
+      EXPECT_EQ(run.repeats, run.problem_index == 1 ? 1 : 0) << whole;
+    }
+  }
+  for (const char* folder : {"begun", "both"}) {
+    ExpectRefused({folder, "stranger"}, "tell differently of A, shelf 1, forward, trial 1");
+    ExpectRefused({"stranger", folder}, "tell differently of A, shelf 1, forward, trial 1");
+  }
+}
+
 TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {
   Write("one", Session("early", 1'000'000, 1), {{.contestant = "A"}});
   Write("again", Session("later", 2'000'000, 1), {{.contestant = "A", .time_s = 2}});
