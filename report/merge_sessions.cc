@@ -162,7 +162,7 @@ class Merge {
     AddShares(folder, recorded.sessions);
     if (const StoredIds lost = stored.Without(recorded.sessions, recorded.runs); !lost.empty()) {
       throw InputError(
-          fmt::format("--merge: {}: its results.sqlite holds what {} lacks and what would be lost: "
+          fmt::format("{}: its results.sqlite holds what {} lacks and what would be lost: "
                       "{} (to merge without it, take results.sqlite out of the folder)",
                       folder, log.filename().string(), lost.Text()));
     }
@@ -183,10 +183,8 @@ class Merge {
     for (RunRecordMessage& record : recorded.runs) {
       const auto part = parts_.find(record.run_id);
       if (part == parts_.end()) {
-        throw InputError(
-            fmt::format("--merge: {}: run {} is of the session {}, which it does not "
-                        "describe",
-                        log.string(), record.request_id, record.run_id));
+        throw InputError(fmt::format("{}: run {} is of the session {}, which it does not describe",
+                                     log.string(), record.request_id, record.run_id));
       }
       part->second.request_ids.insert(record.request_id);
       const Origins* origins = &origins_[record.run_id];
@@ -196,7 +194,7 @@ class Merge {
 
   /// Equal runs once, under one run id.
   void Unite() {
-    if (parts_.empty()) throw InputError("--merge: the folders hold no session");
+    if (parts_.empty()) throw InputError("the folders hold no session");
     // Each with each: what only one of two has is not compared, so that two which are equal to a
     // third need not be so to each other.
     for (const auto& [run_id, part] : parts_) {
@@ -226,11 +224,11 @@ class Merge {
       }
       if (known.record == record) continue;
       if (!are_of_strangers && !Contradicts(record, known.record)) continue;
-      throw InputError(fmt::format(
-          "--merge: {} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
-          "are not parts of one session",
-          known.folder, run.folder, record.contestant, record.problem_set, record.problem_index,
-          EnumName(record.request.direction), record.trial));
+      throw InputError(
+          fmt::format("{} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
+                      "are not parts of one session",
+                      known.folder, run.folder, record.contestant, record.problem_set,
+                      record.problem_index, EnumName(record.request.direction), record.trial));
     }
     num_repeated_ = runs_.size() - united.size();
     runs_ = std::move(united);
@@ -286,7 +284,7 @@ class Merge {
         origins.merge(SessionShares::MergedRunIds(session.settings));
       }
     } catch (const InputError& error) {
-      throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
+      throw InputError(fmt::format("{}: {}", folder, error.what()));
     }
   }
 
@@ -295,7 +293,7 @@ class Merge {
     try {
       return ReadPlan(session.settings).value_or(SessionPlan());
     } catch (const InputError& error) {
-      throw InputError(fmt::format("--merge: {}: {}", folder, error.what()));
+      throw InputError(fmt::format("{}: {}", folder, error.what()));
     }
   }
 
@@ -315,8 +313,8 @@ class Merge {
     renamed.conditions.request.run_id = first.session().conditions.request.run_id;
     const auto refuse = [&](const std::string& field, std::string_view of_first,
                             std::string_view of_second) {
-      return InputError(fmt::format("--merge: {} is {} in {} and {} in {}", field, of_first,
-                                    first.folder, of_second, second.folder));
+      return InputError(fmt::format("{} is {} in {} and {} in {}", field, of_first, first.folder,
+                                    of_second, second.folder));
     };
     if (const auto difference = FindConditionDifference(first.session(), renamed)) {
       throw refuse(difference->field, difference->first, difference->second);
@@ -444,10 +442,11 @@ class Merge {
 
 }  // namespace
 
-std::string MergeSessions(const std::vector<std::string>& session_folders, const fs::path& out) {
+std::string MergeSessions(const std::vector<std::string>& session_folders,
+                          const fs::path& out) try {
   const fs::path logger = SiblingProgram("logger");
   if (fs::exists(out) && !fs::is_empty(out)) {
-    throw InputError("--merge: " + out.string() + " exists already and is not empty");
+    throw InputError(out.string() + " exists already and is not empty");
   }
   Merge merge;
   for (const std::string& folder : session_folders) merge.Read(folder);
@@ -461,9 +460,11 @@ std::string MergeSessions(const std::vector<std::string>& session_folders, const
       std::system(fmt::format("{} --from {} --out {}", ShellQuoted(logger.string()),
                               ShellQuoted(messages.string()), ShellQuoted(out.string()))
                       .c_str());
-  if (code != 0) throw InputError("--merge: " + out.string() + " could not be written");
+  if (code != 0) throw InputError(out.string() + " could not be written");
   WriteBusJson(out / "run.json", merge.bus());
   return merge.Summary(out);
+} catch (const InputError& error) {
+  throw InputError(std::string("--merge: ") + error.what());
 }
 
 }  // namespace planbench

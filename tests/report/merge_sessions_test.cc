@@ -549,6 +549,9 @@ TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {
   ExpectRefused({"one", "again"}, "tell differently of A, shelf 1, forward, trial 1");
   ExpectRefused({"one", "seed"}, "conditions.request.seed is 7 in ");
   ExpectRefused({"one", "empty"}, "holds no .lcmlog");
+  folder_.Write("file", "");
+  EXPECT_EQ(MergeTo("file/whole", {"one"}), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("--merge: cannot make a folder " + (folder_ / "file").string()));
 }
 
 }  // namespace
