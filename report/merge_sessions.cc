@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -274,8 +275,9 @@ class Merge {
  private:
   void AddShares(const std::string& folder, const std::vector<SessionMessage>& told) {
     const fs::path run_json = fs::path(folder) / "run.json";
-    const std::string bus = IsFile(run_json) ? ReadBusJson(run_json) : kBusNotTold;
-    if (bus.find(kLogsNotToldOf) != std::string::npos) without_bus_.push_back(folder);
+    std::optional<std::string> bus;
+    if (IsFile(run_json)) bus = ReadBusJson(run_json);
+    if (!bus || !IsToldOf(*bus)) without_bus_.push_back(folder);
     try {
       shares_.Add(told, bus);
       for (const SessionMessage& session : told) {

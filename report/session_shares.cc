@@ -36,8 +36,9 @@ std::map<std::string, Told> ByRunId(const std::vector<SessionMessage>& messages)
 
 }  // namespace
 
-void SessionShares::Add(const std::vector<SessionMessage>& told, const std::string& bus) {
-  std::string own_bus = bus;
+void SessionShares::Add(const std::vector<SessionMessage>& told,
+                        const std::optional<std::string>& bus) {
+  std::string own_bus = bus.value_or(kBusNotTold);
   std::vector<std::pair<std::string, double>> own;  // id and s
   for (const auto& [run_id, session] : ByRunId(told)) {
     std::string id = run_id;
@@ -48,7 +49,7 @@ void SessionShares::Add(const std::vector<SessionMessage>& told, const std::stri
         Keep(part, share);
         id += " " + part;
         own_s -= share.total_time_s;
-        if (bus != kBusNotTold) own_bus = WithoutBusJson(own_bus, share.bus);
+        if (bus) own_bus = WithoutBusJson(own_bus, share.bus);
       }
     }
     if (session.last != session.merged) own.emplace_back(id, std::max(0.0, own_s));
@@ -109,8 +110,7 @@ void SessionShares::Keep(const std::string& id, const Share& share) {
   if (is_new) return;
   Share& known = place->second;
   const bool is_later = share.total_time_s > known.total_time_s && !share.bus.empty();
-  const bool is_told = share.bus != kBusNotTold;
-  if (known.bus == kBusNotTold || (is_told && (is_later || known.bus.empty()))) {
+  if (!IsToldOf(known.bus) || (IsToldOf(share.bus) && (is_later || known.bus.empty()))) {
     known.bus = share.bus;
   }
   known.total_time_s = std::max(known.total_time_s, share.total_time_s);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,9 +16,9 @@ namespace planbench {
 class SessionShares {
  public:
   /// Of a session folder: the messages that its log holds of sessions, and what its run.json tells
-  /// of the bus (results/bus_json.h). Throws InputError if a merged session does not tell of its
-  /// parts as Text does.
-  void Add(const std::vector<SessionMessage>& told, const std::string& bus);
+  /// of the bus (results/bus_json.h; nothing: there is none). Throws InputError if a merged session
+  /// does not tell of its parts as Text does.
+  void Add(const std::vector<SessionMessage>& told, const std::optional<std::string>& bus);
 
   double total_time_s() const;
   /// Of all, as in run.json.

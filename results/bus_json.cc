@@ -44,6 +44,13 @@ std::string ReadBusJson(const std::filesystem::path& run_json) {
   }
 }
 
+bool IsToldOf(const std::string& bus) {
+  const std::string told = WithoutBusJson(bus, "");
+  if (told.empty()) return true;
+  const Json odd = Json::parse(told);
+  return odd.size() > 1 || !odd.contains(kLogsNotToldOf);
+}
+
 std::string AddBusJson(const std::string& first, const std::string& second) {
   Json sum = Json::object();
   for (const std::string& bus : {first, second}) {
@@ -71,10 +78,11 @@ std::string WithoutBusJson(const std::string& all, const std::string& part) {
       rest[name] = rest.value(name, std::int64_t{0}) - value.get<std::int64_t>();
     }
   });
-  const bool is_odd = std::any_of(rest.begin(), rest.end(), [](const Json& value) {
-    return value.is_array() ? !value.empty() : value > 0;
-  });
-  return is_odd ? rest.dump() : "";
+  Json odd = Json::object();
+  for (const auto& [name, value] : rest.items()) {
+    if (value.is_array() ? !value.empty() : value > 0) odd[name] = value;
+  }
+  return odd.empty() ? "" : odd.dump();
 }
 
 void WriteBusJson(const std::filesystem::path& run_json, const std::string& bus) {

@@ -17,11 +17,16 @@ inline constexpr char kBusNotTold[] = R"({"logs_not_told_of":1})";
 /// Throws InputError naming the file if it is none that a logger wrote.
 std::string ReadBusJson(const std::filesystem::path& run_json);
 
+/// Whether anything is told of the bus, be it that nothing was odd: not if that is only of how many
+/// logs nothing is. Throws InputError as AddBusJson does.
+bool IsToldOf(const std::string& bus);
+
 /// Both together: counts added up, contradictions one after the other. Throws InputError if one is
 /// none of ReadBusJson's.
 std::string AddBusJson(const std::string& first, const std::string& second);
 
-/// What AddBusJson added to `part` to make `all` of it. Throws InputError as that does.
+/// What AddBusJson added to `part` to make `all` of it, without counts of 0. Throws InputError as
+/// that does.
 std::string WithoutBusJson(const std::string& all, const std::string& part);
 
 /// Has the run.json of a folder tell that, whatever it told. Throws InputError if it cannot be

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "common/exit_codes.h"
+#include "common/read_text.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
@@ -330,6 +333,37 @@ TEST_F(MergeSessionsTest, ThatNothingWasLostOnTheBusIsToldIfAllPartsTellIt) {
   const std::optional<BusRecord> bus = ReadSessions(folder_ / "all").sessions.front().bus;
   ASSERT_TRUE(bus);
   EXPECT_EQ(bus->lost, 0);
+}
+
+TEST_F(MergeSessionsTest, PartsThatDoNotTellOfTheBusCountOnce) {
+  for (const int number : {1, 2, 3}) {
+    Write(fmt::format("part{}", number),
+          Session(fmt::format("part{}", number), std::int64_t{1000} * number, 1),
+          {{.contestant = "A", .problem = number}});
+  }
+  folder_.Write("part3/run.json", R"({"bus": {"logs_not_told_of": 0}})");
+  ASSERT_EQ(MergeTo("untold", {"part1", "part2"}), kExitOk) << errors_;
+  SessionMessage resumed = ReadRecords(FindEventLog(folder_ / "untold")).sessions.front();
+  resumed.settings.erase("merged_parts");
+  resumed.total_time_s += 7;
+  EventLog(FindEventLog(folder_ / "untold"), EventLog::Mode::kAppend)
+      .Write({channel::kSession, Encode(resumed), 3});
+  const auto untold = [&](const std::string& whole, int lost) {
+    std::string bus = R"({"bus": {"logs_not_told_of": 2)";
+    if (lost > 0) bus += fmt::format(R"(, "lost_messages": {})", lost);
+    folder_.Write("untold/run.json", bus + "}}");
+    EXPECT_EQ(MergeTo(whole, {"untold", "part3"}), kExitOk) << errors_;
+    return nlohmann::json::parse(ReadText(folder_ / whole / "run.json")).at("bus").dump();
+  };
+  EXPECT_EQ(untold("none", 0), R"({"logs_not_told_of":2})");
+  EXPECT_THAT(output_, HasSubstr("not known: " + (folder_ / "untold").string()));
+  EXPECT_THAT(output_, Not(HasSubstr((folder_ / "part3").string())));
+  EXPECT_EQ(untold("some", 4), R"({"logs_not_told_of":2,"lost_messages":4})");
+  for (const int number : {1, 2}) {
+    folder_.Write(fmt::format("part{}/run.json", number), "{}");
+  }
+  ASSERT_EQ(Merge({"part1", "part2", "untold"}), kExitOk) << errors_;
+  EXPECT_EQ(ReadSessions(folder_ / "whole").sessions.front().bus->lost, 4);
 }
 
 TEST_F(MergeSessionsTest, WhatAPartTookAndLostCountsOnce) {
