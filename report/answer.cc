@@ -295,9 +295,13 @@ std::string OnTheBus(const BusRecord& bus) {
   add(bus.malformed, "packet was", "packets were", "none of LCM's");
   add(bus.contradictions, "message", "messages", "told otherwise than those believed");
   if (odd.empty()) return "no message was lost on the bus, as far as the logger saw.";
+  const std::string not_told =
+      bus.parts_not_told > 0 ? fmt::format("; of {} it is not known",
+                                           Count(static_cast<int>(bus.parts_not_told), "part"))
+                             : "";
   return fmt::format(
-      "on the bus {}; runs are sent until they are recorded, so that none is missing for that.",
-      fmt::join(odd, ", "));
+      "on the bus {}{}; runs are sent until they are recorded, so that none is missing for that.",
+      fmt::join(odd, ", "), not_told);
 }
 
 /// What the time limits of a set make of its figures; "" if they are known and the same for all.

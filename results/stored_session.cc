@@ -174,6 +174,7 @@ std::optional<BusRecord> ReadBusRecord(const std::filesystem::path& run_json) {
   for (const auto& one : bus.value("contradictions", nlohmann::json::array())) {
     record.contradictions += one.value("count", std::int64_t{0});
   }
+  record.parts_not_told = bus.value(kLogsNotToldOf, std::int64_t{0});
   return record;
 }
 

@@ -73,6 +73,7 @@ struct BusRecord {
   std::int64_t lost = 0;            ///< Messages that did not reach the logger (whole).
   std::int64_t dropped = 0;         ///< Messages that it had no room for.
   std::int64_t contradictions = 0;  ///< Messages that told otherwise than those believed.
+  std::int64_t parts_not_told = 0;  ///< Event logs beside, of which none of this is known.
 };
 
 /// A session, complete or not.

@@ -95,7 +95,9 @@ TEST_F(ReportTest, TheBusIsTold) {
   folder.Write("example/run.json", R"({"bus": {"logs_not_told_of": 1}})");
   EXPECT_EQ(cautions().size(), 1u);
   folder.Write("example/run.json", R"({"bus": {"logs_not_told_of": 1, "lost_messages": 1}})");
-  EXPECT_TRUE(cautions().at(1).starts_with("example: on the bus 1 message did not reach"));
+  EXPECT_TRUE(cautions().at(1).starts_with(
+      "example: on the bus 1 message did not reach the logger; of 1 part it is not known; runs"))
+      << cautions().at(1);
   folder.Write("example/run.json", "{\"sessions\": [");
   EXPECT_THROW(cautions(), InputError);
 }
