@@ -47,13 +47,16 @@ void Recorder::OnAck(const AckMessage& ack, const Origin& origin) {
   Logger& logger = found->second;
   logger.silent = false;
   ++num_acks_;
+  // A record that cannot be decoded is refused without its repeat: ID#1 to ID#9... may be meant.
+  const auto last = awaited_.upper_bound(ack.ok ? ack.id : ack.id + "#:");
+  const auto record = std::find_if(awaited_.lower_bound(ack.id), last,
+                                   [&](const auto& one) { return !logger.Has(one.second); });
   if (session_ && ack.id == SessionAckId(*session_)) {
     if (!ack.ok && logger.session != ack.id) {
       spdlog::error("the logger '{}' refuses the session: {}", logger.name, ack.message);
     }
     logger.session = ack.id;
-  } else if (const auto record = awaited_.find(ack.id);
-             record != awaited_.end() && !logger.Has(record->second)) {
+  } else if (record != last) {
     logger.beyond.insert(record->second);
     if (!ack.ok) logger.refused[record->second] = ack.message;
     while (logger.beyond.erase(logger.next) > 0) ++logger.next;

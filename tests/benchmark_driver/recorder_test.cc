@@ -199,6 +199,24 @@ TEST_F(RecorderTest, AcknowledgementOfADisturbedAttemptIsNoneOfItsRepeat) {
   await_acks(RunRecordAckId(repeat), 0);
 }
 
+TEST_F(RecorderTest, ARefusalThatDoesNotTellOfWhichRepeatIsOfTheOneUnderWay) {
+  FakeLogger logger(&bus_);
+  logger.num_to_ignore = 1'000'000;
+  AwaitLogger();
+  recorder_.silence_patience = std::chrono::milliseconds(0);
+  recorder_.Record(RunOf("a"));
+  bus_.Publish(channel::kRunRecordAck, AckMessage{"a", "logger", true, ""});
+  ASSERT_TRUE(registry_.WaitUntil([&] { return recorder_.num_unrecorded() == 0; }, kTestPatience));
+  RunRecordMessage repeat = RunOf("a");
+  repeat.result.result.counters["repeats"] = 1;
+  recorder_.Record(repeat);
+  bus_.Publish(channel::kRunRecordAck, AckMessage{"a", "logger", false, "cannot be decoded"});
+  EXPECT_TRUE(registry_.WaitUntil(
+      [&] { return recorder_.Shortcomings().at(0).ends_with("cannot be decoded"); },
+      kTestPatience));
+  EXPECT_EQ(recorder_.num_unrecorded(), 1u);
+}
+
 TEST_F(RecorderTest, AcknowledgementOfAnotherRecordOrByAStrangerIsNone) {
   FakeLogger logger(&bus_);
   logger.num_to_ignore = 1;
