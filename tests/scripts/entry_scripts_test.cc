@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// ./run and ./test in a checkout with stand-ins for the programs: the driver notes its arguments
-/// and ends with the code $CODE, ctest and the report note theirs.
+/// ./run and ./test in a checkout with stand-ins for the programs: the driver notes its arguments,
+/// adds to the file $RESULTS and ends with the code $CODE, ctest and the report note theirs.
 class EntryScriptsTest : public testing::Test {
  protected:
   EntryScriptsTest() {
@@ -32,7 +32,8 @@ class EntryScriptsTest : public testing::Test {
     }
     const std::string note =
         fmt::format("echo \"$(basename $0) $*\" >> {}\n", (folder_ / "notes").string());
-    WriteProgram("checkout/build/release/bin/benchmark_driver", note + "exit ${CODE-0}\n");
+    WriteProgram("checkout/build/release/bin/benchmark_driver",
+                 note + "echo >> ${RESULTS:-/dev/null}\nexit ${CODE-0}\n");
     WriteProgram("checkout/build/release/bin/report", note);
     WriteProgram("bin/ctest", note);
     for (const char* program : {"cmake", "ip", "sysctl"}) {
@@ -46,7 +47,7 @@ class EntryScriptsTest : public testing::Test {
 
   /// Calls a script from the folder `here`. Exit code; what the stand-ins have noted is in notes_.
   int Call(const std::string& script, const std::vector<std::string>& arguments,
-           const std::string& code = "0") {
+           const std::string& code = "0", const std::string& results = "") {
     fs::create_directories(folder_ / "here");
     fs::remove(folder_ / "notes");
     std::vector<std::string> command = {"bash",
@@ -60,7 +61,8 @@ class EntryScriptsTest : public testing::Test {
         command, folder_ / "process",
         {{"PATH", fmt::format("{}:{}", (folder_ / "bin").string(), std::getenv("PATH"))},
          {"PLANBENCH_SKIP_INSTALL", "1"},
-         {"CODE", code}});
+         {"CODE", code},
+         {"RESULTS", results}});
     const int ended_with = process.Wait().value_or(-1);
     errors_ = process.Errors();
     notes_ = fs::exists(folder_ / "notes") ? ReadText(folder_ / "notes") : "";
@@ -94,13 +96,20 @@ TEST_F(EntryScriptsTest, RobotsThatShipAreHiddenByRobotsAloneAndTheDefaultOneByN
   EXPECT_EQ(notes_, "");
 }
 
-TEST_F(EntryScriptsTest, TheReportOfASessionThatTheDriverRefusedToReplaceStays) {
+TEST_F(EntryScriptsTest, WhatTheDriverMadeIsReportedHoweverItEndedAndNothingElse) {
   folder_.Write("here/old/results.sqlite", "");
-  const std::vector<std::string> arguments = {"--problems", "sets", "--out", "old"};
-  EXPECT_EQ(Call("run", arguments, "2"), 2);
-  EXPECT_THAT(notes_, testing::Not(HasSubstr("report")));
-  EXPECT_EQ(Call("run", arguments, "1"), 1);
-  EXPECT_THAT(notes_, HasSubstr("report old --out old/report.html\n"));
+  fs::create_directories(folder_ / "here/new");
+  for (const char* code : {"0", "1", "2"}) {
+    EXPECT_EQ(Call("run", {"--problems", "sets", "--out", "old"}, code), std::stoi(code));
+    EXPECT_THAT(notes_, testing::Not(HasSubstr("report"))) << "refused to replace it";
+    for (const char* folder : {"old", "new"}) {
+      const std::string results = fmt::format("{}/results.sqlite", folder);
+      EXPECT_EQ(Call("run", {"--problems", "sets", "--out", folder}, code, results),
+                std::stoi(code));
+      EXPECT_THAT(notes_, HasSubstr(fmt::format("report {0} --out {0}/report.html\n", folder)));
+    }
+    fs::remove(folder_ / "here/new/results.sqlite");
+  }
 }
 
 TEST_F(EntryScriptsTest, AMisspeltPresetIsRefused) {
