@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -144,13 +145,14 @@ Table ChangeTable(const ComparedSessions& compared) {
        {"contestant", "contestant"},
        {"before", "before"},
        {"after", "after"},
+       {"change", "change"},
        {"problems", "problems", Style::kCount},
        {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
        {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
        {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
-       {"p_holm", "p (Holm)", Style::kPValue},
-       {"change", "change"}},
+       {"p_holm", "p (Holm)", Style::kPValue}},
       {}};
+  constexpr std::size_t kChange = 4;
   const auto begun = [&](const ComparedContestant& one) -> const std::string& {
     return compared.sessions()[one.session].date;
   };
@@ -159,8 +161,15 @@ Table ChangeTable(const ComparedSessions& compared) {
     const SuccessSummary s = SummarizeSuccess(outcomes);
     return Percent(s.share, s.interval);
   };
+  // Not by rank, which would tear the sessions of a contestant apart.
+  std::vector<std::reference_wrapper<const ComparedContestant>> contestants(
+      compared.contestants().begin(), compared.contestants().end());
+  std::stable_sort(contestants.begin(), contestants.end(),
+                   [&](const ComparedContestant& a, const ComparedContestant& b) {
+                     return std::tie(a.own_name, begun(a)) < std::tie(b.own_name, begun(b));
+                   });
   for (const auto& [set, by_contestant] : compared.outcomes()) {
-    for (const ComparedContestant& after : compared.contestants()) {
+    for (const ComparedContestant& after : contestants) {
       const ComparedContestant* before = nullptr;
       for (const ComparedContestant& one : compared.contestants()) {
         const bool is_other = one.own_name == after.own_name && one.session != after.session;
@@ -176,8 +185,8 @@ Table ChangeTable(const ComparedSessions& compared) {
       if (result.num_problems == 0) continue;
       table.rows.push_back(
           {set, after.own_name, compared.session_names()[before->session],
-           compared.session_names()[after.session], result.num_problems, confirmed(old_outcomes),
-           confirmed(new_outcomes),
+           compared.session_names()[after.session], std::string(), result.num_problems,
+           confirmed(old_outcomes), confirmed(new_outcomes),
            result.ratio ? Cell(Estimate{result.ratio->mean, result.ratio->interval}) : Cell()});
       results.push_back(result);
     }
@@ -190,8 +199,8 @@ Table ChangeTable(const ComparedSessions& compared) {
                              ? (test.negative > test.positive ? "faster" : "slower")
                          : results[i].num_problems < fewest ? "too few problems"
                                                             : "not shown";
+    table.rows[i][kChange] = std::string(change);
     table.rows[i].emplace_back(adjusted[i]);
-    table.rows[i].emplace_back(std::string(change));
   }
   table.note += ZeroTimesNote(results);
   return table;
