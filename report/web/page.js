@@ -229,8 +229,8 @@ const report = (() => {
     made.append(tableBlock("pairs", false));
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
-           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share that it solved. " +
-           "Problems at which a time is 0 are left out."),
+           "problems that all tried; at ratio 1 the share on which it is the fastest, at the right end the share of the problems that it solved in the median " +
+           "of their trials. Problems at which a time is 0 are left out."),
       ...limitsNote());
     const grid = figuresOfSets("profile");
     made.append(legend(() => grid), grid);
@@ -287,7 +287,8 @@ const report = (() => {
            "problem the median of its trials. A trial whose path the referee did not confirm has nothing in hand; failed attempts " +
            "before a path take their time. Cost: the path's length, over the shortest that anyone here found of the same problem." +
            ownCosts + " Bound: proven, of the cost over the optimum. A curve begins when half of the problems have a path, and " +
-           "ends at its contestant's time limit at the latest; a band reaches the top where a quarter has none."),
+           "ends at its contestant's own time limit, or at its last improvement, if that came later: nothing is known of it behind " +
+           "that; where the last of all improved, the figure ends. A band reaches the top where a quarter has none."),
       legend(() => grids), grids);
     part("Cost", "cost");
     if (sets.some(set => set.anytime_bound.length > 0)) part("Bound", "bound");
