@@ -28,24 +28,51 @@ const charts = (() => {
     ({scale, orient, title, values: logTicks(domain), grid: true, format: "~r", domain: false, zindex: 0,
       encode: {labels: {update: {text: {signal: "format(datum.value, datum.value < 1 ? '~g' : ',')"}}}}});
 
-  // One row a contestant. A mark behind its name stands below it, so that a name that is cut short keeps it.
-  const MARK = " (trained)";
-  const lines = name => (name.endsWith(MARK) ? [name.slice(0, -MARK.length), MARK.trim()] : name);
-  const rowsHeight = count => (count > 12 ? 24 : 34) * count;
-  const rows = names => ({
-    height: rowsHeight(names.length),
+  // About how wide a text is in a sans-serif, px: where figures are printed nothing measures it.
+  function textWidth(text, fontSize = 12) {
+    const letterWidth = letter => (/[ ,.:;'!|()[\]fijlrtI-]/.test(letter) ? 0.36 :
+                                   /[MWmw%@&]/.test(letter) || letter.codePointAt(0) >= 0x1100 ? 1 :
+                                   /[A-Z]/.test(letter) ? 0.72 : 0.62);
+    return [...text].reduce((sum, letter) => sum + fontSize * letterWidth(letter), 0);
+  }
+
+  // A text in lines about so wide at most, px, broken behind commas, else at spaces, else anywhere. Nothing is cut: of a sweep's
+  // names the ends differ.
+  function lines(text, most, [pieces, ...finer] = [/.*?, |.+/gs, /.*? |.+/gs, /./gsu]) {
+    const fits = line => textWidth(line.trimEnd()) <= most;
+    const made = [];
+    for (const piece of text.match(pieces) || []) {
+      const longer = (made[made.length - 1] || "") + piece;
+      if (fits(longer)) made.splice(-1, 1, longer);
+      else made.push(...(fits(piece) ? [piece] : lines(piece, most, finer)));
+    }
+    return made;
+  }
+
+  // One row a contestant, whose name takes less than half of a figure so wide, px.
+  const rowNames = (names, width) => names.map(name => lines(name, Math.max(80, 0.4 * width)));
+  const LINE = 13;
+  // Without the width that of a figure beside another in the page.
+  const rowsHeight = (names, width = 544) => names.length *
+    Math.max(names.length > 12 ? 24 : 34, ...rowNames(names, width).map(name => LINE * name.length + 8));
+  const rows = (names, width) => ({
+    height: rowsHeight(names, width),
     scale: {name: "y", type: "band", domain: names.map((name, i) => i), range: "height", padding: 0.2},
-    axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8,
+    axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8, labelOverlap: false,
            encode: {labels: {update: {
-             text: {signal: "names[datum.value]"}, dy: {signal: "isArray(names[datum.value]) ? -5 : 0"}, lineHeight: {value: 12}}}}},
-    signal: {name: "names", value: names.map(lines)},
+             text: {signal: "names[datum.value]"}, lineHeight: {value: LINE},
+             dy: {signal: `${-LINE / 2} * (length(names[datum.value]) - 1)`}}}}},
+    signal: {name: "names", value: rowNames(names, width)},
   });
+  // A range of x that leaves a column free on the right, and is none the other way round where there is no room.
+  const besideColumn = column => [0, {signal: `max(width - ${column}, 40)`}];
   const middle = {scale: "y", band: 0.5};
 
   // ---- Figures ----------------------------------------------------------------------------------
+  // Those of rows are told how wide they will be with all their labels, px.
   // rows: [{share, lower, upper, claimed_share, tip, contestant}]
-  function success(names, places, values) {
-    const r = rows(names);
+  function success(width, names, places, values) {
+    const r = rows(names, width);
     const data = values.map((value, i) => ({
       ...value, y: i, colour: theme.colour(places[i]),
       tip: `${names[i]}\nconfirmed ${percent(value.share)}, 95 % interval ${percent(value.lower)} to ` +
@@ -72,8 +99,8 @@ const charts = (() => {
   }
 
   // values: [{problem: [], trial: [], time: [], median, lower, upper, limit}]; open(problem) shows one.
-  function times(names, places, values, open) {
-    const r = rows(names);
+  function times(width, names, places, values, open) {
+    const r = rows(names, width);
     const runs = [], medians = [], failed = [];
     values.forEach((value, y) => {
       let numFailed = 0;
@@ -111,13 +138,13 @@ const charts = (() => {
         {name: "medians", values: medians}, {name: "intervals", values: medians.filter(one => one.lower != null)},
         {name: "counts", values: failed},
       ],
-      scales: [r.scale, {name: "x", type: "log", domain, range: [0, {signal: `width - ${column}`}]}],
+      scales: [r.scale, {name: "x", type: "log", domain, range: besideColumn(column)}],
       axes: [r.axis, logAxis("x", "bottom", domain, "planning time, ms")],
       marks: [
         {type: "rule", encode: {update: {
           x: {scale: "x", value: limit}, y: {value: 0}, y2: {signal: "height"}, strokeDash: {value: [4, 3]}}}},
         {type: "text", encode: {update: {
-          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "center"},
+          x: {scale: "x", value: limit}, y: {value: -4}, align: {value: "right"},
           text: {value: limits.every(one => one === limit) ? "limit" : "longest limit"}}}},
         {type: "text", encode: {update: {
           x: {signal: "width"}, y: {value: -4}, align: {value: "right"}, text: {value: "not solved"}}}},
@@ -198,7 +225,7 @@ const charts = (() => {
   function scatter(points, first, second, limit) {
     const solved = points.flatMap(point => [point.x, point.y]).filter(time => time != null);
     const domain = logDomain([...solved, limit]);
-    const side = SCATTER_SIDE, column = 34;
+    const side = SCATTER_SIDE, column = 34, titleWidth = 280;
     const place = (field, range) => `datum.${field} === null ? ${range} : scale('${field}', datum.${field})`;
     const values = points.map(point => ({
       ...point, both: point.x != null && point.y != null,
@@ -208,10 +235,10 @@ const charts = (() => {
     return {
       usermeta: {mostWidth: side + 90}, height: side,
       data: [{name: "points", values}, {name: "ends", values: domain.map(end => ({end}))}],
-      scales: [{name: "x", type: "log", domain, range: [0, {signal: `width - ${column}`}]},
+      scales: [{name: "x", type: "log", domain, range: besideColumn(column)},
                {name: "y", type: "log", domain, range: [{signal: "height"}, column]}],
-      axes: [logAxis("x", "bottom", domain, first + ", ms"),
-             {...logAxis("y", "left", domain, second + ", ms"), titleLimit: side}],
+      axes: [logAxis("x", "bottom", domain, lines(first + ", ms", titleWidth)),
+             logAxis("y", "left", domain, lines(second + ", ms", titleWidth))],
       marks: [
         {type: "line", from: {data: "ends"}, encode: {update: {
           x: {scale: "x", field: "end"}, y: {scale: "y", field: "end"}, stroke: {value: theme.property("--muted")}}}},
@@ -231,8 +258,8 @@ const charts = (() => {
   }
 
   // Quartiles and median, raw above simplified: [{contestant, lower, median, upper}] each.
-  function quality(names, places, raw, simplified, title) {
-    const r = rows(names);
+  function quality(width, names, places, raw, simplified, title) {
+    const r = rows(names, width);
     const values = [];
     const collect = (list, kind, shift) => list.forEach(one => {
       const y = places.indexOf(one.contestant);
@@ -261,8 +288,8 @@ const charts = (() => {
   }
 
   const PHASES = ["set-up", "collision checking", "guidance", "search"];
-  function phases(names, values) {
-    const r = rows(names);
+  function phases(width, names, values) {
+    const r = rows(names, width);
     const data = values.flatMap((value, y) => {
       let sum = 0;
       return value.shares.map((share, phase) => {
@@ -276,9 +303,9 @@ const charts = (() => {
       height: r.height, signals: [r.signal],
       data: [{name: "parts", values: data},
              {name: "totals", values: values.map((value, y) => ({y, text: shortNumber(value.total) + " ms"}))}],
-      scales: [r.scale, {name: "x", type: "linear", domain: [0, 1], range: [0, {signal: "width - 74"}]},
+      scales: [r.scale, {name: "x", type: "linear", domain: [0, 1], range: besideColumn(74)},
                {name: "colour", type: "ordinal", domain: [0, 1, 2, 3], range: [0, 1, 2, 3].map(theme.phase)}],
-      axes: [r.axis, {scale: "x", orient: "bottom", format: "%", tickCount: 5, domain: false,
+      axes: [r.axis, {scale: "x", orient: "bottom", format: "%", tickCount: {signal: "width < 300 ? 2 : 5"}, domain: false,
                       title: "share of the time to the end of the search"}],
       marks: [
         {type: "rect", from: {data: "parts"}, encode: {update: {
@@ -293,7 +320,7 @@ const charts = (() => {
   }
 
   return {
-    logDomain, success, times, curves, scatter, quality, phases, PHASES,
+    logDomain, textWidth, lines, success, times, curves, scatter, quality, phases, PHASES,
     // Heights of figures without their axes, px.
     rowsHeight, CURVES_HEIGHT, SCATTER_SIDE,
   };

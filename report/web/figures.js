@@ -1,23 +1,23 @@
 "use strict";
-const rowsHeight = values => charts.rowsHeight(values.length);
 const curvesHeight = () => charts.CURVES_HEIGHT;
-// The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how; how high they
-// are, without axes, px. `names` and `places` are those of the values' contestants; open(problem) is what a point of a run leads to.
+// The kinds of figures that there are for each set: of what values they are made, [{contestant, ...}], and how, if they are to be
+// `width` px wide; how high they are of contestants with these names, without axes, px. `names` and `places` are those of the
+// values' contestants; open(problem) is what a point of a run leads to.
 const figureKinds = {
   success: {
-    title: "Success", height: rowsHeight,
+    title: "Success", height: charts.rowsHeight,
     list: set => set.success,
-    make: (set, names, places, values) => charts.success(names, places, values),
+    make: (width, names, places, values) => charts.success(width, names, places, values),
   },
   times: {
-    title: "Planning time of every run", height: rowsHeight,
+    title: "Planning time of every run", height: charts.rowsHeight,
     list: set => set.times,
-    make: (set, names, places, values, open) => charts.times(names, places, values, open),
+    make: (width, names, places, values, open) => charts.times(width, names, places, values, open),
   },
   survival: {
     title: "Share solved by a time", height: curvesHeight,
     list: set => set.survival,
-    make: (set, names, places, values) => {
+    make: (width, names, places, values) => {
       const list = values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, end: endOf(value)}));
       const last = Math.max(...list.map(curve => curve.end));
       // Where the first of them rises, or ends.
@@ -28,7 +28,7 @@ const figureKinds = {
   profile: {
     title: "Performance profile", height: curvesHeight,
     list: set => set.profile,
-    make: (set, names, places, values) => {
+    make: (width, names, places, values) => {
       const last = charts.logDomain([1, ...values.flatMap(value => value.ratio.slice(-1))])[1];
       return charts.curves(values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.ratio})),
                            {first: 1, last, title: "time over that of the fastest", share: "problems"});
@@ -37,17 +37,17 @@ const figureKinds = {
   cost: {
     title: "Cost over time", height: curvesHeight,
     list: set => set.anytime_cost,
-    make: (set, names, places, values) => improvement(names, places, values, "cost over the lowest found"),
+    make: (width, names, places, values) => improvement(names, places, values, "cost over the lowest found"),
   },
   bound: {
     title: "Proven bound over time", height: curvesHeight,
     list: set => set.anytime_bound,
-    make: (set, names, places, values) => improvement(names, places, values, "proven bound"),
+    make: (width, names, places, values) => improvement(names, places, values, "proven bound"),
   },
   phases: {
-    title: "Where the time goes", height: rowsHeight,
+    title: "Where the time goes", height: charts.rowsHeight,
     list: set => set.phases,
-    make: (set, names, places, values) => charts.phases(names, values),
+    make: (width, names, places, values) => charts.phases(width, names, values),
   },
 };
 
@@ -77,11 +77,11 @@ function nameIn(data, sets, place) {
 const namesOf = (data, set, places) => places.map(place => nameIn(data, [set], place));
 
 // The figure of a measure on a set, by the measure's place in data.measures.
-function qualityFigure(data, set, kind) {
+function qualityFigure(width, data, set, kind) {
   const {raw, simplified} = set.quality[kind];
   const places = data.contestants.map((contestant, place) => place).filter(place =>
     raw.concat(simplified).some(one => one.contestant === place));
   const {name, unit} = data.measures[kind];
-  return charts.quality(namesOf(data, set, places), places, raw, simplified,
+  return charts.quality(width, namesOf(data, set, places), places, raw, simplified,
                         name.replace(/_/g, " ") + (unit ? ", " + unit : ""));
 }

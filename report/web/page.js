@@ -77,8 +77,9 @@ const report = (() => {
       const values = list(set);
       if (!values || values.length === 0) continue;
       const places = values.map(value => value.contestant);
-      grid.append(figure(set.name, `${title}, ${set.name}`, height(values), () => make(set, namesOf(data, set, places), places, values,
-                                              problem => showProblem(sets.indexOf(set), problem))));
+      const names = namesOf(data, set, places);
+      grid.append(figure(set.name, `${title}, ${set.name}`, height(names), width =>
+        make(width, names, places, values, problem => showProblem(sets.indexOf(set), problem))));
     }
     return grid;
   }
@@ -251,8 +252,8 @@ const report = (() => {
       if (set.quality.every(one => one.raw.length + one.simplified.length === 0)) continue;
       const chart = element("div");
       grid.append(element("figure", {}, element("h3", {}, set.name), chart));
-      shown.push(pictures.add(chart, "Path quality, " + set.name, charts.rowsHeight(names.length),
-                              () => qualityFigure(data, set, kind)));
+      shown.push(pictures.add(chart, "Path quality, " + set.name, charts.rowsHeight(names),
+                              width => qualityFigure(width, data, set, kind)));
     }
     function update() {
       meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +

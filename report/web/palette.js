@@ -19,7 +19,7 @@ function makePalette(property) {
         axis: {
           labelColor: text, titleColor: muted, domainColor: muted, tickColor: muted, gridColor: line,
           gridOpacity: 0.6, labelFontSize: 12, titleFontSize: 12, titleFontWeight: "normal",
-          labelLimit: Math.min(210, 0.33 * width), labelOverlap: "greedy", labelSeparation: 6, titleLimit: 0.8 * width,
+          labelLimit: 0, labelOverlap: "greedy", labelSeparation: 6,
           labelFont: "system-ui, sans-serif", titleFont: "system-ui, sans-serif",
         },
         // In a narrow figure titles reach below the labels on the left.

@@ -13,7 +13,7 @@ const pictures = (() => {
     const width = chart.element.clientWidth;
     if (width === 0) return;
     chart.width = width;
-    const spec = {description: chart.label, ...chart.make()};
+    const spec = {description: chart.label, ...chart.make(width)};
     const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
     chart.view = vega.view(spec, width, theme.vegaConfig(width), {
       container: chart.element, hover: true, renderer: numMarks > 1500 ? "canvas" : "svg",
@@ -34,6 +34,7 @@ const pictures = (() => {
   }
 
   // `height` is kept free until it is made, so that what is below it is out of sight: of its parts without axes, px.
+  // make(width): its specification for that width, px.
   function add(element, label, height, make) {
     element.classList.add("chart");
     element.setAttribute("role", "img");

@@ -5,10 +5,9 @@ const [dataFile, folder] = process.argv.slice(2);
 const data = JSON.parse(fs.readFileSync(dataFile, "utf8"));
 const WIDTH = 440;  // one of two columns
 const config = {...theme.vegaConfig(WIDTH), background: "white"};
-config.axis.labelLimit = 0;
 config.legend = {labelColor: theme.property("--text"), labelFontSize: 12, labelFont: config.axis.labelFont, labelLimit: 0};
-// Without a canvas nothing measures text: what letters of a sans-serif are wide on average.
-requireModule("vega-scenegraph").textMetrics.width = (item, text) => 0.56 * (item.fontSize || 12) * String(text || "").length;
+const AXIS = 60, SYMBOL = 30;  // what an axis of shares takes on the left, and the symbol of an entry, px
+requireModule("vega-scenegraph").textMetrics.width = (item, text) => charts.textWidth(String(text ?? ""), item.fontSize);
 
 function write(name, spec) {
   return vega.view(spec, WIDTH, config, {renderer: "none"}).toSVG().then(svg =>
@@ -25,10 +24,13 @@ function withLegend(kind, set, spec, names) {
   }[kind];
   if (!legend) return spec;
   const ofPlace = (name, place) => (kind === "cost" && hasOwnCosts(set, place) ? name + " (over its own lowest)" : name);
-  const labels = kind === "phases" ? charts.PHASES : names.map(ofPlace);
+  // Beside their symbols, and all of it below the plot: what is wider would be cut off.
+  const room = columns => (WIDTH - AXIS) / columns - SYMBOL;
+  const labels = (kind === "phases" ? charts.PHASES : names.map(ofPlace)).map(label => charts.lines(label, room(1)));
+  const columns = labels.flat().every(line => charts.textWidth(line) <= room(2)) ? 2 : 1;
   return {
     ...spec, signals: [...spec.signals, {name: "labels", value: labels}],
-    legends: [{...legend, orient: "bottom", columns: 2, encode: {labels: {update: {text: {signal: "labels[datum.value]"}}}}}],
+    legends: [{...legend, orient: "bottom", columns, encode: {labels: {update: {text: {signal: "labels[datum.value]"}}}}}],
   };
 }
 
@@ -51,12 +53,12 @@ for (const set of data.sets) {
     const values = list(set);
     if (!values || values.length === 0) continue;
     const places = values.map(value => value.contestant);
-    const spec = make(set, namesOf(data, set, places), places, values, () => {});
+    const spec = make(WIDTH, namesOf(data, set, places), places, values, () => {});
     written.push(write(`${kind}-${own}`, withLegend(kind, set, spec, namesOf(data, set, [...data.contestants.keys()]))));
   }
   data.measures.forEach((measure, kind) => {
     if (set.all || set.quality[kind].raw.length === 0) return;
-    written.push(write(`${measure.name}-${own}`, qualityFigure(data, set, kind)));
+    written.push(write(`${measure.name}-${own}`, qualityFigure(WIDTH, data, set, kind)));
   });
 }
 Promise.all(written).catch(error => {

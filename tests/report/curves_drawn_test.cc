@@ -47,7 +47,7 @@ class CurvesDrawnTest : public testing::Test {
         "const data = JSON.parse(require('fs').readFileSync(file, 'utf8')), set = data.sets[0];\n"
         "const {list, make} = figureKinds[kind], values = list(set);\n"
         "const places = values.map(value => value.contestant);\n"
-        "const figure = make(set, namesOf(data, set, places), places, values);\n"
+        "const figure = make(440, namesOf(data, set, places), places, values);\n"
         "console.log(JSON.stringify(figure.data[0].values));\n";
     folder_.Write("draw.js", script);
     ChildProcess node(
@@ -105,6 +105,16 @@ TEST_F(CurvesDrawnTest, ImprovementsEndAtTheirOwnLimit) {
            "cost");
   EXPECT_EQ(Of(points, 0).back()["x"], 2000);
   EXPECT_EQ(Of(points, 1).back()["x"], 9000);
+  // What was found backward improved after the limit of an attempt.
+  const ComparedSessions backward =
+      Sessions({{2,
+                 {{.contestant = "A", .status = PlanStatus::kTimedOut, .time_s = 2},
+                  {.contestant = "A",
+                   .time_s = 1,
+                   .direction = Direction::kBackward,
+                   .length = 2,
+                   .progress = progress}}}});
+  EXPECT_EQ(Of(Draw(backward, "cost"), 0).back()["x"], 3000);
 }
 
 }  // namespace

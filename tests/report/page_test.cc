@@ -1,13 +1,39 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "common/read_text.h"
 #include "tests/report/browser.h"
 #include "tests/report/example_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
+
+/// Asks a page of printed figures.
+constexpr char kPrintedProbe[] = R"script(
+  found.faults = [];
+  found.labels = {};
+  for (const figure of document.querySelectorAll("svg")) {
+    const sheet = figure.getBoundingClientRect();
+    const texts = [...figure.querySelectorAll("text")].filter(one => one.getAttribute("opacity") !== "0");
+    for (const one of texts) {
+      const box = one.getBoundingClientRect();
+      if (box.left < sheet.left || box.right > sheet.right || box.bottom > sheet.bottom) found.faults.push(one.textContent);
+    }
+    // Numbers may not fall to the right.
+    for (const axis of figure.querySelectorAll(".role-axis-label")) {
+      const ends = [...axis.querySelectorAll("text")].filter(one => /^[0-9.,]+%?$/.test(one.textContent))
+        .map(one => [parseFloat(one.textContent.replace(/,/g, "")), one.getBoundingClientRect().right])
+        .sort((one, other) => one[0] - other[0]).map(one => one[1]);
+      if (ends.some((end, i) => end < ends[i - 1] - 1)) found.faults.push("mirrored");
+    }
+    found.labels[figure.parentElement.id] = texts.map(one => one.textContent.replace(/ /g, ""));
+  }
+)script";
 
 /// Asks the page what a reader could see. Everything is drawn first, also what is out of sight.
 constexpr char kProbe[] = R"script(
@@ -29,6 +55,24 @@ constexpr char kProbe[] = R"script(
     };
     for (const chart of pictures.all) visit(chart.view.scenegraph().root);
     return texts;
+  };
+  // Texts that are cut to make room, and axes along which numbers, or rows, fall to the right.
+  const faults = () => {
+    const {textMetrics} = requireModule("vega-scenegraph");
+    const all = [];
+    const visit = item => {
+      if (item.marktype === "text") {
+        all.push(...item.items.flatMap(one => [one.text].flat().filter(line =>
+          one.limit > 0 && textMetrics.width({...one, limit: 0}, line) > one.limit)));
+      }
+      if (item.role === "axis-label") {
+        const ends = [...item.items].sort((one, other) => one.datum.value - other.datum.value).map(one => one.bounds.x2);
+        if (ends.some((end, i) => end < ends[i - 1] - 1)) all.push("mirrored");
+      }
+      (item.items || []).forEach(visit);
+    };
+    for (const chart of pictures.all) visit(chart.view.scenegraph().root);
+    return all;
   };
   const contrasts = () => {
     const luminance = colour => {
@@ -54,6 +98,7 @@ constexpr char kProbe[] = R"script(
   found.names = new Set(pictures.all.map(chart => chart.element.getAttribute("aria-label"))).size;
   found.empty = pictures.all.filter(chart => !chart.element.querySelector("svg, canvas")).length;
   found.marks = count();
+  found.faults = faults();
   found.contrast = [contrasts()];
   document.getElementById("theme").click();
   found.contrast.push(contrasts());
@@ -69,7 +114,7 @@ constexpr char kProbe[] = R"script(
     found.trained_rows[section.id] = [...section.querySelectorAll("table tr")]
       .filter(row => [...row.children].some(cell => cell.textContent === "(trained)")).length;
   }
-  found.trained_labels = labels().filter(label => [label.text].flat().pop() === "(trained)").length;
+  found.trained_labels = labels().filter(label => [label.text].flat().join("").endsWith("(trained)")).length;
   // In a narrow window.
   document.body.style.maxWidth = "420px";
   pictures.all.forEach(chart => pictures.render(chart));
@@ -77,6 +122,7 @@ constexpr char kProbe[] = R"script(
   found.wider = [...document.querySelectorAll("body *")]
     .filter(one => !one.closest(".scroll table, svg, #tooltip, pre") && one.getBoundingClientRect().right > right + 1)
     .map(one => one.tagName);
+  found.faults.push(...faults());
   const ofAxis = new Map();
   for (const label of labels().filter(one => one.opacity !== 0)) {
     ofAxis.set(label.mark, [...(ofAxis.get(label.mark) || []), label.bounds]);
@@ -121,6 +167,7 @@ class PageTest : public testing::Test {
     EXPECT_EQ(found["unreachable"], 0) << "not reachable with the keyboard";
     EXPECT_EQ(found["empty"], 0);
     EXPECT_EQ(found["wider"], nlohmann::json::array()) << "than a narrow window";
+    EXPECT_EQ(found["faults"], nlohmann::json::array());
     EXPECT_EQ(found["crossing"], 0) << "labels that run into one another";
     EXPECT_EQ(found["names"], found["charts"]) << "figures without names of their own";
     for (const auto& contrast : found["contrast"]) {
@@ -198,6 +245,48 @@ TEST_F(PageTest, HoldsThirtyContestants) {
   const nlohmann::json found = Open(runs);
   EXPECT_EQ(found["marks"]["solved-runs"], 90);
   EXPECT_EQ(found["marks"]["confirmed"], 30);
+}
+
+TEST_F(PageTest, HasRoomBesideTheWidestNames) {
+  Open({{.contestant = std::string(60, 'W')}, {.contestant = "B", .time_s = 2}});
+}
+
+TEST_F(PageTest, PrintedFiguresHoldTheNamesOfASweep) {
+  if (std::system("command -v node >/dev/null") != 0) {
+    GTEST_SKIP() << "no node here: apt-get install nodejs";
+  }
+  std::vector<MadeRun> runs;
+  std::vector<std::string> names;
+  for (const char* balance : {"true", "false"}) {
+    for (const char* range : {"0.5", "2"}) {
+      names.push_back(fmt::format("RRT-Connect (sweep), balance {}, range {}, before the change",
+                                  balance, range));
+      for (int problem = 1; problem <= 3; ++problem) {
+        runs.push_back({.contestant = names.back(), .problem = problem, .time_s = 0.01 * problem});
+      }
+      runs.push_back({.contestant = names.back(), .problem = 4, .status = PlanStatus::kTimedOut});
+    }
+  }
+  WriteSession(folder_ / "sweep", runs, ExampleSession());
+  ChildProcess report(
+      {std::string(PLANBENCH_BIN_DIR) + "/report", (folder_ / "sweep").string(), "--out",
+       (folder_ / "page.html").string(), "--figures", (folder_ / "figures").string()},
+      folder_ / "report");
+  ASSERT_EQ(report.Wait(), 0) << report.Errors();
+  std::string page = "<body>";
+  for (const char* kind : {"success", "times", "survival", "profile", "phases", "path_length"}) {
+    page += fmt::format("<div id=\"{}\">{}</div>", kind,
+                        ReadText(folder_ / "figures" / (std::string(kind) + "-shelf.svg")));
+  }
+  folder_.Write("printed.html", page);
+  const nlohmann::json found = Browse(folder_ / "printed.html", kPrintedProbe);
+  EXPECT_EQ(found["faults"], nlohmann::json::array());
+  for (std::string& name : names)
+    name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+  for (const auto& [kind, labels] : found["labels"].items()) {
+    for (const std::string& name : names) EXPECT_THAT(labels, testing::Contains(name)) << kind;
+  }
+  EXPECT_THAT(found["labels"]["phases"], testing::Contains("collisionchecking"));
 }
 
 }  // namespace
