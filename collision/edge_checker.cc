@@ -95,10 +95,11 @@ void EdgeChecker::StopWhen(std::function<bool()> should_stop) {
 }
 
 bool EdgeChecker::GiveUp() {
-  if (unasked_ < kSamplesUnasked) return false;
+  if (!stopped_ && unasked_ < kSamplesUnasked) return false;
   unasked_ = 0;
-  stopped_ = stopped_ || (should_stop_ && should_stop_());
-  return stopped_;
+  const bool stop = should_stop_ && should_stop_();
+  stopped_ = stopped_ || stop;
+  return stop;
 }
 
 bool EdgeChecker::IsValidState(std::span<const double> q) {
@@ -176,7 +177,7 @@ double EdgeChecker::FindFreePart(std::span<const double> from, std::span<const d
   double free = 0;
   double blocked = *found;
   std::vector<double> begin(from.begin(), from.end()), end(from.size());
-  while ((blocked - free) * motion > resolution_ && !stopped_) {
+  while ((blocked - free) * motion > resolution_) {
     const double middle = (free + blocked) / 2;
     space().Interpolate(from, to, middle, end);
     found = FindBlocked(begin, end, /*from_is_free=*/true);

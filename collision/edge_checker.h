@@ -64,7 +64,8 @@ class EdgeChecker {
 
   /// A long edge can take long, and so can many short ones. `should_stop` is asked every so many
   /// configurations of edges, within one or not; when it says yes, the edge at hand is given up: it
-  /// counts as blocked, and Stopped says so. An empty function: never.
+  /// counts as blocked, and Stopped says so. So does every edge from then on, until `should_stop`,
+  /// which is asked each time, says no. An empty function: never.
   void StopWhen(std::function<bool()> should_stop);
   /// True if an edge was given up since StopWhen.
   bool Stopped() const { return stopped_; }
@@ -87,7 +88,8 @@ class EdgeChecker {
 
   /// The part of the edge out of `from`, which is free, up to which it is free by the method: 1 if
   /// all of it is, 0 if `to` is outside the limits; else it is blocked no further on than the edge
-  /// resolution. Takes little more than two edges.
+  /// resolution. It is proven in pieces: that part as a single edge may be judged otherwise, since
+  /// it is sampled elsewhere. Takes two edges and about log2(motion / edge resolution) blocks.
   double FindFreePart(std::span<const double> from, std::span<const double> to);
 
   /// Number of even intervals that the fixed method divides an edge into (its samples - 1), at
