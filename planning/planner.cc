@@ -71,6 +71,10 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
 
 GoalBox PointGoal(const Configuration& q) { return {q, q, q}; }
 
+bool EndsIn(const JointSpace& space, const Path& path, const GoalBox& goal) {
+  return !path.empty() && goal.Contains(space, path.back());
+}
+
 /// Holds the search to its contract: what it returns is what every table is made of. Gives the ends
 /// of the path exactly the asked values (a continuous joint may have come back wrapped).
 void AcceptPath(const SearchQuery& query, const std::string& algorithm, Path* path) {
@@ -214,9 +218,8 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
     std::stable_sort(waiting.begin(), waiting.end(), [&](std::size_t a, std::size_t b) {
       return lower_bounds[a] < lower_bounds[b];
     });
-    const Path& initial = resolved.initial_path;
     std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i) {
-      return !initial.empty() && goals[i].Contains(query->space(), initial.back());
+      return EndsIn(query->space(), resolved.initial_path, goals[i]);
     });
   }
   const std::vector<double> known_before = lower_bounds;
@@ -225,6 +228,8 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
   bool has_path = false;
   std::vector<std::size_t> later;     // whose searches go on in the next round
   std::vector<std::size_t> given_up;  // for want of time or memory
+  SearchResult last_given_up;         // its status and message
+  std::vector<std::size_t> enough;    // is proven of them for the path in hand
   double turn_work = kFirstTurnWork;
   query->kept_.resize(goals.size());
   while (!waiting.empty()) {
@@ -265,6 +270,13 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       next.status = query->Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
     }
     const PlanStatus status = next.status;  // of this turn
+    if (query->kept_[turn].search) {
+      later.push_back(turn);
+    } else if (status == PlanStatus::kTimedOut || status == PlanStatus::kMemoryLimit) {
+      given_up.push_back(turn);
+      last_given_up.status = status;
+      last_given_up.message = next.message;
+    }
     for (const auto& [name, count] : found.counters) next.counters[name] += count;
     next.guidance_ticks += found.guidance_ticks;
     if (has_path && !(next.status == PlanStatus::kSolved && next.cost < found.cost)) {
@@ -273,21 +285,21 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       found.remains = std::move(next.remains);
     } else {
       if (next.status == PlanStatus::kExhausted && !(later.empty() && given_up.empty())) {
-        next.status = found.status;  // theirs
-        next.message = std::move(found.message);
+        const SearchResult& theirs = later.empty() ? last_given_up : found;
+        next.status = theirs.status;
+        next.message = theirs.message;
       }
       found = std::move(next);
-    }
-    if (query->kept_[turn].search) {
-      later.push_back(turn);
-    } else if (status == PlanStatus::kTimedOut || status == PlanStatus::kMemoryLimit) {
-      given_up.push_back(turn);
     }
     if (found.status == PlanStatus::kSolved) {
       if (!has_path) waiting.insert(waiting.end(), given_up.begin(), given_up.end());
       has_path = true;
       const auto suffices = [&](std::size_t i) {
-        return found.wanted_epsilon == 0 || found.cost <= found.wanted_epsilon * lower_bounds[i];
+        if (found.wanted_epsilon > 0 && found.cost > found.wanted_epsilon * lower_bounds[i]) {
+          return false;
+        }
+        enough.push_back(i);
+        return true;
       };
       std::erase_if(waiting, suffices);
       std::erase_if(later, suffices);
@@ -299,7 +311,10 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       waiting.swap(later);
       turn_work *= 2;
     }
-    if (!waiting.empty()) found.remains.reset();  // makes room for the next goal's search
+    if (!waiting.empty()) {  // Makes room for the next goal's search.
+      found.remains.reset();
+      for (const std::size_t i : enough) query->TakeKeptOf(i);
+    }
   }
   found.lower_bound = *std::min_element(lower_bounds.begin(), lower_bounds.end());
   return found;
@@ -312,7 +327,7 @@ SearchResult Planner::SearchFor(const std::string& algorithm, const GoalBox& goa
   query->goal_ = backward ? PointGoal(resolved.start) : goal;
   query->initial_path_ = {};
   const Path& initial = resolved.initial_path;
-  if (!initial.empty() && goal.Contains(edges.space(), initial.back())) {
+  if (EndsIn(edges.space(), initial, goal)) {
     query->initial_path_ = initial;
     if (backward) {
       query->start_ = initial.back();

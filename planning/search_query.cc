@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <utility>
 
 #include "planning/proven_bound.h"
@@ -36,20 +35,23 @@ bool SearchQuery::TurnIsOver() {
 }
 
 void SearchQuery::Keep(std::shared_ptr<void> search, std::size_t bytes) {
+  TakeKept();
   kept_[turn_] = {std::move(search), bytes};
+  kept_bytes_ += bytes;
 }
 
-std::shared_ptr<void> SearchQuery::TakeKept() {
-  return std::exchange(kept_[turn_], KeptSearch()).search;
+std::shared_ptr<void> SearchQuery::TakeKept() { return TakeKeptOf(turn_); }
+
+std::shared_ptr<void> SearchQuery::TakeKeptOf(std::size_t goal) {
+  KeptSearch kept = std::exchange(kept_[goal], KeptSearch());
+  kept_bytes_ -= kept.bytes;
+  return std::move(kept.search);
 }
 
-std::size_t SearchQuery::KeptBytes() const {
-  return std::accumulate(
-      kept_.begin(), kept_.end(), std::size_t{0},
-      [](std::size_t bytes, const KeptSearch& kept) { return bytes + kept.bytes; });
+void SearchQuery::DropKept() {
+  kept_.assign(kept_.size(), KeptSearch());
+  kept_bytes_ = 0;
 }
-
-void SearchQuery::DropKept() { kept_.assign(kept_.size(), KeptSearch()); }
 
 void SearchQuery::ReportSolution(double lower_bound, double cost, std::int64_t expansions) {
   if (cost < known_cost_) HoldPath();

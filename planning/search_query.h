@@ -54,7 +54,7 @@ class SearchQuery {
   /// What was kept in this goal's last turn; null in its first one, or if it has been dropped.
   std::shared_ptr<void> TakeKept();
   /// What is kept of the other goals' searches, bytes.
-  std::size_t KeptBytes() const;
+  std::size_t KeptBytes() const { return kept_bytes_; }
   /// Makes room: the other goals' searches begin anew in their next turns.
   void DropKept();
   /// Reports a solution of an anytime search the moment it is ready, and each better proof: the
@@ -73,6 +73,7 @@ class SearchQuery {
     std::shared_ptr<void> search;
     std::size_t bytes = 0;
   };
+  std::shared_ptr<void> TakeKeptOf(std::size_t goal);
   /// ShouldStop, of the request whatever the turn.
   bool IsOver() const;
   /// Whether searches of this planner go on in later turns, as far as is known.
@@ -98,6 +99,7 @@ class SearchQuery {
   std::int64_t num_steps_ = 0;    ///< That TurnIsOver was asked between.
   std::size_t turn_ = 0;          ///< The goal whose turn it is.
   std::vector<KeptSearch> kept_;  ///< By goal.
+  std::size_t kept_bytes_ = 0;    ///< Their sum.
   double known_cost_ = std::numeric_limits<double>::infinity();
   /// What was known of the costs of paths to this goal and to the others when its turn began.
   double lower_bound_ = 0;

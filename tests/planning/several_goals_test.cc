@@ -135,17 +135,24 @@ TEST_F(SeveralGoals, ShareTheTime) {
 }
 
 TEST_F(SeveralGoals, ATurnEndsThoughItsSearchAsksForNothingButEdges) {
-  PlanRequest request = RequestFor({{0.5, 0, 0}, {0.4, 0, 0}});
-  request.time_limit_s = 1;
+  std::vector<Configuration> goals;
+  for (int i = 0; i < 25; ++i) goals.push_back({0.5 - 0.01 * i, 0, 0});
+  PlanRequest request = RequestFor(goals);
+  request.time_limit_s = 5;  // of which the first turn has 0.2 s
+  bool is_first = true;
   Plan(
-      [](SearchQuery& query) {
-        while (!query.edges().Stopped()) {
-          query.edges().IsValidEdge(query.start(), query.goal().nominal);
-        }
+      [&](SearchQuery& query) {
+        if (!std::exchange(is_first, false)) return Ended(PlanStatus::kExhausted);
+        EdgeChecker& edges = query.edges();
+        while (!edges.Stopped()) edges.IsValidEdge(query.start(), query.goal().nominal);
+        EXPECT_FALSE(edges.IsValidEdge(query.start(), query.goal().nominal));
+        query.HoldPath();
+        EXPECT_TRUE(edges.IsValidEdge(query.start(), query.goal().nominal))
+            << "the turn is as long as the request";
         return Ended(PlanStatus::kTimedOut);
       },
       request);
-  EXPECT_EQ(num_searches_, 2);
+  EXPECT_EQ(num_searches_, 25);
 }
 
 TEST_F(SeveralGoals, OneThatTakesAllTheMemoryLeavesTheOthers) {
@@ -164,6 +171,21 @@ TEST_F(SeveralGoals, OneThatTakesAllTheMemoryLeavesTheOthers) {
   EXPECT_EQ(run_out_until(3, PlanStatus::kExhausted).status, PlanStatus::kMemoryLimit);
   EXPECT_EQ(run_out_until(4, PlanStatus::kExhausted).status, PlanStatus::kMemoryLimit);
   EXPECT_EQ(num_searches_, 3);
+
+  num_searches = 0;
+  const PlanResult result = Plan(
+      [&](SearchQuery& query) {
+        if (++num_searches == 1) return Ended(PlanStatus::kMemoryLimit);
+        if (query.TakeKept() != nullptr) return Ended(PlanStatus::kExhausted);
+        query.Keep(std::make_shared<int>(), 1);
+        SearchResult kept = Ended(PlanStatus::kTimedOut);
+        kept.message = "its turn is over";
+        return kept;
+      },
+      request);
+  EXPECT_EQ(num_searches, 5);
+  EXPECT_EQ(result.status, PlanStatus::kMemoryLimit) << "no goal is left for want of time";
+  EXPECT_EQ(result.message, "because");
 }
 
 /// A search that ends after so many steps, whatever the turns that they take.
@@ -411,6 +433,35 @@ TEST_F(SeveralGoals, WithAPathTheTurnsGoOnWithThoseThatStandAgainstTheBound) {
   EXPECT_EQ(result.cost, 6);
   EXPECT_EQ(result.epsilon, 1);
   EXPECT_EQ(result.path, (Path{start_, {0.6 - 2, 0, 0}}));
+}
+
+TEST_F(SeveralGoals, WhatIsKeptOfGoalsThatNoLongerStandAgainstTheBoundIsDropped) {
+  // At least 2, 4 and 6.
+  PlanRequest request = RequestFor({{0.6 - 1, 0, 0}, {0.6 - 2, 0, 0}, {0.6 - 3, 0, 0}});
+  request.anytime = true;
+  int num_searches = 0;
+  ProvingPlanner planner(robot_, [&](SearchQuery& query) {
+    const std::shared_ptr<void> kept = query.TakeKept();
+    if (++num_searches <= 2) {
+      query.Keep(std::make_shared<int>(), 100);
+      return Ended(PlanStatus::kTimedOut);
+    }
+    SearchResult result = StraightLine(query);
+    result.wanted_epsilon = 1;
+    if (num_searches == 3) {
+      EXPECT_EQ(query.KeptBytes(), 200u);
+      result.cost = 8;
+      result.lower_bound = 6;
+      query.Keep(std::make_shared<int>(), 100);
+    } else {
+      EXPECT_EQ(query.KeptBytes(), num_searches == 4 ? 200u : 0u);
+      result.cost = result.lower_bound = num_searches == 4 ? 5 : 4.5;
+    }
+    return result;
+  });
+  const PlanResult result = planner.Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
+  EXPECT_EQ(num_searches, 5) << "none for the third once there is a path at 5";
 }
 
 TEST_F(SeveralGoals, APathInHandOutlivesTheMemoryOfAFurtherSearch) {
