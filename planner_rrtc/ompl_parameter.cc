@@ -40,7 +40,9 @@ Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
     bounds.integers = suggestion.find('.') == std::string::npos;
     if (*first >= 0) bounds.least = 0;
     if (*first >= 0 && *last == 1) bounds.most = 1;
-    if (bounds.integers) bounds = {std::min(*first, 1.0), *last, true};
+    // With a degree of 1 the trees that OMPL sorts neighbours into have no branches.
+    const bool is_degree = name.find("degree") != std::string::npos;
+    if (bounds.integers) bounds = {is_degree ? *first : std::min(*first, 1.0), *last, true};
   }
   if (name == "range") bounds.least = 0;
   for (const char* share : {"bias", "fraction", "probability"}) {

@@ -142,7 +142,8 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
                  {"samples_per_batch: 4000000000 is not from 1 to 1000000"});
   expect_refused("algorithm: LazyPRM\nompl: {max_nearest_neighbors: 5000000000}",
                  {"5000000000 is not from 1 to 1000"});
-  expect_refused("algorithm: STRIDE\nompl: {degree: 0}", {"0 is not from 1 to 20"});
+  expect_refused("algorithm: STRIDE\nompl: {degree: 1}", {"1 is not from 2 to 20"});
+  expect_refused("algorithm: STRIDE\nompl: {max_pts_per_leaf: 0}", {"0 is not from 1 to 200"});
   expect_refused("algorithm: RRTsharp\nompl: {rejection_variant: 4}", {"4 is not from 0 to 3"});
   expect_refused("algorithm: RRTstar\nompl: {rewire_factor: 1e300}",
                  {"1e300 is not from 0 to 1000000"});
