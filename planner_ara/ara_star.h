@@ -109,8 +109,10 @@ class AraStar {
   }
 
   /// Has the next ImprovePath take in the edges that the graph has got since its states were
-  /// expanded, and begin a new iteration. What was proven of the optimum does not hold any more.
+  /// expanded, and the guides that the others have by now, and begin a new iteration. What was
+  /// proven of the optimum does not hold any more.
   void ExpandAgain() {
+    open_.Clear();  // Its edges are among those to be taken in.
     lower_bound_ = 0;
     epsilon_ = 0;
     expand_again_at_ = 0;

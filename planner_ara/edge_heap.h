@@ -53,6 +53,8 @@ class EdgeHeap {
     entries_[position] = entry;
   }
 
+  void Clear() { entries_.clear(); }
+
   Entry Pop() {
     const Entry first = entries_.front();
     const Entry last = entries_.back();

@@ -70,6 +70,24 @@ std::vector<double> GoalDistance::SquaredTerms(int j, std::span<const double> va
   return terms;
 }
 
+std::vector<double> GoalDistance::SquaredTermsRound(int j, std::span<const double> values,
+                                                    double wall) const {
+  const Side& side = sides_[static_cast<std::size_t>(j)];
+  // How far round from the wall, in [0, 2 pi).
+  const auto beyond_wall = [&](double value) {
+    return WrapAngle(value - wall - std::numbers::pi) + std::numbers::pi;
+  };
+  const double nominal = beyond_wall(side.nominal);
+  std::vector<double> terms;
+  for (const double value : values) {
+    const double offset = beyond_wall(value) - nominal;
+    const double motion = std::max({0.0, side.below - offset, offset - side.above});
+    const double weighted = weights_[static_cast<std::size_t>(j)] * motion;
+    terms.push_back(weighted * weighted);
+  }
+  return terms;
+}
+
 double GoalDistance::operator()(std::span<const double> q) const {
   double sum = 0;
   for (int j = 0; j < space_->size(); ++j) sum += SquaredTerm(j, q[static_cast<std::size_t>(j)]);

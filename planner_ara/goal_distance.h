@@ -22,6 +22,8 @@ class GoalDistance {
   double SquaredTerm(int j, double value) const;
   /// The same at many positions.
   std::vector<double> SquaredTerms(int j, std::span<const double> values) const;
+  /// The same of a continuous joint by ways that do not pass `wall`, a position outside the box.
+  std::vector<double> SquaredTermsRound(int j, std::span<const double> values, double wall) const;
   /// The distance from q.
   double operator()(std::span<const double> q) const;
   /// The nearest point of the box within the joint limits; the nominal point itself where the box

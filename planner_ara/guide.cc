@@ -37,6 +37,12 @@ void Guide::ByTip(std::unique_ptr<TipDistance> distance, double weight) {
   tip_weight_ = weight;
 }
 
+void Guide::MeasureBy(const std::vector<std::vector<double>>* terms) {
+  goal_terms_ = terms;
+  has_own_terms_ = true;
+  std::fill(visits_.begin(), visits_.end(), std::uint16_t{0});
+}
+
 // Sets, of each part, how far it is from the goal and whether it is at one of the ends.
 void Guide::Locate(std::span<const Lattice::Coordinate> point) {
   for (Part& part : parts_) {
@@ -69,6 +75,11 @@ void Guide::SelectSource(std::span<const Lattice::Coordinate> source, std::span<
 
 float Guide::operator()(std::span<const Lattice::Coordinate> target, double heuristic) {
   if (parts_.size() == 1) {
+    if (has_own_terms_) {
+      double squared = 0;
+      for (std::size_t j = 0; j < target.size(); ++j) squared += (*goal_terms_)[j][target[j]];
+      heuristic = unit_ * std::sqrt(squared);
+    }
     return static_cast<float>(parts_[0].crowd * (heuristic + parts_[0].detour));
   }
   Locate(target);

@@ -18,7 +18,8 @@ namespace planbench {
 ///
 /// The guide of a state is c (h + d): h the joint distance to the goal, d the weighted distance of
 /// the tip of the state's source, c = 1 + crowding (log2(1 + n) + n / 5), n how many states were
-/// expanded before in the source's place, a cell of the joints that count in it.
+/// expanded before in the source's place, a cell of the joints that count in it. It is told where h
+/// leads against a wall, and measures the joints by other terms from then on.
 ///
 /// Of several arms it is the sum of that over the arms, and over the joints that they share. Those
 /// that wait where the search began or have arrived at the goal are no part of the place, and have
@@ -36,6 +37,9 @@ class Guide {
   /// `weight`: rad/m.
   void ByTip(std::unique_ptr<TipDistance> distance, double weight);
   bool by_tip() const { return tip_distance_ != nullptr; }
+  /// As `goal_terms` are given, instead of those and of the heuristic; no place is crowded any
+  /// more.
+  void MeasureBy(const std::vector<std::vector<double>>* terms);
 
   /// A state is expanded; q is its configuration, or empty if the tips shall not matter.
   void SelectSource(std::span<const Lattice::Coordinate> source, std::span<const double> q);
@@ -63,6 +67,7 @@ class Guide {
 
   const Lattice* lattice_;
   const std::vector<std::vector<double>>* goal_terms_;
+  bool has_own_terms_ = false;  // that the heuristic is not made of
   const std::vector<Lattice::Coordinate>* goal_cells_;
   Arms arms_;
   double unit_;

@@ -154,6 +154,17 @@ void ManipulationGraph::GuideByTip(std::unique_ptr<TipDistance> distance, double
   guide_->ByTip(std::move(distance), weight);
 }
 
+void ManipulationGraph::GuideRound(std::span<const std::optional<double>> walls) {
+  terms_round_walls_ = goal_terms_;
+  for (std::size_t j = 0; j < walls.size(); ++j) {
+    if (!walls[j]) continue;
+    const auto joint = static_cast<int>(j);
+    terms_round_walls_[j] =
+        goal_distance_.SquaredTermsRound(joint, lattice_.values(joint), *walls[j]);
+  }
+  guide_->MeasureBy(&terms_round_walls_);
+}
+
 void ManipulationGraph::AddPaths(std::span<const Path> paths) {
   recalled_.emplace(edges_->space(), lattice_, options_.weights, paths);
 }

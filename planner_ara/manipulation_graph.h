@@ -81,6 +81,9 @@ class ManipulationGraph {
   bool Refine();
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
+  /// By joint a position that the guide does not lead across, but the other way round, if there is
+  /// one (FindWalls). The heuristic, which bounds costs, stays as it is.
+  void GuideRound(std::span<const std::optional<double>> walls);
   /// Before the search: adds the edges of paths that were found before (RecalledPaths). They are
   /// followed first. The heuristic must wrap.
   void AddPaths(std::span<const Path> paths);
@@ -166,6 +169,8 @@ class ManipulationGraph {
   // Squared weighted distance by joint and cell, to the goal box and to the start.
   std::vector<std::vector<double>> goal_terms_;
   std::vector<std::vector<double>> start_terms_;
+  // As goal_terms_, of the ways that the guide leads.
+  std::vector<std::vector<double>> terms_round_walls_;
   ChunkedArray<std::uint64_t> known_edges_;  // by state
   ChunkedArray<float> clearances_;           // by state, m; 0 where it is not known
   // Without wrapping: by point, how many turns of each joint its first arrival was beyond Value().

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/numbers.h"
+#include "planner_ara/joint_walls.h"
 #include "planning/proven_bound.h"
 #include "planning/shortcut.h"
 
@@ -20,6 +21,8 @@ constexpr std::int64_t kSlice = 200;
 constexpr std::int64_t kExpansionWork = 10;
 /// The search that is in the narrower place does at most so many times the work of the other.
 constexpr double kMostWorkRatio = 5;
+/// Walls are sought after so many expansions without a path: by then most searches have one.
+constexpr std::int64_t kSeekWallsAfter = 500;
 /// The bridge's search goes on for this much work after each turn of another, as long as it has
 /// done less than they in the mean.
 constexpr std::int64_t kBridgeSlice = 1000;
@@ -82,7 +85,10 @@ struct TwoWaySearch::Bridge {
 
 TwoWaySearch::TwoWaySearch(EdgeChecker* edges, const Configuration& start, const GoalBox& goal,
                            const ManipulationGraphOptions& options, bool two_way)
-    : edges_(edges), options_(options), bridge_at_(options.bridge_after) {
+    : edges_(edges),
+      options_(options),
+      may_have_walls_(options.wrap_heuristic),
+      bridge_at_(options.bridge_after) {
   sides_.push_back(std::make_unique<Side>(edges, start, goal, options));
   if (!two_way) return;
   const GoalBox back_to_start{start, start, start};
@@ -167,6 +173,9 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
     if (side == nullptr) break;
     const EdgeOrder order = phase_ == Phase::kProof ? EdgeOrder::kHeuristic : EdgeOrder::kGuide;
     const bool alone = sides_.size() == 1;
+    const bool may_seek_walls = phase_ == Phase::kFirst && may_have_walls_;
+    if (may_seek_walls && counts().expansions >= kSeekWallsAfter) SeekWalls();
+    const bool takes_turns = !alone || may_seek_walls;
     const WorkMeter meter(edges_, side->search.num_expansions());
     const double cost_before = side->search.goal_cost();
     bool stopped = false;
@@ -174,7 +183,7 @@ ImproveOutcome TwoWaySearch::Improve(double epsilon, const std::function<bool()>
         phase_ == Phase::kFirst ? std::max(epsilon, kFirstGuideWeight) : epsilon,
         [&] {
           stopped = should_stop();
-          return stopped || (!alone && meter.Work(side->search.num_expansions()) >= kSlice);
+          return stopped || (takes_turns && meter.Work(side->search.num_expansions()) >= kSlice);
         },
         order);
     side->work += meter.Work(side->search.num_expansions());
@@ -252,6 +261,20 @@ double TwoWaySearch::MeanWork() const {
 
 // Looks at the clearance of a state that has just been expanded, if it may be an end of the next
 // bridge.
+void TwoWaySearch::SeekWalls() {
+  may_have_walls_ = false;
+  const Side& forward = *sides_.front();
+  const auto walls = FindWalls(edges_, forward.root, forward.target);
+  if (std::none_of(walls.begin(), walls.end(), [](const auto& wall) { return wall.has_value(); })) {
+    return;
+  }
+  for (const auto& side : sides_) {
+    if (side->converged) continue;
+    side->graph.GuideRound(walls);
+    side->search.ExpandAgain();
+  }
+}
+
 void TwoWaySearch::LookAround(Side* side) {
   if (MeanWork() < bridge_at_ / 2) return;
   const StateId state = side->search.last_expanded();

@@ -24,6 +24,9 @@ namespace planbench {
 /// the bound is what is left to do. Where a lattice holds no path, its search goes on with finer
 /// moves (ManipulationGraph::Refine), the states kept.
 ///
+/// Where they have been without success for a while, they look for walls between start and goal
+/// that a continuous joint cannot pass on its short way (FindWalls), and are guided round those.
+///
 /// Where both have long been without success, each stuck before the narrow place in which the other
 /// began, a search for a bridge between the widest states of both takes their place: for half as
 /// much work as they have done together, and again when that has doubled.
@@ -99,6 +102,7 @@ class TwoWaySearch {
   void TakePath(double cost, Path path, bool is_backward);
   void SetCost(double cost);
   bool ShortenPath(const std::function<bool()>& should_stop);
+  void SeekWalls();
   void LookAround(Side* side);
   void BeginBridge();
   void GiveUpBridge();
@@ -122,6 +126,7 @@ class TwoWaySearch {
   bool found_backward_ = false;
   bool is_bridged_ = false;
   bool may_be_shortened_ = false;
+  bool may_have_walls_;  // that were not sought
   std::unique_ptr<Bridge> bridge_;
   double bridge_at_;      // mean work of the sides when the next bridge is begun
   Counts bridge_counts_;  // of those given up

@@ -207,7 +207,9 @@ TEST_F(AraPlannerTest, ProvesThatTheLatticeHoldsNoPath) {
   EXPECT_FALSE(result.message.empty());
   EXPECT_GT(result.counters.at("expansions"), 100);
   EXPECT_GE(result.counters.at("states"), result.counters.at("expansions"));
-  EXPECT_EQ(result.counters.at("goal_connections_tried"), result.counters.at("expansions"));
+  // Guided round the wall, states that are reached at less cost are expanded again.
+  EXPECT_GT(result.counters.at("goal_connections_tried"), 100);
+  EXPECT_LE(result.counters.at("goal_connections_tried"), result.counters.at("expansions"));
 }
 
 TEST_F(AraPlannerTest, StopsAtItsMemoryLimit) {

@@ -33,6 +33,20 @@ TEST(GoalDistance, OfAPointIsTheWeightedDistance) {
   EXPECT_EQ(nearest, goal);
 }
 
+TEST(GoalDistance, RoundAWallIsThatOfTheOtherWay) {
+  const JointSpace space = TestSpace();
+  const GoalBox box{{0.1, 1.0, 3.0}, {0.1, 1.0, 2.9}, {0.1, 1.0, 3.1}};
+  const GoalDistance distance(space, box, {1, 1, 2});
+  // The wall is beyond pi, as seen from the goal: from -3 the way is round by 0.
+  const std::vector<double> values = {2.0, 2.95, 3.12, -3.0, 0.0};
+  const std::vector<double> ways = {0.9, 0, 0.02, 5.9, 2.9};
+  const std::vector<double> terms = distance.SquaredTermsRound(2, values, -3.1);
+  ASSERT_EQ(terms.size(), values.size());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    EXPECT_NEAR(terms[i], std::pow(2 * ways[i], 2), 1e-12) << values[i];
+  }
+}
+
 TEST(GoalDistance, OfABoxIsTheDistanceToItsNearestPoint) {
   const JointSpace space = TestSpace();
   const GoalBox box{{0.2, 1.0, 3.1}, {0.1, 0.8, 2.9}, {0.25, 1.5, 3.3}};  // roll across pi

@@ -66,6 +66,20 @@ TEST_F(GuideTest, IsTheDistanceAndMoreInCrowdedPlaces) {
   EXPECT_FLOAT_EQ(guide(near, Distance(near)), static_cast<float>(Distance(near)));
 }
 
+TEST_F(GuideTest, MeasuresByOtherTermsInPlacesNotCrowdedYet) {
+  std::vector<std::vector<double>> other_terms = goal_terms_;
+  for (double& term : other_terms[0]) term = 9;
+  const Point near = From({2, 2, 2, 0});
+  for (const Arms& arms : {one_, two_}) {
+    Guide guide = Make(arms, 0.5);
+    for (int n = 0; n < 20; ++n) guide.SelectSource(near, {});
+    guide.MeasureBy(&other_terms);
+    guide.SelectSource(near, {});
+    const double expected = arms.num == 1 ? std::sqrt(9 + 1) : 3 + 1;
+    EXPECT_FLOAT_EQ(guide(near, Distance(near)), static_cast<float>(expected));
+  }
+}
+
 TEST_F(GuideTest, PutsOffStatesInWhichSeveralArmsAreUnderWay) {
   Guide guide = Make(two_, 0);
   guide.SelectSource(Start(), {});

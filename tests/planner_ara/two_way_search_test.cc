@@ -235,6 +235,25 @@ TEST_F(TwoWaySearchTest, TheSearchOutOfTheNarrowerPlaceDoesMostOfTheWork) {
   EXPECT_LT(find(wide, narrow, true), 1.5 * alone);
 }
 
+// A post beside the column, which the upper arm cannot pass, is on the short way.
+TEST_F(TwoWaySearchTest, IsGuidedRoundWhatAContinuousJointCannotPass) {
+  Scene scene = EmptyPlanarScene();
+  AddBox(&scene, "post", {-0.3, 0, 0}, {0.05, 0.05, 0.2});
+  checker_->SetScene(scene, std::vector<double>(4, 0.0));
+  const Configuration start = {2.5, 0.1, 0};
+  const Configuration goal = {-2.5, 0, -0.1};
+  options_.discretization.assign(3, 0.05);
+  for (const bool two_way : {false, true}) {
+    TwoWaySearch search(edges_.get(), start, PointGoal(goal), options_, two_way);
+    ASSERT_EQ(search.Improve(50, kGoOn, kSilent), ImproveOutcome::kConverged);
+    EXPECT_LT(search.counts().expansions, 1000) << two_way;
+    ExpectJoins(start, goal, search.path(), search.cost());
+    // The bound is of the wrapped heuristic still: the start's, to the goal across the post.
+    EXPECT_GE(search.ProveLowerBound(), edges_->space().Distance(start, goal) - 1e-9);
+    EXPECT_LT(search.ProveLowerBound(), search.cost());
+  }
+}
+
 TEST_F(TwoWaySearchTest, OneWayKnowsItsOwnLatticeOnly) {
   options_.shorten = false;
   TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, false);
