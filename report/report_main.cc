@@ -160,8 +160,8 @@ int Run(Flags flags) {
   const Json data = FigureData(compared, pairs, tables);
   if (!flags.figures.empty()) PrintFigures(data, flags.figures);
   const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews);
-  for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   WriteFile(flags.out, ReportPage(data, views));
+  for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   std::cout << "report: " << flags.out << "\n";
   return kExitOk;
 }

@@ -185,8 +185,9 @@ TEST_F(LiveSessionTest, ImprovementsThatAreNoneAreNotShown) {
   const auto costs_after = [&](const PlanProgress& next) {
     progress.progress = next;
     Hear("PLAN_PROGRESS_ARA", progress);
+    const Json state = State();
     Json costs = Json::array();
-    for (const Json& one : State()["progress"]) costs.push_back(one["cost"]);
+    for (const Json& one : state["progress"]) costs.push_back(one["cost"]);
     return costs;
   };
   EXPECT_EQ(costs_after({0.5, 3, 20, 7}), Json::array({20}));
