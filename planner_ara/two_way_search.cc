@@ -259,8 +259,6 @@ double TwoWaySearch::MeanWork() const {
   return static_cast<double>(sides_.front()->work + sides_.back()->work) / 2;
 }
 
-// Looks at the clearance of a state that has just been expanded, if it may be an end of the next
-// bridge.
 void TwoWaySearch::SeekWalls() {
   may_have_walls_ = false;
   const Side& forward = *sides_.front();
@@ -275,6 +273,8 @@ void TwoWaySearch::SeekWalls() {
   }
 }
 
+// Looks at the clearance of a state that has just been expanded, if it may be an end of the next
+// bridge.
 void TwoWaySearch::LookAround(Side* side) {
   if (MeanWork() < bridge_at_ / 2) return;
   const StateId state = side->search.last_expanded();
