@@ -336,7 +336,7 @@ void Register(Workload* work) {
 int Main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   std::string problems;
-  RobotFlags robot{.folder = "fetch"};
+  RobotFlags robot{.folder = "fetch", .spheres = {}, .package_paths = {}};
   CollisionModel model = CollisionModel::kSpheres;
   int index = 1;
   CLI::App app("Throughput of collision checking on one problem", "collision_benchmark");

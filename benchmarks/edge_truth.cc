@@ -83,7 +83,7 @@ void CompareConfigurations(CollisionChecker* fast, CollisionChecker* exact, long
 
 int Main(int argc, char** argv) {
   std::string problems;
-  RobotFlags robot_flags{.folder = "fetch"};
+  RobotFlags robot_flags{.folder = "fetch", .spheres = {}, .package_paths = {}};
   int index = 1;
   CollisionModel model = CollisionModel::kSpheres;
   long long num_configurations = 1'000'000;

@@ -42,7 +42,7 @@ namespace planbench {
 namespace {
 
 struct Flags {
-  RobotFlags robot{.folder = "fetch"};
+  RobotFlags robot{.folder = "fetch", .spheres = {}, .package_paths = {}};
   std::vector<std::string> problems;
   std::string planner = "ara";
   std::string config;
