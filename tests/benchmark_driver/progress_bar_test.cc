@@ -1,5 +1,6 @@
 #include "benchmark_driver/progress_bar.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,10 +51,10 @@ TEST(ProgressBarTest, ARunThatIsToBeRepeatedCountsWhenItHasBeen) {
   {
     RunRows runs;
     RunRecordMessage record = Record("ara", PlanStatus::kTimedOut);
-    record.request_id = "1";
+    record.request_id = fmt::format("{}", 1);  // GCC 12 warns falsely of literals
     runs.Add(record, false, true);
     ProgressBar bar(3, runs);
-    record.request_id = "2";
+    record.request_id = fmt::format("{}", 2);
     bar.Add(runs.Add(record, false, true));
     record.status = PlanStatus::kSolved;
     record.result.result.counters["repeats"] = 1;
