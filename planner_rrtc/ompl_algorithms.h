@@ -20,7 +20,7 @@ struct OmplAlgorithm {
   bool bidirectional;
   ompl::base::PlannerPtr (*make)(const ompl::base::SpaceInformationPtr& si);
   /// What is not as in OMPL, for its name; empty: nothing.
-  std::string_view variant = "";
+  std::string_view variant = {};
 };
 
 /// Those offered, by name: single-threaded ones that need nothing but a space, a validator and a

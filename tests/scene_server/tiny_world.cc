@@ -94,7 +94,7 @@ SceneObject UprightCylinder(const std::string& id, double x, double y, double ra
   SceneObject object;
   object.id = id;
   object.X_WO.translation() = Eigen::Vector3d(x, y, height / 2);
-  object.shapes.push_back({Cylinder{radius, height}, Eigen::Isometry3d::Identity()});
+  object.shapes.emplace_back().shape = Cylinder{radius, height};
   return object;
 }
 
