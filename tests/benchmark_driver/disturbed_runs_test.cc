@@ -62,6 +62,19 @@ class DisturbedMachine {
   TemporaryFolder folder_;
 };
 
+class DisturbedRunsTest : public DriverTest {
+ protected:
+  /// On such a machine, disturbed runs made again.
+  static DriverOptions Repeating(const DisturbedMachine& machine,
+                                 Directions directions = Directions::kBoth) {
+    DriverOptions options = Options();
+    options.directions = directions;
+    options.kernel = machine.folders();
+    options.repeat_disturbed = true;
+    return options;
+  }
+};
+
 /// Records in the order in which they came, each once: one is sent again until it is acknowledged.
 std::vector<RunRecordMessage> EachOnce(std::vector<RunRecordMessage> records) {
   std::set<std::string> seen;
@@ -81,15 +94,13 @@ std::vector<std::string> ToldOf(const std::vector<RunRecordMessage>& records) {
   return told;
 }
 
-TEST_F(DriverTest, DisturbedRunsAreRecordedAtOnceAndMadeAgainAtTheEnd) {
+TEST_F(DisturbedRunsTest, DisturbedRunsAreRecordedAtOnceAndMadeAgainAtTheEnd) {
   FakePlanner planner(&bus_);
   const DisturbedMachine machine(
       &planner, {{"run/cans/1/arm/forward/1", 2}, {"run/cans/1/arm/backward/1", 9}});
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  const DriverOptions options = Repeating(machine);
   Driver driver(&bus_, options, LineUp({"arm"}), {});
   MakeAll(&driver);
   EXPECT_EQ(ToldOf(EachOnce(logger.records().messages())),
@@ -109,15 +120,12 @@ TEST_F(DriverTest, DisturbedRunsAreRecordedAtOnceAndMadeAgainAtTheEnd) {
   }
 }
 
-TEST_F(DriverTest, AResumedSessionMakesTheRepeatsThatAreOwed) {
+TEST_F(DisturbedRunsTest, AResumedSessionMakesTheRepeatsThatAreOwed) {
   FakePlanner planner(&bus_);
   const std::string first = "run/cans/1/arm/forward/1";
   const DisturbedMachine machine(&planner, {{first, 99}});
   const FakeSceneServer server(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kForward;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  const DriverOptions options = Repeating(machine, Directions::kForward);
   std::vector<SessionMessage> sessions;
   std::vector<RunRecordMessage> attempts;  // at the first problem
   {
@@ -145,15 +153,12 @@ TEST_F(DriverTest, AResumedSessionMakesTheRepeatsThatAreOwed) {
   }
 }
 
-TEST_F(DriverTest, ASessionThatOwesRepeatsIsNotFinished) {
+TEST_F(DisturbedRunsTest, ASessionThatOwesRepeatsIsNotFinished) {
   FakePlanner planner(&bus_);
   const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kForward;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  DriverOptions options = Repeating(machine, Directions::kForward);
   EarlierSession earlier;
   {
     Driver driver(&bus_, options, LineUp({"arm"}), {});
@@ -179,7 +184,7 @@ TEST_F(DriverTest, ASessionThatOwesRepeatsIsNotFinished) {
   }
 }
 
-TEST_F(DriverTest, AFailedAttemptThatWasDisturbedDoesNotHoldUpTheOther) {
+TEST_F(DisturbedRunsTest, AFailedAttemptThatWasDisturbedDoesNotHoldUpTheOther) {
   FakePlanner planner(&bus_);
   const std::string forward = "run/cans/2/arm/forward/1", backward = "run/cans/2/arm/backward/1";
   std::set<std::string> failed;
@@ -194,10 +199,7 @@ TEST_F(DriverTest, AFailedAttemptThatWasDisturbedDoesNotHoldUpTheOther) {
   });
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kAuto;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  const DriverOptions options = Repeating(machine, Directions::kAuto);
   Driver driver(&bus_, options, LineUp({"arm"}), {});
   MakeAll(&driver);
   EXPECT_EQ(ToldOf(EachOnce(logger.records().messages())),
@@ -212,7 +214,7 @@ TEST_F(DriverTest, AFailedAttemptThatWasDisturbedDoesNotHoldUpTheOther) {
   }
 }
 
-TEST_F(DriverTest, OfADisturbedRunThatCannotBeRepeatedTheAnswerStands) {
+TEST_F(DisturbedRunsTest, OfADisturbedRunThatCannotBeRepeatedTheAnswerStands) {
   FakePlanner planner(&bus_);
   std::atomic<bool> dead = false;
   const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}},
@@ -224,10 +226,7 @@ TEST_F(DriverTest, OfADisturbedRunThatCannotBeRepeatedTheAnswerStands) {
                                  });
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kForward;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  const DriverOptions options = Repeating(machine, Directions::kForward);
   Driver driver(&bus_, options, LineUp({"arm"}), {});
   driver.Discover(true, Idle);
   EXPECT_TRUE(driver.Run(Never, [&] {
@@ -241,15 +240,12 @@ TEST_F(DriverTest, OfADisturbedRunThatCannotBeRepeatedTheAnswerStands) {
   EXPECT_TRUE(driver.runs().rows().front().disturbed);
 }
 
-TEST_F(DriverTest, WhatDependsOnADisturbedRunWaitsForIt) {
+TEST_F(DisturbedRunsTest, WhatDependsOnADisturbedRunWaitsForIt) {
   FakePlanner planner(&bus_);
   const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
-  DriverOptions options = Options();
-  options.directions = Directions::kAuto;
-  options.kernel = machine.folders();
-  options.repeat_disturbed = true;
+  const DriverOptions options = Repeating(machine, Directions::kAuto);
   Driver driver(&bus_, options, LineUp({"arm"}), {});
   MakeAll(&driver);
   EXPECT_EQ(Ids(logger.records()),
@@ -257,7 +253,7 @@ TEST_F(DriverTest, WhatDependsOnADisturbedRunWaitsForIt) {
   EXPECT_EQ(driver.num_runs(), 2);
 }
 
-TEST_F(DriverTest, DisturbedRunsAreMarkedWhereTheyAreNotRepeated) {
+TEST_F(DisturbedRunsTest, DisturbedRunsAreMarkedWhereTheyAreNotRepeated) {
   FakePlanner planner(&bus_);
   const DisturbedMachine machine(&planner, {{"run/cans/1/arm/forward/1", 1}});
   const FakeSceneServer server(&bus_);
