@@ -75,12 +75,10 @@ void Supervisor::Start(ChildSpec spec) {
   children_.push_back(std::move(child));
 }
 
-int Supervisor::NumDeathsAtWork(const std::string& name) const {
+int Supervisor::NumDeathsAtWork(const std::string& name) {
   const std::scoped_lock lock(mutex_);
-  for (const Child& child : children_) {
-    if (child.spec.name == name) return child.num_deaths_at_work;
-  }
-  return 0;
+  const Child* child = Find(name);
+  return child == nullptr ? 0 : child->num_deaths_at_work;
 }
 
 void Supervisor::CameUp(const std::string& name) {

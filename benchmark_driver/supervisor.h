@@ -49,7 +49,7 @@ class Supervisor {
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
   /// How often that child died after it had come up.
-  int NumDeathsAtWork(const std::string& name) const;
+  int NumDeathsAtWork(const std::string& name);
 
   static constexpr int kMaxQuickDeaths = 5;
   static constexpr std::chrono::seconds kQuick{5};
