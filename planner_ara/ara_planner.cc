@@ -85,8 +85,8 @@ class AraPlanner : public Planner {
     bool out_of_memory = false;
     const auto should_stop = [&] {
       out_of_memory = is_full();
-      if (out_of_memory && query.KeptBytes() > 0) {
-        query.DropKept();
+      while (out_of_memory && query.KeptBytes() > 0) {
+        query.DropLastKept();
         out_of_memory = is_full();
       }
       return out_of_memory || query.ShouldStop() || query.TurnIsOver();

@@ -231,13 +231,12 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
   SearchResult last_given_up;         // its status and message
   std::vector<std::size_t> enough;    // is proven of them for the path in hand
   double turn_work = kFirstTurnWork;
-  query->kept_.resize(goals.size());
   while (!waiting.empty()) {
     const std::size_t num_left = waiting.size();  // in this round
     const std::size_t turn = waiting.front();
     waiting.erase(waiting.begin());
     // A search that goes on knows itself what of its proof still holds: its space may grow.
-    if (!has_path || query->kept_[turn].search) lower_bounds[turn] = known_before[turn];
+    if (!has_path || query->IsKept(turn)) lower_bounds[turn] = known_before[turn];
     query->turn_ = turn;
     query->turn_ends_work_ = num_left > 1 || !later.empty() ? query->Work() + turn_work : kInfinity;
     query->known_cost_ = has_path ? found.cost : kInfinity;
@@ -270,7 +269,7 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
       next.status = query->Cancelled() ? PlanStatus::kCancelled : PlanStatus::kTimedOut;
     }
     const PlanStatus status = next.status;  // of this turn
-    if (query->kept_[turn].search) {
+    if (query->IsKept(turn)) {
       later.push_back(turn);
     } else if (status == PlanStatus::kTimedOut || status == PlanStatus::kMemoryLimit) {
       given_up.push_back(turn);

@@ -36,22 +36,26 @@ bool SearchQuery::TurnIsOver() {
 
 void SearchQuery::Keep(std::shared_ptr<void> search, std::size_t bytes) {
   TakeKept();
-  kept_[turn_] = {std::move(search), bytes};
+  kept_.push_back({turn_, std::move(search), bytes});
   kept_bytes_ += bytes;
 }
 
 std::shared_ptr<void> SearchQuery::TakeKept() { return TakeKeptOf(turn_); }
 
-std::shared_ptr<void> SearchQuery::TakeKeptOf(std::size_t goal) {
-  KeptSearch kept = std::exchange(kept_[goal], KeptSearch());
-  kept_bytes_ -= kept.bytes;
-  return std::move(kept.search);
+bool SearchQuery::IsKept(std::size_t goal) const {
+  return std::ranges::find(kept_, goal, &KeptSearch::goal) != kept_.end();
 }
 
-void SearchQuery::DropKept() {
-  kept_.assign(kept_.size(), KeptSearch());
-  kept_bytes_ = 0;
+std::shared_ptr<void> SearchQuery::TakeKeptOf(std::size_t goal) {
+  const auto kept = std::ranges::find(kept_, goal, &KeptSearch::goal);
+  if (kept == kept_.end()) return nullptr;
+  kept_bytes_ -= kept->bytes;
+  std::shared_ptr<void> search = std::move(kept->search);
+  kept_.erase(kept);
+  return search;
 }
+
+void SearchQuery::DropLastKept() { TakeKeptOf(kept_.back().goal); }
 
 void SearchQuery::ReportSolution(double lower_bound, double cost, std::int64_t expansions) {
   if (cost < known_cost_) HoldPath();

@@ -55,8 +55,9 @@ class SearchQuery {
   std::shared_ptr<void> TakeKept();
   /// What is kept of the other goals' searches, bytes.
   std::size_t KeptBytes() const { return kept_bytes_; }
-  /// Makes room: the other goals' searches begin anew in their next turns.
-  void DropKept();
+  /// Makes room: of the other goals' searches the one whose turn is the furthest off begins anew in
+  /// it. Not to be called without one.
+  void DropLastKept();
   /// Reports a solution of an anytime search the moment it is ready, and each better proof: the
   /// first stops the planning clock, if the request is anytime. If it is not, this is HoldPath. A
   /// better solution of which less is proven than was told before is not told.
@@ -70,9 +71,11 @@ class SearchQuery {
   friend class Planner;
 
   struct KeptSearch {
+    std::size_t goal;
     std::shared_ptr<void> search;
-    std::size_t bytes = 0;
+    std::size_t bytes;
   };
+  bool IsKept(std::size_t goal) const;
   std::shared_ptr<void> TakeKeptOf(std::size_t goal);
   /// ShouldStop, of the request whatever the turn.
   bool IsOver() const;
@@ -98,7 +101,7 @@ class SearchQuery {
   double turn_ends_work_ = std::numeric_limits<double>::infinity();
   std::int64_t num_steps_ = 0;    ///< That TurnIsOver was asked between.
   std::size_t turn_ = 0;          ///< The goal whose turn it is.
-  std::vector<KeptSearch> kept_;  ///< By goal.
+  std::vector<KeptSearch> kept_;  ///< In the order of their next turns.
   std::size_t kept_bytes_ = 0;    ///< Their sum.
   double known_cost_ = std::numeric_limits<double>::infinity();
   /// What was known of the costs of paths to this goal and to the others when its turn began.

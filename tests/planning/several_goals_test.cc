@@ -261,7 +261,7 @@ TEST_F(SeveralGoals, SearchesThatCanGoOnDoSoInRoundsOfTwiceTheWork) {
 TEST_F(SeveralGoals, KeptSearchesMakeRoomForOthers) {
   int num_searches = 0;
   const auto script = [&](SearchQuery& query) {
-    const std::shared_ptr<void> kept = query.TakeKept();
+    const auto kept = std::static_pointer_cast<int>(query.TakeKept());
     switch (++num_searches) {
       case 1:
         EXPECT_EQ(kept, nullptr);
@@ -270,24 +270,32 @@ TEST_F(SeveralGoals, KeptSearchesMakeRoomForOthers) {
         return Ended(PlanStatus::kTimedOut);
       case 2:
         EXPECT_EQ(query.KeptBytes(), 100u);
-        query.DropKept();
-        EXPECT_EQ(query.KeptBytes(), 0u);
-        query.Keep(std::make_shared<int>(2), 50);
+        query.Keep(std::make_shared<int>(2), 70);
         return Ended(PlanStatus::kTimedOut);
       case 3:
+        EXPECT_EQ(query.KeptBytes(), 170u);
+        query.DropLastKept();
+        EXPECT_EQ(query.KeptBytes(), 100u);
+        query.Keep(std::make_shared<int>(3), 50);
+        return Ended(PlanStatus::kTimedOut);
+      case 4:
         EXPECT_EQ(query.goal().nominal[0], 0.5);
+        EXPECT_TRUE(kept && *kept == 1) << "goes on: its turn was next";
+        EXPECT_EQ(query.KeptBytes(), 50u) << "one's own does not count";
+        return Ended(PlanStatus::kExhausted);
+      case 5:
+        EXPECT_EQ(query.goal().nominal[0], 0.4);
         EXPECT_EQ(kept, nullptr) << "begins anew";
-        EXPECT_EQ(query.KeptBytes(), 50u);
         return Ended(PlanStatus::kExhausted);
       default:
-        EXPECT_EQ(query.KeptBytes(), 0u) << "one's own does not count";
-        EXPECT_EQ(*std::static_pointer_cast<int>(kept), 2);
+        EXPECT_TRUE(kept && *kept == 3);
+        EXPECT_EQ(query.KeptBytes(), 0u);
         return StraightLine(query);
     }
   };
-  const PlanResult result = Plan(script, RequestFor({{0.5, 0, 0}, {0.4, 0, 0}}));
+  const PlanResult result = Plan(script, RequestFor({{0.5, 0, 0}, {0.4, 0, 0}, {0.3, 0, 0}}));
   EXPECT_EQ(result.status, PlanStatus::kSolved) << result.message;
-  EXPECT_EQ(num_searches, 4);
+  EXPECT_EQ(num_searches, 6);
 }
 
 /// Proves for goals in the order of their costs, which are 2 a rad of the first joint.
