@@ -1,7 +1,6 @@
 #include "collision/follower_checker.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace planbench {
@@ -16,15 +15,8 @@ PlanningGroup GroupWithFollowers(const Robot& robot, const PlanningGroup& group)
   moved.followers.clear();
   std::vector<JointSpace::Joint> space = group.space.joints();
   for (const PlanningGroup::Follower& follower : group.followers) {
-    const Joint& joint = JointOf(robot, follower);
-    const bool continuous = !std::isfinite(joint.lower);
     moved.joints.push_back(follower.joint);
-    space.push_back({.name = joint.name,
-                     .continuous = continuous,
-                     .prismatic = joint.type == JointType::kPrismatic,
-                     .lower = continuous ? -std::numbers::pi : joint.lower,
-                     .upper = continuous ? std::numbers::pi : joint.upper,
-                     .max_velocity = joint.max_velocity});
+    space.push_back(SpaceJoint(JointOf(robot, follower)));
   }
   moved.space = JointSpace(std::move(space));
   return moved;

@@ -51,6 +51,16 @@ Isometry3d JointMotion(const Joint& joint, std::span<const double> full_position
   return X_JC;
 }
 
+JointSpace::Joint SpaceJoint(const Joint& joint) {
+  const bool continuous = !std::isfinite(joint.lower);
+  return {.name = joint.name,
+          .continuous = continuous,
+          .prismatic = joint.type == JointType::kPrismatic,
+          .lower = continuous ? -std::numbers::pi : joint.lower,
+          .upper = continuous ? std::numbers::pi : joint.upper,
+          .max_velocity = joint.max_velocity};
+}
+
 std::optional<JointType> ParseVirtualJointType(const std::string& name) {
   const std::optional<JointType> type = ParseEnum<JointType>(name);
   return type && NumPositions(*type) == 1 ? std::nullopt : type;
@@ -151,14 +161,8 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
                       joint_name, joints_[static_cast<std::size_t>(follower)].name));
     }
     if (!seen.insert(joint_name).second) fail(fmt::format("joint '{}' is repeated", joint_name));
-    const bool continuous = joint.type == JointType::kContinuous;
     group.joints.push_back(index);
-    space.push_back({.name = joint.name,
-                     .continuous = continuous,
-                     .prismatic = joint.type == JointType::kPrismatic,
-                     .lower = continuous ? -std::numbers::pi : joint.lower,
-                     .upper = continuous ? std::numbers::pi : joint.upper,
-                     .max_velocity = joint.max_velocity});
+    space.push_back(SpaceJoint(joint));
   }
   group.space = JointSpace(std::move(space));
   for (std::size_t j = 0; j < joints_.size(); ++j) {

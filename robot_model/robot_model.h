@@ -57,6 +57,10 @@ Eigen::Isometry3d JointMotion(const Joint& joint, double position);
 /// The same for every joint, at full positions of its robot.
 Eigen::Isometry3d JointMotion(const Joint& joint, std::span<const double> full_positions);
 
+/// The joint in a configuration space. It turns for ever if its limits say so, whatever its type: a
+/// follower's are what its leader leaves it.
+JointSpace::Joint SpaceJoint(const Joint& joint);
+
 /// Joins the robot to its surroundings, which are no part of the URDF: an SRDF's virtual joint.
 struct VirtualJoint {
   std::string name;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/numbers.h"
 #include "robot_model/group_kinematics.h"
 #include "robot_model/inverse_kinematics.h"
 #include "robot_model/robot_model.h"
@@ -260,6 +261,31 @@ TEST(Mimic, AContinuousLeaderNeedsFollowersThatAreTheSameATurnLater) {
   EXPECT_EQ(model("continuous", "0.5").FollowerThatTurnsMove(0), 1);
   ExpectInputError([&] { model("continuous", "0.5").MakeGroup("g", {"j"}, "c"); },
                    {"'j' is continuous", "'k'", "a turn later"});
+}
+
+TEST(Mimic, WhatItsLeaderLeavesItTellsWhetherAFollowerTurnsForEver) {
+  const auto follower = [](const char* j, const char* k) {
+    const RobotModel model = RobotModel::FromUrdf(
+        fmt::format("<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+                    "<joint name='j' {}<parent link='a'/><child link='b'/></joint>"
+                    "<joint name='k' {}<parent link='b'/><child link='c'/></joint></robot>",
+                    j, k),
+        "r.urdf");
+    return SpaceJoint(JointOf(model, "k"));
+  };
+  const JointSpace::Joint bounded =
+      follower("type='revolute'><limit lower='-1' upper='2' velocity='1' effort='1'/>",
+               "type='continuous'><mimic joint='j' multiplier='3'/>");
+  EXPECT_FALSE(bounded.continuous);
+  EXPECT_EQ(bounded.lower, -3);
+  EXPECT_EQ(bounded.upper, 6);
+  // Limits that leave its leader no range do not count.
+  const JointSpace::Joint turning = follower(
+      "type='continuous'>",
+      "type='revolute'><limit lower='0' upper='0' velocity='1' effort='1'/><mimic joint='j'/>");
+  EXPECT_TRUE(turning.continuous);
+  EXPECT_EQ(turning.lower, -kPi);
+  EXPECT_EQ(turning.upper, kPi);
 }
 
 TEST(MultiDof, PlanarAndFloatingJointsHoldAPose) {
