@@ -115,8 +115,13 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
     met.emplace(record.problem_set, record.problem_index);
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
+  // One that is started again has as long to come up as the first one had.
+  ServerPatience patience;
+  patience.until_given_up = std::max(
+      patience.until_given_up, std::chrono::ceil<std::chrono::milliseconds>(
+                                   std::chrono::duration<double>(options_.DiscoveryTimeout())));
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
-                                            first_planners_);
+                                            first_planners_, patience);
   CheckProblems(met, watch, server_deaths);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes

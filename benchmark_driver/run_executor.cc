@@ -64,7 +64,7 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
                          KernelFolders kernel, std::vector<Contestant> first_planners,
-                         std::chrono::milliseconds patience)
+                         ServerPatience patience)
     : registry_(registry),
       conditions_(std::move(conditions)),
       first_planners_(std::move(first_planners)),
@@ -79,14 +79,23 @@ template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
                                             const Request& request, const std::string& what,
                                             const std::function<bool()>& interrupted) {
+  std::chrono::milliseconds without_server{0};
   while (!interrupted()) {
-    if (auto reply = client->Call(request, kServerRetry, patience_, interrupted)) {
+    if (auto reply = client->Call(request, kServerRetry, patience_.until_told, interrupted)) {
       return reply;
     }
     if (interrupted()) break;
+    const bool is_live = !registry_->Live(NodeKind::kSceneServer).empty();
+    // Not by the clock, which goes on while this process is stopped.
+    without_server = is_live ? std::chrono::milliseconds(0) : without_server + patience_.until_told;
+    if (without_server >= patience_.until_given_up) {
+      throw std::runtime_error(
+          fmt::format("no scene server has been live for {:g} s, though {} is waited for; when one "
+                      "is, --resume goes on",
+                      std::chrono::duration<double>(without_server).count(), what));
+    }
     spdlog::warn("waiting for {} from the scene server ({})", what,
-                 registry_->Live(NodeKind::kSceneServer).empty() ? "no scene server is live"
-                                                                 : "it is live, but silent");
+                 is_live ? "it is live, but silent" : "no scene server is live");
   }
   return std::nullopt;
 }

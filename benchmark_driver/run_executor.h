@@ -17,17 +17,25 @@ namespace planbench {
 /// Counter of a run whose planner improves another's path: how long that took to be handed over, s.
 inline constexpr char kFirstPathTime[] = "first_path_time";
 
+/// With a scene server that does not answer.
+struct ServerPatience {
+  /// Until it is said what is waited for, again and again.
+  std::chrono::milliseconds until_told = std::chrono::seconds(10);
+  /// Without a live one, until it is given up. One that is live may take its time over a problem.
+  std::chrono::milliseconds until_given_up = std::chrono::seconds(60);
+};
+
 /// Makes one run: fetches the problem if it is not known yet, has the planner solve it, has the
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
  public:
   /// `conditions`: complete, the referee's step and the contestants' included; `first_planners`
   /// likewise, who are no contestants and find paths that these improve. Answers of others than the
-  /// scene server that `registry` knows are none. For what it waits longer than `patience` it says
-  /// so, again and again.
+  /// scene server that `registry` knows are none. What asks the scene server throws
+  /// std::runtime_error when that is given up.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
               KernelFolders kernel = {}, std::vector<Contestant> first_planners = {},
-              std::chrono::milliseconds patience = std::chrono::seconds(10));
+              ServerPatience patience = {});
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
   /// `interrupted`. The server also hands out the scene.
@@ -75,7 +83,7 @@ class RunExecutor {
   SessionConditions conditions_;
   std::vector<Contestant> first_planners_;
   KernelFolders kernel_;
-  std::chrono::milliseconds patience_;
+  ServerPatience patience_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::mutex mutex_;

@@ -140,6 +140,16 @@ Subscription ReportWhoComesUp(Bus* bus, NodeKind kind, const std::set<std::strin
       });
 }
 
+/// A scene server that stops at its work is not waited for, however long that takes.
+Subscription ReportBeatsOfServer(Bus* bus, Supervisor* supervisor) {
+  if (supervisor == nullptr) return {};
+  return bus->Subscribe<NodeStatusMessage>(
+      channel::kNodeStatus, [supervisor](const NodeStatusMessage& status) {
+        if (status.kind != NodeKind::kSceneServer) return;
+        supervisor->Heard(status.name, static_cast<pid_t>(status.pid));
+      });
+}
+
 }  // namespace
 
 int RunSession(const DriverOptions& given_options, const std::map<std::string, std::string>& flags,
@@ -211,6 +221,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
   const Subscription planner_statuses =
       ReportWhoComesUp(&bus, NodeKind::kPlanner, planners, supervisor.get());
+  const Subscription server_beats = ReportBeatsOfServer(&bus, supervisor.get());
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
   {
     // Until its problems are read: then it is to stay up, as the logger, for without it no run is

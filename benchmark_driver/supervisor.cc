@@ -56,7 +56,8 @@ std::string DescribeEnd(int status) {
 
 }  // namespace
 
-Supervisor::Supervisor() : thread_([this] { Supervise(); }) {}
+Supervisor::Supervisor(std::chrono::milliseconds silence)
+    : silence_(silence), thread_([this] { Supervise(); }) {}
 
 Supervisor::~Supervisor() {
   StopAll({});
@@ -89,6 +90,12 @@ void Supervisor::CameUp(const std::string& name) {
   child->came_up = true;
 }
 
+void Supervisor::Heard(const std::string& name, pid_t pid) {
+  const std::scoped_lock lock(mutex_);
+  Child* child = Find(name);
+  if (child != nullptr && child->pid == pid) child->silent.emplace(0);
+}
+
 std::map<std::string, std::string> Supervisor::Hopeless() const {
   const std::scoped_lock lock(mutex_);
   std::map<std::string, std::string> reasons;
@@ -114,6 +121,7 @@ void Supervisor::Supervise() {
       if (stopping_) return;
       for (Child& child : children_) {
         if (child.pid > 0) Reap(&child);
+        if (child.pid > 0) KillIfSilent(&child);
         if (child.pid < 0 && child.wanted && Clock::now() >= child.restart_at) Spawn(&child);
       }
     }
@@ -133,6 +141,7 @@ void Supervisor::Reap(Child* child) {
   int status = 0;
   waitpid(child->pid, &status, 0);
   child->pid = -1;
+  child->silent.reset();
   if (!child->wanted) return;
   child->num_deaths_at_work += std::exchange(child->came_up, false);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
@@ -152,6 +161,16 @@ void Supervisor::Reap(Child* child) {
   }
   spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
   child->restart_at = now + kRestartDelay;
+}
+
+void Supervisor::KillIfSilent(Child* child) const {
+  if (!child->wanted || !child->silent) return;
+  // No clock is asked: while this process itself is stopped, nobody is silent.
+  if ((*child->silent += kExitPoll) < silence_) return;
+  spdlog::error("{} has been silent for {:g} s; killing it", child->spec.name,
+                std::chrono::duration<double>(silence_).count());
+  kill(-child->pid, SIGKILL);
+  child->silent.reset();
 }
 
 void Supervisor::Spawn(Child* child) {

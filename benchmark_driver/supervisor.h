@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -28,7 +29,8 @@ struct ChildSpec {
 /// process dies. What a child has started itself is ended with it, if it stayed in its group.
 class Supervisor {
  public:
-  Supervisor();
+  /// `silence`: after which a child that had been heard is killed, and started again.
+  explicit Supervisor(std::chrono::milliseconds silence = kMostSilence);
   /// Stops what still runs.
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
@@ -42,6 +44,8 @@ class Supervisor {
   /// That child's process does its work, so that it will not have died of its start: quick deaths
   /// until now do not count.
   void CameUp(const std::string& name);
+  /// That child is heard, by the process of that id. One that is never heard may be silent.
+  void Heard(const std::string& name, pid_t pid);
   /// Why children, by name, are not started again: one ended with exit code 2 (bad input: a restart
   /// would not help), or died kMaxQuickDeaths times in a row within kQuick of its start.
   std::map<std::string, std::string> Hopeless() const;
@@ -53,6 +57,7 @@ class Supervisor {
 
   static constexpr int kMaxQuickDeaths = 5;
   static constexpr std::chrono::seconds kQuick{5};
+  static constexpr std::chrono::seconds kMostSilence{10};
 
  private:
   struct Child {
@@ -62,6 +67,8 @@ class Supervisor {
     bool was_started = false;
     int quick_deaths = 0;
     bool came_up = false;  // this process
+    /// Since this process was last heard; nothing if it never was.
+    std::optional<std::chrono::milliseconds> silent;
     int num_deaths_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
@@ -72,8 +79,10 @@ class Supervisor {
   Child* Find(const std::string& name);
   void Supervise();
   void Reap(Child* child);
+  void KillIfSilent(Child* child) const;
   void Spawn(Child* child);
 
+  const std::chrono::milliseconds silence_;
   mutable std::mutex mutex_;
   std::vector<Child> children_;
   bool stopping_ = false;

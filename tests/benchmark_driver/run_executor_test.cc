@@ -394,14 +394,29 @@ TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
   EXPECT_THAT(record->message, HasSubstr("no verdict"));
 }
 
-TEST_F(RunExecutorTest, TellsWhichProblemItWaitsFor) {
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, std::chrono::milliseconds(1));
-  int num_asked = 0;
+TEST_F(RunExecutorTest, TellsWhichProblemItWaitsForUntilTheSceneServerIsGone) {
+  ServerPatience patience;
+  patience.until_told = std::chrono::milliseconds(1);
+  patience.until_given_up = std::chrono::milliseconds(5);
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
   testing::internal::CaptureStdout();
-  EXPECT_FALSE(executor.AskForProblem("cans", 2, [&] { return ++num_asked >= 10; }));
+  try {
+    executor.AskForProblem("cans", 2, [] { return false; });
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no scene server has been live for 0.005 s, though the "
+                                        "problem cans 2 is waited for"));
+  }
   EXPECT_THAT(testing::internal::GetCapturedStdout(),
               HasSubstr("waiting for the problem cans 2 from the scene server (no scene server is "
                         "live)"));
+  std::atomic<bool> is_over = false;
+  FakeSceneServer server(&bus_);
+  server.BeforeAnswers([&](const auto&) { WaitUntil([&] { return is_over.load(); }); });
+  ASSERT_TRUE(WaitUntil([&] { return !registry_.Live(NodeKind::kSceneServer).empty(); }));
+  int num_asked = 0;
+  EXPECT_FALSE(executor.AskForProblem("cans", 2, [&] { return ++num_asked >= 100; }));
+  is_over = true;
 }
 
 TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {

@@ -123,6 +123,22 @@ TEST_F(SupervisorTest, RestartsWhatIsKilled) {
   EXPECT_NE(first, second);
 }
 
+TEST_F(SupervisorTest, WhatFallsSilentIsStartedAgainUnlessItWasNeverHeard) {
+  Supervisor supervisor(milliseconds(100));
+  const auto script = [&](const std::string& name) {
+    return Script(name, "echo $$ >> $OUT; exec sleep 1000");
+  };
+  supervisor.Start(script("silent"));
+  const pid_t silent = std::stoi(AwaitOutput(1).at(0));
+  supervisor.Start(script("heard"));
+  const pid_t heard = std::stoi(AwaitOutput(2).at(1));
+  supervisor.Heard("heard", silent);
+  supervisor.Heard("heard", heard);
+  AwaitOutput(3);
+  EXPECT_FALSE(IsRunning(heard));
+  EXPECT_TRUE(IsRunning(silent));
+}
+
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
   Supervisor supervisor;
   supervisor.Start(Script("child", "sleep 1000 & echo \"$$ $!\" >> $OUT; wait"));

@@ -164,6 +164,18 @@ TEST_F(FaultsTest, ProcessesAreKilledAndStoppedAtRandomMoments) {
              Rows(Session(), "SELECT status, message FROM runs WHERE status != 0", 2));
 }
 
+TEST_F(FaultsTest, ASceneServerThatFallsSilentIsStartedAgain) {
+  ChildProcess* driver =
+      StartSession({"--planners", "rrtc", "--problems-range", "1", "--trials", "120"});
+  ASSERT_TRUE(WaitUntil([&] { return NumRuns() >= 1 || !driver->Running(); })) << driver->Errors();
+  const std::optional<int> server = PidOf(driver, "scene_server");
+  ASSERT_TRUE(server);
+  kill(*server, SIGSTOP);
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_THAT(driver->Errors(), HasSubstr("scene_server has been silent for 10 s; killing it"));
+  ExpectOneRecordOfEach(120);
+}
+
 TEST_F(FaultsTest, AHostileSenderBendsNothing) {
   ChildProcess* driver =
       StartSession({"--planners", "rrtc", "--problems-range", "1-3", "--trials", "40"});
