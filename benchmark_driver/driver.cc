@@ -36,6 +36,9 @@ constexpr int kMostRepeats = 2;
 /// Of how many deaths of the scene server a problem is the cause; one may be another's doing.
 constexpr int kServerDeaths = 2;
 
+/// Of how many problems in succession the scene server dies if the cause is in itself.
+constexpr std::size_t kDeadlyProblems = 3;
+
 /// Throws InputError if a process is not of the driver's build: on one machine or on several, a
 /// session compares planners, not versions of what is around them.
 void RequireSameBuild(const NodeStatusMessage& node) {
@@ -245,13 +248,24 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
   std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
+  std::vector<std::string> deadly;  // since one was answered
   for (const auto& [set, index] : problems) {
     const int deaths_before = server_deaths();
     std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
       watch();
       return server_deaths() - deaths_before >= kServerDeaths;
     });
-    if (!answer) {
+    if (answer) {
+      deadly.clear();
+    } else {
+      deadly.push_back(LeftOutName(set, index));
+      if (deadly.size() == kDeadlyProblems) {
+        throw std::runtime_error(
+            fmt::format("the scene server dies whatever it is asked for: twice each with {}, and "
+                        "it answered none between; mend what it dies of, or, if it is these, "
+                        "choose others (--problems-range)",
+                        fmt::join(deadly, ", ")));
+      }
       answer.emplace();
       answer->ok = false;
       answer->message = "the scene server died of it, twice";

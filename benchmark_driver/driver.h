@@ -37,8 +37,8 @@ class Driver {
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
   /// it, so that bad ones are known before the first run. `watch` is called while waiting and may
   /// throw. `server_deaths`: how often the scene server died after it had come up, where that is
-  /// known: a problem on which it does so twice is bad. Throws InputError naming what is missing or
-  /// does not fit.
+  /// known: a problem on which it does so twice is bad; of three in succession it is the server
+  /// that is: std::runtime_error. Throws InputError naming what is missing or does not fit.
   void Discover(
       bool need_logger, const std::function<void()>& watch,
       const std::function<int()>& server_deaths = [] { return 0; });

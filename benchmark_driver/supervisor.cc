@@ -1,6 +1,7 @@
 #include "benchmark_driver/supervisor.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <sys/prctl.h>
@@ -150,16 +151,18 @@ void Supervisor::Reap(Child* child) {
     child->hopeless = LastLine(child->spec.log, child->log_begin);
     return;
   }
+  const std::string last_words = fmt::format("its last words in {}: {}", child->spec.log.string(),
+                                             LastLine(child->spec.log, child->log_begin));
   const auto now = Clock::now();
   child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
   if (child->quick_deaths >= kMaxQuickDeaths) {
     child->wanted = false;
-    child->hopeless = child->spec.name + " ended " + DescribeEnd(status) +
-                      " again and again; its last words in " + child->spec.log.string() + ": " +
-                      LastLine(child->spec.log, child->log_begin);
+    child->hopeless = fmt::format("{} ended {} again and again; {}", child->spec.name,
+                                  DescribeEnd(status), last_words);
     return;
   }
-  spdlog::error("{} ended {}; starting it again", child->spec.name, DescribeEnd(status));
+  spdlog::error("{} ended {}; starting it again; {}", child->spec.name, DescribeEnd(status),
+                last_words);
   child->restart_at = now + kRestartDelay;
 }
 

@@ -441,6 +441,34 @@ TEST_F(DriverTest, AProblemOfWhichTheSceneServerDiesTwiceIsBad) {
             (std::map<std::string, std::string>{{"cans 2", "the scene server died of it, twice"}}));
 }
 
+TEST_F(DriverTest, ASceneServerThatDiesOfEveryProblemIsItselfAtFault) {
+  std::atomic<int> num_deaths = 0;
+  std::atomic<bool> is_over = false;
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  const FakeLogger logger(&bus_);
+  server.BeforeAnswers([&](const ProblemRequestMessage& request) {
+    num_deaths += 2;
+    WaitUntil([&] {
+      return is_over || server.problem_requests().Count([&](const ProblemRequestMessage& next) {
+        return next.problem_index > request.problem_index;
+      }) > 0;
+    });
+  });
+  DriverOptions options = Options();
+  options.problem_indices = {};
+  options.skip_bad_problems = true;
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  try {
+    driver.Discover(true, Idle, [&] { return num_deaths.load(); });
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the scene server dies whatever it is asked for: "
+                                                 "twice each with cans 1, cans 2, cans 3"));
+  }
+  is_over = true;
+}
+
 TEST_F(DriverTest, RunIdsAreDatedAndDiffer) {
   const std::string id = NewRunId();
   EXPECT_TRUE(std::regex_match(id, std::regex("[0-9]{8}T[0-9]{6}Z-[0-9a-f]{16}"))) << id;

@@ -188,8 +188,13 @@ TEST_F(SupervisorTest, ProgramThatCannotBeStartedIsBadInput) {
 
 TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
   Supervisor supervisor;
+  testing::internal::CaptureStdout();  // Where messages go.
   supervisor.Start(Script("child", "echo run >> $OUT; echo 'out of luck'; exit 3"));
-  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  const bool is_hopeless = WaitUntil([&] { return Hopeless(supervisor); });
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              testing::ContainsRegex("ended with exit code 3; starting it again; its last words in "
+                                     ".*: out of luck"));
+  ASSERT_TRUE(is_hopeless);
   try {
     supervisor.ThrowIfHopeless();
     ADD_FAILURE();
