@@ -45,12 +45,26 @@ RequestExchange::Answer RequestExchange::End(Outcome outcome, std::string messag
 }
 
 std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, const Event& event) {
-  if (const auto* ack = std::get_if<Acknowledgement>(&event)) {
+  if (std::holds_alternative<Interruption>(event)) {
+    if (!interrupted_) {
+      interrupted_ = now;
+      next_send_ = now;
+    }
+    if (lost_) return End(Outcome::kInterrupted, "", now);
+  } else if (lost_) {
+    return std::nullopt;
+  } else if (const auto* ack = std::get_if<Acknowledgement>(&event)) {
     if (Ours(ack->message.request_id)) return HearAck(now, *ack);
   } else if (const auto* result = std::get_if<ArrivedResult>(&event)) {
     if (!Ours(result->message.request_id)) {
       what_came_ = "a result for '" + result->message.request_id + "'";
       return std::nullopt;
+    }
+    const PlanResult& told = result->message.result;
+    if (told.status == PlanStatus::kCancelled && !Cancelling()) {
+      return Lose(fmt::format("it answered CANCELLED, though its request was not cancelled{}{}",
+                              told.message.empty() ? "" : ": ", told.message),
+                  result->arrival);
     }
     Answer answer = End(Outcome::kResult, "", result->arrival);
     if (!interrupted_) answer.result = result->message;
@@ -63,14 +77,17 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
     if (unusable->request_id.empty()) what_came_ = unusable->why;
   } else if (const auto* refused = std::get_if<RefusedMessage>(&event)) {
     if (refused_.empty()) refused_ = refused->what;
-  } else if (std::holds_alternative<Interruption>(event)) {
-    if (!interrupted_) {
-      interrupted_ = now;
-      next_send_ = now;
-    }
   } else if (const auto* lost = std::get_if<PlannerLost>(&event)) {
-    return End(Outcome::kNoAnswer, lost->why, now);
+    return Lose(lost->why, now);
   }
+  return std::nullopt;
+}
+
+std::optional<RequestExchange::Answer> RequestExchange::Lose(std::string why, TimePoint when) {
+  if (interrupted_) return End(Outcome::kInterrupted, "", when);
+  lost_ = when;
+  why_lost_ = std::move(why);
+  next_send_ = TimePoint::max();  // its successor is not to be asked
   return std::nullopt;
 }
 
@@ -99,7 +116,9 @@ std::optional<RequestExchange::Answer> RequestExchange::LosePatience(TimePoint n
     if (!what_came_.empty()) why += "; what came: " + what_came_;
     return End(Outcome::kNoAnswer, why, now);
   };
-  if (interrupted_) {
+  if (lost_) {
+    if (now - *lost_ >= kInterruptionDelay) return End(Outcome::kNoAnswer, why_lost_, *lost_);
+  } else if (interrupted_) {
     if (now - *interrupted_ > kCancelPatience) return give_up("");
   } else if (cancelled_) {
     if (now - *cancelled_ > kResultPatience) {

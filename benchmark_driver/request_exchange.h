@@ -26,6 +26,9 @@ class RequestExchange {
   static constexpr std::chrono::seconds kResultPatience{15};
   /// How long an interrupted request is cancelled without a result to it.
   static constexpr std::chrono::seconds kCancelPatience{1};
+  /// How long a lost planner may have been lost to an interruption that is yet to be heard of: who
+  /// ends a job (Slurm at its time limit, systemd) tells all its processes at once.
+  static constexpr std::chrono::seconds kInterruptionDelay{1};
 
   enum class Outcome { kResult, kRefused, kNoAnswer, kInterrupted };
   struct Answer {
@@ -59,7 +62,8 @@ class RequestExchange {
   };
   /// The caller wants no result any more.
   struct Interruption {};
-  /// The process that had the request will not answer it.
+  /// The process that had the request will not answer it. The same is a result CANCELLED to a
+  /// request that was not cancelled.
   struct PlannerLost {
     std::string why;
   };
@@ -87,6 +91,8 @@ class RequestExchange {
   bool Cancelling() const { return cancelled_ || interrupted_; }
   Answer End(Outcome outcome, std::string message, TimePoint now) const;
   std::optional<Answer> Hear(TimePoint now, const Event& event);
+  /// The end if interrupted; else that is waited for a while.
+  std::optional<Answer> Lose(std::string why, TimePoint when);
   std::optional<Answer> HearAck(TimePoint now, const Acknowledgement& ack);
   std::optional<Answer> LosePatience(TimePoint now);
 
@@ -104,6 +110,8 @@ class RequestExchange {
   std::string refused_;        // first
   std::optional<TimePoint> cancelled_;  // because it was overdue
   std::optional<TimePoint> interrupted_;
+  std::optional<TimePoint> lost_;
+  std::string why_lost_;
 };
 
 }  // namespace planbench

@@ -304,6 +304,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
 
   const DisturbanceMeter meter(PidsOf(planners), kernel_);
   const PlannerClient::Answer answer = Ask(run, *problem, planners, &record.request, interrupted);
+  // Whatever the answer: its planner may have been told to end before this process was.
+  if (interrupted()) return std::nullopt;
   switch (answer.outcome) {
     case PlannerClient::Outcome::kInterrupted:
       return std::nullopt;

@@ -55,6 +55,12 @@ std::string DescribeEnd(int status) {
   return "with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
+/// By somebody, as who ends a job tells all its processes: so end our programs, and whatever does
+/// not handle the signal.
+bool WasToldToEnd(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) == 0 : WTERMSIG(status) == SIGTERM;
+}
+
 }  // namespace
 
 Supervisor::Supervisor(std::chrono::milliseconds silence)
@@ -144,7 +150,8 @@ void Supervisor::Reap(Child* child) {
   child->pid = -1;
   child->silent.reset();
   if (!child->wanted) return;
-  child->num_deaths_at_work += std::exchange(child->came_up, false);
+  const bool was_at_work = std::exchange(child->came_up, false);
+  child->num_deaths_at_work += was_at_work && !WasToldToEnd(status);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;

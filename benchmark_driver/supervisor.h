@@ -52,7 +52,7 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// How often that child died after it had come up.
+  /// How often that child died after it had come up, unless it was told to end.
   int NumDeathsAtWork(const std::string& name);
 
   static constexpr int kMaxQuickDeaths = 5;

@@ -214,7 +214,7 @@ void PlannerNode::Solve() {
   while (true) {
     changed_.wait(
         lock, [this] { return stopping_ || (job_ && (job_->scene || job_->control.cancelled)); });
-    if (!job_) return;  // stopping
+    if (stopping_) return;
     if (!job_->scene) {
       FinishWithoutScene(PlanStatus::kCancelled, "cancelled while waiting for the scene");
       continue;
@@ -229,6 +229,8 @@ void PlannerNode::Solve() {
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
     const std::string request_id = job.request.request_id;
     lock.lock();
+    // What this process cancelled because it ends is no answer.
+    if (stopping_) return;
     Finish(result);
     lock.unlock();
     // After the result is out: writing takes time.

@@ -34,7 +34,7 @@ class PlannerNode {
 
   /// Goes live. `name` must be free on the bus.
   PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner);
-  /// Cancels what is being solved and leaves.
+  /// Leaves. What is being solved is stopped, and gets no result.
   ~PlannerNode();
 
   /// Runs until `stop` (asked every 50 ms) says so; throws InputError if an older process has the

@@ -25,10 +25,10 @@ Event Ack(PlanAckVerdict verdict, const std::string& id = "r", const std::string
 }
 Event Working() { return Ack(PlanAckVerdict::kWorking); }
 Event Busy() { return Ack(PlanAckVerdict::kBusy, "r", "another"); }
-Event Result(double arrival, const std::string& id = "r") {
+Event Result(double arrival, const std::string& id = "r", PlanStatus status = PlanStatus::kSolved) {
   PlanResultMessage message;
   message.request_id = id;
-  message.result.status = PlanStatus::kSolved;
+  message.result.status = status;
   return Exchange::ArrivedResult{message, At(arrival)};
 }
 Event Unusable(const std::string& id) { return Exchange::UnusableResult{id, "cost: nan"}; }
@@ -119,7 +119,8 @@ TEST(RequestExchange, WhatWasRefusedIsToldIfNoAnswerComes) {
   Play({{0, kTick, "request"},
         {0.1, refused, ""},
         {0.1, refused_later, ""},
-        {0.2, kLost, "no answer after 0.20: the process died; refused: a stranger's"}});
+        {0.2, kLost, ""},
+        {1.25, kLost, "no answer after 0.20: the process died; refused: a stranger's"}});
   Play(std::vector<Line>{{0, kTick, "request"}, {0.1, refused, ""}} +
        Repeated(0.25, 10.25, kTick, "request") +
        std::vector<Line>{{10.25, kTick,
@@ -156,10 +157,30 @@ TEST(RequestExchange, UnusableResultEndsIt) {
 }
 
 TEST(RequestExchange, PlannerThatIsLostGivesNoAnswer) {
-  Play({{0, kTick, "request"}, {0.1, kLost, "no answer after 0.10: the process died"}});
   Play({{0, kTick, "request"},
         {0.1, Working(), ""},
-        {0.2, kLost, "no answer after 0.20: the process died"}});
+        {0.2, kLost, ""},
+        {0.3, Event(Exchange::PlannerLost{"another has come"}), ""},
+        {0.5, Working(), ""},  // its successor is not asked, nor heard
+        {0.6, Result(0.6), ""},
+        {1.25, kTick, "no answer after 0.20: the process died"}});
+}
+
+TEST(RequestExchange, CancelledThoughNobodyDidIsAPlannerThatIsLost) {
+  Play({{0, kTick, "request"},
+        {0.2, Result(0.2, "r", PlanStatus::kCancelled), ""},
+        {0.3, kLost, ""},
+        {1.25, kTick,
+         "no answer after 0.20: it answered CANCELLED, though its request was not cancelled"}});
+}
+
+TEST(RequestExchange, APlannerThatIsLostToAnInterruptionIsNotToBlame) {
+  for (const Event& end : {Event(kLost), Result(0.2, "r", PlanStatus::kCancelled)}) {
+    Play({{0, kTick, "request"},
+          {0.2, end, ""},
+          {0.45, kTick, ""},
+          {1.1, kInterruption, "interrupted"}});
+  }
 }
 
 TEST(RequestExchange, PlannerThatHearsNothingIsGivenUp) {

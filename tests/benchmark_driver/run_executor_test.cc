@@ -423,10 +423,15 @@ TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {
   interrupted_ = true;
   EXPECT_FALSE(Execute());  // no scene server either
 
-  interrupted_ = false;
   FakeSceneServer server(&bus_);
-  planner_.OnRequest([&](const PlanRequest&) { interrupted_ = true; });
-  EXPECT_FALSE(Execute());
+  for (const bool answers : {false, true}) {
+    interrupted_ = false;
+    planner_.OnRequest([&, answers](const PlanRequest& request) {
+      interrupted_ = true;
+      if (answers) planner_.SendResult(request.request_id, {});
+    });
+    EXPECT_FALSE(Execute());
+  }
   EXPECT_FALSE(planner_.cancels().WaitFor(1).empty());
 }
 

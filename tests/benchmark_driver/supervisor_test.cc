@@ -233,6 +233,22 @@ TEST_F(SupervisorTest, DeathsAtStartAreNoneAtWork) {
   EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 2);
 }
 
+TEST_F(SupervisorTest, WhatIsToldToEndHasNotDiedOfItsWork) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "echo $$ >> $OUT\n"
+                          "[ $(wc -l < $OUT) != 1 ] || exec sleep 1000\n"
+                          "trap 'exit 0' TERM; echo ready >> $OUT; while :; do sleep 0.01; done"));
+  const auto end = [&](const std::string& pid) {
+    supervisor.CameUp("child");
+    kill(std::stoi(pid), SIGTERM);
+  };
+  end(AwaitOutput(1).at(0));
+  end(AwaitOutput(3).at(1));
+  AwaitOutput(5);
+  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 0);
+}
+
 TEST_F(SupervisorTest, TheHopelessCanBeSpared) {
   Supervisor supervisor;
   supervisor.Start(Script("bad", "echo 'no robot'; exit 2"));

@@ -10,7 +10,37 @@
 namespace planbench {
 namespace {
 
-class LaunchedSession : public PipelineTest {};
+class LaunchedSession : public PipelineTest {
+ protected:
+  static std::vector<std::string> Resuming(const std::filesystem::path& session,
+                                           const std::vector<std::string>& flags) {
+    std::vector<std::string> command = {Program("benchmark_driver"),
+                                        "--launch",
+                                        "--robot",
+                                        RobotFolder(),
+                                        "--problems",
+                                        ProblemFolder(),
+                                        "--resume",
+                                        session.string()};
+    command.insert(command.end(), flags.begin(), flags.end());
+    return command;
+  }
+  /// Of a program that runs, -1 if none does.
+  int PidOf(const std::string& program) const {
+    for (const int pid : LeftRunning()) {
+      std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+      const std::string command{std::istreambuf_iterator<char>(file), {}};
+      if (command.rfind(Program(program), 0) == 0) return pid;
+    }
+    return -1;
+  }
+  /// With which every run of RRT-Connect lasts to its time limit: steps so tiny.
+  static std::vector<std::string> Endless(std::vector<std::string> flags) {
+    flags.insert(flags.end(), {"--planners", "rrtc", "--set", "rrtc.range=0.00001", "--set",
+                               "rrtc.extension=step", "--directions", "forward"});
+    return flags;
+  }
+};
 
 TEST_F(LaunchedSession, SolvesRecordsAndTabulates) {
   const auto session = folder() / "session";
@@ -109,15 +139,7 @@ TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
       << driver->Output();
   std::filesystem::remove_all(session / "logs");  // as in merged sessions
 
-  std::vector<std::string> resume = {Program("benchmark_driver"),
-                                     "--launch",
-                                     "--robot",
-                                     RobotFolder(),
-                                     "--problems",
-                                     ProblemFolder(),
-                                     "--resume",
-                                     session.string()};
-  resume.insert(resume.end(), flags.begin(), flags.end());
+  std::vector<std::string> resume = Resuming(session, flags);
   ChildProcess* resumed = Start(resume);
   ASSERT_EQ(resumed->Wait(), 0) << resumed->Errors();
   EXPECT_TRUE(std::filesystem::exists(session / "logs" / "logger.log"));
@@ -152,27 +174,41 @@ TEST_F(LaunchedSession, AClockThatIsSetBackCostsNothing) {
 
 TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   const auto session = folder() / "session";
-  // With steps so tiny every run lasts to its time limit.
-  ChildProcess* driver =
-      StartLaunchedDriver(session, {"--problems-range", "1-2", "--time", "2", "--planners", "rrtc",
-                                    "--set", "rrtc.range=0.00001", "--set", "rrtc.extension=step",
-                                    "--directions", "forward", "--trials", "2"});
-  const auto planner_pid = [&]() -> int {
-    for (const int pid : LeftRunning()) {
-      std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
-      const std::string command{std::istreambuf_iterator<char>(file), {}};
-      if (command.rfind(Program("planner_rrtc"), 0) == 0) return pid;
-    }
-    return -1;
-  };
+  ChildProcess* driver = StartLaunchedDriver(
+      session, Endless({"--problems-range", "1-2", "--time", "2", "--trials", "2"}));
   ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
       << driver->Errors();
-  const int victim = planner_pid();
+  const int victim = PidOf("planner_rrtc");
   ASSERT_GT(victim, 0);
   kill(victim, SIGKILL);
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 4);
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE status = 7"), 1) << driver->Errors();
+}
+
+// As Slurm, systemd and others end a job.
+TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded) {
+  const auto session = folder() / "session";
+  const std::vector<std::string> flags =
+      Endless({"--problems-range", "1", "--time", "1", "--trials", "3"});
+  ChildProcess* driver = StartLaunchedDriver(session, flags);
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
+      << driver->Errors();
+  const int planner = PidOf("planner_rrtc");
+  ASSERT_GT(planner, 0);
+  for (const int pid : LeftRunning()) {
+    if (pid != driver->pid()) kill(pid, SIGTERM);
+  }
+  EXPECT_TRUE(WaitUntil([&] { return PidOf("planner_rrtc") != planner; }));
+  driver->Signal(SIGTERM);
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  const std::string not_timed_out = "SELECT count(*) FROM runs WHERE status != 1";
+  EXPECT_EQ(Query(session, not_timed_out), 0) << driver->Errors();
+
+  ChildProcess* resumed = Start(Resuming(session, flags));
+  EXPECT_EQ(resumed->Wait(), 0) << resumed->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 3);
+  EXPECT_EQ(Query(session, not_timed_out), 0);
 }
 
 TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScript) {
