@@ -170,6 +170,20 @@ TEST_F(SlurmTest, AShardWithoutALogIsNamedAndWhatWasMergedBeforeStays) {
   EXPECT_THAT(Read(folder_ / "log"), HasSubstr("no shard holds an event log"));
 }
 
+TEST_F(SlurmTest, OfTwoMergesAtOnceOneWaitsForTheOther) {
+  ASSERT_EQ(Submit({"--tasks", "2", "--out", out_}), 0) << errors_;
+  WriteProgram("programs/report",
+               "mkdir $NOTES/at_work; sleep 0.5; rmdir $NOTES/at_work\n"
+               "mkdir $2; echo merged > $2/log.lcmlog; echo page > $4\n");
+  const std::map<std::string, std::string> environment = {{"NOTES", folder_.path().string()}};
+  ChildProcess first({"bash", out_ + "/merge"}, folder_ / "first", environment);
+  ChildProcess second({"bash", out_ + "/merge"}, folder_ / "second", environment);
+  for (ChildProcess* merge : {&first, &second}) {
+    EXPECT_EQ(merge->Wait(), 0) << merge->Output() << merge->Errors();
+  }
+  EXPECT_EQ(Read(out_ + "/merged/log.lcmlog"), "merged\n");
+}
+
 TEST_F(SlurmTest, JobsAreSoundWithoutFlagsAndWithAnyFolder) {
   const fs::path out = folder_ / "50% %a \"b\" c";
   ASSERT_EQ(Submit({"--tasks", "2", "--out", out, "--dry-run"}), 0) << errors_;
