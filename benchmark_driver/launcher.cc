@@ -18,11 +18,16 @@ constexpr char kLogger[] = "logger";
 
 /// Shell text that runs the command $1 and ends as it ends. When told to end, as the kernel does
 /// when the driver is killed, it passes that on to its whole group: the kernel knows the driver's
-/// children only, and a command may have children of its own.
+/// children only, and a command may have children of its own. Those that do not end then are killed
+/// 3 s later if the driver, who would do it, has gone: then this shell has another parent.
 constexpr char kRunCommand[] = R"(
 sh -c "$1" &
 child=$!
-trap 'trap : TERM; kill -TERM 0' TERM
+trap 'trap : TERM
+  kill -TERM 0
+  (sleep 3
+  { read -r _ _ _ parent _ </proc/$$/stat; } 2>/dev/null
+  [ "$parent" = "$PPID" ] || kill -KILL 0) &' TERM
 while :; do
   wait "$child"
   code=$?

@@ -212,21 +212,25 @@ TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded)
 }
 
 TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScript) {
-  const auto session = folder() / "session";
   const auto script = folder() / "mine.sh";
-  std::ofstream(script) << "#!/bin/sh\n"
-                        << Program("planner_rrtc") << " --robot " << RobotFolder()
-                        << " --name mine\necho the planner has ended\n";
-  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
-  ChildProcess* driver =
-      StartLaunchedDriver(session, {"--time", "30", "--trials", "1000", "--planners", "mine",
-                                    "--planner-command", "mine=cd / && " + script.string()});
-  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
-      << driver->Errors();
-  EXPECT_GE(LeftRunning().size(), 4U);
-  driver->Signal(SIGKILL);
-  EXPECT_EQ(driver->Wait(), 128 + SIGKILL);
-  EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
+  for (const bool ends : {true, false}) {  // when it is told to
+    std::ofstream(script) << "#!/bin/sh\n"
+                          << (ends ? "" : "trap '' TERM\n") << Program("planner_rrtc")
+                          << " --robot " << RobotFolder()
+                          << " --name mine\necho the planner has ended\n"
+                          << (ends ? "" : "sleep 1000\n");
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    const auto session = folder() / (ends ? "ends" : "does not");
+    ChildProcess* driver =
+        StartLaunchedDriver(session, {"--time", "30", "--trials", "1000", "--planners", "mine",
+                                      "--planner-command", "mine=cd / && " + script.string()});
+    ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
+        << driver->Errors();
+    EXPECT_GE(LeftRunning().size(), 4U);
+    driver->Signal(SIGKILL);
+    EXPECT_EQ(driver->Wait(), 128 + SIGKILL);
+    EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
+  }
 }
 
 }  // namespace
