@@ -164,8 +164,11 @@ void Supervisor::Reap(Child* child) {
   child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
   if (child->quick_deaths >= kMaxQuickDeaths) {
     child->wanted = false;
-    child->hopeless = fmt::format("{} ended {} again and again; {}", child->spec.name,
-                                  DescribeEnd(status), last_words);
+    const bool is_content = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    child->hopeless = fmt::format(
+        "{} ended {} again and again{}; {}", child->spec.name, DescribeEnd(status),
+        is_content ? ": a command must run as long as its planner, which ends with it" : "",
+        last_words);
     return;
   }
   spdlog::error("{} ended {}; starting it again; {}", child->spec.name, DescribeEnd(status),

@@ -206,6 +206,15 @@ TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
   EXPECT_EQ(Lines(out_).size(), static_cast<std::size_t>(Supervisor::kMaxQuickDeaths));
 }
 
+TEST_F(SupervisorTest, ACommandThatLeavesItsPlannerIsToldToStay) {
+  Supervisor supervisor;
+  supervisor.Start(Script("mine", "sleep 1000 &"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  EXPECT_THAT(supervisor.Hopeless().at("mine"),
+              HasSubstr("mine ended with exit code 0 again and again: a command must run as long "
+                        "as its planner, which ends with it; its last words"));
+}
+
 TEST_F(SupervisorTest, WhatCameUpHasNotDiedOfItsStart) {
   Supervisor supervisor;
   supervisor.Start(Script("child", "echo run >> $OUT; exit 3"));
