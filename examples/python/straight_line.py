@@ -7,11 +7,12 @@ import lcm
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TYPES = os.path.join(HERE, "..", "..", "lcmtypes")
-MODULES = tempfile.mkdtemp()
-subprocess.run(["lcm-gen", "--python", "--ppath", MODULES] +
-               [os.path.join(TYPES, f) for f in os.listdir(TYPES) if f.endswith(".lcm")], check=True)
-sys.path.insert(0, MODULES)
-import planbench as pb  # noqa: E402
+with tempfile.TemporaryDirectory() as modules:
+    subprocess.run(["lcm-gen", "--python", "--ppath", modules] +
+                   [os.path.join(TYPES, f) for f in os.listdir(TYPES) if f.endswith(".lcm")], check=True)
+    sys.path.insert(0, modules)
+    import planbench as pb
+    sys.path.remove(modules)
 
 MODELS = ["spheres"]  # collision models of the scene server that this planner offers
 

@@ -129,7 +129,11 @@ TEST_F(ExamplesTest, InJava) {
 TEST_F(ExamplesTest, InPython) {
   if (!Succeeds("python3 -c 'import lcm'")) GTEST_SKIP() << "needs LCM's module for Python, lcm";
   const fs::path program = examples_ / "python/straight_line.py";
-  ExpectTheFirstSolvedAndTheSecondNot(Run("python", "python3 " + program.string() + " python"));
+  const fs::path temporary = folder_.path() / "temporary";
+  fs::create_directory(temporary);
+  ExpectTheFirstSolvedAndTheSecondNot(
+      Run("python", "TMPDIR=" + temporary.string() + " python3 " + program.string() + " python"));
+  EXPECT_TRUE(fs::is_empty(temporary)) << "leaves its temporary files";
   ExpectOneOfTwoToLeave({"python3", program, "python"});
 }
 
