@@ -87,7 +87,7 @@ lcm_t* ConnectSender(const std::string& url) {
   if (lcm != nullptr) return lcm;
   if (said.find("multicast route") != std::string::npos) {
     throw InputError("LCM needs a multicast route and this machine has none for " + url +
-                     "; as root: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo");
+                     "; as root: ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo");
   }
   throw InputError("cannot connect to LCM at '" + url + "': " + FirstLine(said));
 }
