@@ -38,7 +38,7 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
                      Supervisor* supervisor);
 
 /// Stops them: planners and scene server first, the logger last, so that it stores what was still
-/// under way.
-void StopProcesses(const std::vector<LineUpEntry>& line_up, Supervisor* supervisor);
+/// under way. Planners of commands that are live on the bus all the same are named.
+void StopProcesses(const std::vector<LineUpEntry>& line_up, Bus* bus, Supervisor* supervisor);
 
 }  // namespace planbench

@@ -259,7 +259,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
       MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing,
                  driver.left_out(), driver.num_owed(), driver.num_to_repeat());
   if (supervisor) {
-    StopProcesses(line_up, supervisor.get());
+    StopProcesses(line_up, &bus, supervisor.get());
     WriteTables(session_folder / "tables.txt", tables.full);
     WriteOut(fmt::format("Session folder: {}\n", session_folder.string()));
   }

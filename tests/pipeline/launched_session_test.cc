@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -231,6 +233,19 @@ TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScri
     EXPECT_EQ(driver->Wait(), 128 + SIGKILL);
     EXPECT_TRUE(WaitUntil([this] { return LeftRunning().empty(); }));
   }
+}
+
+TEST_F(LaunchedSession, APlannerThatLeftItsProcessGroupIsNamedWhenItOutlivesTheSession) {
+  ChildProcess* driver = StartLaunchedDriver(
+      folder() / "session",
+      {"--problems-range", "1", "--time", "30", "--planners", "mine", "--planner-command",
+       fmt::format("mine=setsid {} --robot {} --name mine & exec sleep 1000",
+                   Program("planner_rrtc"), RobotFolder())});
+  EXPECT_EQ(driver->Wait(), 0) << driver->Errors();
+  const int planner = PidOf("planner_rrtc");
+  ASSERT_GT(planner, 0);
+  kill(planner, SIGTERM);
+  EXPECT_THAT(driver->Errors(), testing::HasSubstr(fmt::format(", pid {}) still runs: ", planner)));
 }
 
 }  // namespace
