@@ -60,14 +60,17 @@ std::optional<std::vector<double>> QuerySampler::Sample(
     return std::nullopt;
   }
   InverseKinematics& kinematics = kinematics_->at(end.gripper.tip_link);
+  const IkOptions options{.max_starts = spec_->effort.ik_starts};
   for (int pose = 0; pose < spec_->effort.poses; ++pose) {
     const Eigen::Isometry3d& X_BO = objects[random->Index(objects.size())];
     const Eigen::Isometry3d X_BT = DrawTipPose(end.gripper, X_BO, random);
     for (int solution = 0; solution < spec_->effort.solutions; ++solution) {
-      const IkResult result =
-          kinematics.Solve(X_BT, random->engine(), {.max_starts = spec_->effort.ik_starts});
+      const IkResult result = kinematics.Solve(X_BT, random->engine(), options);
       if (!result.solved) {
-        rejections->Add(end.name + ": no inverse kinematics solution", end.where);
+        const double off_m = result.position_error_m;
+        const double off_rad = result.orientation_error_rad;
+        rejections->Add(end.name + ": no inverse kinematics solution", end.where,
+                        {off_m + off_rad, DescribeMiss(off_m, off_rad, options)});
         break;
       }
       const std::vector<double> q = other ? Turned(result.q, *other, &kinematics) : result.q;

@@ -9,6 +9,17 @@ namespace planbench {
 
 void Rejections::Add(const Rejections& other) {
   for (const auto& [key, count] : other.counts_) counts_[key] += count;
+  for (const auto& [reason, miss] : other.least_misses_) KeepLeast(reason, miss);
+}
+
+void Rejections::Add(const std::string& reason, const std::string& where, const Miss& miss) {
+  Add(reason, where);
+  KeepLeast(reason, miss);
+}
+
+void Rejections::KeepLeast(const std::string& reason, const Miss& miss) {
+  Miss& least = least_misses_.emplace(reason, miss).first->second;
+  if (miss.size < least.size) least = miss;
 }
 
 std::map<std::string, long> Rejections::ByReason() const {
@@ -24,7 +35,11 @@ std::string Rejections::Summary() const {
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   if (sorted.empty()) return "nothing";
   std::vector<std::string> counts;
-  for (const auto& [reason, count] : sorted) counts.push_back(fmt::format("{} {}", reason, count));
+  for (const auto& [reason, count] : sorted) {
+    counts.push_back(fmt::format("{} {}", reason, count));
+    const auto miss = least_misses_.find(reason);
+    if (miss != least_misses_.end()) counts.back() += fmt::format(" ({})", miss->second.text);
+  }
   return fmt::format("{}", fmt::join(counts, ", "));
 }
 

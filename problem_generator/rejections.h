@@ -12,17 +12,28 @@ class Rejections {
   /// `reason`: what is wrong, with whom ("approach goal: no inverse kinematics solution");
   /// `where`: the place in the specification it comes from.
   void Add(const std::string& reason, const std::string& where) { ++counts_[{reason, where}]; }
+  /// By how much something was missed, in any measure that is the same for all of a reason.
+  struct Miss {
+    double size = 0;
+    std::string text;
+  };
+  /// Of the misses of a reason, the summary tells the least.
+  void Add(const std::string& reason, const std::string& where, const Miss& miss);
   void Add(const Rejections& other);
 
   /// Counts by reason.
   std::map<std::string, long> ByReason() const;
-  /// "reason 12, other reason 3", the most frequent first; "nothing" if there are none.
+  /// "reason 12, other reason 3 (least miss)", the most frequent first; "nothing" if there are
+  /// none.
   std::string Summary() const;
   /// Where the most frequent comes from, "" if there are none.
   std::string MostFrequentPlace() const;
 
  private:
+  void KeepLeast(const std::string& reason, const Miss& miss);
+
   std::map<std::pair<std::string, std::string>, long> counts_;
+  std::map<std::string, Miss> least_misses_;  // By reason.
 };
 
 }  // namespace planbench

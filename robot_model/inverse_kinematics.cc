@@ -1,5 +1,7 @@
 #include "robot_model/inverse_kinematics.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -41,6 +43,11 @@ bool Reached(const Eigen::Vector<double, 6>& error, const IkOptions& options) {
 }
 
 }  // namespace
+
+std::string DescribeMiss(double off_m, double off_rad, const IkOptions& options) {
+  return fmt::format("nearest: {:.4g} m and {:.4g} rad off; {:g} m and {:g} rad are allowed", off_m,
+                     off_rad, options.position_tolerance_m, options.orientation_tolerance_rad);
+}
 
 InverseKinematics::InverseKinematics(const RobotModel& model, const PlanningGroup& group,
                                      std::span<const double> base_positions,

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "robot_model/robot_model.h"
@@ -28,6 +29,10 @@ struct IkResult {
   int starts = 0;                    ///< Configurations that were started from.
   int steps = 0;                     ///< Over all starts.
 };
+
+/// How far from a pose the nearest try was, for messages: "nearest: 0 m and 7.3e-06 rad off; 1e-06
+/// m and 1e-06 rad are allowed".
+std::string DescribeMiss(double off_m, double off_rad, const IkOptions& options);
 
 /// Configurations of a planning group that bring its tip to a pose, with every other joint
 /// held (those that follow a joint of the group move with it). Numerical, for any chain of

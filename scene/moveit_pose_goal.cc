@@ -354,9 +354,10 @@ std::vector<std::vector<double>> FindPoseGoals(const YamlNode& constraints, cons
     const YamlNode first =
         positions.empty() ? constraints.At("orientation_constraints").At(0) : positions.front();
     throw OutOfReach(fmt::format(
-        "{}: no configuration of group '{}' reaches the pose{} (best: {:.1f} mm, {:.3f} rad)",
-        first.Where(), group.name, poses.size() > 1 ? "s of its tips" : "", best_m * 1e3,
-        best_rad));
+        "{}: no configuration of group '{}' reaches the pose{} ({})", first.Where(), group.name,
+        poses.size() > 1 ? "s of its tips" : "",
+        DescribeMiss(best_m, best_rad,
+                     {.position_tolerance_m = kMet, .orientation_tolerance_rad = kMet})));
   }
   return found;
 }

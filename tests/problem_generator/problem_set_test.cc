@@ -235,6 +235,17 @@ TEST(MadeProblems, HaveTheTipThatIsNamedAtThePoseAndTheOtherArmAtRest) {
   }
 }
 
+TEST(MadeProblems, OfPosesThatAreMissedByLittleItIsToldByHowMuch) {
+  const Robot robot = MakeTwoArmRobot(/*with_torso=*/true);
+  const TemporaryFolder folder;
+  // Planar arms cannot roll.
+  const ProblemSpec spec =
+      LoadProblemSpec(WriteTwoArmSpec(folder, "tip: right_hand, rpy: [0.00001, 0, 0], "), robot);
+  ExpectInputError([&] { MakeProblems(spec, robot, 1, FirstIndices(1), 0, 1); },
+                   {"reach goal: no inverse kinematics solution 5 (nearest: ",
+                    " m and 1e-05 rad off; 1e-06 m and 1e-06 rad are allowed)"});
+}
+
 TEST(DrawTipPose, TurnsAboutTheObjectBeforeItMovesAndStaysWithinTolerances) {
   GripperSpec gripper;
   gripper.around = {1.5707963267948966, 1.5707963267948966};

@@ -261,10 +261,11 @@ TEST(PoseGoals, RefusesWhatItCannotMean) {
   const std::string position = "position_constraints[0]";
   const std::string orientation = "orientation_constraints[0]";
   refuse(kPosition, "[0, 1, 3]", "[0, 3, 3]", position,
-         "no configuration of group 'arm' reaches the pose (best: 1999.0 mm, 0.000 rad)");
-  refuse(kPosition, "[0, 1, 3]", "[0, 1, 9.501]", position, "(best: 500.0 mm, 0.000 rad)");
+         "no configuration of group 'arm' reaches the pose (nearest: 1.999 m and 0 rad off; "
+         "1e-06 m and 1e-06 rad are allowed)");
+  refuse(kPosition, "[0, 1, 3]", "[0, 1, 9.501]", position, "(nearest: 0.5 m and 0 rad off;");
   refuse(kOrientation, "[0, 0, 0.7071067811865476, 0.7071067811865476]", "[1, 0, 0, 0]",
-         orientation, "(best: 0.0 mm, ");
+         orientation, "(nearest: 0 m and ");
   refuse(kPosition, "gripper_link", "mast", position + ".link_name",
          "'mast' does not move as one with 'gripper_link', the tip of group 'arm'");
   refuse(kPosition, "gripper_link", "hand", position + ".link_name", "no link 'hand'");
