@@ -334,8 +334,10 @@ void Driver::AddContestant(const LineUpEntry& entry) {
   const std::string model(EnumName(*contestant.collision_model));
   const auto& models = planner->collision_models;
   if (std::find(models.begin(), models.end(), model) == models.end()) {
-    throw InputError(
-        fmt::format("--collision-model: the planner '{}' does not offer '{}'", name, model));
+    const auto why = planner->unusable_models.find(model);
+    throw InputError(fmt::format("--collision-model: the planner '{}' does not offer '{}'{}", name,
+                                 model,
+                                 why == planner->unusable_models.end() ? "" : ": " + why->second));
   }
   if (contestant.collision_model == CollisionModel::kMeshes) {
     options_.conditions.mesh_robot_id = served_.mesh_robot_id;

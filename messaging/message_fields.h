@@ -122,6 +122,7 @@ struct Fields<NodeStatusMessage> : On<lcmt_node_status> {
     io.Field("deterministic", v.deterministic, w.deterministic);
     io.List("collision_model", v.collision_models, w.collision_model, w.num_collision_models,
             kNames);
+    io.List("unusable_model", v.unusable_models, w.unusable_model, w.num_unusable_models);
     io.List("setting", v.settings, w.setting, w.num_settings);
   }
 };

@@ -28,6 +28,7 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
                 [this](CollisionModel model) { return unusable_models_.contains(model); });
   for (const auto& [model, reason] : unusable_models_) {
     spdlog::info("the collision model '{}' is not offered: {}", EnumName(model), reason);
+    status_.unusable_models.emplace(EnumName(model), reason);
   }
   status_.robot_name = planner_->robot().name;
   status_.robot_id = planner_->robot().content_id;

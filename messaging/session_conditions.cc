@@ -73,6 +73,7 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   for (NodeStatusMessage& node : session.nodes) {
     node.utime = node.start_utime = 0;
     node.busy = false;
+    node.unusable_models.clear();  // words; which models there are instead is compared
     node.request_id = node.host = node.instance = node.trouble = "";
     node.pid = 0;
     if (node.kind == NodeKind::kSceneServer) {

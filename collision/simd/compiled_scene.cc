@@ -1,5 +1,7 @@
 #include "collision/simd/compiled_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -10,6 +12,7 @@
 #include "collision/object_cover.h"
 #include "collision/rigid_bodies.h"
 #include "collision/shape_check.h"
+#include "common/error.h"
 #include "common/numbers.h"
 
 namespace planbench {
@@ -49,7 +52,7 @@ BallTree TreeAround(const SceneObject& object, std::vector<Ball> balls) {
   return tree;
 }
 
-/// A grid that no sphere leaves.
+/// A grid that no sphere leaves. Throws InputError if it is too large.
 VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
   VoxelSettings settings;
   settings.lower.setConstant(kInfinity);
@@ -58,6 +61,14 @@ VoxelSettings VoxelsWithinReach(const CompiledRobot& robot) {
     const Eigen::Vector3d extent = Eigen::Vector3d::Constant(tree.reach_W.radius);
     settings.lower = settings.lower.cwiseMin(tree.reach_W.center - extent);
     settings.upper = settings.upper.cwiseMax(tree.reach_W.center + extent);
+  }
+  try {
+    NumVoxels(settings);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("voxels of {} m wherever the robot reaches: {}; name a smaller or coarser grid "
+                    "in robot.yaml (voxels)",
+                    settings.resolution_m, error.what()));
   }
   return settings;
 }

@@ -80,7 +80,7 @@ public class StraightLine implements LCMSubscriber {
     s.name = name; s.instance = instance; s.trouble = ""; s.host = java.net.InetAddress.getLocalHost().getHostName(); s.version = s.commit = "example"; s.pid = (int) ProcessHandle.current().pid();
     s.robot_name = sets.robot_name; s.robot_id = sets.robot_id;
     s.algorithm = "Straight line (Java)"; s.planner_class = "search-and-sample"; s.deterministic = true;
-    s.num_collision_models = 1; s.collision_model = new String[] {"spheres"}; s.setting = new lcmt_key_value[0];
+    s.num_collision_models = 1; s.collision_model = new String[] {"spheres"}; s.setting = s.unusable_model = new lcmt_key_value[0];
     lcm.publish("NODE_STATUS", s);
   }
 

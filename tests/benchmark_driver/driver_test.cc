@@ -275,7 +275,9 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   const FakeSceneServer server(&bus_);
   DriverOptions options = Options();
   options.conditions.request.collision_model = CollisionModel::kMeshes;
-  ExpectNotDiscovered(options, {"--collision-model", "'arm'", "'meshes'"});
+  planner.status.unusable_models = {{"meshes", "has none"}};
+  Reannounce(&planner);
+  ExpectNotDiscovered(options, {"--collision-model", "'arm'", "'meshes': has none"});
   options = Options();
   options.conditions.request.anytime = true;
   ExpectNotDiscovered(options, {"--anytime", "'arm'"});

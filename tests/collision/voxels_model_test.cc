@@ -10,6 +10,7 @@
 #include "scene/moveit_yaml.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
+#include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 
 namespace planbench {
@@ -133,6 +134,14 @@ TEST(VoxelsModelTest, WithoutAGridOfItsOwnTheRobotIsCovered) {
   }
   EXPECT_EQ(num_differ, 0);
   EXPECT_GT(num_blocked, 20);
+}
+
+TEST(VoxelsModelTest, ARobotTooLargeForTheGridIsToldWhatToDo) {
+  Robot robot = MakeRailRobot();
+  robot.spheres.push_back({robot.spheres[0].link, Eigen::Vector3d(100, 0, 0), 0.25});
+  SimdChecker checker(robot, robot.groups.front(), CollisionModel::kVoxels);
+  ExpectInputError([&] { checker.SetScene({}, std::vector<double>{0.0}); },
+                   {"voxels of 0.02 m", "cells along x, at most 2048", "robot.yaml (voxels)"});
 }
 
 TEST(VoxelsModelTest, ProvesStretchesOfMotions) {

@@ -133,7 +133,9 @@ class PlannerNodeTest : public testing::Test {
 
 TEST_F(PlannerNodeTest, AnnouncesWhatItIsAndCan) {
   MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
-  StartNode();
+  PlannerDescription able = ScriptedPlanner::Able();
+  able.collision_models.push_back(CollisionModel::kEnclosing);  // of which the robot has no spheres
+  StartNode(able);
   const auto heard = statuses.WaitFor(1);
   ASSERT_FALSE(heard.empty());
   EXPECT_EQ(heard[0].name, "arm");
@@ -147,6 +149,8 @@ TEST_F(PlannerNodeTest, AnnouncesWhatItIsAndCan) {
   EXPECT_TRUE(heard[0].bidirectional);
   EXPECT_TRUE(heard[0].deterministic);
   EXPECT_EQ(heard[0].collision_models, std::vector<std::string>{"spheres"});
+  ASSERT_EQ(heard[0].unusable_models.size(), 1u);
+  EXPECT_THAT(heard[0].unusable_models.at("enclosing"), HasSubstr("enclosing_spheres"));
   EXPECT_EQ(heard[0].settings, (std::map<std::string, std::string>{{"key", "value"}}));
   EXPECT_FALSE(heard[0].busy);
 }
