@@ -29,8 +29,12 @@ std::size_t TerminalWidth() {
 
 }  // namespace
 
-ProgressLine::ProgressLine(int total, int done)
-    : total_(total), done_at_first_(done), done_(done), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(int total, int done, bool pieces_are_alike)
+    : total_(total),
+      done_at_first_(done),
+      done_(done),
+      pieces_are_alike_(pieces_are_alike),
+      on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() { Print(true); }
 
@@ -50,7 +54,7 @@ void ProgressLine::Print(bool last) {
       fmt::format("[{:.<{}}] {}/{}  {}", std::string(static_cast<std::size_t>(filled), '#'),
                   kBarWidth, done_, total_, Duration(elapsed_s));
   const int done_here = done_ - done_at_first_;
-  if (done_here > 0 && done_ < total_) {
+  if (pieces_are_alike_ && done_here > 0 && done_ < total_) {
     line += fmt::format(" (about {} left)", Duration(elapsed_s / done_here * (total_ - done_)));
   }
   if (!text_.empty()) line += "  " + text_;

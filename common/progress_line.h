@@ -6,11 +6,13 @@
 namespace planbench {
 
 /// How far work has come, on stderr: a bar, what the caller says, the time gone and about how much
-/// is left. One line that is rewritten on a terminal, else a line now and then. Not thread-safe.
+/// is left, where that can be told. One line that is rewritten on a terminal, else a line now and
+/// then. Not thread-safe.
 class ProgressLine {
  public:
-  /// Of `total` pieces of work, `done` are done already: they do not bear on the estimate.
-  explicit ProgressLine(int total, int done = 0);
+  /// Of `total` pieces of work, `done` are done already: they do not bear on the estimate. Where
+  /// pieces are not alike, those that are done tell nothing of the others: there is no estimate.
+  explicit ProgressLine(int total, int done = 0, bool pieces_are_alike = true);
   /// Shows the last state and ends the line.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -26,6 +28,7 @@ class ProgressLine {
   int total_;
   int done_at_first_;
   int done_;
+  bool pieces_are_alike_;
   std::string text_;
   bool on_terminal_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -234,7 +234,7 @@ class RobotMaker {
   }
 
   static std::vector<OuterSet> Fit(const std::vector<LinkBody>& bodies, const FitGoal& goal) {
-    ProgressLine progress(static_cast<int>(bodies.size()));
+    ProgressLine progress(static_cast<int>(bodies.size()), 0, /*pieces_are_alike=*/false);
     return FitOuterSpheres(bodies, goal,
                            [&](int done, const std::string& text) { progress.Show(done, text); });
   }

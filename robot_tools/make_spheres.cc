@@ -127,7 +127,8 @@ void MakeSpheres(const MakeSpheresFlags& flags, const SayLine& say) {
   goal.most_a_link = flags.most_a_link;
   std::vector<OuterSet> fitted;
   {
-    ProgressLine progress(goal.spheres.value_or(0) + static_cast<int>(links.links.size()));
+    ProgressLine progress(goal.spheres.value_or(0) + static_cast<int>(links.links.size()), 0,
+                          /*pieces_are_alike=*/false);
     fitted = FitOuterSpheres(links.bodies, goal,
                              [&](int done, const std::string& text) { progress.Show(done, text); });
   }

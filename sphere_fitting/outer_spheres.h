@@ -29,7 +29,8 @@ struct OuterSet {
 };
 
 /// Is told how far the work has come, and with what: a piece for each sphere of the goal, if it
-/// says how many, and then one for each link.
+/// says how many, and then one for each link. They are not alike: one link may take a hundred times
+/// as long as another, and a few links together as long as all spheres before them.
 using FitProgress = std::function<void(int done, const std::string& text)>;
 
 /// For each link, which must not be empty, balls in its frame that provably contain it

@@ -16,10 +16,10 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// What is on stderr after `done` of `total` pieces of work, `earlier` of them done before.
-std::string Shown(int total, int earlier, int done) {
+std::string Shown(int total, int earlier, int done, bool pieces_are_alike = true) {
   testing::internal::CaptureStderr();
   {
-    ProgressLine line(total, earlier);
+    ProgressLine line(total, earlier, pieces_are_alike);
     if (done > earlier) line.Show(done, "shelf");
   }
   return testing::internal::GetCapturedStderr();
@@ -46,6 +46,7 @@ TEST(ProgressLineTest, EstimatesWhatIsLeftByWhatItHasSeen) {
   EXPECT_THAT(Shown(8, 3, 4), HasSubstr("left)"));
   EXPECT_THAT(Shown(8, 4, 4), Not(HasSubstr("left)")));  // nothing seen
   EXPECT_THAT(Shown(8, 4, 8), Not(HasSubstr("left)")));  // nothing left
+  EXPECT_THAT(Shown(8, 0, 4, /*pieces_are_alike=*/false), HasSubstr("4/8  0:00  shelf"));
 }
 
 TEST(ProgressLineTest, NeverExceedsTheTerminal) {
