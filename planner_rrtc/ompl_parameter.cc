@@ -15,9 +15,15 @@ namespace {
 
 struct Bounds {
   double least = -std::numeric_limits<double>::infinity();
-  double most = 1e6;  // The most that OMPL suggests for any. Far beyond, its arithmetic overflows.
+  // The most that OMPL suggests for any. Far beyond, its arithmetic overflows, and batches take all
+  // memory without a look at the clock.
+  double most = 1e6;
   bool integers = false;
 };
+
+/// Of the trees that OMPL sorts neighbours into. A node of degree k is split over a matrix of more
+/// than k by k distances.
+constexpr double kMostDegree = 1000;
 
 std::optional<double> FiniteNumber(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -29,9 +35,8 @@ std::optional<double> FiniteNumber(std::string_view text) {
 }
 
 /// OMPL suggests "first:last" or "first:step:last", which is where to look for good values, not
-/// where others have no meaning: of numbers, only its signs and shares are taken for limits.
-/// Without a point it means integers. OMPL counts, reserves memory and chooses by those without a
-/// check: beyond the last it takes all memory or all time, and at 0 it may crash.
+/// where others have no meaning: only its signs and shares are taken for limits. Without a point it
+/// means integers. OMPL counts and divides by those without a check: at 0 it may crash.
 Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
   Bounds bounds;
   const std::optional<double> first = FiniteNumber(suggestion.substr(0, suggestion.find(':')));
@@ -40,9 +45,9 @@ Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
     bounds.integers = suggestion.find('.') == std::string::npos;
     if (*first >= 0) bounds.least = 0;
     if (*first >= 0 && *last == 1) bounds.most = 1;
-    // With a degree of 1 the trees that OMPL sorts neighbours into have no branches.
-    const bool is_degree = name.find("degree") != std::string::npos;
-    if (bounds.integers) bounds = {is_degree ? *first : std::min(*first, 1.0), *last, true};
+    if (bounds.integers) bounds = {std::min(*first, 1.0), Bounds().most, true};
+    // With a degree of 1 the trees have no branches.
+    if (name.find("degree") != std::string::npos) bounds = {*first, kMostDegree, true};
   }
   if (name == "range") bounds.least = 0;
   for (const char* share : {"bias", "fraction", "probability"}) {

@@ -141,10 +141,12 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: BITstar\nompl: {samples_per_batch: 4000000000}",
                  {"samples_per_batch: 4000000000 is not from 1 to 1000000"});
   expect_refused("algorithm: LazyPRM\nompl: {max_nearest_neighbors: 5000000000}",
-                 {"5000000000 is not from 1 to 1000"});
-  expect_refused("algorithm: STRIDE\nompl: {degree: 1}", {"1 is not from 2 to 20"});
-  expect_refused("algorithm: STRIDE\nompl: {max_pts_per_leaf: 0}", {"0 is not from 1 to 200"});
-  expect_refused("algorithm: RRTsharp\nompl: {rejection_variant: 4}", {"4 is not from 0 to 3"});
+                 {"5000000000 is not from 1 to 1000000"});
+  expect_refused("algorithm: STRIDE\nompl: {degree: 1}", {"1 is not from 2 to 1000"});
+  expect_refused("algorithm: STRIDE\nompl: {max_degree: 1001}", {"1001 is not from 2 to 1000"});
+  expect_refused("algorithm: STRIDE\nompl: {max_pts_per_leaf: 0}", {"0 is not from 1 to 1000000"});
+  expect_refused("algorithm: RRTsharp\nompl: {rejection_variant: 4}",
+                 {"ompl.rejection_variant: '4' is no value"});
   expect_refused("algorithm: RRTstar\nompl: {rewire_factor: 1e300}",
                  {"1e300 is not from 0 to 1000000"});
   expect_refused("algorithm: TRRT\nompl: {init_temperature: 1e300}",
@@ -275,6 +277,18 @@ TEST_F(RrtcPlannerTest, DefaultsAndChoicesOfOmplsParametersAreAccepted) {
         "{algorithm: ABITstar, ompl: {initial_inflation_factor: 1e6}}",
         "{algorithm: TRRT, ompl: {init_temperature: 100, temp_change_factor: 0.1}}"}) {
     EXPECT_NO_THROW(MakeRrtcPlanner(robot_, Settings(text))) << text;
+  }
+}
+
+TEST_F(RrtcPlannerTest, WholeNumbersBeyondOmplsSuggestionsDoNoHarm) {
+  for (const std::string text :
+       {"{algorithm: STRIDE, ompl: {degree: 1000, max_degree: 1000, min_degree: 1000}}",
+        "{algorithm: STRIDE, ompl: {degree: 30, max_degree: 40, max_pts_per_leaf: 1000000}}",
+        "{algorithm: LazyPRM, ompl: {max_nearest_neighbors: 1000000}}",
+        "{algorithm: PRM, ompl: {max_nearest_neighbors: 1000000}}",
+        "{algorithm: InformedRRTstar, ompl: {number_sampling_attempts: 1000000}}"}) {
+    const PlanResult result = Solve(text);
+    EXPECT_EQ(result.status, PlanStatus::kSolved) << text << ": " << result.message;
   }
 }
 
