@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
-#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -22,74 +21,59 @@ namespace {
 // The last element of a list that `ros2 topic echo` has not printed to its end.
 constexpr std::string_view kCut = "...";
 
-// The tag of a node in its short form, "" for none. yaml-cpp gives "?" to what is plain and "!" to
-// what is quoted.
-std::string ShortTag(const YAML::Node& node) {
-  constexpr std::string_view kYaml = "tag:yaml.org,2002:";
-  const std::string& tag = node.Tag();
-  if (tag == "?" || tag == "!") return "";
-  return tag.starts_with(kYaml) ? "!!" + tag.substr(kYaml.size()) : tag;
-}
+using Node = YamlTree::Node;
+using Kind = YamlTree::Kind;
 
-bool IsNullNode(const YAML::Node& node) { return node.IsNull() || ShortTag(node) == "!!null"; }
+bool IsNullNode(const Node& node) { return node.kind == Kind::kNull || node.tag == "!!null"; }
 
 /// The control characters that texts may hold.
 constexpr std::string_view kLineBreaks = "\n\t";
 
-bool IsMergeKey(const YAML::Node& key) {
+bool IsMergeKey(const Node& key) {
   // In quotes it is a key like any other.
-  return key.IsScalar() && key.Scalar() == "<<" && key.Tag() != "!";
+  return key.kind == Kind::kScalar && key.text == "<<" && !key.is_quoted;
 }
 
 // A map and all that it merges, at any depth, in the order of their word on a key. Each is told
 // once, however often it is merged: there may be exponentially many ways to it.
 class MergeOrder {
  public:
-  explicit MergeOrder(const YAML::Node& map) : open_{map} {}
+  explicit MergeOrder(const Node& map) : open_{&map} {}
 
-  /// Nothing after the last.
-  std::optional<YAML::Node> Next() {
+  /// Null after the last.
+  const Node* Next() {
     while (!open_.empty()) {
-      const YAML::Node map = open_.back();
+      const Node* map = open_.back();
       open_.pop_back();
-      // No two maps of a document begin at the same place, but for one that is a key.
-      if (!told_.insert(map.Mark().pos).second) continue;
-      std::vector<YAML::Node> merged;
-      for (const auto& entry : map) {
-        if (!IsMergeKey(entry.first)) continue;
-        if (entry.second.IsMap()) {
-          merged.push_back(entry.second);
+      if (!told_.insert(map).second) continue;
+      std::vector<const Node*> merged;
+      for (const auto& [key, value] : map->entries) {
+        if (!IsMergeKey(*key)) continue;
+        if (value->kind == Kind::kMap) {
+          merged.push_back(value);
         } else {
-          for (const auto& element : entry.second) merged.push_back(element);
+          merged.insert(merged.end(), value->elements.begin(), value->elements.end());
         }
       }
-      for (auto other = merged.rbegin(); other != merged.rend(); ++other) open_.push_back(*other);
+      open_.insert(open_.end(), merged.rbegin(), merged.rend());
       return map;
     }
-    return std::nullopt;
+    return nullptr;
   }
 
  private:
-  std::vector<YAML::Node> open_;  // What comes next is last.
-  std::set<int> told_;            // By their positions in the text.
+  std::vector<const Node*> open_;  // What comes next is last.
+  std::set<const Node*> told_;
 };
 
-std::string KindOf(const YAML::Node& node) {
+std::string KindOf(const Node& node) {
   constexpr std::size_t kLongest = 60;
   if (IsNullNode(node)) return "nothing";
-  switch (node.Type()) {
-    case YAML::NodeType::Scalar: {
-      const std::string& text = node.Scalar();
-      return text.size() <= kLongest ? "'" + text + "'"
-                                     : "a text of " + std::to_string(text.size()) + " characters";
-    }
-    case YAML::NodeType::Sequence:
-      return "a sequence";
-    case YAML::NodeType::Map:
-      return "a map";
-    default:
-      return "an undefined value";
-  }
+  if (node.kind == Kind::kSequence) return "a sequence";
+  if (node.kind == Kind::kMap) return "a map";
+  return node.text.size() <= kLongest
+             ? "'" + node.text + "'"
+             : "a text of " + std::to_string(node.text.size()) + " characters";
 }
 
 // from_chars and not yaml-cpp's streams: independent of the locale, and "010" is ten.
@@ -149,37 +133,6 @@ bool ParseDouble(std::string_view text, std::string_view tag, double* value) {
   return ParseNumber(text, value);
 }
 
-// Where a document begins.
-class DocumentStart : public YAML::EventHandler {
- public:
-  YAML::Mark mark;
-
-  void OnDocumentStart(const YAML::Mark& start) override { mark = start; }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
-};
-
-// yaml-cpp 0.7 reads documents without end where a bracket closes that none has opened.
-void RequireDocumentsThatEnd(const std::string& text) {
-  std::istringstream stream(text);
-  YAML::Parser parser(stream);
-  DocumentStart document;
-  for (int last = -1; parser.HandleNextDocument(document); last = document.mark.pos) {
-    if (document.mark.pos == last) {
-      throw YAML::ParserException(document.mark, "nothing is open that could end here");
-    }
-  }
-}
-
 int LineOf(std::string_view text, std::size_t offset) {
   return 1 +
          static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
@@ -201,10 +154,9 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
     throw InputError(origin + ":" + std::to_string(LineOf(text, *bad)) + ": the byte " +
                      text.substr(*bad, 1) + " is no UTF-8; the file must be UTF-8 text");
   }
-  std::vector<YAML::Node> documents;
+  std::shared_ptr<Document> document;
   try {
-    RequireDocumentsThatEnd(text);
-    documents = YAML::LoadAll(text);
+    document = std::make_shared<Document>(text, origin);
   } catch (const YAML::Exception& error) {
     const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
     // Its own text for this is "bad file".
@@ -212,50 +164,51 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
     throw InputError(origin + line +
                      (is_deep ? ": is nested too deep" : ": no valid YAML: " + error.msg));
   }
-  std::erase_if(documents, [](const YAML::Node& document) { return document.IsNull(); });
+  std::vector<const Node*> documents = document->tree.documents();
+  std::erase_if(documents, [](const Node* root) { return root->kind == Kind::kNull; });
   if (documents.size() > 1) {
-    throw InputError(origin + ":" + std::to_string(documents[1].Mark().line + 1) +
+    throw InputError(origin + ":" + std::to_string(documents[1]->line) +
                      ": a second YAML document begins here; one is expected");
   }
-  YamlNode root(documents.empty() ? YAML::Node() : documents[0],
-                std::make_shared<Document>(Document{origin, true, {}}), "");
-  std::vector<YAML::Node> ancestors;
+  static const Node kNothing;
+  YamlNode root(documents.empty() ? &kNothing : documents[0], document, "");
+  std::vector<const Node*> ancestors;
   int position = -1;
   root.CheckTree(&ancestors, &position);
   return root;
 }
 
-void YamlNode::CheckTree(std::vector<YAML::Node>* ancestors, int* last_position) const {
+void YamlNode::CheckTree(std::vector<const Node*>* ancestors, int* last_position) const {
   constexpr std::size_t kDeepest = 200;
   // What stands before its parent or its elder sibling is an alias: checked at its anchor.
-  if (node_.Mark().pos < *last_position) return;
-  *last_position = node_.Mark().pos;
+  if (node_->position < *last_position) return;
+  *last_position = node_->position;
   if (ancestors->size() > kDeepest) Fail("is nested too deep");
-  const std::string tag = ShortTag(node_);
+  const std::string& tag = node_->tag;
   const auto require = [&](std::initializer_list<std::string_view> known) {
     if (tag.empty() || std::find(known.begin(), known.end(), tag) != known.end()) return;
     const bool is_angle = tag == "!degrees" || tag == "!radians";
     Fail(fmt::format("the tag '{}' is {}", tag,
                      is_angle ? "one number's; write it before each" : "not known here"));
   };
-  if (node_.IsSequence()) {
+  if (node_->kind == Kind::kSequence) {
     require({"!!seq"});
     ancestors->push_back(node_);
     int index = 0;
-    for (const auto& element : node_) {
+    for (const Node* element : node_->elements) {
       Child(element, path_ + "[" + std::to_string(index++) + "]")
           .CheckTree(ancestors, last_position);
     }
     ancestors->pop_back();
-  } else if (node_.IsMap()) {
+  } else if (node_->kind == Kind::kMap) {
     require({"!!map"});
     ancestors->push_back(node_);
-    for (const auto& entry : node_) {
-      const std::string path = entry.first.IsScalar() ? PathOf(entry.first.Scalar()) : path_;
-      Child(entry.first, path).CheckTree(ancestors, last_position);
-      const YamlNode value = Child(entry.second, path);
-      if (IsMergeKey(entry.first)) value.CheckMerge(entry.second, *ancestors);
-      value.CheckTree(ancestors, last_position);
+    for (const auto& [key, value] : node_->entries) {
+      const std::string path = key->kind == Kind::kScalar ? PathOf(key->text) : path_;
+      Child(key, path).CheckTree(ancestors, last_position);
+      const YamlNode child = Child(value, path);
+      if (IsMergeKey(*key)) child.CheckMerge(*value, *ancestors);
+      child.CheckTree(ancestors, last_position);
     }
     ancestors->pop_back();
   } else {
@@ -264,37 +217,41 @@ void YamlNode::CheckTree(std::vector<YAML::Node>* ancestors, int* last_position)
   }
 }
 
-void YamlNode::CheckMerge(const YAML::Node& value, const std::vector<YAML::Node>& ancestors) const {
-  const auto require_map = [&](const YAML::Node& map) {
-    if (!map.IsMap()) Fail("'<<' merges a map or a sequence of maps, found " + KindOf(map));
-    for (const YAML::Node& ancestor : ancestors) {
-      if (map.is(ancestor)) Fail("'<<' merges a map into itself");
+void YamlNode::CheckMerge(const Node& value, const std::vector<const Node*>& ancestors) const {
+  const auto require_map = [&](const Node& map) {
+    if (map.kind != Kind::kMap) {
+      Fail("'<<' merges a map or a sequence of maps, found " + KindOf(map));
+    }
+    if (std::find(ancestors.begin(), ancestors.end(), &map) != ancestors.end()) {
+      Fail("'<<' merges a map into itself");
     }
   };
-  if (!value.IsSequence()) return require_map(value);
-  for (const auto& element : value) require_map(element);
+  if (value.kind != Kind::kSequence) return require_map(value);
+  for (const Node* element : value.elements) require_map(*element);
 }
 
 void YamlNode::RequireTag(std::initializer_list<std::string_view> allowed,
                           const char* wanted) const {
-  const std::string tag = ShortTag(node_);
+  const std::string& tag = node_->tag;
   if (tag.empty() || std::find(allowed.begin(), allowed.end(), tag) != allowed.end()) return;
   Fail(std::string("expected ") + wanted + ", found the tag '" + tag + "'");
 }
 
-YamlNode YamlNode::Foreign(const YAML::Node& node, const std::string& key,
-                           const std::string& origin) const {
-  return YamlNode(node, std::make_shared<Document>(Document{origin, false, {}}), PathOf(key));
+std::shared_ptr<YamlNode> YamlNode::Foreign(const std::string& key, const std::string& text,
+                                            const std::string& origin) const {
+  auto foreign = std::make_shared<YamlNode>(Parse(text, origin));
+  foreign->document_->has_lines = false;
+  foreign->path_ = PathOf(key);
+  return foreign;
 }
 
-bool YamlNode::IsNull() const { return overrides_.empty() && IsNullNode(node_); }
+bool YamlNode::IsNull() const { return overrides_.empty() && IsNullNode(*node_); }
 
-bool YamlNode::IsBinary() const { return IsScalar() && ShortTag(node_) == "!!binary"; }
+bool YamlNode::IsBinary() const { return IsScalar() && node_->tag == "!!binary"; }
 
 std::string YamlNode::Where() const {
   std::string where = document_->origin;
-  const YAML::Mark mark = node_.Mark();
-  if (document_->has_lines && !mark.is_null()) where += ":" + std::to_string(mark.line + 1);
+  if (document_->has_lines && node_->line > 0) where += ":" + std::to_string(node_->line);
   if (!path_.empty()) where += ": " + path_;
   return where;
 }
@@ -303,36 +260,34 @@ void YamlNode::Fail(const std::string& what) const { throw InputError(Where() + 
 
 void YamlNode::Warn(const std::string& what) const {
   const std::string warning = Printable(Where() + ": " + what);
-  std::vector<std::string>& warnings = document_->warnings;
-  if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
-    warnings.push_back(warning);
-  }
+  if (document_->warned.insert(warning).second) document_->warnings.push_back(warning);
 }
 
-std::optional<YAML::Node> YamlNode::FindIn(const YAML::Node& map, const std::string& key) const {
+const Node* YamlNode::FindIn(const Node& map, const std::string& key) const {
   bool merges = false;
-  // By hand and not by map[key], which keeps silent about a key that occurs twice.
-  const auto find_own = [&](const YAML::Node& own) {
-    std::optional<YAML::Node> value;
-    for (const auto& entry : own) {
-      if (IsMergeKey(entry.first)) {
+  const auto find_own = [&](const Node& own) {
+    const Node* found = nullptr;
+    for (const auto& [own_key, value] : own.entries) {
+      if (IsMergeKey(*own_key)) {
         merges = true;
         continue;
       }
-      if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
-      if (value) Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
-      value.emplace(entry.second);
+      if (own_key->kind != Kind::kScalar || own_key->text != key) continue;
+      if (found != nullptr) {
+        Child(own_key, PathOf(key)).Fail("the key '" + key + "' occurs twice");
+      }
+      found = value;
     }
-    return value;
+    return found;
   };
-  if (const std::optional<YAML::Node> value = find_own(map)) return value;
-  if (!merges) return std::nullopt;  // As in nearly all maps, which are looked into often.
+  if (const Node* value = find_own(map)) return value;
+  if (!merges) return nullptr;  // As in nearly all maps, which are looked into often.
   MergeOrder maps(map);
   maps.Next();  // The map itself.
-  while (const std::optional<YAML::Node> next = maps.Next()) {
-    if (const std::optional<YAML::Node> value = find_own(*next)) return value;
+  while (const Node* next = maps.Next()) {
+    if (const Node* value = find_own(*next)) return value;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
@@ -340,36 +295,35 @@ std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
     if (found->second->IsNull()) return std::nullopt;
     return *found->second;
   }
-  if (IsNullNode(node_)) return std::nullopt;
-  if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-  const std::optional<YAML::Node> value = FindIn(node_, key);
-  if (!value || IsNullNode(*value)) return std::nullopt;
-  return Child(*value, PathOf(key));
+  if (IsNullNode(*node_)) return std::nullopt;
+  if (node_->kind != Kind::kMap) Fail("expected a map, found " + KindOf(*node_));
+  const Node* value = FindIn(*node_, key);
+  if (value == nullptr || IsNullNode(*value)) return std::nullopt;
+  return Child(value, PathOf(key));
 }
 
 YamlNode YamlNode::At(const std::string& key) const {
-  if (!IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(node_));
+  if (!IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(*node_));
   std::optional<YamlNode> value = Find(key);
   if (!value) Fail("the field '" + key + "' is missing");
   return *std::move(value);
 }
 
-std::vector<YamlNode::Entry> YamlNode::Entries(const YAML::Node& map) const {
-  std::vector<Entry> entries;
+std::vector<std::pair<const Node*, const Node*>> YamlNode::Entries(const Node& map) const {
+  std::vector<std::pair<const Node*, const Node*>> entries;
   std::set<std::string> said;  // By this map and those before.
   MergeOrder maps(map);
-  while (const std::optional<YAML::Node> next = maps.Next()) {
+  while (const Node* next = maps.Next()) {
     std::set<std::string> own;
-    for (const auto& entry : *next) {
-      if (!entry.first.IsScalar()) Child(entry.first, path_).Fail("a key is not plain text");
-      const std::string& key = entry.first.Scalar();
-      if (HasControl(key, kLineBreaks))
-        Child(entry.first, path_).Fail("a control character is in a key");
-      if (!own.insert(key).second) {
-        Child(entry.first, PathOf(key)).Fail("the key '" + key + "' occurs twice");
+    for (const auto& [key, value] : next->entries) {
+      if (key->kind != Kind::kScalar) Child(key, path_).Fail("a key is not plain text");
+      const std::string& name = key->text;
+      if (HasControl(name, kLineBreaks)) Child(key, path_).Fail("a control character is in a key");
+      if (!own.insert(name).second) {
+        Child(key, PathOf(name)).Fail("the key '" + name + "' occurs twice");
       }
-      if (IsMergeKey(entry.first) || !said.insert(key).second) continue;
-      entries.emplace_back(entry.first, entry.second);
+      if (IsMergeKey(*key) || !said.insert(name).second) continue;
+      entries.emplace_back(key, value);
     }
   }
   return entries;
@@ -377,9 +331,9 @@ std::vector<YamlNode::Entry> YamlNode::Entries(const YAML::Node& map) const {
 
 std::vector<std::string> YamlNode::Keys() const {
   std::vector<std::string> keys;
-  if (!IsNullNode(node_)) {
-    if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-    for (const Entry& entry : Entries(node_)) keys.push_back(entry.first.Scalar());
+  if (!IsNullNode(*node_)) {
+    if (node_->kind != Kind::kMap) Fail("expected a map, found " + KindOf(*node_));
+    for (const auto& [key, value] : Entries(*node_)) keys.push_back(key->text);
   }
   for (const auto& [key, replacement] : overrides_) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
@@ -392,11 +346,10 @@ void YamlNode::RequireKeys(
   const auto require = [&](const std::string& key, const YamlNode& at) {
     if (const auto complaint = accepts(key)) at.Fail(*complaint);
   };
-  if (!IsNullNode(node_)) {
-    if (!node_.IsMap()) Fail("expected a map, found " + KindOf(node_));
-    for (const Entry& entry : Entries(node_)) {
-      const std::string& key = entry.first.Scalar();
-      require(key, Child(entry.first, PathOf(key)));
+  if (!IsNullNode(*node_)) {
+    if (node_->kind != Kind::kMap) Fail("expected a map, found " + KindOf(*node_));
+    for (const auto& [key, value] : Entries(*node_)) {
+      require(key->text, Child(key, PathOf(key->text)));
     }
   }
   for (const auto& [key, replacement] : overrides_) require(key, *replacement);
@@ -413,34 +366,34 @@ void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
 }
 
 void YamlNode::RequirePrinted() const {
-  if (!node_.IsScalar() || !node_.Scalar().ends_with('>')) return;
+  if (node_->kind != Kind::kScalar || !node_->text.ends_with('>')) return;
   for (const char* beginning : {"<array type: ", "<sequence type: ", "<string length: "}) {
-    if (!node_.Scalar().starts_with(beginning)) continue;
-    Fail("was left out of the dump, which says " + KindOf(node_) +
+    if (!node_->text.starts_with(beginning)) continue;
+    Fail("was left out of the dump, which says " + KindOf(*node_) +
          "; use 'topic echo' without --noarr, --no-arr, --nostr and --no-str");
   }
 }
 
 int YamlNode::Size() const {
   RequirePrinted();
-  if (!node_.IsSequence()) Fail("expected a sequence, found " + KindOf(node_));
-  return static_cast<int>(node_.size());
+  if (!IsSequence()) Fail("expected a sequence, found " + KindOf(*node_));
+  return static_cast<int>(node_->elements.size());
 }
 
 YamlNode YamlNode::At(int index) const {
   if (index < 0 || index >= Size()) Fail("element " + std::to_string(index) + " is missing");
-  return Child(node_[static_cast<std::size_t>(index)], path_ + "[" + std::to_string(index) + "]");
+  return Child(node_->elements[static_cast<std::size_t>(index)],
+               path_ + "[" + std::to_string(index) + "]");
 }
 
 std::vector<YamlNode> YamlNode::Elements() const {
   const int size = Size();
   std::vector<YamlNode> elements;
   elements.reserve(static_cast<std::size_t>(size));
-  // By iterator: access by index into a yaml-cpp sequence is linear in the index.
-  int index = 0;
-  for (const auto& element : node_) {
-    elements.push_back(Child(element, path_ + "[" + std::to_string(index++) + "]"));
-    if (element.IsScalar() && element.Scalar() == kCut) {
+  for (int index = 0; index < size; ++index) {
+    const Node* element = node_->elements[static_cast<std::size_t>(index)];
+    elements.push_back(Child(element, path_ + "[" + std::to_string(index) + "]"));
+    if (element->kind == Kind::kScalar && element->text == kCut) {
       elements.back().Fail("the list was cut here by 'ros2 topic echo'; use --full-length");
     }
   }
@@ -449,56 +402,57 @@ std::vector<YamlNode> YamlNode::Elements() const {
 
 double YamlNode::Double() const {
   double value = 0;
-  if (!IsScalar()) Fail("expected a number, found " + KindOf(node_));
+  if (!IsScalar()) Fail("expected a number, found " + KindOf(*node_));
   RequireTag({"!!str", "!!int", "!!float", "!degrees", "!radians"}, "a number");
-  const bool parsed = ParseDouble(node_.Scalar(), ShortTag(node_), &value);
+  const bool parsed = ParseDouble(node_->text, node_->tag, &value);
   if (parsed && std::isfinite(value)) return value;
   const bool non_finite =
-      parsed || (YAML::convert<double>::decode(node_, value) && !std::isfinite(value));
-  const bool is_in_radians =
-      ShortTag(node_) == "!radians" || Argument(node_.Scalar(), "rad").has_value();
+      parsed ||
+      (YAML::convert<double>::decode(YAML::Node(node_->text), value) && !std::isfinite(value));
+  const bool is_in_radians = node_->tag == "!radians" || Argument(node_->text, "rad").has_value();
   Fail(fmt::format("expected a {}number{}, found {}", non_finite ? "finite " : "",
-                   is_in_radians ? " or a product or quotient of such and pi" : "", KindOf(node_)));
+                   is_in_radians ? " or a product or quotient of such and pi" : "",
+                   KindOf(*node_)));
 }
 
 double YamlNode::PositiveDouble() const {
   const double value = Double();
-  if (value <= 0) Fail("must be greater than zero, found " + KindOf(node_));
+  if (value <= 0) Fail("must be greater than zero, found " + KindOf(*node_));
   return value;
 }
 
 long long YamlNode::Int() const {
   long long value = 0;
-  if (!IsScalar()) Fail("expected an integer, found " + KindOf(node_));
+  if (!IsScalar()) Fail("expected an integer, found " + KindOf(*node_));
   RequireTag({"!!str", "!!int"}, "an integer");
-  if (!ParseNumber(node_.Scalar(), &value)) {
-    Fail("expected an integer, found " + KindOf(node_));
+  if (!ParseNumber(node_->text, &value)) {
+    Fail("expected an integer, found " + KindOf(*node_));
   }
   return value;
 }
 
 bool YamlNode::Bool() const {
   bool value = false;
-  if (!IsScalar()) Fail("expected true or false, found " + KindOf(node_));
+  if (!IsScalar()) Fail("expected true or false, found " + KindOf(*node_));
   RequireTag({"!!str", "!!bool"}, "true or false");
-  if (!YAML::convert<bool>::decode(node_, value)) {
-    Fail("expected true or false, found " + KindOf(node_));
+  if (!YAML::convert<bool>::decode(YAML::Node(node_->text), value)) {
+    Fail("expected true or false, found " + KindOf(*node_));
   }
   return value;
 }
 
 std::string YamlNode::String() const {
-  if (!IsScalar()) Fail("expected text, found " + KindOf(node_));
+  if (!IsScalar()) Fail("expected text, found " + KindOf(*node_));
   RequirePrinted();
   RequireTag({"!!str", "!!int", "!!float", "!!bool"}, "text");
-  if (HasControl(node_.Scalar(), kLineBreaks)) Fail("a control character is in " + KindOf(node_));
-  return node_.Scalar();
+  if (HasControl(node_->text, kLineBreaks)) Fail("a control character is in " + KindOf(*node_));
+  return node_->text;
 }
 
 std::optional<int> YamlNode::RawByte() const {
   if (!IsScalar()) return std::nullopt;
   const bool is_binary = IsBinary();
-  const std::string text = is_binary ? "" : node_.Scalar();
+  const std::string text = is_binary ? "" : node_->text;
   const std::vector<std::uint8_t> bytes =
       is_binary ? Bytes() : std::vector<std::uint8_t>(text.begin(), text.end());
   if (bytes.size() != 1 || (!is_binary && bytes[0] >= 0x20)) return std::nullopt;
@@ -530,12 +484,12 @@ std::vector<std::string> YamlNode::Strings() const {
 
 std::vector<std::uint8_t> YamlNode::Bytes() const {
   if (IsBinary()) {
-    std::vector<std::uint8_t> bytes = YAML::DecodeBase64(node_.Scalar());
-    if (bytes.empty() && !Trimmed(node_.Scalar()).empty()) Fail("is no base64");
+    std::vector<std::uint8_t> bytes = YAML::DecodeBase64(node_->text);
+    if (bytes.empty() && !Trimmed(node_->text).empty()) Fail("is no base64");
     return bytes;
   }
   RequirePrinted();
-  if (!IsSequence()) Fail("expected a sequence of bytes or !!binary, found " + KindOf(node_));
+  if (!IsSequence()) Fail("expected a sequence of bytes or !!binary, found " + KindOf(*node_));
   std::vector<std::uint8_t> bytes;
   for (const YamlNode& element : Elements()) {
     const long long value = element.Int();
@@ -562,21 +516,21 @@ std::string YamlNode::StringOr(const std::string& key, const std::string& fallba
 
 void YamlNode::Override(const std::string& key, const std::string& text,
                         const std::string& origin) {
-  if (!IsNullNode(node_) && !node_.IsMap()) {
-    throw InputError(origin + ": " + Where() + ": expected a map, found " + KindOf(node_));
+  if (!IsNullNode(*node_) && node_->kind != Kind::kMap) {
+    throw InputError(origin + ": " + Where() + ": expected a map, found " + KindOf(*node_));
   }
   const std::size_t dot = key.find('.');
   const bool is_own =
-      overrides_.contains(key) || (!IsNullNode(node_) && FindIn(node_, key).has_value());
+      overrides_.contains(key) || (!IsNullNode(*node_) && FindIn(*node_, key) != nullptr);
   if (dot == std::string::npos || is_own) {
-    overrides_[key] = std::make_shared<YamlNode>(Foreign(Parse(text, origin).node_, key, origin));
+    overrides_[key] = Foreign(key, text, origin);
     return;
   }
   const std::string outer = key.substr(0, dot);
   const std::optional<YamlNode> found = Find(outer);
-  YamlNode map = found ? *found : Foreign(YAML::Node(YAML::NodeType::Map), outer, origin);
-  map.Override(key.substr(dot + 1), text, origin);
-  overrides_[outer] = std::make_shared<YamlNode>(std::move(map));
+  const auto map = found ? std::make_shared<YamlNode>(*found) : Foreign(outer, "{}", origin);
+  map->Override(key.substr(dot + 1), text, origin);
+  overrides_[outer] = map;
 }
 
 }  // namespace planbench

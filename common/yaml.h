@@ -1,7 +1,5 @@
 #pragma once
 
-#include <yaml-cpp/node/node.h>
-
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -10,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "common/enum_names.h"
+#include "common/yaml_tree.h"
 
 namespace planbench {
 
@@ -31,9 +31,9 @@ class YamlNode {
   /// Parses `text`; `origin` stands for the file name in error messages.
   static YamlNode Parse(const std::string& text, const std::string& origin);
 
-  bool IsMap() const { return node_.IsMap() || !overrides_.empty(); }
-  bool IsSequence() const { return node_.IsSequence(); }
-  bool IsScalar() const { return node_.IsScalar() && !IsNull(); }
+  bool IsMap() const { return node_->kind == YamlTree::Kind::kMap || !overrides_.empty(); }
+  bool IsSequence() const { return node_->kind == YamlTree::Kind::kSequence; }
+  bool IsScalar() const { return node_->kind == YamlTree::Kind::kScalar && !IsNull(); }
   bool IsBinary() const;  ///< `!!binary`.
   bool IsNull() const;
 
@@ -105,41 +105,45 @@ class YamlNode {
   const std::vector<std::string>& warnings() const { return document_->warnings; }
 
  private:
+  using Node = YamlTree::Node;
   /// What all nodes of a text have in common.
   struct Document {
+    Document(const std::string& text, std::string of) : origin(std::move(of)), tree(text) {}
     std::string origin;
     bool has_lines = true;  ///< False for a command line or a message: one line, no file.
+    YamlTree tree;
     std::vector<std::string> warnings;
+    std::unordered_set<std::string> warned;  ///< The same.
   };
-  using Entry = std::pair<YAML::Node, YAML::Node>;
 
-  YamlNode(const YAML::Node& node, std::shared_ptr<Document> document, std::string path)
+  YamlNode(const Node* node, std::shared_ptr<Document> document, std::string path)
       : node_(node), document_(std::move(document)), path_(std::move(path)) {}
 
-  YamlNode Child(const YAML::Node& node, const std::string& path) const {
+  YamlNode Child(const Node* node, const std::string& path) const {
     return YamlNode(node, document_, path);
   }
   std::string PathOf(const std::string& key) const {
     return path_.empty() ? key : path_ + "." + key;
   }
-  // `node` at `key` of this map, but of a text without lines that `origin` stands for.
-  YamlNode Foreign(const YAML::Node& node, const std::string& key, const std::string& origin) const;
+  // `text` at `key` of this map, but of a text without lines that `origin` stands for.
+  std::shared_ptr<YamlNode> Foreign(const std::string& key, const std::string& text,
+                                    const std::string& origin) const;
   // The entries of a map with what it merges; throws for keys that are no text or occur twice.
-  std::vector<Entry> Entries(const YAML::Node& map) const;
-  // The value of `key` in `map` or in what it merges, nothing if it has none.
-  std::optional<YAML::Node> FindIn(const YAML::Node& map, const std::string& key) const;
+  std::vector<std::pair<const Node*, const Node*>> Entries(const Node& map) const;
+  // The value of `key` in `map` or in what it merges, null if it has none.
+  const Node* FindIn(const Node& map, const std::string& key) const;
   // Refuses tags that are not known and merge keys that merge no maps.
-  void CheckTree(std::vector<YAML::Node>* ancestors, int* last_position) const;
-  void CheckMerge(const YAML::Node& value, const std::vector<YAML::Node>& ancestors) const;
+  void CheckTree(std::vector<const Node*>* ancestors, int* last_position) const;
+  void CheckMerge(const Node& value, const std::vector<const Node*>& ancestors) const;
   // Refuses what stands for a list or a text that a dump has left out.
   void RequirePrinted() const;
   // Refuses a scalar whose tag is not among `allowed` (short forms).
   void RequireTag(std::initializer_list<std::string_view> allowed, const char* wanted) const;
 
-  YAML::Node node_;
+  const Node* node_;  // Of the document's tree.
   std::shared_ptr<Document> document_;
   std::string path_;
-  // Beside the tree and not in it, because copies of a YAML::Node share what they point to.
+  // Beside the tree and not in it, because copies share that.
   std::map<std::string, std::shared_ptr<const YamlNode>> overrides_;
 };
 

@@ -304,6 +304,16 @@ TEST(YamlNode, AliasesAreFollowedOnce) {
   EXPECT_TRUE(Parse("a: &a {b: *a}\n").At("a").At("b").At("b").IsMap());
 }
 
+TEST(YamlNode, AliasesAreWhatTheirAnchorWasLast) {
+  const YamlNode node = Parse("a: &x 1\nb: *x\nc: &x [2]\nd: *x\ne: &y\nf: *y\n? *x\n: 3\n");
+  EXPECT_EQ(node.At("b").Int(), 1);
+  EXPECT_EQ(node.At("d").At(0).Int(), 2);
+  EXPECT_FALSE(node.Find("f"));
+  EXPECT_THAT(ErrorOf([&] { node.Keys(); }), HasSubstr("file.yaml:3: a key is not plain text"));
+  EXPECT_THAT(ErrorOf([] { Parse("--- &x\n---\na: *x\n"); }), StartsWith("file.yaml:3: no valid"))
+      << "anchors end with their document";
+}
+
 // Ten ways from each level to the next: 10^30 to the last, and as many keys.
 TEST(YamlNode, MapsThatAreMergedOverAndOverAreFollowedOnce) {
   std::string text = "l0: &l0 {name: s, <<: {deep: 1}}\n";
@@ -449,6 +459,13 @@ TEST(YamlNode, WarningsAreKeptWithTheDocument) {
   node.At("b").At(0).Warn("is odd");
   node.At("a").Warn("is even");
   EXPECT_THAT(node.warnings(), ElementsAre("file.yaml:2: b[0]: is odd", "file.yaml:1: a: is even"));
+}
+
+TEST(YamlNode, WarningsMayBeMany) {  // and would take minutes, were each compared with all before
+  constexpr std::size_t kMany = 100'000;
+  const YamlNode node = Parse("a: 1\n").At("a");
+  for (std::size_t i = 0; i < kMany; ++i) node.Warn(std::to_string(i));
+  EXPECT_EQ(node.warnings().size(), kMany);
 }
 
 TEST(YamlNode, LoadFileNamesThePath) {
