@@ -25,7 +25,7 @@ RecordedViews::RecordedViews(const StoredSession& session,
   RecordedSession recorded = ReadRecords(log_);
   SessionMessage told = LastTold(recorded, session.run_id);
   if (told.settings.empty()) told.settings = session.flags;  // The log has lost it.
-  robot_ = LoadSessionRobot(told, robot_folder);
+  robot_ = ShownRobot(LoadSessionRobot(told, robot_folder));
   scenes_ = ReadScenes(log_, &passed_over_);
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {

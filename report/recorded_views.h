@@ -27,7 +27,7 @@ class RecordedViews {
 
  private:
   std::filesystem::path log_;
-  Robot robot_;
+  ShownRobot robot_;
   std::vector<std::string> passed_over_;
   std::map<std::string, RunRecordMessage> records_;  ///< By request.
   std::map<std::string, Scene> scenes_;              ///< By content id.

@@ -7,6 +7,7 @@
 
 #include "common/file_kind.h"
 #include "common/lookup.h"
+#include "results/recorded_flags.h"
 #include "robot_model/shipped_robots.h"
 
 namespace planbench {
@@ -15,6 +16,7 @@ namespace {
 // Of the driver's flags, and of the scene server.
 constexpr char kRobotSetting[] = "robot";
 constexpr char kSpheresSetting[] = "spheres";
+constexpr char kPackagesFlag[] = "package-path";
 
 /// Whether both, content ids of robots, can be of one; "" is of any.
 bool CanBeOne(const std::string& id, const std::string& other) {
@@ -62,6 +64,17 @@ std::string SpheresFile(const SessionMessage& session) {
   return "";
 }
 
+/// Where the driver was told that packages are; whether they are here is not looked at.
+std::map<std::string, std::filesystem::path> Packages(const SessionMessage& session) {
+  std::map<std::string, std::filesystem::path> packages;
+  const std::string flag = Lookup(session.settings, kPackagesFlag).value_or("");
+  for (const std::string& value : SplitFlagValues(flag)) {
+    const std::size_t sign = value.find('=');
+    if (sign != std::string::npos) packages[value.substr(0, sign)] = value.substr(sign + 1);
+  }
+  return packages;
+}
+
 }  // namespace
 
 Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder) {
@@ -69,11 +82,11 @@ Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::pat
   const bool has_spheres = spheres.empty() || IsFile(spheres);
   if (robot_folder.empty()) {
     const std::filesystem::path folder = RobotFolder(session);
-    if (has_spheres) return LoadRobot(folder, {}, spheres);
+    if (has_spheres) return LoadRobot(folder, Packages(session), spheres);
     throw UnknownRobot("the session's spheres, " + spheres +
                        ", are not here: give a robot folder that holds them with --robot DIR");
   }
-  Robot robot = LoadRobot(robot_folder, {}, has_spheres ? spheres : "");
+  Robot robot = LoadRobot(robot_folder, Packages(session), has_spheres ? spheres : "");
   if (!has_spheres && !CanBeOne(robot.content_id, RobotId(session))) {
     throw InputError(fmt::format(
         "{} is not the session's robot, which has the spheres of {}: as that file is not here, the "

@@ -98,14 +98,20 @@ const PathVerdict* Hit(const PathCheckReplyMessage& check) {
 /// A robot in a scene, moved by one group.
 class View {
  public:
-  View(const Robot& robot, const Scene& scene, const std::string& group_name,
+  View(const ShownRobot& shown, const Scene& scene, const std::string& group_name,
        const JointState& start, const std::vector<JointGoal>& goal,
        const std::vector<LinkSphere>& spheres)
-      : robot_(robot),
+      : robot_(shown.robot()),
         spheres_(spheres),
-        group_(robot.Group(group_name)),
-        query_(ResolveQuery(robot, group_, start, goal, "the problem")),
-        kinematics_(robot.model, group_, query_.base_positions) {
+        group_(robot_.Group(group_name)),
+        query_(ResolveQuery(robot_, group_, start, goal, "the problem")),
+        kinematics_(robot_.model, group_, query_.base_positions) {
+    if (spheres_.empty()) {
+      bodies_ = shown.bodies();
+      if (!shown.why_not().empty()) {
+        notes_.push_back(fmt::format("The robot is not shown: it {}.", shown.why_not()));
+      }
+    }
     json_["solids"] = Json::array();
     for (const SceneObject& object : scene.objects) AppendSolids(object, "", &json_["solids"]);
     for (const AttachedObject& attached : scene.attached) {
@@ -113,17 +119,25 @@ class View {
     }
     json_["links"] = Json::array();
     kinematics_.Update(query_.start);
-    for (int link = 0; link < robot.model.num_links(); ++link) {
+    for (int link = 0; link < robot_.model.num_links(); ++link) {
       if (!IsShown(link, scene)) continue;
-      Json one = {{"name", robot.model.links()[static_cast<std::size_t>(link)].name},
+      Json one = {{"name", robot_.model.links()[static_cast<std::size_t>(link)].name},
                   {"pose", Pose(kinematics_.X_BL(link))},
                   {"moves", kinematics_.Moves(link)},
-                  {"spheres", Json::array()}};
+                  {"spheres", Json::array()},
+                  {"shapes", Json::array()}};
       for (const LinkSphere& sphere : spheres_) {
         if (sphere.link != link) continue;
         Json values = Point(sphere.p_LS);
         values.push_back(RoundedPosition(sphere.radius));
         one["spheres"].push_back(std::move(values));
+      }
+      for (const LinkGeometry& body : bodies_) {
+        if (body.link != link) continue;
+        for (const PlacedShape& placed : body.shapes) {
+          Json shape = {{"shape", ShapeJson(placed.shape)}, {"pose", Pose(placed.X_FS)}};
+          one["shapes"].push_back(std::move(shape));
+        }
       }
       json_["links"].push_back(std::move(one));
       if (kinematics_.Moves(link)) moving_.push_back(link);
@@ -189,14 +203,14 @@ class View {
       json_["goals"].push_back(Poses(query_.goals[i].nominal));
     }
     if (num_shown < num_goals) {
-      goals_fact_ = path.empty()
-                        ? fmt::format("{} of {} goals are shown.", num_shown, num_goals)
-                        : fmt::format("Of {} goals the one at the path's end is shown.", num_goals);
+      notes_.push_back(
+          path.empty() ? fmt::format("{} of {} goals are shown.", num_shown, num_goals)
+                       : fmt::format("Of {} goals the one at the path's end is shown.", num_goals));
     }
   }
 
   Json Take(const std::string& title, std::vector<std::string> facts) {
-    if (!goals_fact_.empty()) facts.push_back(std::move(goals_fact_));
+    facts.insert(facts.end(), notes_.begin(), notes_.end());
     json_["title"] = title;
     json_["facts"] = std::move(facts);
     return std::move(json_);
@@ -204,11 +218,12 @@ class View {
 
  private:
   bool IsShown(int link, const Scene& scene) const {
-    const auto of_link = [&](const LinkSphere& sphere) { return sphere.link == link; };
+    const auto of_link = [&](const auto& part) { return part.link == link; };
     const auto at_link = [&](const AttachedObject& attached) {
       return robot_.model.FindLink(attached.link) == link;
     };
     return std::any_of(spheres_.begin(), spheres_.end(), of_link) ||
+           std::any_of(bodies_.begin(), bodies_.end(), of_link) ||
            std::any_of(scene.attached.begin(), scene.attached.end(), at_link);
   }
 
@@ -250,24 +265,26 @@ class View {
   }
 
   const Robot& robot_;
-  const std::vector<LinkSphere>& spheres_;  // That stand for it.
+  const std::vector<LinkSphere>& spheres_;  // That stand for it,
+  std::vector<LinkGeometry> bodies_;        // or, if there are none, its own bodies.
   const PlanningGroup& group_;
   ResolvedQuery query_;
   GroupKinematics kinematics_;
   std::vector<int> moving_;
-  std::string goals_fact_;  // What is not shown of the goal; empty: nothing.
+  std::vector<std::string> notes_;  // What is not shown.
   Json json_;
 };
 
 /// The view of a request, without goals and paths.
-View ViewOfRequest(const Robot& robot, const Scene& scene, const RunRecordMessage& run) {
+View ViewOfRequest(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run) {
+  const Robot& robot = shown.robot();
   const PlanRequest& request = run.request;
   if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
     throw InputError(
         fmt::format("{} is not the robot of run {}, whose content is {}: give it with --robot DIR",
                     robot.folder.string(), run.request_id, request.robot_id));
   }
-  return {robot,         scene,        request.group,
+  return {shown,         scene,        request.group,
           request.start, request.goal, ModelSpheres(robot, request.collision_model)};
 }
 
@@ -286,16 +303,18 @@ std::string AttemptOf(const RunRecordMessage& run) {
 
 }  // namespace
 
-Json ProblemView(const Robot& robot, const Problem& problem) {
-  View view(robot, problem.scene, problem.group, problem.start, problem.goal, robot.spheres);
+Json ProblemView(const ShownRobot& shown, const Problem& problem) {
+  const Robot& robot = shown.robot();
+  View view(shown, problem.scene, problem.group, problem.start, problem.goal, robot.spheres);
   view.AddGoals({}, {});
   return view.Take(
       fmt::format("{} {}", problem.set, problem.index),
       {fmt::format("Robot {}, group {}.", robot.name, robot.Group(problem.group).name)});
 }
 
-Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run, int num_frames) {
-  View view = ViewOfRequest(robot, scene, run);
+Json RunView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run,
+             int num_frames) {
+  View view = ViewOfRequest(shown, scene, run);
   const PlanResult& result = run.result.result;
   view.AddGoals(result.path, run.result.joint_names);
   view.AddMotion("raw", result.path, run.result.joint_names, run.path_check, num_frames);
@@ -310,8 +329,8 @@ Json RunView(const Robot& robot, const Scene& scene, const RunRecordMessage& run
   return view.Take(TitleOf(run), std::move(facts));
 }
 
-Json RequestView(const Robot& robot, const Scene& scene, const RunRecordMessage& run) {
-  View view = ViewOfRequest(robot, scene, run);
+Json RequestView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run) {
+  View view = ViewOfRequest(shown, scene, run);
   view.AddGoals({}, {});
   return view.Take(TitleOf(run), {fmt::format("{}: {}.", AttemptOf(run), run.message)});
 }

@@ -69,7 +69,8 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
   const SessionMessage session = LastTold(recorded, run.run_id);
-  return RunView(LoadSessionRobot(session, flags.robot.folder), scene->second, run, kFrames);
+  return RunView(ShownRobot(LoadSessionRobot(session, flags.robot.folder)), scene->second, run,
+                 kFrames);
 }
 
 Json ViewOfProblem(const Flags& flags) {
@@ -85,8 +86,8 @@ Json ViewOfProblem(const Flags& flags) {
   const ProblemSet set = ListProblemSet(place.parent_path());
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{}: no problem {}", set.name, index));
-  const Robot robot = flags.robot.Load();
-  return ProblemView(robot, ReadProblem(files->scene, files->request, robot));
+  const ShownRobot shown(flags.robot.Load());
+  return ProblemView(shown, ReadProblem(files->scene, files->request, shown.robot()));
 }
 
 Json ViewOf(const Flags& flags) {

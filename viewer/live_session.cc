@@ -208,11 +208,11 @@ Json LiveSession::State(TimePoint now, const Bus::Counters& counters) const {
   return json;
 }
 
-const Robot& LiveSession::LoadedRobot() const {
+const ShownRobot& LiveSession::LoadedRobot() const {
   if (robot_) return *robot_;
   SessionMessage session = session_.value_or(SessionMessage());
   if (scene_server_) session.nodes.push_back(*scene_server_);
-  robot_ = std::make_unique<const Robot>(LoadSessionRobot(session, robot_folder_));
+  robot_ = std::make_unique<const ShownRobot>(LoadSessionRobot(session, robot_folder_));
   return *robot_;
 }
 

@@ -15,8 +15,8 @@
 #include "messaging/bus.h"
 #include "messaging/messages.h"
 #include "planning/improvement_rule.h"
+#include "report/shown_robot.h"
 #include "report/table.h"
-#include "robot_model/robot_folder.h"
 
 namespace planbench {
 
@@ -56,10 +56,10 @@ class LiveSession {
   void HearResult(const PlanResultMessage& result);
   std::string ContestantOf(const std::string& planner) const;
   void HearRecord(const RunRecordMessage& record);
-  const Robot& LoadedRobot() const;
+  const ShownRobot& LoadedRobot() const;
 
   std::filesystem::path robot_folder_;
-  mutable std::unique_ptr<const Robot> robot_;
+  mutable std::unique_ptr<const ShownRobot> robot_;
   std::optional<SessionMessage> session_;
   TimePoint session_heard_;                        ///< Its first message.
   std::optional<NodeStatusMessage> scene_server_;  ///< Heard last: a bus has one at a time.

@@ -1,5 +1,5 @@
 "use strict";
-// A problem in 3D: its solids, the robot as spheres at start and goal, and its paths side by side, played or scrubbed.
+// A problem in 3D: its solids, the robot as spheres, or as its own bodies, at start and goal, and its paths side by side, played or scrubbed.
 // Poses are computed beforehand (report/view_data.h); the view interpolates between neighbouring frames alone.
 // `previous`: a viewer whose place this one takes, seen from the same point.
 function makeViewer(container, data, previous = null) {
@@ -65,10 +65,10 @@ function makeViewer(container, data, previous = null) {
         sphere.position.set(x, y, z);
         part.add(sphere);
       }
-      for (const one of data.solids.filter(one => one.link === link.name)) {
-        const attached = solid(one.shape, material);
-        place(attached, one.pose);
-        part.add(attached);
+      for (const one of [...link.shapes, ...data.solids.filter(one => one.link === link.name)]) {
+        const body = solid(one.shape, material);
+        place(body, one.pose);
+        part.add(body);
       }
       group.add(part);
       if (link.moves) parts.push(part);
@@ -149,8 +149,9 @@ function makeViewer(container, data, previous = null) {
 
   function look(direction) {
     const box = new THREE.Box3().setFromObject(scenes[0].body.group).union(new THREE.Box3().setFromObject(scenes[0].goal.group));
+    if (box.isEmpty()) box.setFromObject(scenes[0].scene);  // of a robot that cannot be shown
     const centre = box.getCenter(new THREE.Vector3());
-    const distance = 1.6 * box.getSize(new THREE.Vector3()).length();
+    const distance = 1.6 * (box.getSize(new THREE.Vector3()).length() || 1);
     controls.target.copy(centre);
     camera.position.copy(centre).addScaledVector(new THREE.Vector3(...direction).normalize(), distance);
     controls.update();

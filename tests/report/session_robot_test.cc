@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "tests/support/expect_input_error.h"
@@ -43,6 +44,12 @@ TEST_F(SessionRobotTest, SpheresThatAreNotHereAreThoseOfTheFolderGiven) {
                    {planar_.string() + " is not the session's robot", "/no/spheres.yaml"});
   RobotIdOfSession() = "";
   EXPECT_EQ(LoadSessionRobot(session_, planar_).name, "planar3");
+}
+
+TEST_F(SessionRobotTest, KnowsThePackagesThatTheDriverWasToldOf) {
+  session_.settings["package-path"] = "arm=/a\\,b,hand=/c";
+  EXPECT_EQ(LoadSessionRobot(session_, "").resources.packages,
+            (std::map<std::string, std::filesystem::path>{{"arm", "/a,b"}, {"hand", "/c"}}));
 }
 
 TEST_F(SessionRobotTest, IsOfTheSceneServerOfItsRobot) {

@@ -1,11 +1,15 @@
 #include "report/view_data.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "common/read_text.h"
 #include "common/write_file.h"
+#include "geometry/polyhedra.h"
 #include "report/page.h"
 #include "tests/report/browser.h"
 #include "tests/support/expect_input_error.h"
@@ -13,6 +17,19 @@
 
 namespace planbench {
 namespace {
+
+/// What a page's script can ask of its picture.
+constexpr char kPixels[] = R"script(
+    const pixels = () => {
+      const copy = document.createElement("canvas");
+      copy.width = view.canvas.width;
+      copy.height = view.canvas.height;
+      const context = copy.getContext("2d");
+      context.drawImage(view.canvas, 0, 0);
+      return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+    };
+    const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
+)script";
 
 /// The planar arm (links of 0.5, 0.4 and 0.3 m) in front of a box, and a run that folds it.
 class ViewDataTest : public testing::Test {
@@ -45,7 +62,30 @@ class ViewDataTest : public testing::Test {
     run_.path_check.verdict->contact = Contact{"hand", "box", 0.01};
   }
 
-  const Robot robot_ = LoadRobot(std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3");
+  /// The same arm without spheres, its hand a mesh of 4000 triangles.
+  ShownRobot WithoutSpheres(const std::string& mesh = "hand.obj") const {
+    std::string urdf =
+        ReadText(std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3/planar3.urdf");
+    const std::size_t hand = urdf.find("<sphere", urdf.find("<link name=\"hand\">"));
+    urdf.replace(hand, urdf.find("/>", hand) + 2 - hand, "<mesh filename=\"" + mesh + "\"/>");
+    Robot robot = robot_.robot();
+    robot.model = RobotModel::FromUrdf(urdf, "arm.urdf");
+    robot.spheres.clear();
+    robot.resources.base_folder = folder_.path();
+    const TriangleMesh prism = PrismMesh(0.05, 0.2, 1000);
+    std::string obj;
+    for (const Eigen::Vector3d& p : prism.vertices) {
+      obj += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
+    }
+    for (const auto& t : prism.triangles) {
+      obj += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    }
+    folder_.Write("hand.obj", obj);
+    return ShownRobot(std::move(robot));
+  }
+
+  const TemporaryFolder folder_;
+  const ShownRobot robot_{LoadRobot(std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3")};
   Scene scene_;
   RunRecordMessage run_;
 };
@@ -108,6 +148,33 @@ TEST_F(ViewDataTest, SolidsAndSpheresAreThoseOfSceneAndRobot) {
   EXPECT_EQ(view["links"][1]["spheres"][0], Json({0.1, 0.0, 0.0, 0.04}));
 }
 
+TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
+  const Json view = RunView(WithoutSpheres(), scene_, run_, 10);
+  ASSERT_EQ(view["links"].size(), 4u);
+  const Json& arm = view["links"][1];
+  EXPECT_TRUE(arm["spheres"].empty());
+  ASSERT_EQ(arm["shapes"].size(), 9u);
+  EXPECT_EQ(arm["shapes"][0]["shape"], Json({{"type", "sphere"}, {"radius", 0.04}}));
+  EXPECT_EQ(arm["shapes"][0]["pose"], Json({0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
+  const Json& hand = view["links"][3]["shapes"][0]["shape"];
+  EXPECT_EQ(hand["type"], "mesh");
+  EXPECT_GT(hand["triangles"].size(), 3u * 50);
+  EXPECT_LT(hand["triangles"].size(), 3u * 400) << "a picture needs no more";
+  EXPECT_EQ(view["motions"][0]["frames"][0].size(), 3u * 7) << "they move";
+  for (const Json& link : RunView(robot_, scene_, run_, 10)["links"]) {
+    EXPECT_TRUE(link["shapes"].empty()) << "spheres are shown";
+  }
+}
+
+TEST_F(ViewDataTest, OfARobotThatCannotBeShownItIsSaid) {
+  const ShownRobot robot = WithoutSpheres("package://elsewhere/hand.obj");
+  const Json view = RunView(robot, scene_, run_, 10);
+  EXPECT_THAT(view["facts"].back().get<std::string>(),
+              testing::MatchesRegex("The robot is not shown: it has no spheres, and arm.urdf.*"
+                                    "package://elsewhere/hand.obj.*"));
+  EXPECT_EQ(view["links"].size(), 1u) << "what holds the tool";
+}
+
 TEST_F(ViewDataTest, ARunThatFoundNothingShowsItsProblem) {
   run_.result.result.path.clear();
   const Json view = RunView(robot_, scene_, run_, 10);
@@ -160,16 +227,7 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
   if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   const TemporaryFolder folder;
   WriteFile(folder / "view.html", ViewPage(RunView(robot_, scene_, run_, 10)));
-  const nlohmann::json found = Browse(folder / "view.html", R"script(
-    const pixels = () => {
-      const copy = document.createElement("canvas");
-      copy.width = view.canvas.width;
-      copy.height = view.canvas.height;
-      const context = copy.getContext("2d");
-      context.drawImage(view.canvas, 0, 0);
-      return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
-    };
-    const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
+  const nlohmann::json found = Browse(folder / "view.html", std::string(kPixels) + R"script(
     view.moveTo(0);
     const first = pixels();
     found.colours = new Set(first).size;
@@ -203,6 +261,28 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
   EXPECT_GT(found["dark"], 1000);
   EXPECT_EQ(found["caption"], "raw path; the referee: " + Describe(Contact{"hand", "box", 0.01}));
   EXPECT_EQ(found["left"], 0);
+}
+
+TEST_F(ViewDataTest, ARobotWithoutSpheresIsDrawnAndOneThatCannotBeIsNoHarm) {
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  scene_.attached.clear();
+  const auto drawn = [&](const std::string& mesh) {
+    const auto page = folder_ / (mesh + ".html");
+    WriteFile(page, ViewPage(RunView(WithoutSpheres(mesh), scene_, run_, 10)));
+    return Browse(page, std::string(kPixels) + R"script(
+      view.moveTo(0);
+      const first = pixels();
+      found.colours = new Set(first).size;
+      view.moveTo(1);
+      found.moved = differing(first, pixels());
+    )script");
+  };
+  nlohmann::json found = drawn("hand.obj");
+  EXPECT_GT(found["colours"], 10);
+  EXPECT_GT(found["moved"], 100);
+  found = drawn("gone.obj");
+  EXPECT_GT(found["colours"], 1) << "the box";
+  EXPECT_EQ(found["moved"], 0);
 }
 
 }  // namespace
