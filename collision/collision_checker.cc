@@ -76,14 +76,15 @@ void CollisionChecker::CheckAll(std::span<const double> qs, int num,
 
 SampleVerdicts CollisionChecker::CheckSamples(std::span<const double> start,
                                               std::span<const double> motion,
-                                              std::span<const MotionSample> samples) {
+                                              std::span<const MotionSample> samples,
+                                              SampleRole role) {
   RequireReady(start, 1);
   RequireReady(motion, 1);
   if (samples.size() > 64) {
     throw InputError(
         fmt::format("collision checker: {} samples given, at most 64 are taken", samples.size()));
   }
-  return DoCheckSamples(start, motion, samples);
+  return DoCheckSamples(start, motion, samples, role);
 }
 
 void CollisionChecker::FindDistances(std::span<const double> qs, int num, double at_most,
@@ -128,7 +129,8 @@ void CollisionChecker::DoCheckAll(std::span<const double> qs, int num,
 
 SampleVerdicts CollisionChecker::DoCheckSamples(std::span<const double> start,
                                                 std::span<const double> motion,
-                                                std::span<const MotionSample> samples) {
+                                                std::span<const MotionSample> samples,
+                                                SampleRole /*role*/) {
   const std::size_t n = group_->joints.size();
   double motion_m = 0;  // bounds how far anything moves
   for (std::size_t j = 0; j < n; ++j) motion_m += std::abs(motion[j]) * motion_bound_.reach()[j];

@@ -42,6 +42,12 @@ struct MotionSample {
   double half_length = 0;  ///< The stretch position +- half_length; 0 for the configuration alone.
 };
 
+/// What need not be asked again of samples.
+enum class SampleRole {
+  kMotion,  ///< Nothing was asked.
+  kParts,   ///< They are within stretches that the call of kMotion left blocked, none for certain.
+};
+
 /// Verdicts on up to 64 samples, by bit.
 struct SampleVerdicts {
   std::uint64_t blocked = 0;  ///< In collision, or not proven free over its whole stretch.
@@ -86,7 +92,8 @@ class CollisionChecker {
   /// blocked though it is free). At most 64 samples. The engine may return once one certain
   /// collision is found; the other verdicts are then incomplete.
   SampleVerdicts CheckSamples(std::span<const double> start, std::span<const double> motion,
-                              std::span<const MotionSample> samples);
+                              std::span<const MotionSample> samples,
+                              SampleRole role = SampleRole::kMotion);
   /// Smaller of `at_most` (m, > 0) and the distance of the nearest pair, for `num` configurations;
   /// 0 or less in collision. Pairs of links that can never meet may be left out. An engine may end
   /// at a smaller distance of its own, of at least 0.5 m. May err downwards, by no more than the
@@ -121,7 +128,7 @@ class CollisionChecker {
   /// The default asks DoIsFree and DoFindClosest.
   virtual SampleVerdicts DoCheckSamples(std::span<const double> start,
                                         std::span<const double> motion,
-                                        std::span<const MotionSample> samples);
+                                        std::span<const MotionSample> samples, SampleRole role);
   /// The default asks DoFindClosest.
   virtual void DoFindDistances(std::span<const double> qs, int num, double at_most,
                                std::span<double> distances);

@@ -20,11 +20,8 @@ constexpr std::size_t kUsualStretches = 256;
 /// Whether to stop is asked after this many samples: seldom enough to cost nothing, often enough
 /// where each is the work of an exact engine on meshes.
 constexpr std::int64_t kSamplesUnasked = 64;
-/// Certified edges are first cut into stretches of this many edge resolutions ...
-constexpr double kFirstStretch = 4;
-/// ... but no more of them than motions of some hundred metres have: where a thing is attached far
-/// away, an edge of many kilometres must not be listed before the first of it is checked.
-constexpr double kMostFirstStretches = 4096;
+/// Certified edges are first cut into this many stretches, checked at once ...
+constexpr int kFirstParts = 16;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
 
@@ -79,6 +76,11 @@ void EdgeChecker::Reserve() {
   motion_.reserve(static_cast<std::size_t>(space().size()));
   block_.reserve(kMaxBlock);
   pending_.reserve(kUsualStretches);
+  for (std::int64_t part = 0; part >= 0; part = NextSample(part, kFirstParts)) {
+    // The sample at the far end of interval `part` stands for the interval.
+    const double half_length = 0.5 / kFirstParts;
+    pending_.push_back({SamplePosition(part, kFirstParts) - half_length, half_length});
+  }
 }
 
 void EdgeChecker::RequireSize(std::span<const double> q) const {
@@ -207,10 +209,10 @@ double EdgeChecker::Move(std::span<const double> from, std::span<const double> t
 }
 
 SampleVerdicts EdgeChecker::CheckBlock(std::span<const double> from,
-                                       std::span<const MotionSample> block) {
+                                       std::span<const MotionSample> block, SampleRole role) {
   counters_.configurations += static_cast<std::int64_t>(block.size());
   unasked_ += static_cast<std::int64_t>(block.size());
-  return checker_->CheckSamples(from, motion_, block);
+  return checker_->CheckSamples(from, motion_, block, role);
 }
 
 std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> from, double motion,
@@ -231,7 +233,7 @@ std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> fro
       part = NextSample(part, num_parts);
     }
     if (GiveUp()) return block_.front().position;
-    const std::uint64_t blocked = CheckBlock(from, block_).blocked;
+    const std::uint64_t blocked = CheckBlock(from, block_, SampleRole::kMotion).blocked;
     if (blocked != 0) return block_[static_cast<std::size_t>(std::countr_zero(blocked))].position;
   }
   return std::nullopt;
@@ -239,25 +241,12 @@ std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> fro
 
 std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> from,
                                                       double motion_m) {
-  const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
-  // Coarser than the fixed method, since in open space few stretches do, but whole blocks.
-  auto parts = static_cast<std::int64_t>(
-      std::min(NumIntervals(motion_m / kFirstStretch), kMostFirstStretches));
-  parts = (parts + batch - 1) / batch * batch;
-  if (parts != first_parts_) {  // Else they are as for the edge before.
-    pending_.clear();
-    for (std::int64_t part = 0; part >= 0; part = NextSample(part, parts)) {
-      // The sample at the far end of interval `part` stands for the interval.
-      const double half_length = 0.5 / static_cast<double>(parts);
-      pending_.push_back({SamplePosition(part, parts) - half_length, half_length});
-    }
-    first_parts_ = parts;
-  }
-  pending_.resize(static_cast<std::size_t>(parts));  // without its cuts
+  pending_.resize(kFirstParts);  // without the cuts of the edge before
   for (std::size_t next = 0; next < pending_.size();) {
-    const auto size = std::min(static_cast<std::size_t>(batch), pending_.size() - next);
+    const auto size = std::min<std::size_t>(kFirstParts, pending_.size() - next);
     if (GiveUp()) return pending_[next].position;
-    const SampleVerdicts verdicts = CheckBlock(from, {&pending_[next], size});
+    const SampleVerdicts verdicts = CheckBlock(
+        from, {&pending_[next], size}, next == 0 ? SampleRole::kMotion : SampleRole::kParts);
     if (verdicts.certain != 0) {
       return pending_[next + static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;
     }

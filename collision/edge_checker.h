@@ -126,7 +126,8 @@ class EdgeChecker {
   std::optional<double> FindBlockedSample(std::span<const double> from, double motion,
                                           bool from_is_free);
   std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
-  SampleVerdicts CheckBlock(std::span<const double> from, std::span<const MotionSample> block);
+  SampleVerdicts CheckBlock(std::span<const double> from, std::span<const MotionSample> block,
+                            SampleRole role);
   /// True if the edge at hand is to be given up.
   bool GiveUp();
 
@@ -142,8 +143,7 @@ class EdgeChecker {
   // Scratch.
   std::vector<double> motion_;         ///< The edge's signed motion, by joint.
   std::vector<MotionSample> block_;    ///< Fixed: samples to be checked at once.
-  std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked, first the parts
-  std::int64_t first_parts_ = 0;       ///< of the whole edge, so many.
+  std::vector<MotionSample> pending_;  ///< Certified: stretches to be checked, first of any edge.
 };
 
 }  // namespace planbench

@@ -70,13 +70,14 @@ void FollowerChecker::DoCheckAll(std::span<const double> qs, int num,
 
 SampleVerdicts FollowerChecker::DoCheckSamples(std::span<const double> start,
                                                std::span<const double> motion,
-                                               std::span<const MotionSample> samples) {
+                                               std::span<const MotionSample> samples,
+                                               SampleRole role) {
   motion_.assign(motion.begin(), motion.end());
   for (const PlanningGroup::Follower& follower : group().followers) {
     motion_.push_back(JointOf(robot(), follower).multiplier *
                       motion[static_cast<std::size_t>(follower.group_index)]);
   }
-  return engine_->CheckSamples(WithFollowers(start, 1), motion_, samples);
+  return engine_->CheckSamples(WithFollowers(start, 1), motion_, samples, role);
 }
 
 void FollowerChecker::DoFindDistances(std::span<const double> qs, int num, double at_most,

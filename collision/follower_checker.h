@@ -29,7 +29,7 @@ class FollowerChecker : public CollisionChecker {
   bool DoIsFree(std::span<const double> q) override;
   void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
   SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
-                                std::span<const MotionSample> samples) override;
+                                std::span<const MotionSample> samples, SampleRole role) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
                        std::span<double> distances) override;
   void DoFindClearances(std::span<const double> qs, int num, double at_most,

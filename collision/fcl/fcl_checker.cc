@@ -408,7 +408,8 @@ bool FclChecker::DoIsFree(std::span<const double> q) {
 
 SampleVerdicts FclChecker::DoCheckSamples(std::span<const double> start,
                                           std::span<const double> motion,
-                                          std::span<const MotionSample> samples) {
+                                          std::span<const MotionSample> samples,
+                                          SampleRole /*role*/) {
   q_.resize(start.size());
   SampleVerdicts verdicts;
   for (std::size_t k = 0; k < samples.size() && verdicts.certain == 0; ++k) {

@@ -52,7 +52,7 @@ class FclChecker : public CollisionChecker {
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
   bool DoIsFree(std::span<const double> q) override;
   SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
-                                std::span<const MotionSample> samples) override;
+                                std::span<const MotionSample> samples, SampleRole role) override;
   std::optional<Contact> DoFindContact(std::span<const double> q) override;
   ClosestPair DoFindClosest(std::span<const double> q) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,

@@ -79,7 +79,7 @@ SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int nu
 
 template <typename Judge>
 BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_widths,
-                                bool stop_at_first, Judge exact) {
+                                bool stop_at_first, Judge exact, kernels::Tests tests) {
   const LaneMask lanes = FirstLanes(num);
   if (always_collides_) return {lanes, lanes, 0};
   // Lanes of no meaning must hold numbers all the same: NaN would be slow, not wrong.
@@ -89,6 +89,7 @@ BlockVerdict SimdChecker::Check(int num, LaneMask unfit, const float* half_width
   // The field's verdict holds beyond the joint limits, too.
   query.lanes = model() == CollisionModel::kVoxels ? lanes : lanes & ~unfit;
   query.stop_at_first = stop_at_first;
+  query.tests = tests;
   BlockVerdict verdict =
       kernels::CheckBlock(compiled_.robot(), compiled_.world(), &scratch_, query);
   if (stop_at_first && verdict.certain != 0) return verdict;
@@ -130,7 +131,7 @@ void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsi
 
 SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
                                            std::span<const double> motion,
-                                           std::span<const MotionSample> samples) {
+                                           std::span<const MotionSample> samples, SampleRole role) {
   const std::size_t n = start.size();
   kernels::SampleBlock block;
   block.start = start_.data();
@@ -144,6 +145,8 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
     fits = fits && std::min(start[j], end) >= joints_.lower[j] &&
            std::max(start[j], end) <= joints_.upper[j];
   }
+  if (role == SampleRole::kMotion) scratch_.ForgetNoted();
+  const auto tests = role == SampleRole::kMotion ? kernels::Tests::kNote : kernels::Tests::kNoted;
   std::vector<double> q;
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {
@@ -164,7 +167,7 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
       return Exact().CheckStretch(q, motion, sample.half_length, pairs);
     };
     const BlockVerdict verdict = Check(count, fits ? 0 : FirstLanes(count),
-                                       around ? half_widths_.data() : nullptr, true, exact);
+                                       around ? half_widths_.data() : nullptr, true, exact, tests);
     verdicts.blocked |= static_cast<std::uint64_t>(verdict.hits) << first;
     verdicts.certain |= static_cast<std::uint64_t>(verdict.certain) << first;
     if (verdict.certain != 0) break;

@@ -46,7 +46,7 @@ class SimdChecker : public CollisionChecker {
   bool DoIsFree(std::span<const double> q) override;
   void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
   SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
-                                std::span<const MotionSample> samples) override;
+                                std::span<const MotionSample> samples, SampleRole role) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
                        std::span<double> distances) override;
   void DoFindClearances(std::span<const double> qs, int num, double at_most,
@@ -65,7 +65,7 @@ class SimdChecker : public CollisionChecker {
   /// 0), asked of all pairs for lanes in `unfit`, and of those in doubt where there are doubts.
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
-                              Judge exact);
+                              Judge exact, kernels::Tests tests = kernels::Tests::kAll);
   /// Whether something is not made of balls: then those around it are but a lower bound of
   /// distances.
   bool HasPatches() const { return !compiled_.robot().patches.empty(); }

@@ -237,6 +237,58 @@ TEST_P(CollisionCheckerContract, StretchesProvenFreeAreFree) {
   EXPECT_GT(num_free_but_unproven, 0);
 }
 
+TEST_P(CollisionCheckerContract, PartsProvenFreeAreFree) {
+  const Robot arm = MakeTestArm();
+  const auto checker = Make(arm);
+  const JointSpace& space = checker->space();
+  std::mt19937_64 generator(23);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  constexpr int kParts = 8;
+  int num_proven = 0;
+  int num_blocked = 0;
+  for (const NamedScene& world : MakeTestScenes()) {
+    SCOPED_TRACE(world.what);
+    checker->SetScene(world.scene, ArmBase(arm));
+    for (int i = 0; i < 60; ++i) {
+      const auto start = RandomConfiguration(space, &generator);
+      std::vector<double> motion;
+      for (int j = 0; j < space.size(); ++j) motion.push_back(0.3 * unit(generator));
+      // Before and behind it something else may block than in the middle.
+      const std::vector<MotionSample> stretches = {{0.2, 0.2}, {0.6, 0.2}, {0.9, 0.1}};
+      const SampleVerdicts whole = checker->CheckSamples(start, motion, stretches);
+      if (whole.certain != 0) continue;
+      std::vector<MotionSample> parts;
+      for (std::size_t k = 0; k < stretches.size(); ++k) {
+        if ((whole.blocked >> k & 1) == 0) continue;
+        const double half_length = stretches[k].half_length / kParts;
+        for (int cut = 0; cut < kParts; ++cut) {
+          parts.push_back(
+              {stretches[k].position + (2 * cut + 1 - kParts) * half_length, half_length});
+        }
+      }
+      const SampleVerdicts verdicts =
+          checker->CheckSamples(start, motion, parts, SampleRole::kParts);
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (verdicts.certain != 0 || (verdicts.blocked >> k & 1) != 0) {
+          ++num_blocked;
+          continue;
+        }
+        ++num_proven;
+        for (const double side : {-1, 0, 1}) {
+          const double position = parts[k].position + side * parts[k].half_length;
+          std::vector<double> q(start);
+          for (std::size_t j = 0; j < q.size(); ++j) q[j] += position * motion[j];
+          if (!space.WithinLimits(q)) continue;
+          EXPECT_GT(
+              OracleClearance(OraclePairs(arm, checker->group(), world.scene, ArmBase(arm), q)), 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(num_proven, 50);
+  EXPECT_GT(num_blocked, 50);
+}
+
 TEST_P(CollisionCheckerContract, DistancesOfManyAreThoseOfEach) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);

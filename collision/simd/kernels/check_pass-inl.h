@@ -35,18 +35,23 @@ class CheckPass {
         motions_(robot, buffers, query, lane),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
+        noted_hits_(hits_),
         certain_(hn::FirstN(Lanes(), 0)),
         doubts_(hn::FirstN(Lanes(), 0)) {}
 
   void Run() {
-    std::int32_t* order = buffers_.order.data();
-    const std::size_t num_tests = buffers_.order.size();
+    const bool notes = kAround && query_.tests == Tests::kNote;
+    std::vector<std::int32_t>& tests =
+        kAround && query_.tests == Tests::kNoted ? buffers_.noted : buffers_.order;
+    std::int32_t* order = tests.data();
+    const std::size_t num_tests = tests.size();
     const WorldTree* trees = world_.trees.data();
     const int num_trees = static_cast<int>(world_.trees.size());
     for (std::size_t i = 0; i < num_tests; ++i) {
       const int test = order[i];
       const bool found = test < num_trees ? TestWorld(trees[test])
                                           : TestPair(robot_.pairs.data()[test - num_trees]);
+      if (notes) TakeNote(test);
       if (!found) continue;
       // One step to the front at a time: what hits often comes early.
       if (i > 0) std::swap(order[i], order[i - 1]);
@@ -57,11 +62,23 @@ class CheckPass {
     }
   }
 
-  LaneMask hits() const { return Bits(hits_); }
+  LaneMask hits() const { return Bits(hn::Or(hits_, noted_hits_)); }
   LaneMask certain() const { return Bits(certain_); }
   LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
 
  private:
+  /// Notes the test just made if it left any lane open. The next one starts as if none were: it is
+  /// to be known whether that leaves them open, too.
+  void TakeNote(int test) {
+    if (None(hits_) && None(doubts_)) return;
+    noted_hits_ = hn::Or(noted_hits_, hits_);
+    hits_ = hn::FirstN(Lanes(), 0);
+    unsigned char& is_noted = buffers_.is_noted[static_cast<std::size_t>(test)];
+    if (is_noted != 0) return;
+    is_noted = 1;
+    buffers_.noted.push_back(test);
+  }
+
   /// Radius grown by the motion; lanes not proven free already matter no more but for certainty.
   HWY_INLINE V Grown(float radius, V motion) const {
     if constexpr (kAround) return Fill(radius) + hn::IfThenZeroElse(hits_, motion);
@@ -582,7 +599,8 @@ class CheckPass {
   Placement placement_;
   MotionBounds<kAround> motions_;
   M alive_;  ///< Lanes whose verdict is not certain yet.
-  M hits_;   ///< See BlockVerdict.
+  M hits_;   ///< See BlockVerdict; of tests that are noted, those of the one at hand.
+  M noted_hits_;
   M certain_;
   M doubts_;
   // Of the test at hand.

@@ -27,6 +27,13 @@ SphereScratch::~SphereScratch() = default;
 SphereScratch::SphereScratch(SphereScratch&&) noexcept = default;
 SphereScratch& SphereScratch::operator=(SphereScratch&&) noexcept = default;
 
+void SphereScratch::ForgetNoted() {
+  for (const std::int32_t test : buffers_->noted) {
+    buffers_->is_noted[static_cast<std::size_t>(test)] = 0;
+  }
+  buffers_->noted.clear();
+}
+
 void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
   Buffers& b = *buffers_;
   if (b.num_bodies < robot.bodies.size()) {
@@ -49,6 +56,8 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
     b.order.push_back(static_cast<std::int32_t>(world.trees.size() + i));
     i += static_cast<std::size_t>(robot.pairs[i].num_behind);
   }
+  b.noted.clear();
+  b.is_noted.assign(world.trees.size() + robot.pairs.size(), 0);
   b.all_solids.resize(world.solids.size());
   std::iota(b.all_solids.begin(), b.all_solids.end(), 0);
   b.lists.resize(world.solids.size() * DepthOf(robot.nodes));

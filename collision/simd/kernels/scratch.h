@@ -22,6 +22,9 @@ struct SphereScratch::Buffers {
   hwy::AlignedFreeUniquePtr<float[]> width_sums;
   /// Tests: indices of world trees, then of pairs behind no gate.
   std::vector<std::int32_t> order;
+  /// Tests that were noted, and by test whether it was; see Tests.
+  std::vector<std::int32_t> noted;
+  std::vector<unsigned char> is_noted;
   std::vector<std::int32_t> all_solids;  ///< 0, 1, 2, ...
   std::vector<std::int32_t> lists;       ///< Of solids, one for every level of a tree of balls.
 };

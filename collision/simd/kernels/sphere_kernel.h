@@ -236,6 +236,8 @@ class SphereScratch {
   SphereScratch& operator=(SphereScratch&&) noexcept;
   /// Must be called when the robot or the world has changed.
   void Reset(const SphereRobot& robot, const SphereWorld& world);
+  /// See Tests.
+  void ForgetNoted();
 
   struct Buffers;
   Buffers& buffers() { return *buffers_; }
@@ -247,6 +249,14 @@ class SphereScratch {
 /// Lanes by bit.
 using LaneMask = std::uint32_t;
 
+/// Which tests are made. Those that proved stretches of a motion free need not be made again for
+/// parts of them.
+enum class Tests {
+  kAll,
+  kNote,   ///< All; those that leave a lane open are noted, beside those noted before.
+  kNoted,  ///< Those noted, for parts of stretches that were not proven free.
+};
+
 struct BlockQuery {
   /// [joint][kBlock], rad or m; revolute |q| <= 2 pi, with tables pi.
   const float* q = nullptr;
@@ -256,6 +266,8 @@ struct BlockQuery {
   const float* margins = nullptr;
   LaneMask lanes = 0;  ///< Lanes to check.
   bool stop_at_first = false;
+  /// With half widths.
+  Tests tests = Tests::kAll;
 };
 
 struct BlockVerdict {
