@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "collision/simd/kernels/hull_planes-inl.h"
 #include "collision/simd/kernels/motion_bounds-inl.h"
 #include "collision/simd/kernels/nearby-inl.h"
 #include "collision/simd/kernels/patches-inl.h"
@@ -33,6 +34,7 @@ class CheckPass {
         lane_(lane),
         placement_(robot, buffers, query.q, lane),
         motions_(robot, buffers, query, lane),
+        hulls_(robot, buffers, placement_),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
         noted_hits_(hits_),
@@ -306,7 +308,8 @@ class CheckPass {
       M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
       const V motion = motions_.Of(reach_, ReachOfPoints(node));
-      near = NotApartFrom(solid, index, body, motion, near);
+      near =
+          hulls_.NotApartFrom(solid, index, body, Margin(motion, 2 * HullOf(index).padding), near);
       if (None(near)) continue;
       if (solid.doubtful) {
         doubts_ = hn::Or(doubts_, near);
@@ -320,30 +323,11 @@ class CheckPass {
     return false;
   }
 
-  /// Lanes, of those given, in which the plane through the point of a solid that is nearest to the
-  /// middle of a node is not between the solid and the node's hull.
-  M NotApartFrom(const Solid& solid, int index, int body, V motion, M lanes) const {
-    const NodeHull& hull = HullOf(index);
-    const Poses X_WC = placement_.PosesOf(body);
-    const Points p = placement_.Position(index);
-    const Points d = FromSolid(solid, p);
-    const V squared = SquaredNorm(d);
-    const V gap = LeastAlong(robot_.points + hull.first, hull.num, X_WC.InverseRotate(d)) +
-                  Dot(d, X_WC.translation() - p) + squared;
-    return hn::AndNot(Exceeds(gap, Margin(motion, 2 * hull.padding) + Fill(hull.slack), squared),
-                      lanes);
-  }
-
   /// What planes are to leave between what moves so far.
   HWY_INLINE V Margin(V motion, float padding) const {
     if constexpr (kAround) return Fill(padding) + hn::IfThenZeroElse(hits_, motion);
     return Fill(padding);
   }
-  /// Whether a gap along a direction of that squared length is wider than a margin.
-  static HWY_INLINE M Exceeds(V gap, V margin, V squared) {
-    return hn::And(hn::Gt(gap, Zero()), hn::Gt(gap * gap, margin * margin * squared));
-  }
-
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
                            int num) {
     const V grown = Grown(node.radius, motion);
@@ -434,71 +418,31 @@ class CheckPass {
     M touching = Within(squared, Grown(pair.radius, motion));
     if (None(touching)) return false;
     doubtful_ = pair.doubtful;
-    pair_body_a_ = pair.body_a;
-    pair_body_b_ = pair.body_b;
-    related_ = 0;
+    hulls_.Begin(pair.body_a, pair.body_b);
     const M before = certain_;
     if (placement_.node(pair.root_a).num_children == 0 &&
         placement_.node(pair.root_b).num_children == 0) {
       NotePair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, squared, pair.radius, touching);
     } else {
-      if (HaveHulls(pair.root_a, pair.root_b)) {
-        const V of_points = motions_.Of(reach_, reach_.first + robot_.num_joints);
-        touching = NotApart(pair.root_a, pair.body_a, pair.root_b, of_points, touching);
-        if (None(touching)) return false;
-      }
+      touching = NotApartAsWhole(pair.root_a, pair.body_a, pair.root_b, touching);
+      if (None(touching)) return false;
       VisitPair(pair.root_a, pair.body_a, pair.root_b, pair.body_b, motion, touching);
     }
     return !None(hn::AndNot(before, certain_));
   }
 
-  /// Of the pair at hand in one lane, from the frame of its body b to that of its body a.
-  const Transform& Relation(int lane) {
-    if ((related_ >> lane & 1) == 0) {
-      related_ |= LaneMask{1} << lane;
-      relations_[lane] = Between(placement_.PosesOf(pair_body_a_).InLane(lane),
-                                 placement_.PosesOf(pair_body_b_).InLane(lane));
-    }
-    return relations_[lane];
+  /// NotApart of nodes that are not both leaves, if they have hulls, by the bound of their trees.
+  M NotApartAsWhole(int a, int body_a, int b, M lanes) {
+    if (doubtful_ || HullOf(a).num == 0 || HullOf(b).num == 0) return lanes;
+    return NotApart(a, body_a, b, motions_.Of(reach_, reach_.first + robot_.num_joints), lanes);
   }
 
-  bool HaveHulls(int a, int b) const {
-    return !doubtful_ && HullOf(a).num > 0 && HullOf(b).num > 0;
-  }
-
-  /// Lanes, of those given, in which no plane is found between two nodes' hulls; `motion` bounds
-  /// that of all of their points.
+  /// Lanes, of those given, in which two nodes are not known to be apart by their hulls; `motion`
+  /// bounds that of all of their points.
   M NotApart(int a, int body_a, int b, V motion, M lanes) {
-    if (body_a != pair_body_a_) std::swap(a, b);
-    const NodeHull& hull_a = HullOf(a);
-    const NodeHull& hull_b = HullOf(b);
-    const V margin = Margin(motion, hull_a.padding + hull_b.padding);
-    {  // In all lanes, planes across the line between the middles.
-      const Points d = placement_.Position(a) - placement_.Position(b);
-      const Poses X_WA = placement_.PosesOf(pair_body_a_);
-      const Poses X_WB = placement_.PosesOf(pair_body_b_);
-      const Points d_B = X_WB.InverseRotate(d);
-      const V gap = LeastAlong(robot_.points + hull_a.first, hull_a.num, X_WA.InverseRotate(d)) +
-                    LeastAlong(robot_.points + hull_b.first, hull_b.num,
-                               {hn::Neg(d_B.x), hn::Neg(d_B.y), hn::Neg(d_B.z)}) +
-                    Dot(d, X_WA.translation() - X_WB.translation());
-      const V slack = Fill(hull_a.slack + hull_b.slack);
-      lanes = hn::AndNot(Exceeds(gap, margin + slack, SquaredNorm(d)), lanes);
-      if (None(lanes)) return lanes;
-    }
-    alignas(64) float margins[kBlock];
-    Store(margin, margins);
-    // Configurations of a block are alike: a plane found in one lane is the first tried in the
-    // next, and where one lane has none the others are not asked.
-    LaneMask open = Bits(lanes);
-    float direction[3];
-    Difference(placement_.node(a).center, placement_.node(b).center,
-               Relation(std::countr_zero(open)), direction);
-    for (; open != 0; open &= open - 1) {
-      const int lane = std::countr_zero(open);
-      if (!HullsApart(robot_, hull_a, hull_b, Relation(lane), margins[lane], direction)) break;
-    }
-    return MaskOf(open);
+    const V margin = Margin(motion, HullOf(a).padding + HullOf(b).padding);
+    return body_a == hulls_.body_a() ? hulls_.NotApart(a, b, margin, lanes)
+                                     : hulls_.NotApart(b, a, margin, lanes);
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
@@ -523,7 +467,7 @@ class CheckPass {
   /// A patch and another leaf, whose balls touch.
   bool NotePatch(int index, int body_a, int other_index, int other_body, M touching) {
     if (None(touching)) return false;
-    if (body_a != pair_body_a_ && placement_.node(other_index).patch >= 0) {
+    if (body_a != hulls_.body_a() && placement_.node(other_index).patch >= 0) {
       std::swap(index, other_index);
       std::swap(body_a, other_body);
     }
@@ -552,7 +496,8 @@ class CheckPass {
     }
     const PatchView other_patch = PatchOf(other_index);
     return NoteExact(touching, motion, patch.patch.padding, [&](int lane, float margin) {
-      return PatchesMeet(patch, other_patch, Relation(lane), margin + other_patch.patch.padding);
+      return PatchesMeet(patch, other_patch, hulls_.Relation(lane),
+                         margin + other_patch.patch.padding);
     });
   }
 
@@ -584,8 +529,10 @@ class CheckPass {
       }
       if (node.num_children == 0 && small.num_children == 0) {
         if (NotePair(child, body_a, b, body_b, squared, radius, touching)) return true;
-      } else if (VisitPair(child, body_a, b, body_b, motion, touching)) {
-        return true;
+      } else {
+        const M open = NotApartAsWhole(child, body_a, b, touching);
+        if (None(open)) continue;
+        if (VisitPair(child, body_a, b, body_b, motion, open)) return true;
       }
     }
     return false;
@@ -598,6 +545,7 @@ class CheckPass {
   int lane_;
   Placement placement_;
   MotionBounds<kAround> motions_;
+  HullPlanes hulls_;
   M alive_;  ///< Lanes whose verdict is not certain yet.
   M hits_;   ///< See BlockVerdict; of tests that are noted, those of the one at hand.
   M noted_hits_;
@@ -606,10 +554,6 @@ class CheckPass {
   // Of the test at hand.
   Reach reach_;
   bool doubtful_ = false;
-  int pair_body_a_ = 0;
-  int pair_body_b_ = 0;
-  LaneMask related_ = 0;  ///< Lanes whose relations are known.
-  Transform relations_[kBlock];
 };
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

@@ -22,7 +22,7 @@ namespace planbench::kernels::HWY_NAMESPACE {
 // stops early, since what it does not tell apart the triangles decide.
 
 /// Directions that are tried.
-inline constexpr int kMostDirections = 6;
+inline constexpr int kMostDirections = 8;
 
 /// Least d . p over a hull's points p, a direction a lane.
 HWY_INLINE V LeastAlong(const PointGroup* points, int num, const Points& d) {

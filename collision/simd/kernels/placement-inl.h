@@ -34,6 +34,13 @@ class Poses {
   HWY_INLINE Points InverseRotate(const Points& v_W) const {
     return {Dot(Column(0), v_W), Dot(Column(1), v_W), Dot(Column(2), v_W)};
   }
+  /// Vectors given in the body's frame, in W.
+  HWY_INLINE Points Rotate(const Points& v_C) const {
+    const auto row = [&](int r) {
+      return Dot({rotation(r, 0), rotation(r, 1), rotation(r, 2)}, v_C);
+    };
+    return {row(0), row(1), row(2)};
+  }
   /// The pose in one lane.
   Transform InLane(int lane) const {
     Transform X;

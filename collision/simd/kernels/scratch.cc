@@ -56,6 +56,7 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
     b.order.push_back(static_cast<std::int32_t>(world.trees.size() + i));
     i += static_cast<std::size_t>(robot.pairs[i].num_behind);
   }
+  b.planes.fill({});
   b.noted.clear();
   b.is_noted.assign(world.trees.size() + robot.pairs.size(), 0);
   b.all_solids.resize(world.solids.size());

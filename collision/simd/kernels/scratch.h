@@ -2,6 +2,7 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "collision/simd/kernels/sphere_kernel.h"
 
 namespace planbench::kernels {
+
+/// A plane that was between the hulls of two nodes when these were last asked for.
+struct Plane {
+  std::int32_t a = -1, b = -1;  ///< Nodes.
+  float direction[3];  ///< Normal to it, from b to a, of any length, in the frame of body a.
+  float least_a;       ///< Least direction . p over the hull of a.
+};
 
 struct SphereScratch::Buffers {
   std::size_t num_bodies = 0;
@@ -25,6 +33,11 @@ struct SphereScratch::Buffers {
   /// Tests that were noted, and by test whether it was; see Tests.
   std::vector<std::int32_t> noted;
   std::vector<unsigned char> is_noted;
+  /// Those found last, by hash.
+  std::array<Plane, 1024> planes;
+  Plane& PlaneOf(int a, int b) {
+    return planes[(static_cast<std::size_t>(a) * 31 + static_cast<std::size_t>(b)) % planes.size()];
+  }
   std::vector<std::int32_t> all_solids;  ///< 0, 1, 2, ...
   std::vector<std::int32_t> lists;       ///< Of solids, one for every level of a tree of balls.
 };
