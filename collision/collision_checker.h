@@ -45,7 +45,9 @@ struct MotionSample {
 /// What need not be asked again of samples.
 enum class SampleRole {
   kMotion,  ///< Nothing was asked.
-  kParts,   ///< They are within stretches that the call of kMotion left blocked, none for certain.
+  /// They are cut of stretches that the last call of kMotion, of the same motion in the same scene,
+  /// left blocked, none of them for certain.
+  kCuts,
 };
 
 /// Verdicts on up to 64 samples, by bit.

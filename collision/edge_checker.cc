@@ -20,8 +20,9 @@ constexpr std::size_t kUsualStretches = 256;
 /// Whether to stop is asked after this many samples: seldom enough to cost nothing, often enough
 /// where each is the work of an exact engine on meshes.
 constexpr std::int64_t kSamplesUnasked = 64;
-/// Certified edges are first cut into this many stretches, checked at once ...
-constexpr int kFirstParts = 16;
+/// Certified edges are first cut into this many stretches, handed over at once, in the order of
+/// NextSample as engines may take fewer at a time ...
+constexpr int kFirstStretches = 16;
 /// ... and those not proven free into this many parts.
 constexpr int kCuts = 4;
 
@@ -76,10 +77,9 @@ void EdgeChecker::Reserve() {
   motion_.reserve(static_cast<std::size_t>(space().size()));
   block_.reserve(kMaxBlock);
   pending_.reserve(kUsualStretches);
-  for (std::int64_t part = 0; part >= 0; part = NextSample(part, kFirstParts)) {
-    // The sample at the far end of interval `part` stands for the interval.
-    const double half_length = 0.5 / kFirstParts;
-    pending_.push_back({SamplePosition(part, kFirstParts) - half_length, half_length});
+  constexpr double kHalfLength = 0.5 / kFirstStretches;
+  for (std::int64_t k = 0; k >= 0; k = NextSample(k, kFirstStretches)) {
+    pending_.push_back({SamplePosition(k, kFirstStretches) - kHalfLength, kHalfLength});
   }
 }
 
@@ -241,12 +241,12 @@ std::optional<double> EdgeChecker::FindBlockedSample(std::span<const double> fro
 
 std::optional<double> EdgeChecker::FindBlockedStretch(std::span<const double> from,
                                                       double motion_m) {
-  pending_.resize(kFirstParts);  // without the cuts of the edge before
+  pending_.resize(kFirstStretches);  // without the cuts of the edge before
   for (std::size_t next = 0; next < pending_.size();) {
-    const auto size = std::min<std::size_t>(kFirstParts, pending_.size() - next);
+    const auto size = std::min<std::size_t>(kFirstStretches, pending_.size() - next);
     if (GiveUp()) return pending_[next].position;
-    const SampleVerdicts verdicts = CheckBlock(
-        from, {&pending_[next], size}, next == 0 ? SampleRole::kMotion : SampleRole::kParts);
+    const SampleVerdicts verdicts = CheckBlock(from, {&pending_[next], size},
+                                               next == 0 ? SampleRole::kMotion : SampleRole::kCuts);
     if (verdicts.certain != 0) {
       return pending_[next + static_cast<std::size_t>(std::countr_zero(verdicts.certain))].position;
     }

@@ -145,8 +145,9 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
     fits = fits && std::min(start[j], end) >= joints_.lower[j] &&
            std::max(start[j], end) <= joints_.upper[j];
   }
-  if (role == SampleRole::kMotion) scratch_.ForgetNoted();
-  const auto tests = role == SampleRole::kMotion ? kernels::Tests::kNote : kernels::Tests::kNoted;
+  if (role == SampleRole::kMotion) scratch_.ForgetOpen();
+  const auto tests =
+      role == SampleRole::kMotion ? kernels::Tests::kFindOpen : kernels::Tests::kOpen;
   std::vector<double> q;
   SampleVerdicts verdicts;
   for (std::size_t first = 0; first < samples.size(); first += kBlock) {

@@ -237,13 +237,14 @@ TEST_P(CollisionCheckerContract, StretchesProvenFreeAreFree) {
   EXPECT_GT(num_free_but_unproven, 0);
 }
 
-TEST_P(CollisionCheckerContract, PartsProvenFreeAreFree) {
+TEST_P(CollisionCheckerContract, CutsProvenFreeAreFree) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);
   const JointSpace& space = checker->space();
   std::mt19937_64 generator(23);
   std::uniform_real_distribution<double> unit(-1, 1);
-  constexpr int kParts = 8;
+  constexpr int kStretches = 16;
+  constexpr int kCuts = 4;
   int num_proven = 0;
   int num_blocked = 0;
   for (const NamedScene& world : MakeTestScenes()) {
@@ -253,29 +254,30 @@ TEST_P(CollisionCheckerContract, PartsProvenFreeAreFree) {
       const auto start = RandomConfiguration(space, &generator);
       std::vector<double> motion;
       for (int j = 0; j < space.size(); ++j) motion.push_back(0.3 * unit(generator));
-      // Before and behind it something else may block than in the middle.
-      const std::vector<MotionSample> stretches = {{0.2, 0.2}, {0.6, 0.2}, {0.9, 0.1}};
+      std::vector<MotionSample> stretches;
+      for (int k = 0; k < kStretches; ++k) {
+        stretches.push_back({(k + 0.5) / kStretches, 0.5 / kStretches});
+      }
       const SampleVerdicts whole = checker->CheckSamples(start, motion, stretches);
       if (whole.certain != 0) continue;
-      std::vector<MotionSample> parts;
+      std::vector<MotionSample> cuts;
       for (std::size_t k = 0; k < stretches.size(); ++k) {
         if ((whole.blocked >> k & 1) == 0) continue;
-        const double half_length = stretches[k].half_length / kParts;
-        for (int cut = 0; cut < kParts; ++cut) {
-          parts.push_back(
-              {stretches[k].position + (2 * cut + 1 - kParts) * half_length, half_length});
+        const double half_length = stretches[k].half_length / kCuts;
+        for (int cut = 0; cut < kCuts; ++cut) {
+          cuts.push_back(
+              {stretches[k].position + (2 * cut + 1 - kCuts) * half_length, half_length});
         }
       }
-      const SampleVerdicts verdicts =
-          checker->CheckSamples(start, motion, parts, SampleRole::kParts);
-      for (std::size_t k = 0; k < parts.size(); ++k) {
+      const SampleVerdicts verdicts = checker->CheckSamples(start, motion, cuts, SampleRole::kCuts);
+      for (std::size_t k = 0; k < cuts.size(); ++k) {
         if (verdicts.certain != 0 || (verdicts.blocked >> k & 1) != 0) {
           ++num_blocked;
           continue;
         }
         ++num_proven;
         for (const double side : {-1, 0, 1}) {
-          const double position = parts[k].position + side * parts[k].half_length;
+          const double position = cuts[k].position + side * cuts[k].half_length;
           std::vector<double> q(start);
           for (std::size_t j = 0; j < q.size(); ++j) q[j] += position * motion[j];
           if (!space.WithinLimits(q)) continue;

@@ -37,14 +37,16 @@ class CheckPass {
         hulls_(robot, buffers, placement_),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
-        noted_hits_(hits_),
+        hits_before_(hits_),
         certain_(hn::FirstN(Lanes(), 0)),
-        doubts_(hn::FirstN(Lanes(), 0)) {}
+        doubts_(hits_),
+        doubts_before_(hits_) {}
 
   void Run() {
-    const bool notes = kAround && query_.tests == Tests::kNote;
-    std::vector<std::int32_t>& tests =
-        kAround && query_.tests == Tests::kNoted ? buffers_.noted : buffers_.order;
+    const bool finds_open = kAround && query_.tests == Tests::kFindOpen;
+    if (finds_open) buffers_.knows_open = true;
+    const bool only_open = kAround && query_.tests == Tests::kOpen && buffers_.knows_open;
+    std::vector<std::int32_t>& tests = only_open ? buffers_.open : buffers_.order;
     std::int32_t* order = tests.data();
     const std::size_t num_tests = tests.size();
     const WorldTree* trees = world_.trees.data();
@@ -53,7 +55,7 @@ class CheckPass {
       const int test = order[i];
       const bool found = test < num_trees ? TestWorld(trees[test])
                                           : TestPair(robot_.pairs.data()[test - num_trees]);
-      if (notes) TakeNote(test);
+      if (finds_open) KeepIfOpen(test);
       if (!found) continue;
       // One step to the front at a time: what hits often comes early.
       if (i > 0) std::swap(order[i], order[i - 1]);
@@ -64,21 +66,21 @@ class CheckPass {
     }
   }
 
-  LaneMask hits() const { return Bits(hn::Or(hits_, noted_hits_)); }
+  LaneMask hits() const { return Bits(hn::Or(hits_, hits_before_)); }
   LaneMask certain() const { return Bits(certain_); }
-  LaneMask doubts() const { return Bits(hn::AndNot(certain_, doubts_)); }
+  LaneMask doubts() const { return Bits(hn::AndNot(certain_, hn::Or(doubts_, doubts_before_))); }
 
  private:
-  /// Notes the test just made if it left any lane open. The next one starts as if none were: it is
+  /// Keeps the test just made if it left any lane open. The next one starts as if none were: it is
   /// to be known whether that leaves them open, too.
-  void TakeNote(int test) {
-    if (None(hits_) && None(doubts_)) return;
-    noted_hits_ = hn::Or(noted_hits_, hits_);
-    hits_ = hn::FirstN(Lanes(), 0);
-    unsigned char& is_noted = buffers_.is_noted[static_cast<std::size_t>(test)];
-    if (is_noted != 0) return;
-    is_noted = 1;
-    buffers_.noted.push_back(test);
+  void KeepIfOpen(int test) {
+    const M open = hn::Or(hits_, doubts_);
+    hits_before_ = hn::Or(hits_before_, std::exchange(hits_, hn::FirstN(Lanes(), 0)));
+    doubts_before_ = hn::Or(doubts_before_, std::exchange(doubts_, hn::FirstN(Lanes(), 0)));
+    unsigned char& is_open = buffers_.is_open[static_cast<std::size_t>(test)];
+    if (is_open != 0 || None(open)) return;
+    is_open = 1;
+    buffers_.open.push_back(test);
   }
 
   /// Radius grown by the motion; lanes not proven free already matter no more but for certainty.
@@ -547,10 +549,12 @@ class CheckPass {
   MotionBounds<kAround> motions_;
   HullPlanes hulls_;
   M alive_;  ///< Lanes whose verdict is not certain yet.
-  M hits_;   ///< See BlockVerdict; of tests that are noted, those of the one at hand.
-  M noted_hits_;
+  // See BlockVerdict; where open tests are looked for, of the one at hand and of those before it.
+  M hits_;
+  M hits_before_;
   M certain_;
   M doubts_;
+  M doubts_before_;
   // Of the test at hand.
   Reach reach_;
   bool doubtful_ = false;

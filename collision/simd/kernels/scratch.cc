@@ -27,11 +27,11 @@ SphereScratch::~SphereScratch() = default;
 SphereScratch::SphereScratch(SphereScratch&&) noexcept = default;
 SphereScratch& SphereScratch::operator=(SphereScratch&&) noexcept = default;
 
-void SphereScratch::ForgetNoted() {
-  for (const std::int32_t test : buffers_->noted) {
-    buffers_->is_noted[static_cast<std::size_t>(test)] = 0;
-  }
-  buffers_->noted.clear();
+void SphereScratch::ForgetOpen() {
+  Buffers& b = *buffers_;
+  for (const std::int32_t test : b.open) b.is_open[static_cast<std::size_t>(test)] = 0;
+  b.open.clear();
+  b.knows_open = false;
 }
 
 void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
@@ -57,8 +57,10 @@ void SphereScratch::Reset(const SphereRobot& robot, const SphereWorld& world) {
     i += static_cast<std::size_t>(robot.pairs[i].num_behind);
   }
   b.planes.fill({});
-  b.noted.clear();
-  b.is_noted.assign(world.trees.size() + robot.pairs.size(), 0);
+  b.open.clear();
+  b.open.reserve(b.order.size());
+  b.is_open.assign(world.trees.size() + robot.pairs.size(), 0);
+  b.knows_open = false;
   b.all_solids.resize(world.solids.size());
   std::iota(b.all_solids.begin(), b.all_solids.end(), 0);
   b.lists.resize(world.solids.size() * DepthOf(robot.nodes));

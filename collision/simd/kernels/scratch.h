@@ -30,9 +30,11 @@ struct SphereScratch::Buffers {
   hwy::AlignedFreeUniquePtr<float[]> width_sums;
   /// Tests: indices of world trees, then of pairs behind no gate.
   std::vector<std::int32_t> order;
-  /// Tests that were noted, and by test whether it was; see Tests.
-  std::vector<std::int32_t> noted;
-  std::vector<unsigned char> is_noted;
+  /// Tests that left lanes open, by test whether it did, and whether that was looked for; see
+  /// Tests.
+  std::vector<std::int32_t> open;
+  std::vector<unsigned char> is_open;
+  bool knows_open = false;
   /// Those found last, by hash.
   std::array<Plane, 1024> planes;
   Plane& PlaneOf(int a, int b) {

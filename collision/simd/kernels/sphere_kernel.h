@@ -237,7 +237,7 @@ class SphereScratch {
   /// Must be called when the robot or the world has changed.
   void Reset(const SphereRobot& robot, const SphereWorld& world);
   /// See Tests.
-  void ForgetNoted();
+  void ForgetOpen();
 
   struct Buffers;
   Buffers& buffers() { return *buffers_; }
@@ -249,12 +249,12 @@ class SphereScratch {
 /// Lanes by bit.
 using LaneMask = std::uint32_t;
 
-/// Which tests are made. Those that proved stretches of a motion free need not be made again for
-/// parts of them.
+/// Which tests are made. Those that prove stretches of a motion free need not be made again for
+/// what is cut of these.
 enum class Tests {
   kAll,
-  kNote,   ///< All; those that leave a lane open are noted, beside those noted before.
-  kNoted,  ///< Those noted, for parts of stretches that were not proven free.
+  kFindOpen,  ///< All; those that leave a lane open are added to the open ones.
+  kOpen,      ///< The open ones, if they were found; else all.
 };
 
 struct BlockQuery {
