@@ -39,14 +39,16 @@ constexpr int kGroupSamples = 1000;
 constexpr std::size_t kWorstPairs = 5;
 constexpr char kButPosed[] = " but planar and floating ones";
 
-// A fiftieth of how far the robot reaches, in mm, and no more than arms of a metre need.
+// A fiftieth of how far the robot reaches, in mm, and no more than arms of a metre need. Along a
+// prismatic joint that is half of its travel, as an arm that reaches r sweeps 2 r.
 double SuggestEdgeResolution(const Robot& robot) {
   double reach = 0;
   for (const PlanningGroup& group : robot.groups) {
     const MotionBound bound(robot.model, group, robot.model.DefaultPositions(), robot.spheres);
     for (int j = 0; j < group.space.size(); ++j) {
-      if (group.space.joint(j).prismatic) continue;
-      reach = std::max(reach, bound.reach()[static_cast<std::size_t>(j)]);
+      const JointSpace::Joint& joint = group.space.joint(j);
+      const double swept = joint.prismatic ? (joint.upper - joint.lower) / 2 : 1;
+      reach = std::max(reach, swept * bound.reach()[static_cast<std::size_t>(j)]);
     }
   }
   if (reach == 0) return 0.02;

@@ -371,6 +371,30 @@ TEST_F(MakeRobotTest, FilesOfTheUrdfsOwnFolderAreKept) {
   EXPECT_EQ(ReadText(flags_.out / "meshes/a_2.obj"), hook);
 }
 
+TEST_F(MakeRobotTest, EdgesAreSampledByTheReachOfTurnsAndTheTravelOfSlides) {
+  // A bridge over `travel` m, a quill, and a wrist that reaches 0.05 m.
+  const auto resolution_of = [&](double travel) {
+    folder_.Write(
+        "in/crane.urdf",
+        fmt::format("<robot name='gantry'><link name='frame'/><link name='bridge'/>"
+                    "<link name='quill'/><link name='wrist'><collision><origin xyz='0.04 0 0'/>"
+                    "<geometry><sphere radius='0.01'/></geometry></collision></link>"
+                    "<joint name='x' type='prismatic'><parent link='frame'/><child link='bridge'/>"
+                    "<limit lower='-0.1' upper='{}' velocity='1' effort='1'/></joint>"
+                    "<joint name='z' type='prismatic'><parent link='bridge'/><child link='quill'/>"
+                    "<axis xyz='0 0 1'/><limit lower='0' upper='0.21' velocity='1' effort='1'/>"
+                    "</joint><joint name='turn' type='continuous'><parent link='quill'/>"
+                    "<child link='wrist'/><axis xyz='0 0 1'/></joint></robot>",
+                    travel - 0.1));
+    flags_.replace = true;
+    EXPECT_THAT(Make(), HasSubstr("where they are sampled, nothing moves more than"));
+    return LoadRobot(flags_.out).edge_resolution_m;
+  };
+  EXPECT_EQ(resolution_of(0.82), 0.008);
+  EXPECT_EQ(resolution_of(9), 0.02);
+  EXPECT_EQ(resolution_of(0.11), 0.002) << "the quill's travel";
+}
+
 TEST_F(MakeRobotTest, ShapesInMillimetresAreNamed) {
   std::string urdf = kCraneUrdf;
   urdf.replace(urdf.find("0.06"), 4, "60");
