@@ -30,9 +30,6 @@ namespace {
 // What a planner does only once takes well below that.
 constexpr double kWarmUpLimit = 1;  // s
 
-/// How often a run is made again because it was disturbed.
-constexpr int kMostRepeats = 2;
-
 /// Of how many deaths of the scene server a problem is the cause; one may be another's doing.
 constexpr int kServerDeaths = 2;
 
@@ -481,7 +478,7 @@ std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* c
 }
 
 bool Driver::IsToRepeat(const RunStanding& attempt) const {
-  return options_.repeat_disturbed && attempt.disturbed && attempt.repeats < kMostRepeats;
+  return options_.repeat_disturbed && OwesRepeat(attempt);
 }
 
 Driver::Need Driver::NeedOf(const ScheduledRun& run) const {
@@ -495,6 +492,7 @@ bool Driver::TakeIn(RunRecordMessage* record) {
   const int repeats = before == repeats_.end() ? 0 : before->second + 1;
   if (repeats > 0) repeats_.erase(before);
   if (repeats > 0 && !WasAsked(*record)) {  // the attempt that was disturbed stands
+    ++num_repeats_not_asked_;
     progress_->Drop();
     return false;
   }
@@ -586,7 +584,7 @@ bool Driver::Run(const std::function<bool()>& interrupted, const std::function<v
   for (std::thread& thread : threads) thread.join();
   progress_.reset();
   const bool complete = recorder_.Complete() && !stop;
-  recorder_.Record(Session(complete && num_owed_ + num_owed_repeats_ + num_not_asked_ == 0 &&
+  recorder_.Record(Session(complete && num_owed_ + num_not_asked_ + num_to_repeat() == 0 &&
                            awaited_shards_.empty()));
   const bool recorded = complete && recorder_.Complete();
   if (failure) std::rethrow_exception(failure);

@@ -61,14 +61,16 @@ class Driver {
   int num_owed() const { return num_owed_; }
   /// Disturbed runs of the resumed session that are still to be made again, and not by this call.
   int num_owed_repeats() const { return num_owed_repeats_; }
-  /// These, and those of this call.
-  int num_to_repeat() const { return num_owed_repeats_ + static_cast<int>(repeats_.size()); }
+  /// These, and those of this call, be it that no request could be sent for them.
+  int num_to_repeat() const {
+    return num_owed_repeats_ + num_repeats_not_asked_ + static_cast<int>(repeats_.size());
+  }
   /// Shards that the session, once merged of others, does not hold: it is not finished without.
   /// In lines.
   const std::vector<std::string>& awaited_shards() const { return awaited_shards_; }
-  /// Of this call's runs those of which no request was sent (messaging/asked_runs.h): made when the
-  /// session is resumed with the same flags. Others of the resumed session are owed.
-  int num_not_asked() const { return num_not_asked_; }
+  /// Of this call's runs and repeats those of which no request was sent (messaging/asked_runs.h):
+  /// made when the session is resumed with the same flags. Others of the resumed session are owed.
+  int num_not_asked() const { return num_not_asked_ + num_repeats_not_asked_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Planners that were given up, and why.
@@ -161,6 +163,7 @@ class Driver {
   std::map<std::string, std::string> given_up_;
   RunRows runs_;
   int num_not_asked_ = 0;
+  int num_repeats_not_asked_ = 0;
   /// Of attempts that others depend on, by request id: whether these are not made, since the
   /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows
   /// yet whether they are needed.

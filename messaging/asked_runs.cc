@@ -8,6 +8,12 @@
 #include "planning/asked_request.h"
 
 namespace planbench {
+namespace {
+
+/// How often a run is made again because it was disturbed.
+constexpr int kMostRepeats = 2;
+
+}  // namespace
 
 bool WasAsked(const RunRecordMessage& run) {
   return TellsOfRequest(run.roundtrip_time_s, run.status, !run.request.scene_id.empty());
@@ -24,6 +30,14 @@ RunStanding StandingOf(const RunRecordMessage& run) {
   constexpr double kMost = 1e6;  // of a damaged record
   return {WasAsked(run), run.start_utime, counter("disturbed") > 0,
           static_cast<int>(std::clamp(counter("repeats"), 0.0, kMost))};
+}
+
+bool RepeatsDisturbed(const std::map<std::string, std::string>& flags) {
+  return Lookup(flags, "repeat-disturbed") == "true";
+}
+
+bool OwesRepeat(const RunStanding& attempt) {
+  return attempt.disturbed && attempt.repeats < kMostRepeats;
 }
 
 std::string RunRecordAckId(const RunRecordMessage& run) {

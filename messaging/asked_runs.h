@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "messaging/messages.h"
@@ -24,6 +25,12 @@ struct RunStanding {
   int repeats = 0;  ///< Which repeat it is of an attempt that was disturbed; 0: none.
 };
 RunStanding StandingOf(const RunRecordMessage& run);
+
+/// Whether a session of such flags makes disturbed runs again (--repeat-disturbed).
+bool RepeatsDisturbed(const std::map<std::string, std::string>& flags);
+/// Whether such a session is to make another attempt in this one's place, as it does twice at most:
+/// it is not finished without.
+bool OwesRepeat(const RunStanding& attempt);
 
 /// What a record's acknowledgement names it by: one of a disturbed attempt is none of its repeat.
 std::string RunRecordAckId(const RunRecordMessage& run);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "common/lookup.h"
+#include "messaging/asked_runs.h"
 #include "results/quality.h"
 #include "results/untold_times.h"
 
@@ -335,6 +337,17 @@ std::string OnDifferentProblems(const ComparedSessions& compared) {
                          : fmt::format("they rank by the {} that all of them tried", num_common));
 }
 
+/// How many runs a session is still to make again, since they were disturbed.
+std::ptrdiff_t CountToRepeat(const StoredSession& session) {
+  if (!RepeatsDisturbed(session.flags)) return 0;
+  return std::count_if(session.runs.begin(), session.runs.end(), [](const StoredRun& run) {
+    RunStanding standing;
+    standing.disturbed = run.disturbed;
+    standing.repeats = run.repeats;
+    return OwesRepeat(standing);
+  });
+}
+
 std::string LeftOut(const std::string& name, const std::map<std::string, std::string>& left_out) {
   std::vector<std::string> problems;
   for (const auto& [problem, reason] : left_out) problems.push_back(problem);
@@ -450,8 +463,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       cautions.push_back(fmt::format(
           "{}: the session's own message is missing; its conditions are not known.", name));
     } else if (!session.finished) {
-      cautions.push_back(fmt::format("{}: did not finish: {} of {} runs are recorded.", name,
-                                     num_runs, session.num_runs));
+      const auto num_to_repeat = CountToRepeat(session);
+      cautions.push_back(fmt::format(
+          "{}: did not finish: {} of {} runs are recorded{}.", name, num_runs, session.num_runs,
+          num_to_repeat == 0
+              ? ""
+              : fmt::format(", {} of them still to be made again (--resume)", num_to_repeat)));
     } else if (num_lacking > 0) {
       cautions.push_back(
           fmt::format("{}: {} of {} runs are not recorded.", name, num_lacking, session.num_runs));

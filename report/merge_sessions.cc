@@ -231,7 +231,7 @@ class Merge {
                       known.folder, run.folder, record.contestant, record.problem_set,
                       record.problem_index, EnumName(record.request.direction), record.trial));
     }
-    num_repeated_ = runs_.size() - united.size();
+    num_told_again_ = runs_.size() - united.size();
     runs_ = std::move(united);
     KeepProblems();
     CountRuns();
@@ -261,8 +261,11 @@ class Merge {
 
   std::string Summary(const fs::path& out) const {
     return fmt::format(
-        "{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}", out.string(),
-        runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s", num_repeated_,
+        "{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}{}", out.string(),
+        runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s", num_told_again_,
+        num_to_repeat_ == 0
+            ? ""
+            : fmt::format("; disturbed and still to be made again (--resume): {}", num_to_repeat_),
         missing_shards_.empty()
             ? ""
             : fmt::format("; shards missing: {}", fmt::join(missing_shards_, "; ")),
@@ -379,6 +382,7 @@ class Merge {
     }
     const std::string shards = Joined(unknown_shards, ", ");
     is_known = is_known && shards.empty();
+    const bool repeats_disturbed = RepeatsDisturbed(session_.settings);
     std::map<PlannedRun, bool> made;
     for (const Run& run : runs_) {
       const RunRecordMessage& record = run.record;
@@ -386,6 +390,7 @@ class Merge {
             record.planner,
             record.request.direction}] = Suffices(record);
       finished = finished && WasAsked(record);
+      num_to_repeat_ += repeats_disturbed && OwesRepeat(StandingOf(record)) ? 1 : 0;
     }
     const int num_owed = CountOwed(plan, made, session_.left_out);
     missing_shards_ = MissingShards(plan);
@@ -394,7 +399,7 @@ class Merge {
       session_.settings[kShardFlag] = shards;
     }
     session_.num_runs = static_cast<int>(runs_.size()) + num_missing + num_owed;
-    session_.finished = finished && num_owed == 0 && missing_shards_.empty();
+    session_.finished = finished && num_owed + num_to_repeat_ == 0 && missing_shards_.empty();
     session_.settings.erase(kPlanSetting);
     if (is_known) session_.settings[kPlanSetting] = PlanText(plan);
   }
@@ -434,7 +439,8 @@ class Merge {
   std::map<std::string, Part> parts_;       ///< By run id.
   std::map<std::string, Origins> origins_;  ///< By run id.
   std::vector<Run> runs_;
-  std::size_t num_repeated_ = 0;
+  std::size_t num_told_again_ = 0;
+  int num_to_repeat_ = 0;                    ///< Since they were disturbed.
   std::vector<std::string> missing_shards_;  ///< In lines.
   SessionShares shares_;
   std::vector<std::string> without_bus_;  ///< Folders that do not tell.

@@ -234,7 +234,9 @@ TEST_F(DisturbedRunsTest, OfADisturbedRunThatCannotBeRepeatedTheAnswerStands) {
   }));
   EXPECT_EQ(Ids(logger.records()),
             (std::set<std::string>{"run/cans/1/arm/forward/1", "run/cans/2/arm/forward/1"}));
-  EXPECT_EQ(driver.num_not_asked(), 0);
+  EXPECT_EQ(driver.num_not_asked(), 1) << "the repeat";
+  EXPECT_EQ(driver.num_to_repeat(), 1);
+  EXPECT_FALSE(logger.sessions().messages().back().finished) << "a resumed session makes it";
   ASSERT_EQ(driver.runs().size(), 2u);
   EXPECT_TRUE(driver.runs().rows().front().confirmed());
   EXPECT_TRUE(driver.runs().rows().front().disturbed);

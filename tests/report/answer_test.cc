@@ -318,6 +318,25 @@ TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
               testing::Contains("example: 1 of 5 runs are not recorded."));
 }
 
+TEST_F(ReportTest, RepeatsThatAreOwedAreTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  session.settings["repeat-disturbed"] = "true";
+  WriteSession(folder / "example",
+               {{.contestant = "A", .counters = {{"disturbed", 1}, {"repeats", 1}}},
+                {.contestant = "A", .problem = 2, .counters = {{"disturbed", 1}, {"repeats", 2}}},
+                {.contestant = "A", .problem = 3, .counters = {{"disturbed", 0}}}},
+               session);
+  std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  sessions[0].finished = false;
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)),
+              testing::Contains("example: did not finish: 3 of 3 runs are recorded, 1 of them "
+                                "still to be made again (--resume)."));
+  sessions[0].flags["repeat-disturbed"] = "false";
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)),
+              testing::Contains("example: did not finish: 3 of 3 runs are recorded."));
+}
+
 TEST_F(ReportTest, ARecordOfWhomTheSessionDoesNotHaveIsNamedAndNoContestant) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
