@@ -11,6 +11,8 @@
 #include "common/random_id.h"
 #include "common/utime.h"
 #include "messaging/node_announcer.h"
+#include "planning/path_measures.h"
+#include "planning/told_edges.h"
 #include "results/outcomes.h"
 #include "results/session_plan.h"
 
@@ -58,6 +60,32 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
     whole = name == kToldTime ? std::max(whole, count) : whole + count;
   }
   result->peak_memory_mb = std::max(result->peak_memory_mb, first.peak_memory_mb);
+}
+
+/// In the place of a path that was not improved before the limit came: as in hand by then. What it
+/// costs whoever was to improve it is left open, and with it what is proven.
+void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMessage* answer) {
+  const PlanResult& found = first.result;
+  PlanResult& result = answer->result;
+  result.status = PlanStatus::kSolved;
+  // One that took too long stays so.
+  result.planning_time_s =
+      std::max(found.planning_time_s, std::min(result.planning_time_s, time_limit_s));
+  answer->joint_names = first.joint_names;
+  result.path = found.path;
+  result.simplified_path = found.simplified_path;
+  result.phases.simplification_s = found.phases.simplification_s;
+  result.cost = result.epsilon = 0;
+  result.progress.clear();
+}
+
+/// Tells of such a path what it costs by its length, once the referee has told that.
+void TellLength(const PathVerdict& verdict, bool anytime, PlanResult* result) {
+  result->cost = FindMeasure(verdict.measures, "path_length").value_or(0);
+  if (!anytime) return;
+  PlanProgress& only = result->progress.emplace_back();
+  only.elapsed_s = result->planning_time_s;
+  only.cost = result->cost;
 }
 
 }  // namespace
@@ -184,46 +212,71 @@ std::vector<ScheduledRun> RunExecutor::RequestsOf(const ScheduledRun& run) const
   return requests;
 }
 
-PlannerClient::Answer RunExecutor::Ask(const ScheduledRun& run, const ProblemMessage& problem,
-                                       const std::vector<PlannerClient*>& planners,
-                                       PlanRequest* request,
-                                       const std::function<bool()>& interrupted) const {
-  if (planners.size() == 1) return AnswerOf(planners[0], *request, interrupted);
+bool RunExecutor::AreCheckedAlike(const PlanRequest& first, const std::string& first_planner,
+                                  const PlanRequest& second,
+                                  const std::string& second_planner) const {
+  const auto edges_of = [this](const PlanRequest& request, const std::string& planner) {
+    const auto node = registry_->Find(planner, NodeKind::kPlanner);
+    return DescribeEdges(request.edge_check, request.edge_resolution_m,
+                         node ? node->settings : std::map<std::string, std::string>());
+  };
+  return first.collision_model == second.collision_model &&
+         edges_of(first, first_planner) == edges_of(second, second_planner);
+}
+
+RunExecutor::Asked RunExecutor::Ask(const ScheduledRun& run, const ProblemMessage& problem,
+                                    const std::vector<PlannerClient*>& planners,
+                                    PlanRequest* request,
+                                    const std::function<bool()>& interrupted) const {
+  if (planners.size() == 1) return {AnswerOf(planners[0], *request, interrupted), false};
+  const std::string &finder = planners[0]->planner(), &improver = planners[1]->planner();
   PlanRequest first_request = RequestOf(RequestsOf(run).front(), problem);
-  first_request.simplify = first_request.anytime = false;
+  // Simplified, if paths are, since it may come to be the answer.
+  first_request.anytime = false;
   PlannerClient::Answer first = AnswerOf(planners[0], first_request, interrupted);
   PlanResult& found = first.result.result;
   if (first.outcome != PlannerClient::Outcome::kResult || !found.Solves()) {
     for (std::string* message : {&first.message, &found.message}) {
-      if (!message->empty()) *message = planners[0]->planner() + ": " + *message;
+      if (!message->empty()) *message = finder + ": " + *message;
     }
-    return first;
+    return {first, false};
   }
+  // Until it is the answer nothing of its simplification counts.
+  const double simplification_s = found.phases.simplification_s;
+  first.roundtrip_time_s = std::max(found.total_time_s, first.roundtrip_time_s - simplification_s);
   found.counters[kFirstPathTime] = HandedOverAfter(found);
   PlanRequest rest = *request;
   rest.time_limit_s -= HandedOverAfter(found);
-  if (!(rest.time_limit_s > 0)) return first;
-  request->initial_joint_names = rest.initial_joint_names = first.result.joint_names;
-  request->initial_path = rest.initial_path = found.path;
-  PlannerClient::Answer answer = AnswerOf(planners[1], rest, interrupted);
-  // A planner that could not be asked for its part was not asked for the run (asked_runs.h).
-  if (answer.roundtrip_time_s == 0) return answer;
-  answer.roundtrip_time_s += first.roundtrip_time_s;
-  if (answer.outcome != PlannerClient::Outcome::kResult) return answer;
+  PlannerClient::Answer answer = first;
   PlanResult& result = answer.result.result;
-  AddBefore(found, &result);
-  if (result.status == PlanStatus::kTimedOut) {
-    // As one that took the whole time: a path in hand when the limit comes counts.
-    result.status = PlanStatus::kSolved;
-    result.message = fmt::format("the path of '{}': '{}' had {:.3g} s left, and no path by then",
-                                 planners[0]->planner(), planners[1]->planner(), rest.time_limit_s);
-    result.planning_time_s = std::min(result.planning_time_s, request->time_limit_s);
-    result.path = found.path;
-    result.cost = found.cost;
-    result.epsilon = found.epsilon;
-    answer.result.joint_names = first.result.joint_names;
+  if (rest.time_limit_s > 0) {
+    request->initial_joint_names = rest.initial_joint_names = first.result.joint_names;
+    request->initial_path = rest.initial_path = found.path;
+    answer = AnswerOf(planners[1], rest, interrupted);
+    // A planner that could not be asked for its part was not asked for the run (asked_runs.h).
+    if (answer.roundtrip_time_s == 0) return {answer, false};
+    answer.roundtrip_time_s += first.roundtrip_time_s;
+    if (answer.outcome != PlannerClient::Outcome::kResult) return {answer, false};
+    AddBefore(found, &result);
+    if (result.status != PlanStatus::kTimedOut) return {answer, false};
+  } else {
+    result.status = PlanStatus::kTimedOut;
+    result.planning_time_s = HandedOverAfter(found);
+    result.path = result.simplified_path = {};
+    result.phases.simplification_s = result.cost = result.epsilon = 0;
   }
-  return answer;
+  const std::string too_late = fmt::format("'{}' had {:.3g} s left, and no path by then", improver,
+                                           std::max(rest.time_limit_s, 0.0));
+  if (!AreCheckedAlike(first_request, finder, *request, improver)) {
+    // Nobody has claimed that the path is free by what the referee judges it by.
+    result.message = fmt::format(
+        "{}; that of '{}' was found with another collision model or edge check", too_late, finder);
+    return {answer, false};
+  }
+  result.message = fmt::format("the path of '{}': {}", finder, too_late);
+  TakePath(first.result, request->time_limit_s, &answer.result);
+  answer.roundtrip_time_s += simplification_s;
+  return {answer, true};
 }
 
 const Contestant& RunExecutor::ContestantOf(const ScheduledRun& run) const {
@@ -303,7 +356,7 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   }
 
   const DisturbanceMeter meter(PidsOf(planners), kernel_);
-  const PlannerClient::Answer answer = Ask(run, *problem, planners, &record.request, interrupted);
+  const auto [answer, is_first_path] = Ask(run, *problem, planners, &record.request, interrupted);
   // Whatever the answer: its planner may have been told to end before this process was.
   if (interrupted()) return std::nullopt;
   switch (answer.outcome) {
@@ -351,6 +404,9 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
   record.path_check = *check;
+  if (is_first_path && check->verdict) {
+    TellLength(*check->verdict, record.request.anytime, &record.result.result);
+  }
   if (!check->ok || !check->verdict || !check->verdict->valid) {
     record.status = PlanStatus::kInvalidPath;
     record.message = !check->ok        ? "the referee could not judge: " + check->message

@@ -48,7 +48,8 @@ class RunExecutor {
   std::vector<ScheduledRun> RequestsOf(const ScheduledRun& run) const;
   /// The finished record, what kept the planners from working among the answer's counters; nothing
   /// if `interrupted`. `planners`: those of RequestsOf(run). Of several the answer is the last
-  /// one's, times and counters are sums (of kToldTime the longest stands). Where the scene server
+  /// one's, or, if the limit comes before that has a path, the first one's path; times and counters
+  /// are sums (of kToldTime the longest stands). Where the scene server
   /// denies the problem, which it had when the session began, the record says so.
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run,
                                           const std::vector<PlannerClient*>& planners,
@@ -70,10 +71,18 @@ class RunExecutor {
                                  const std::string& what,  // That it is asked for, in words.
                                  const std::function<bool()>& interrupted);
 
+  struct Asked {
+    PlannerClient::Answer answer;
+    bool is_first_path;  ///< Whoever was to improve it had none when the limit came.
+  };
   /// The answer to a run's request, which gets the path that is to be improved.
-  PlannerClient::Answer Ask(const ScheduledRun& run, const ProblemMessage& problem,
-                            const std::vector<PlannerClient*>& planners, PlanRequest* request,
-                            const std::function<bool()>& interrupted) const;
+  Asked Ask(const ScheduledRun& run, const ProblemMessage& problem,
+            const std::vector<PlannerClient*>& planners, PlanRequest* request,
+            const std::function<bool()>& interrupted) const;
+  /// Whether a path that one planner found to a request is, as far as is known, what the other
+  /// would have found free to its own.
+  bool AreCheckedAlike(const PlanRequest& first, const std::string& first_planner,
+                       const PlanRequest& second, const std::string& second_planner) const;
   /// Of planners on this machine; none if one is elsewhere.
   std::vector<pid_t> PidsOf(const std::vector<PlannerClient*>& planners) const;
   const Contestant& ContestantOf(const ScheduledRun& run) const;
