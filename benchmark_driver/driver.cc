@@ -110,9 +110,10 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   for (const SessionMessage& session : earlier_.sessions) {
     RequireSameConditions(session, Session(false));
   }
-  std::set<ProblemKey> met;
+  std::map<ProblemKey, PlanRequest> met;
   for (const RunRecordMessage& record : earlier_.runs) {
-    met.emplace(record.problem_set, record.problem_index);
+    PlanRequest& request = met[{record.problem_set, record.problem_index}];
+    if (request.scene_id.empty()) request = record.request;
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
   // One that is started again has as long to come up as the first one had.
@@ -239,7 +240,8 @@ void Driver::Owe(const Known& known) {
   if (known.plan) flags_[kPlanSetting] = PlanText(*known.plan);
 }
 
-void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch,
+void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
+                           const std::function<void()>& watch,
                            const std::function<int()>& server_deaths) {
   std::set<ProblemKey> problems;
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
@@ -268,7 +270,15 @@ void Driver::CheckProblems(const std::set<ProblemKey>& met, const std::function<
       answer->message = "the scene server died of it, twice";
       executor_->TakeAsAnswer(set, index, *answer);
     }
-    if (!answer->ok && met.contains({set, index})) {
+    const auto before = met.find({set, index});
+    if (answer->ok && before != met.end() && !before->second.scene_id.empty()) {
+      const std::string_view part = ChangedPart(before->second, *answer);
+      if (!part.empty()) {
+        throw InputError(fmt::format("--resume: the {} of {} is another than in the session's runs",
+                                     part, LeftOutName(set, index)));
+      }
+    }
+    if (!answer->ok && before != met.end()) {
       spdlog::error("{} {}: {}", set, index, answer->message);
     } else if (!answer->ok) {
       bad.emplace(set, index);

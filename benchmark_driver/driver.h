@@ -84,10 +84,11 @@ class Driver {
   std::string Missing(bool need_logger) const;
   using ProblemKey = std::pair<std::string, int>;  // set and index
   /// Lists the schedule's bad problems with their reasons; throws InputError, or leaves them out.
-  /// One that has gone bad since the resumed session had runs of it (`met`) ends it no more than it
-  /// would have ended that session, and is not left out either: the runs it has are recorded.
-  void CheckProblems(const std::set<ProblemKey>& met, const std::function<void()>& watch,
-                     const std::function<int()>& server_deaths);
+  /// One that has gone bad since the resumed session had runs of it (`met`, with a request of such
+  /// a run) ends it no more than it would have ended that session, and is not left out either: the
+  /// runs it has are recorded. One that is another than it was ends it.
+  void CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
+                     const std::function<void()>& watch, const std::function<int()>& server_deaths);
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);

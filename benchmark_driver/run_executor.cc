@@ -141,6 +141,15 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
     problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
                                    problem->problem_set, problem->problem_index, set, index);
   }
+  if (!problem || !problem->ok) return problem;
+  const std::scoped_lock lock(mutex_);
+  const ProblemMessage& first =
+      problems_first_.emplace(std::pair(set, index), *problem).first->second;
+  if (const std::string_view part = ChangedPart(first, *problem); !part.empty()) {
+    problem->ok = false;
+    problem->message = fmt::format(
+        "its {} is another than before: the scene server was started again on other files", part);
+  }
   return problem;
 }
 

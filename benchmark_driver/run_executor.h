@@ -6,6 +6,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "benchmark_driver/machine.h"
 #include "benchmark_driver/planner_client.h"
@@ -25,6 +27,16 @@ struct ServerPatience {
   std::chrono::milliseconds until_given_up = std::chrono::seconds(60);
 };
 
+/// In what a problem is another than an earlier answer, or a request made of one, says: "scene",
+/// "group", "start" or "goal"; empty: in nothing.
+template <typename Before>
+std::string_view ChangedPart(const Before& before, const ProblemMessage& now) {
+  if (before.scene_id != now.scene_id) return "scene";
+  if (before.group != now.group) return "group";
+  if (before.start != now.start) return "start";
+  return before.goal != now.goal ? "goal" : "";
+}
+
 /// Makes one run: fetches the problem if it is not known yet, has the planner solve it, has the
 /// scene server judge the paths. Thread-safe for different planners.
 class RunExecutor {
@@ -38,7 +50,8 @@ class RunExecutor {
               ServerPatience patience = {});
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
-  /// `interrupted`. The server also hands out the scene.
+  /// `interrupted`. The server also hands out the scene. That of a server which was started again
+  /// on other files is without ok if the problem is not what it was.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
   /// The answer for all runs of that problem: the scene server is not asked for it any more.
@@ -96,7 +109,9 @@ class RunExecutor {
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
   std::mutex mutex_;
-  std::map<std::pair<std::string, int>, ProblemMessage> problems_known_;  // by set and index
+  using ProblemKey = std::pair<std::string, int>;  // set and index
+  std::map<ProblemKey, ProblemMessage> problems_known_;
+  std::map<ProblemKey, ProblemMessage> problems_first_;  // as they were when first asked for
 };
 
 }  // namespace planbench

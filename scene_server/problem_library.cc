@@ -63,6 +63,14 @@ std::vector<fs::path> SetFolders(const fs::path& folder) {
   return found;
 }
 
+/// In the place of the id of what could not be read.
+constexpr char kUnreadable[] = "";
+
+/// What a problem's scene is made of beside its two files, in words.
+std::string NamedBy(const ProblemFiles& files) {
+  return fmt::format("a file that {} or its request names", files.scene.string());
+}
+
 /// The first warning, and how many there are; "" without one.
 std::string Summary(const std::vector<std::string>& warnings) {
   if (warnings.empty()) return "";
@@ -155,22 +163,43 @@ ServedProblem ProblemLibrary::Find(const std::string& set_name, int index) {
   return Read(set->second, *files);
 }
 
+void ProblemLibrary::RequireUnchanged(const std::string& what, const std::string& id) {
+  if (ids_.emplace(what, id).first->second == id) return;
+  throw InputError(fmt::format("{} has changed since the server started; start it again", what));
+}
+
+std::string ProblemLibrary::TextOf(const fs::path& file) {
+  std::string text;
+  try {
+    RequireProblemFiles(file, file);
+    text = ReadText(file);
+  } catch (const InputError&) {
+    ids_.emplace(file.string(), kUnreadable);
+    throw;
+  }
+  ContentHash hash;
+  hash.Add(text);
+  RequireUnchanged(file.string(), hash.HexDigest());
+  return text;
+}
+
 std::string ProblemLibrary::ContentId(const ProblemSet& set) {
   const std::scoped_lock lock(mutex_);
   ContentHash hash;
   for (const ProblemFiles& files : set.problems) {
     hash.Add(files.index);
     try {
-      RequireProblemFiles(files.scene, files.request);
       bool names_files = false;
       for (const fs::path& file : {files.scene, files.request}) {
-        const std::string text = ReadText(file);
+        const std::string text = TextOf(file);
         hash.Add(text);
         names_files |= text.find("resource") != std::string::npos;
       }
       if (names_files) hash.Add(Read(set, files).message.scene_id);
     } catch (const InputError& error) {
-      // Whoever asks for this problem is told; the others can be served.
+      // Whoever asks for this problem is told; the others can be served. Once it has been mended it
+      // is another than the id stands for.
+      ids_.emplace(NamedBy(files), kUnreadable);
       spdlog::warn("{}", error.what());
     }
   }
@@ -188,13 +217,18 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   const std::pair key(set.name, files.index);
   if (const auto known = problems_.find(key); known != problems_.end()) return known->second;
 
-  Problem problem = ReadProblem(files.scene, files.request, *robot_);
+  // The texts that the ids are of, whatever is written meanwhile.
+  const YamlNode scene_file = YamlNode::Parse(TextOf(files.scene), files.scene.string());
+  const YamlNode request_file = YamlNode::Parse(TextOf(files.request), files.request.string());
+  Problem problem = ParseProblem(scene_file, request_file, *robot_,
+                                 {files.scene.parent_path(), robot_->resources.packages});
   for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
 
   ServedProblem served;
   served.message.problem_set = set.name;
   served.message.problem_index = files.index;
   served.message.scene_id = SceneId(problem.scene);
+  RequireUnchanged(NamedBy(files), served.message.scene_id);
   served.message.message = Summary(problem.warnings);
   served.message.group = problem.group;
   served.message.start = problem.start;

@@ -22,7 +22,8 @@ struct ServedProblem {
 };
 
 /// The problem sets of some folders, their problems read when they are first asked for and kept
-/// from then on: files changed later are not noticed. Thread-safe. Holds a reference to the robot.
+/// from then on. One whose files have changed since ContentId was asked for is refused: it would be
+/// another than the id stands for. Thread-safe. Holds a reference to the robot.
 class ProblemLibrary {
  public:
   /// Each folder is a set, or, if it holds no problem itself, a folder of sets, at any depth. The
@@ -37,8 +38,8 @@ class ProblemLibrary {
   /// Content hash of a set: of its files, and of the scenes that name meshes in other files.
   std::string ContentId(const ProblemSet& set);
 
-  /// Throws InputError: no such set or index (with what there is), a file that cannot be read, a
-  /// problem that does not fit the robot, or that others could not take off the bus.
+  /// Throws InputError: no such set or index (with what there is), a file that cannot be read or
+  /// has changed, a problem that does not fit the robot, or that others could not take off the bus.
   ServedProblem Find(const std::string& set, int index);
 
   /// The scene of that content id, null if no problem has it. Problems that nobody has asked for
@@ -48,6 +49,10 @@ class ProblemLibrary {
 
  private:
   void AddSet(const std::filesystem::path& folder);
+  /// Throws InputError if `what`, a file, say, was not what `id` stands for when it was first read.
+  void RequireUnchanged(const std::string& what, const std::string& id);
+  /// The text of a problem's file, unchanged.
+  std::string TextOf(const std::filesystem::path& file);
   const ServedProblem& Read(const ProblemSet& set, const ProblemFiles& files);
   void ReadAll();
 
@@ -56,6 +61,7 @@ class ProblemLibrary {
   std::mutex mutex_;
   std::map<std::pair<std::string, int>, ServedProblem> problems_;  // by set and index
   std::map<std::string, std::shared_ptr<const Scene>> scenes_;     // by content id
+  std::map<std::string, std::string> ids_;  // what RequireUnchanged was first told
   bool all_read_ = false;
 };
 

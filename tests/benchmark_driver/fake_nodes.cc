@@ -101,6 +101,7 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
                   problem.start = {{"a", "b"}, {0, 0}};
                   problem.goal = {{"a", 1, 0, 0}, {"b", 0.5, 0, 0}};
                   problem.time_limit_s = 60;
+                  alter_(&problem);
                   return problem;
                 }),
       judgements_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
@@ -128,6 +129,11 @@ void FakeSceneServer::RefuseProblem(int index, const std::string& reason) {
 void FakeSceneServer::BeforeAnswers(std::function<void(const ProblemRequestMessage&)> handler) {
   const std::scoped_lock lock(mutex_);
   before_answers_ = std::move(handler);
+}
+
+void FakeSceneServer::AlterProblems(std::function<void(ProblemMessage*)> alter) {
+  const std::scoped_lock lock(mutex_);
+  alter_ = std::move(alter);
 }
 
 void FakeSceneServer::ServeProblem(int index) {

@@ -70,6 +70,8 @@ class FakeSceneServer {
   void RefuseProblem(int index, const std::string& reason);
   /// Serves one that it refused from now on.
   void ServeProblem(int index);
+  /// What it makes of the problems that it serves.
+  void AlterProblems(std::function<void(ProblemMessage*)> alter);
   /// What it does before it answers a request for a problem.
   void BeforeAnswers(std::function<void(const ProblemRequestMessage&)> handler);
   /// What the referee says instead.
@@ -82,6 +84,7 @@ class FakeSceneServer {
  private:
   std::mutex mutex_;
   std::map<int, std::string> refused_;
+  std::function<void(ProblemMessage*)> alter_ = [](ProblemMessage*) {};
   std::function<void(const ProblemRequestMessage&)> before_answers_;
   std::function<PathCheckReplyMessage(const PathCheckRequestMessage&)> judge_;
   MessageCollector<ProblemRequestMessage> problem_requests_;

@@ -541,5 +541,36 @@ TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedS
                                    "run/cans/2/arm/backward/1"}));
 }
 
+TEST_F(DriverTest, AProblemThatIsAnotherThanInTheSessionsRunsEndsIt) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  Driver first(&bus_, options, LineUp({"arm"}), {});
+  MakeAll(&first);
+  const EarlierSession earlier = {logger.sessions().messages(), logger.records().messages()};
+  options.trials = 2;
+  const auto resume_with = [&](void (*alter)(ProblemMessage*)) {
+    server.AlterProblems([alter](ProblemMessage* problem) {
+      if (problem->problem_index == 2) alter(problem);
+    });
+    return std::make_unique<Driver>(&bus_, options, LineUp({"arm"}),
+                                    std::map<std::string, std::string>(), earlier);
+  };
+  const std::map<std::string, void (*)(ProblemMessage*)> alterations = {
+      {"scene", [](ProblemMessage* problem) { problem->scene_id = "another"; }},
+      {"group", [](ProblemMessage* problem) { problem->group = "another"; }},
+      {"start", [](ProblemMessage* problem) { problem->start.positions[0] = 0.1; }},
+      {"goal", [](ProblemMessage* problem) { problem->goal[1].tolerance_above = 0.1; }}};
+  for (const auto& [part, alter] : alterations) {
+    const auto driver = resume_with(alter);
+    ExpectInputError([&] { driver->Discover(true, Idle); },
+                     {"--resume", "the " + part + " of cans 2 is another"});
+  }
+  EXPECT_NO_THROW(resume_with([](ProblemMessage* problem) {
+                    problem->time_limit_s = 1;
+                  })->Discover(true, Idle));
+}
+
 }  // namespace
 }  // namespace planbench

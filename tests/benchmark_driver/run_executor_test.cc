@@ -66,6 +66,16 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
   EXPECT_TRUE(checks[0].with_clearance);
 }
 
+TEST_F(RunExecutorTest, AProblemThatIsAnotherThanBeforeIsNone) {
+  FakeSceneServer server(&bus_);
+  ASSERT_TRUE(executor_.AskForProblem("cans", 2, [] { return false; })->ok);
+  server.AlterProblems([](ProblemMessage* problem) { problem->goal[0].position += 1; });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kInvalidRequest);
+  EXPECT_THAT(record->message, HasSubstr("no problem: its goal is another than before"));
+}
+
 TEST_F(RunExecutorTest, AsksForAProblemOnce) {
   FakeSceneServer server(&bus_);
   ASSERT_TRUE(Execute());

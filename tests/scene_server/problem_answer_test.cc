@@ -149,6 +149,46 @@ TEST(ProblemAnswer, ProblemsAreReadOnceAndKept) {
   EXPECT_TRUE(world.service().AnswerProblem({"another id", "cans", 5}).problem.ok);
 }
 
+TEST(ProblemAnswer, WhatHasChangedSinceTheSetGotItsIdIsRefused) {
+  TinyWorld world;
+  const fs::path set = world.folder().path() / "problems/cans";
+  const std::string id = world.service().ProblemSets("server").sets.at(0).content_id;
+  Problem other = TinyProblem();
+  other.goal[0].position += 0.1;
+  WriteTinyProblem(other, set, 5);
+  const ProblemAnswer answer = world.service().AnswerProblem({"id", "cans", 5});
+  EXPECT_FALSE(answer.problem.ok);
+  EXPECT_FALSE(answer.scene);
+  EXPECT_THAT(answer.problem.message,
+              HasSubstr("request0005.yaml has changed since the server started; start it again"));
+  WriteTinyProblem(TinyProblem(), set, 5);  // as it was
+  EXPECT_TRUE(world.service().AnswerProblem({"id", "cans", 5}).problem.ok);
+  EXPECT_EQ(world.service().ProblemSets("server").sets.at(0).content_id, id);
+}
+
+TEST(ProblemAnswer, WhatCouldNotBeReadWhenTheSetGotItsIdIsRefusedEvenIfMended) {
+  TinyWorld world;
+  world.folder().Write("problems/cans/scene0002.yaml", R"(robot_model_name: tiny
+world: {collision_objects: [{id: rock, meshes: [{resource: rock.obj}],
+  mesh_poses: [{position: [3, 0, 0], orientation: [0, 0, 0, 1]}]}]}
+)");
+  const fs::path request = world.folder().path() / "problems/cans/request0005.yaml";
+  fs::rename(request, request.string() + ".away");
+  const auto refusal = [&](int index) {
+    return world.service().AnswerProblem({"id", "cans", index}).problem.message;
+  };
+  world.service().ProblemSets("server");
+  EXPECT_THAT(refusal(2), HasSubstr("rock.obj"));
+  EXPECT_THAT(refusal(5), HasSubstr("request0005.yaml: is missing"));
+
+  world.folder().Write("problems/cans/rock.obj",
+                       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  fs::rename(request.string() + ".away", request);
+  EXPECT_THAT(refusal(2), AllOf(HasSubstr("a file that "), HasSubstr("scene0002.yaml or its"),
+                                HasSubstr("has changed since the server started")));
+  EXPECT_THAT(refusal(5), HasSubstr("request0005.yaml has changed since the server started"));
+}
+
 TEST(SceneAnswer, GivesAServedScene) {
   TinyWorld world;
   const std::string scene_id = world.SceneIdOfFirst();
