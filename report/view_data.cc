@@ -99,10 +99,9 @@ const PathVerdict* Hit(const PathCheckReplyMessage& check) {
 class View {
  public:
   View(const ShownRobot& shown, const Scene& scene, const std::string& group_name,
-       const JointState& start, const std::vector<JointGoal>& goal,
-       const std::vector<LinkSphere>& spheres)
+       const JointState& start, const std::vector<JointGoal>& goal, CollisionModel model)
       : robot_(shown.robot()),
-        spheres_(spheres),
+        spheres_(ModelSpheres(robot_, model)),
         group_(robot_.Group(group_name)),
         query_(ResolveQuery(robot_, group_, start, goal, "the problem")),
         kinematics_(robot_.model, group_, query_.base_positions) {
@@ -111,6 +110,8 @@ class View {
       if (!shown.why_not().empty()) {
         notes_.push_back(fmt::format("The robot is not shown: it {}.", shown.why_not()));
       }
+    } else if (model == CollisionModel::kMeshes) {
+      notes_.emplace_back("Checked: the robot's meshes; shown: its spheres.");
     }
     json_["solids"] = Json::array();
     for (const SceneObject& object : scene.objects) AppendSolids(object, "", &json_["solids"]);
@@ -271,7 +272,7 @@ class View {
   ResolvedQuery query_;
   GroupKinematics kinematics_;
   std::vector<int> moving_;
-  std::vector<std::string> notes_;  // What is not shown.
+  std::vector<std::string> notes_;  // What is not shown, or not as it is.
   Json json_;
 };
 
@@ -284,8 +285,7 @@ View ViewOfRequest(const ShownRobot& shown, const Scene& scene, const RunRecordM
         fmt::format("{} is not the robot of run {}, whose content is {}: give it with --robot DIR",
                     robot.folder.string(), run.request_id, request.robot_id));
   }
-  return {shown,         scene,        request.group,
-          request.start, request.goal, ModelSpheres(robot, request.collision_model)};
+  return {shown, scene, request.group, request.start, request.goal, request.collision_model};
 }
 
 std::string TitleOf(const RunRecordMessage& run) {
@@ -305,7 +305,8 @@ std::string AttemptOf(const RunRecordMessage& run) {
 
 Json ProblemView(const ShownRobot& shown, const Problem& problem) {
   const Robot& robot = shown.robot();
-  View view(shown, problem.scene, problem.group, problem.start, problem.goal, robot.spheres);
+  View view(shown, problem.scene, problem.group, problem.start, problem.goal,
+            CollisionModel::kSpheres);
   view.AddGoals({}, {});
   return view.Take(
       fmt::format("{} {}", problem.set, problem.index),

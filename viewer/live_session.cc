@@ -59,6 +59,7 @@ void LiveSession::Hear(const ReceivedMessage& message, TimePoint now) {
       if (!session_ || session_->run_id != session.run_id) {
         tallies_.clear();
         records_.clear();
+        seen_.clear();
         robot_.reset();
         session_heard_ = now;
       }
@@ -219,7 +220,10 @@ const ShownRobot& LiveSession::LoadedRobot() const {
 std::optional<Json> LiveSession::View() const {
   if (!shown_) return std::nullopt;
   const auto scene = scenes_.find(shown_->request.scene_id);
-  if (scene == scenes_.end()) return Json{{"message", "The scene has not been heard yet."}};
+  if (scene == scenes_.end())
+    return Json{{"message",
+                 "The scene has not been heard: it was sent before this viewer listened. "
+                 "What comes next is shown."}};
   try {
     return is_answered_ ? RunView(LoadedRobot(), scene->second, *shown_, kFrames)
                         : RequestView(LoadedRobot(), scene->second, *shown_);

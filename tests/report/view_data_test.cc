@@ -148,6 +148,15 @@ TEST_F(ViewDataTest, SolidsAndSpheresAreThoseOfSceneAndRobot) {
   EXPECT_EQ(view["links"][1]["spheres"][0], Json({0.1, 0.0, 0.0, 0.04}));
 }
 
+TEST_F(ViewDataTest, SpheresThatStandForMeshesAreToldAsSuch) {
+  const std::string note = "Checked: the robot's meshes; shown: its spheres.";
+  EXPECT_THAT(RunView(robot_, scene_, run_, 10)["facts"], testing::Not(testing::Contains(note)));
+  run_.request.collision_model = CollisionModel::kMeshes;
+  EXPECT_THAT(RunView(robot_, scene_, run_, 10)["facts"], testing::Contains(note));
+  EXPECT_THAT(RunView(WithoutSpheres(), scene_, run_, 10)["facts"],
+              testing::Not(testing::Contains(note)));
+}
+
 TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
   const Json view = RunView(WithoutSpheres(), scene_, run_, 10);
   ASSERT_EQ(view["links"].size(), 4u);
@@ -275,11 +284,19 @@ TEST_F(ViewDataTest, ARobotWithoutSpheresIsDrawnAndOneThatCannotBeIsNoHarm) {
       found.colours = new Set(first).size;
       view.moveTo(1);
       found.moved = differing(first, pixels());
+      const away = new KeyboardEvent("keydown", {key: "-"});
+      for (let i = 0; i < 30; ++i) view.canvas.dispatchEvent(away);
+      const far = pixels();
+      view.moveTo(0);
+      found.moved_far = differing(far, pixels());
+      found.metres = view.seenFrom().position.length();
     )script");
   };
   nlohmann::json found = drawn("hand.obj");
   EXPECT_GT(found["colours"], 10);
   EXPECT_GT(found["moved"], 100);
+  EXPECT_GT(found["metres"], 60);
+  EXPECT_GT(found["moved_far"], 0) << "nothing is cut off, however far";
   found = drawn("gone.obj");
   EXPECT_GT(found["colours"], 1) << "the box";
   EXPECT_EQ(found["moved"], 0);

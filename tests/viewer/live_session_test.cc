@@ -27,7 +27,8 @@ TEST_F(LiveSessionTest, ShowsARequestThenItsPathThenTheVerdict) {
   EXPECT_FALSE(live_.View());
   Hear(channel::kSession, bus_.session);
   Hear("PLAN_REQUEST_ARA", bus_.request);
-  EXPECT_EQ((*live_.View())["message"], "The scene has not been heard yet.");
+  EXPECT_THAT(std::string((*live_.View())["message"]),
+              testing::HasSubstr("sent before this viewer listened"));
   Hear(channel::kScene, bus_.scene);
   Json view = *live_.View();
   EXPECT_FALSE(view["links"].empty());
@@ -86,6 +87,18 @@ TEST_F(LiveSessionTest, CountsEveryRunOnce) {
   ASSERT_EQ(state["runs"].size(), 2u);
   EXPECT_EQ(state["runs"][0]["time_s"], nullptr);  // no answer, no time
   EXPECT_EQ(state["runs"][1]["time_s"], 0.25);
+}
+
+TEST_F(LiveSessionTest, ASessionThatIsReplayedAfterAnotherShowsItsRunsAgain) {
+  const std::string run_id = bus_.session.run_id;
+  for (const std::string& one : {run_id, std::string("another"), run_id}) {
+    bus_.session.run_id = one;
+    Hear(channel::kSession, bus_.session);
+    EXPECT_EQ(State()["runs"].size(), 0u) << one;
+    if (one == run_id) Hear(channel::kRunRecord, bus_.record);
+  }
+  EXPECT_EQ(State()["runs"].size(), 1u);
+  EXPECT_EQ(State()["contestants"][0]["runs"], 1);
 }
 
 TEST_F(LiveSessionTest, ARunThatWasNotAskedGivesWayToOneThatWas) {

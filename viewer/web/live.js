@@ -21,7 +21,8 @@ const live = (() => {
   function showState(state) {
     const runs = state.contestants.reduce((sum, one) => sum + one.runs, 0);
     const session = state.session;
-    at("subtitle").textContent = !session ? "no session heard yet" :
+    at("subtitle").textContent = !session ?
+      (runs === 0 ? "no session heard yet" : `${runs} runs heard of a session that began before this viewer listened`) :
       `session ${session.run_id}, robot ${session.robot}: ` +
       (session.finished ? `finished, ${session.num_runs} runs` : `${runs} runs heard of ${session.num_runs}`);
     at("nodes").replaceChildren(table(["name", "kind", "state", "host"], state.nodes.map(node => [
