@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/version.h"
 
 namespace planbench {
 namespace {
@@ -47,6 +48,13 @@ void AwaitNodes(NodeRegistry* registry, double timeout_s,
     registry->Discover("driver");
     registry->WaitUntil([] { return false; }, std::chrono::milliseconds(200));
   }
+}
+
+void RequireSameBuild(const NodeStatusMessage& node) {
+  if (node.version == Version() && node.commit == Commit()) return;
+  throw InputError(fmt::format("the {} '{}' on {} is of another build: {} ({}) against {} ({})",
+                               EnumName(node.kind), node.name, node.host, node.version, node.commit,
+                               Version(), Commit()));
 }
 
 }  // namespace planbench

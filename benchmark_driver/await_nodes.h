@@ -13,4 +13,8 @@ namespace planbench {
 void AwaitNodes(NodeRegistry* registry, double timeout_s,
                 const std::function<std::string()>& missing, const std::function<void()>& watch);
 
+/// Throws InputError if a process is not of the driver's build: on one machine or on several, a
+/// session compares planners, not versions of what is around them.
+void RequireSameBuild(const NodeStatusMessage& node);
+
 }  // namespace planbench

@@ -19,7 +19,6 @@
 #include "common/random_id.h"
 #include "common/sibling_program.h"
 #include "common/utime.h"
-#include "common/version.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
 #include "results/training.h"
@@ -35,15 +34,6 @@ constexpr int kServerDeaths = 2;
 
 /// Of how many problems in succession the scene server dies if the cause is in itself.
 constexpr std::size_t kDeadlyProblems = 3;
-
-/// Throws InputError if a process is not of the driver's build: on one machine or on several, a
-/// session compares planners, not versions of what is around them.
-void RequireSameBuild(const NodeStatusMessage& node) {
-  if (node.version == Version() && node.commit == Commit()) return;
-  throw InputError(fmt::format("the {} '{}' on {} is of another build: {} ({}) against {} ({})",
-                               EnumName(node.kind), node.name, node.host, node.version, node.commit,
-                               Version(), Commit()));
-}
 
 /// Planbench's own, not one that a command starts, or somebody else's.
 bool IsOwn(const LineUpEntry& entry) {
