@@ -98,8 +98,9 @@ class AraPlanner : public Planner {
     bool reported = false;
     const auto report = [&](double proven) {
       if (search.cost() < query.known_cost()) query.HoldPath();
-      if (query.edges().Stopped()) return;
-      lower_bound = proven;
+      // Without an edge that was given up nothing more is proven; a better path is one all the
+      // same.
+      if (!query.edges().Stopped()) lower_bound = proven;
       reported = true;
       query.ReportSolution(told_lower_bound(), search.cost(),
                            search.counts().Since(goal_search->before).expansions);

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "common/stopwatch.h"
 #include "contract/planner_contract.h"
 #include "contract/random_robots_contract.h"
 #include "scene/moveit_yaml.h"
@@ -252,6 +254,32 @@ TEST_F(AraPlannerTest, AnytimeSearchEndsAtItsFinalEpsilonWithAProof) {
   const PlanResult good_enough = planner->Plan(request, PostsScene(), nullptr);
   EXPECT_LE(good_enough.epsilon, 1.5);
   EXPECT_LT(good_enough.counters.at("expansions"), best.counters.at("expansions"));
+}
+
+TEST_F(AraPlannerTest, TheLastProgressIsThePathReturnedWhereverTheLimitComes) {
+  PlanRequest request = PastThePost();
+  request.anytime = true;
+  request.simplify = false;
+  request.time_limit_s = 0.01;
+  const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
+  for (int i = 0; i < 150; ++i) {
+    // What follows the first path, which is to shorten it, waits until so little time is left that
+    // the limit comes within that, and may come within an edge.
+    const double goes_on_at_s = request.time_limit_s - 2e-6 * i;
+    bool is_first = true;
+    PlanControl control;
+    control.on_progress = [&](const PlanProgress& progress) {
+      if (!std::exchange(is_first, false)) return;
+      const Stopwatch clock;
+      while (progress.elapsed_s + clock.seconds() < goes_on_at_s) {
+      }
+    };
+    const PlanResult result = planner->Plan(request, PostsScene(), &control);
+    if (result.status != PlanStatus::kSolved) continue;  // there was no path by then
+    ASSERT_FALSE(result.progress.empty());
+    ASSERT_EQ(result.progress.back().cost, result.cost);
+    ASSERT_EQ(result.progress.back().epsilon, result.epsilon);
+  }
 }
 
 TEST_F(AraPlannerTest, UniformCostsCountMoves) {
