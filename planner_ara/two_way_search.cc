@@ -217,8 +217,9 @@ void TwoWaySearch::BeginPhase(Phase phase) {
 
 // Takes the path that a search has found, if it is the best, or becomes that by shortcuts.
 bool TwoWaySearch::Offer(const Side* side, const std::function<bool()>& should_stop) {
-  double cost = side->search.goal_cost();
   Path path = side->graph.Configurations(side->search.Path());
+  // States on it may have become cheaper since the goal was reached by way of them.
+  double cost = std::min(side->search.goal_cost(), side->graph.CostOf(path));
   if (cost >= best_cost() && options_.shorten) {
     path = ShortcutPath(edges_, path, kShortcutSeed, kShortcutRounds, should_stop);
     cost = side->graph.CostOf(path);
@@ -339,6 +340,7 @@ bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& sho
   Path path = std::move(ways[0]);
   path.insert(path.end(), search.path().begin() + 1, search.path().end());
   path.insert(path.end(), ways[1].rbegin() + 1, ways[1].rend());
+  cost = std::min(cost, sides_.front()->graph.CostOf(path));  // as in Offer
   TakePath(cost, std::move(path), /*is_backward=*/false);
   is_bridged_ = true;
   GiveUpBridge();

@@ -256,6 +256,25 @@ TEST_F(AraPlannerTest, AnytimeSearchEndsAtItsFinalEpsilonWithAProof) {
   EXPECT_LT(good_enough.counters.at("expansions"), best.counters.at("expansions"));
 }
 
+TEST_F(AraPlannerTest, TheCostIsThatOfThePath) {
+  PlanRequest request = PastThePost();
+  request.anytime = true;
+  request.time_limit_s = 600;
+  request.parameters = {{"discretization", "{shoulder: 0.3, elbow: 0.3, wrist: 0.3}"},
+                        {"shorten", "false"}};
+  const std::unique_ptr<Planner> planner = Make(kPlanarSettings);
+  // At 4 and 2 a state on the path has become cheaper after the goal was reached by way of it.
+  for (const char* epsilon : {"5", "4", "2", "1"}) {
+    SCOPED_TRACE(epsilon);
+    request.parameters["epsilon_final"] = epsilon;
+    const PlanResult result = planner->Plan(request, PostsScene(), nullptr);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << result.message;
+    EXPECT_NEAR(result.cost, PathLength(robot_.groups.front().space, result.path), 1e-9);
+    EXPECT_GE(result.epsilon, 1);
+    EXPECT_EQ(result.progress.back().cost, result.cost);
+  }
+}
+
 TEST_F(AraPlannerTest, TheLastProgressIsThePathReturnedWhereverTheLimitComes) {
   PlanRequest request = PastThePost();
   request.anytime = true;

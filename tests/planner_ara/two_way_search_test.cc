@@ -62,7 +62,7 @@ class TwoWaySearchTest : public testing::Test {
       EXPECT_TRUE(edges_->IsValidEdge(path[i - 1], path[i])) << i;
       length += edges_->space().Distance(path[i - 1], path[i]);
     }
-    EXPECT_LE(length, cost + 1e-9);
+    EXPECT_NEAR(length, cost, 1e-9);
   }
 
   const Configuration kLeft_ = {0.6, 0, 0};
