@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <set>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "common/error.h"
+#include "common/file_state.h"
 #include "common/text.h"
 #include "geometry/meshes_in_use.h"
 #include "scene/moveit_fields.h"
@@ -44,10 +44,8 @@ std::string ReadPrimitiveType(const YamlNode& node) {
 // A file is read once for all objects that are of it, be they of several scenes.
 SharedMesh LoadMeshOnce(const std::filesystem::path& file, const Eigen::Vector3d& scale) {
   static MeshesInUse meshes;
-  std::error_code ignored;  // LoadMesh tells what is wrong with the file.
-  const auto written = std::filesystem::last_write_time(file, ignored).time_since_epoch().count();
-  const std::string name = fmt::format("{} of {}, scaled by {} {} {}", file.string(), written,
-                                       scale.x(), scale.y(), scale.z());
+  const std::string name = fmt::format("{} as of {}, scaled by {} {} {}", file.string(),
+                                       FileState(file), scale.x(), scale.y(), scale.z());
   return meshes.Get(name, [&] { return LoadMesh(file, scale); });
 }
 

@@ -310,6 +310,20 @@ class MeshFile : public testing::Test {
   ResourceResolver resources_{.base_folder = folder_, .packages = {{"things", folder_}}};
 };
 
+TEST_F(MeshFile, IsReadAgainIfItWasReplacedThoughItsTimeWasKept) {
+  const auto file = folder_ / "meshes" / "tri.obj";
+  const auto read = [&] { return ParseScene(Scene("{resource: meshes/tri.obj}"), resources_); };
+  const auto mesh_of = [](const planbench::Scene& scene) {
+    return std::get<Mesh>(scene.objects[0].shapes[0].shape).triangles;
+  };
+  const planbench::Scene first = read();
+  EXPECT_EQ(mesh_of(read()).operator->(), mesh_of(first).operator->()) << "of the same file";
+  std::ofstream(folder_ / "other.obj") << "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";  // as long
+  std::filesystem::last_write_time(folder_ / "other.obj", std::filesystem::last_write_time(file));
+  std::filesystem::rename(folder_ / "other.obj", file);
+  EXPECT_NE(mesh_of(read()), mesh_of(first));
+}
+
 TEST_F(MeshFile, LoadsResourceAndAppliesScale) {
   const planbench::Scene scene = ParseScene(
       Scene("{resource: 'package://things/meshes/tri.obj', dimensions: [2, 3, 1]}"), resources_);
