@@ -1,5 +1,6 @@
 #include "messaging/mesh_store.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,10 +10,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 
 #include "common/error.h"
+#include "common/file_state.h"
 #include "geometry/meshes_in_use.h"
 
 namespace planbench {
@@ -95,6 +99,37 @@ TriangleMesh ReadStoredMesh(const std::string& uri) {
   return mesh;
 }
 
+/// Whether the file of a mesh is there and whole: it may have been damaged since it was stored. It
+/// is read once, and again when it has changed.
+bool IsStored(const std::string& uri, const std::string& mesh_id) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> whole;  // states of files
+  const std::string state = FileState(uri.substr(kFileScheme.size()));
+  const auto is_known = [&] {
+    const std::scoped_lock lock(mutex);
+    const auto known = whole.find(uri);
+    return known != whole.end() && known->second == state;
+  };
+  if (state.empty() || is_known()) return !state.empty();
+  try {
+    if (MeshId(ReadStoredMesh(uri)) != mesh_id) return false;
+  } catch (const InputError&) {
+    return false;
+  }
+  const std::scoped_lock lock(mutex);
+  whole[uri] = state;
+  return true;
+}
+
+/// Has the disk hold what was written to a file.
+bool Sync(const fs::path& file) {
+  const int fd = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool is_done = fsync(fd) == 0;
+  close(fd);
+  return is_done;
+}
+
 }  // namespace
 
 fs::path MeshStoreFolder() {
@@ -114,8 +149,8 @@ std::string StoreMesh(const SharedMesh& mesh) {
   const fs::path folder = MeshStoreFolder();
   const fs::path file = folder / (mesh.id() + ".obj");
   const std::string uri = std::string(kFileScheme) + file.string();
+  if (IsStored(uri, mesh.id())) return uri;
   std::error_code error;
-  if (fs::exists(file, error)) return uri;
   fs::create_directories(folder, error);
   if (error) throw InputError(fmt::format("{}: {}", folder.string(), error.message()));
 
@@ -126,7 +161,8 @@ std::string StoreMesh(const SharedMesh& mesh) {
   std::ofstream stream(temporary, std::ios::binary);
   stream << ToObj(mesh);
   stream.close();
-  const bool written = stream.good();
+  // Else the name may be on the disk before what it names, when the machine loses its power.
+  const bool written = stream.good() && Sync(temporary);
   if (written) fs::rename(temporary, file, error);
   if (!written || error) {
     std::error_code ignored;  // What failed first is what the message is about.
@@ -137,9 +173,9 @@ std::string StoreMesh(const SharedMesh& mesh) {
   return uri;
 }
 
-SharedMesh LoadStoredMesh(const std::string& uri) {
+SharedMesh LoadStoredMesh(const std::string& uri, const std::string& mesh_id) {
   static MeshesInUse meshes;
-  return meshes.Get(uri, [&] { return ReadStoredMesh(uri); });
+  return meshes.Get(mesh_id, [&] { return ReadStoredMesh(uri); });
 }
 
 }  // namespace planbench

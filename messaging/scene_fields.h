@@ -96,7 +96,7 @@ struct Fields<PlacedShape> : On<lcmt_shape> {
     io.Require(!resource.empty(), "mesh_resource", "is empty");
     mesh->resource = resource;
     try {
-      mesh->triangles = LoadStoredMesh(resource);
+      mesh->triangles = LoadStoredMesh(resource, id);
     } catch (const InputError& error) {
       io.Require(false, "mesh_resource", "{}", error.what());
     }

@@ -28,7 +28,7 @@ TEST_F(MeshStore, KeepsEveryBit) {
   mesh.triangles.push_back({4, 5, 0});
   const std::string uri = StoreMesh(mesh);
   EXPECT_EQ(uri, "file://" + (store_.path() / (MeshId(mesh) + ".obj")).string());
-  const TriangleMesh loaded = LoadStoredMesh(uri);
+  const TriangleMesh loaded = LoadStoredMesh(uri, MeshId(mesh));
   EXPECT_EQ(loaded.vertices, mesh.vertices);
   EXPECT_EQ(loaded.triangles, mesh.triangles);
   EXPECT_EQ(MeshId(loaded), MeshId(mesh));
@@ -76,6 +76,33 @@ TEST_F(MeshStore, MissingAndChangedFilesAreNoticed) {
   EXPECT_THAT(DecodeError<SceneMessage>(bytes).what(), testing::HasSubstr("no such mesh file"));
 }
 
+TEST_F(MeshStore, DamagedFilesAreWrittenAnew) {
+  const std::string uri = StoreMesh(ExampleMesh());
+  const fs::path file = store_.path() / (MeshId(ExampleMesh()) + ".obj");
+  const auto size = fs::file_size(file);
+  // Empty, as after a loss of power; another mesh; cut off.
+  for (const char* damage : {"", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "v 0 0"}) {
+    std::ofstream(file, std::ios::trunc) << damage;
+    EXPECT_EQ(StoreMesh(ExampleMesh()), uri);
+    EXPECT_EQ(fs::file_size(file), size);
+    EXPECT_EQ(MeshId(LoadStoredMesh(uri, "not in use")), MeshId(ExampleMesh()));
+    EXPECT_EQ(StoreMesh(ExampleMesh()), uri);  // looks at it
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(store_.path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(MeshStore, AFileThatChangesIsReadAgainThoughItsOldMeshIsInUse) {
+  TriangleMesh other = ExampleMesh();
+  other.vertices[0].x() += 1;
+  const fs::path file_of_other = StoreMesh(other).substr(std::string("file://").size());
+  const std::string uri = Uri("rock.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string old_id = LoadStoredMesh(uri, "not in use").id();
+  const SharedMesh old = LoadStoredMesh(uri, old_id);
+  fs::copy_file(file_of_other, store_ / "rock.obj", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(LoadStoredMesh(uri, MeshId(other)).id(), MeshId(other));
+  EXPECT_EQ(LoadStoredMesh(uri, old_id).operator->(), old.operator->());
+}
+
 TEST_F(MeshStore, RefusesWhatItDidNotWrite) {
   const std::vector<std::pair<std::string, std::string>> bad = {
       {"v 0 0\n", ":1: expected 'v x y z'"},
@@ -91,9 +118,9 @@ TEST_F(MeshStore, RefusesWhatItDidNotWrite) {
   };
   for (const auto& [content, expected] : bad) {
     const std::string uri = Uri("bad.obj", content);
-    ExpectInputError([&] { LoadStoredMesh(uri); }, {"bad.obj", expected});
+    ExpectInputError([&] { LoadStoredMesh(uri, "id"); }, {"bad.obj", expected});
   }
-  ExpectInputError([&] { LoadStoredMesh("file://" + store_.path().string()); },
+  ExpectInputError([&] { LoadStoredMesh("file://" + store_.path().string(), "id"); },
                    {"no such mesh file"});
 }
 
