@@ -118,8 +118,7 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
     without_server = is_live ? std::chrono::milliseconds(0) : without_server + patience_.until_told;
     if (without_server >= patience_.until_given_up) {
       throw std::runtime_error(
-          fmt::format("no scene server has been live for {:g} s, though {} is waited for; when one "
-                      "is, --resume goes on",
+          fmt::format("no scene server has been live for {:g} s, though {} is waited for",
                       std::chrono::duration<double>(without_server).count(), what));
     }
     spdlog::warn("waiting for {} from the scene server ({})", what,
