@@ -18,6 +18,7 @@
 
 #include "benchmark_driver/machine.h"
 #include "common/error.h"
+#include "common/text.h"
 
 namespace planbench {
 namespace {
@@ -25,16 +26,20 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kExitPoll{20};
 constexpr std::chrono::milliseconds kRestartDelay{200};
+constexpr std::size_t kMostLastWords = 200;  // bytes
 
-/// Of what a log holds from byte `begin` on: before it are others' words.
+/// Of what a log holds from byte `begin` on: before it are others' words. Printable: a child may
+/// have said anything.
 std::string LastLine(const std::filesystem::path& log, off_t begin) {
+  constexpr off_t kMostRead = 4096;
   std::ifstream file(log);
-  file.seekg(begin);
+  file.seekg(0, std::ios::end);
+  file.seekg(std::max(begin, static_cast<off_t>(file.tellg()) - kMostRead));
   std::string last;
   for (std::string line; std::getline(file, line);) {
     if (!line.empty()) last = line;
   }
-  return last.empty() ? "(it said nothing)" : last;
+  return last.empty() ? "(it said nothing)" : Printable(last);
 }
 
 /// The log, to be appended to; where that cannot be, what takes anything: a child's words are not
@@ -158,8 +163,9 @@ void Supervisor::Reap(Child* child) {
     child->hopeless = LastLine(child->spec.log, child->log_begin);
     return;
   }
-  const std::string last_words = fmt::format("its last words in {}: {}", child->spec.log.string(),
-                                             LastLine(child->spec.log, child->log_begin));
+  const std::string last_words =
+      fmt::format("its last words in {}: {}", child->spec.log.string(),
+                  Abridged(LastLine(child->spec.log, child->log_begin), kMostLastWords));
   const auto now = Clock::now();
   child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
   if (child->quick_deaths >= kMaxQuickDeaths) {

@@ -206,6 +206,18 @@ TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
   EXPECT_EQ(Lines(out_).size(), static_cast<std::size_t>(Supervisor::kMaxQuickDeaths));
 }
 
+TEST_F(SupervisorTest, LastWordsAreShortAndPrintableHoweverMuchWasSaid) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "yes early | head -n 10000; printf 'late \\033[2J'\n"
+                          "printf ' word%.0s' $(seq 500); exit 3"));
+  ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
+  const std::string why = supervisor.Hopeless().at("child");
+  EXPECT_THAT(why, HasSubstr("child.log: late \\x1b[2J word word"));
+  EXPECT_THAT(why, testing::EndsWith(" bytes more)"));
+  EXPECT_LT(why.size(), Log("child").string().size() + 400);
+}
+
 TEST_F(SupervisorTest, ACommandThatLeavesItsPlannerIsToldToStay) {
   Supervisor supervisor;
   supervisor.Start(Script("mine", "sleep 1000 &"));
