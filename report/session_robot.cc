@@ -70,7 +70,8 @@ std::map<std::string, std::filesystem::path> Packages(const SessionMessage& sess
   const std::string flag = Lookup(session.settings, kPackagesFlag).value_or("");
   for (const std::string& value : SplitFlagValues(flag)) {
     const std::size_t sign = value.find('=');
-    if (sign != std::string::npos) packages[value.substr(0, sign)] = value.substr(sign + 1);
+    // Of one that is named twice the first counts, as for the driver.
+    if (sign != std::string::npos) packages.emplace(value.substr(0, sign), value.substr(sign + 1));
   }
   return packages;
 }

@@ -47,7 +47,7 @@ TEST_F(SessionRobotTest, SpheresThatAreNotHereAreThoseOfTheFolderGiven) {
 }
 
 TEST_F(SessionRobotTest, KnowsThePackagesThatTheDriverWasToldOf) {
-  session_.settings["package-path"] = "arm=/a\\,b,hand=/c";
+  session_.settings["package-path"] = "arm=/a\\,b,hand=/c,arm=/d";
   EXPECT_EQ(LoadSessionRobot(session_, "").resources.packages,
             (std::map<std::string, std::filesystem::path>{{"arm", "/a,b"}, {"hand", "/c"}}));
 }
