@@ -156,7 +156,8 @@ void Supervisor::Reap(Child* child) {
   child->silent.reset();
   if (!child->wanted) return;
   const bool was_at_work = std::exchange(child->came_up, false);
-  child->num_deaths_at_work += was_at_work && !WasToldToEnd(status);
+  const bool was_killed = std::exchange(child->killed_for_silence, false);
+  child->num_deaths_at_work += was_at_work && !was_killed && !WasToldToEnd(status);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;
@@ -170,10 +171,10 @@ void Supervisor::Reap(Child* child) {
   child->quick_deaths = now - child->started < kQuick ? child->quick_deaths + 1 : 0;
   if (child->quick_deaths >= kMaxQuickDeaths) {
     child->wanted = false;
-    const bool is_content = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const bool ended_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     child->hopeless = fmt::format(
         "{} ended {} again and again{}; {}", child->spec.name, DescribeEnd(status),
-        is_content ? ": a command must run as long as its planner, which ends with it" : "",
+        ended_well ? ": a command must run as long as its planner, which ends with it" : "",
         last_words);
     return;
   }
@@ -189,6 +190,7 @@ void Supervisor::KillIfSilent(Child* child) const {
   spdlog::error("{} has been silent for {:g} s; killing it", child->spec.name,
                 std::chrono::duration<double>(silence_).count());
   kill(-child->pid, SIGKILL);
+  child->killed_for_silence = true;
   child->silent.reset();
 }
 

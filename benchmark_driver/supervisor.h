@@ -52,7 +52,7 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// How often that child died after it had come up, unless it was told to end.
+  /// How often that child died after it had come up, unless it was told to end, or killed here.
   int NumDeathsAtWork(const std::string& name);
 
   static constexpr int kMaxQuickDeaths = 5;
@@ -69,6 +69,7 @@ class Supervisor {
     bool came_up = false;  // this process
     /// Since this process was last heard; nothing if it never was.
     std::optional<std::chrono::milliseconds> silent;
+    bool killed_for_silence = false;  // this process
     int num_deaths_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is

@@ -139,6 +139,21 @@ TEST_F(SupervisorTest, WhatFallsSilentIsStartedAgainUnlessItWasNeverHeard) {
   EXPECT_TRUE(IsRunning(silent));
 }
 
+TEST_F(SupervisorTest, SilenceIsNoDeathAtWork) {
+  Supervisor supervisor(milliseconds(100));
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
+  supervisor.CameUp("child");
+  supervisor.Heard("child", pid);
+  kill(std::stoi(AwaitOutput(2).at(1)), SIGKILL);  // never heard
+  AwaitOutput(3);
+  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 0);
+  supervisor.CameUp("child");
+  kill(std::stoi(AwaitOutput(3).at(2)), SIGKILL);
+  AwaitOutput(4);
+  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 1) << "by another";
+}
+
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
   Supervisor supervisor;
   supervisor.Start(Script("child", "sleep 1000 & echo \"$$ $!\" >> $OUT; wait"));
