@@ -51,7 +51,7 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
       next_send_ = now;
     }
     if (lost_) return End(Outcome::kInterrupted, "", now);
-  } else if (lost_) {
+  } else if (lost_ && (has_cancelled_ || !std::holds_alternative<ArrivedResult>(event))) {
     return std::nullopt;
   } else if (const auto* ack = std::get_if<Acknowledgement>(&event)) {
     if (Ours(ack->message.request_id)) return HearAck(now, *ack);
@@ -62,6 +62,8 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
     }
     const PlanResult& told = result->message.result;
     if (told.status == PlanStatus::kCancelled && !Cancelling()) {
+      if (lost_) return std::nullopt;
+      has_cancelled_ = true;
       return Lose(fmt::format("it answered CANCELLED, though its request was not cancelled{}{}",
                               told.message.empty() ? "" : ": ", told.message),
                   result->arrival);

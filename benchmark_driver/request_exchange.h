@@ -62,8 +62,8 @@ class RequestExchange {
   };
   /// The caller wants no result any more.
   struct Interruption {};
-  /// The process that had the request will not answer it. The same is a result CANCELLED to a
-  /// request that was not cancelled.
+  /// The process that had the request is gone; only what it sent before may still come. So counts
+  /// a result CANCELLED to a request that was not cancelled, which no other result can follow.
   struct PlannerLost {
     std::string why;
   };
@@ -112,6 +112,7 @@ class RequestExchange {
   std::optional<TimePoint> interrupted_;
   std::optional<TimePoint> lost_;
   std::string why_lost_;
+  bool has_cancelled_ = false;  // the planner, by itself
 };
 
 }  // namespace planbench

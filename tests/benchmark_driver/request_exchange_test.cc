@@ -161,15 +161,20 @@ TEST(RequestExchange, PlannerThatIsLostGivesNoAnswer) {
         {0.1, Working(), ""},
         {0.2, kLost, ""},
         {0.3, Event(Exchange::PlannerLost{"another has come"}), ""},
-        {0.5, Working(), ""},  // its successor is not asked, nor heard
-        {0.6, Result(0.6), ""},
+        {0.5, Working(), ""},  // it is not asked again, nor its successor
+        {0.6, Result(0.6, "r", PlanStatus::kCancelled), ""},
         {1.25, kTick, "no answer after 0.20: the process died"}});
+}
+
+TEST(RequestExchange, WhatALostPlannerSentBeforeCounts) {
+  Play({{0, kTick, "request"}, {0.2, kLost, ""}, {0.3, Result(0.19), "result after 0.19"}});
 }
 
 TEST(RequestExchange, CancelledThoughNobodyDidIsAPlannerThatIsLost) {
   Play({{0, kTick, "request"},
         {0.2, Result(0.2, "r", PlanStatus::kCancelled), ""},
         {0.3, kLost, ""},
+        {0.4, Result(0.4), ""},  // the first answer counts
         {1.25, kTick,
          "no answer after 0.20: it answered CANCELLED, though its request was not cancelled"}});
 }
