@@ -228,10 +228,11 @@ void PlannerNode::Solve() {
     };
     lock.unlock();
     PlanResult result = planner_->Plan(job.request, *job.scene, &job.control);
+    const bool is_whole = !job.control.cancelled;
     const std::string request_id = job.request.request_id;
     lock.lock();
-    // What this process cancelled because it ends is no answer.
-    if (stopping_) return;
+    // What this process cut short because it ends is no answer, though there may be a path in hand.
+    if (stopping_ && !is_whole) return;
     Finish(result);
     lock.unlock();
     // After the result is out: writing takes time.

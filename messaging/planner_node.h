@@ -34,7 +34,7 @@ class PlannerNode {
 
   /// Goes live. `name` must be free on the bus.
   PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner);
-  /// Leaves. What is being solved is stopped, and gets no result.
+  /// Leaves. What is being solved is stopped, and gets no result; one that is ready is sent.
   ~PlannerNode();
 
   /// Runs until `stop` (asked every 50 ms) says so; throws InputError if an older process has the

@@ -56,7 +56,7 @@ class PlannerNodeTest : public testing::Test {
     while (hold_ && !query.ShouldStop()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (query.Cancelled()) {
+    if (query.Cancelled() && !has_path_) {
       SearchResult cancelled;
       cancelled.status = PlanStatus::kCancelled;
       cancelled.message = "cancelled";
@@ -121,6 +121,7 @@ class PlannerNodeTest : public testing::Test {
   const Scene scene_ = EmptyPlanarScene();
   std::atomic<int> num_searches_ = 0;
   std::atomic<bool> hold_ = false;
+  std::atomic<bool> has_path_ = false;  // in hand when it is cancelled
   MessageCollector<PlanResultMessage> results_{&bus_, channels_.result};
   MessageCollector<SceneRequestMessage> scene_requests_{&bus_, channel::kSceneRequest};
 
@@ -410,6 +411,16 @@ TEST_F(PlannerNodeTest, CancellationOfASolvedRequestBringsItsResult) {
 
 TEST_F(PlannerNodeTest, EndsWhileSolvingWithoutAResult) {
   hold_ = true;
+  StartNode();
+  StartSceneServer();
+  Send(Request("a"));
+  ASSERT_TRUE(WaitUntil([&] { return num_searches_ == 1; }));
+  StopNode();
+  EXPECT_FALSE(HasResultOf("a"));
+}
+
+TEST_F(PlannerNodeTest, EndsWithoutAResultThatItCutShort) {
+  hold_ = has_path_ = true;
   StartNode();
   StartSceneServer();
   Send(Request("a"));
