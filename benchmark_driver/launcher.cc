@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <set>
 #include <string_view>
@@ -64,11 +63,11 @@ std::vector<std::string> WithRobot(const std::string& program, const RobotFlags&
   return arguments;
 }
 
-/// Every process of planbench that is live on the bus, within 0.7 s.
-std::vector<NodeStatusMessage> WhoAnswers(Bus* bus) {
+/// Every process of planbench that is heard on the bus within `patience`.
+std::vector<NodeStatusMessage> WhoAnswers(Bus* bus, std::chrono::milliseconds patience) {
   NodeRegistry registry(bus);
   registry.Discover("driver");
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  std::this_thread::sleep_for(patience);
   return registry.Live();
 }
 
@@ -92,7 +91,7 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
 }
 
 void RequireEmptyBus(Bus* bus) {
-  const std::vector<NodeStatusMessage> live = WhoAnswers(bus);
+  const std::vector<NodeStatusMessage> live = WhoAnswers(bus, std::chrono::milliseconds(700));
   if (live.empty()) return;
   throw InputError(
       fmt::format("another session is on {}: the {} is live; choose another port with --lcm-url, "
@@ -152,16 +151,18 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
 
 void StopProcesses(const std::vector<LineUpEntry>& line_up, Bus* bus, Supervisor* supervisor) {
   std::vector<std::string> order;
-  for (const LineUpEntry& entry : line_up) order.push_back(entry.contestant.planner);
+  std::set<std::string> foreign;
+  for (const LineUpEntry& entry : line_up) {
+    order.push_back(entry.contestant.planner);
+    if (!entry.contestant.command.empty()) foreign.insert(entry.contestant.planner);
+  }
   order.insert(order.end(), {kSceneServer, kLogger});
   supervisor->StopAll(order);
   // Our own do not leave their process group: there is nobody to wait for.
-  if (std::none_of(line_up.begin(), line_up.end(),
-                   [](const LineUpEntry& entry) { return !entry.contestant.command.empty(); })) {
-    return;
-  }
-  for (const NodeStatusMessage& node : WhoAnswers(bus)) {
-    if (node.kind != NodeKind::kPlanner) continue;
+  if (foreign.empty()) return;
+  // Four of its announcements, however loaded the machine is.
+  for (const NodeStatusMessage& node : WhoAnswers(bus, std::chrono::seconds(2))) {
+    if (node.kind != NodeKind::kPlanner || !foreign.contains(node.name)) continue;
     spdlog::warn("the {} still runs: its command has taken it out of its process group; end it",
                  Named(node));
   }

@@ -1,7 +1,11 @@
 #include "benchmark_driver/launcher.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "messaging/node_announcer.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,6 +25,29 @@ TEST(RequireProgramsTest, EveryContestantNeedsAProgramOrACommand) {
   line_up[2].program = "prm";
   ExpectInputError([&] { RequirePrograms(line_up, programs.path()); },
                    {"'prm'", "ara, rrtc", "--planner-command mine="});
+}
+
+TEST(StopProcessesTest, OfPlannersThatAreLiveThoseOfACommandAreNamed) {
+  Bus bus("memq://");
+  bus.Start();
+  const auto announce = [&](const std::string& name) {
+    return std::make_unique<NodeAnnouncer>(
+        &bus, [status = MakeNodeStatus(name, NodeKind::kPlanner)] { return status; });
+  };
+  const auto mine = announce("mine");
+  const auto own = announce("own");
+  const auto elsewhere = announce("elsewhere");
+  std::vector<LineUpEntry> line_up(2);
+  line_up[0].contestant.planner = "mine";
+  line_up[0].contestant.command = "./mine";
+  line_up[1].contestant.planner = "own";
+  Supervisor supervisor;
+  testing::internal::CaptureStdout();  // Where messages go.
+  StopProcesses(line_up, &bus, &supervisor);
+  const std::string output = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(output, testing::HasSubstr("the planner 'mine' (host "));
+  EXPECT_THAT(output, testing::Not(testing::HasSubstr("'own'")));
+  EXPECT_THAT(output, testing::Not(testing::HasSubstr("'elsewhere'")));
 }
 
 }  // namespace
