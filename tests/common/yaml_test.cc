@@ -461,13 +461,6 @@ TEST(YamlNode, WarningsAreKeptWithTheDocument) {
   EXPECT_THAT(node.warnings(), ElementsAre("file.yaml:2: b[0]: is odd", "file.yaml:1: a: is even"));
 }
 
-TEST(YamlNode, WarningsMayBeMany) {  // and would take minutes, were each compared with all before
-  constexpr std::size_t kMany = 100'000;
-  const YamlNode node = Parse("a: 1\n").At("a");
-  for (std::size_t i = 0; i < kMany; ++i) node.Warn(std::to_string(i));
-  EXPECT_EQ(node.warnings().size(), kMany);
-}
-
 TEST(YamlNode, LoadFileNamesThePath) {
   EXPECT_EQ(ErrorOf([] { YamlNode::LoadFile("/nonexistent/x.yaml"); }),
             "/nonexistent/x.yaml: cannot be opened");

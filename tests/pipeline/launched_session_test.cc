@@ -192,16 +192,13 @@ TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
 TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded) {
   const auto session = folder() / "session";
   const std::vector<std::string> flags =
-      Endless({"--problems-range", "1", "--time", "1", "--trials", "3"});
+      Endless({"--problems-range", "1", "--time", "2", "--trials", "5"});
   ChildProcess* driver = StartLaunchedDriver(session, flags);
   ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
       << driver->Errors();
-  const int planner = PidOf("planner_rrtc");
-  ASSERT_GT(planner, 0);
   for (const int pid : LeftRunning()) {
     if (pid != driver->pid()) kill(pid, SIGTERM);
   }
-  EXPECT_TRUE(WaitUntil([&] { return PidOf("planner_rrtc") != planner; }));
   driver->Signal(SIGTERM);
   EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
   const std::string not_timed_out = "SELECT count(*) FROM runs WHERE status != 1";
@@ -209,7 +206,7 @@ TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded)
 
   ChildProcess* resumed = Start(Resuming(session, flags));
   EXPECT_EQ(resumed->Wait(), 0) << resumed->Errors();
-  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 3);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 5);
   EXPECT_EQ(Query(session, not_timed_out), 0);
 }
 
