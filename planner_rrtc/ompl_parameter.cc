@@ -15,8 +15,7 @@ namespace {
 
 struct Bounds {
   double least = -std::numeric_limits<double>::infinity();
-  // The most that OMPL suggests for any. Far beyond, its arithmetic overflows, and batches take all
-  // memory without a look at the clock.
+  // The most that OMPL suggests for any. Far beyond, its arithmetic overflows.
   double most = 1e6;
   bool integers = false;
 };
@@ -24,6 +23,9 @@ struct Bounds {
 /// Of the trees that OMPL sorts neighbours into. A node of degree k is split over a matrix of more
 /// than k by k distances.
 constexpr double kMostDegree = 1000;
+
+/// Of samples that are drawn without a look at the clock: of a million no answer came within 30 s.
+constexpr double kMostBatch = 1e5;
 
 std::optional<double> FiniteNumber(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -46,6 +48,7 @@ Bounds BoundsOf(const std::string& name, const std::string& suggestion) {
     if (*first >= 0) bounds.least = 0;
     if (*first >= 0 && *last == 1) bounds.most = 1;
     if (bounds.integers) bounds = {std::min(*first, 1.0), Bounds().most, true};
+    if (name.find("batch") != std::string::npos) bounds.most = kMostBatch;
     // With a degree of 1 the trees have no branches.
     if (name.find("degree") != std::string::npos) bounds = {*first, kMostDegree, true};
   }

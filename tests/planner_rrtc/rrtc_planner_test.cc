@@ -138,8 +138,8 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: KPIECE1\nompl: {min_valid_path_fraction: -0.1}",
                  {"min_valid_path_fraction", "-0.1", "from 0 to 1"});
   expect_refused("algorithm: TRRT\nompl: {init_temperature: -inf}", {"init_temperature", "finite"});
-  expect_refused("algorithm: BITstar\nompl: {samples_per_batch: 4000000000}",
-                 {"samples_per_batch: 4000000000 is not from 1 to 1000000"});
+  expect_refused("algorithm: BITstar\nompl: {samples_per_batch: 1000000}",
+                 {"samples_per_batch: 1000000 is not from 1 to 100000"});
   expect_refused("algorithm: LazyPRM\nompl: {max_nearest_neighbors: 5000000000}",
                  {"5000000000 is not from 1 to 1000000"});
   expect_refused("algorithm: STRIDE\nompl: {degree: 1}", {"1 is not from 2 to 1000"});
