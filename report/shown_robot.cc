@@ -15,9 +15,9 @@ namespace planbench {
 namespace {
 
 /// A mesh in which the first vertex in each cell of a grid stands for all that are in it. Of a
-/// million triangles, which some robots have, no page can hold many copies.
+/// million triangles, which some robots have, no page can hold the copies of its attempts.
 SharedMesh Coarse(const SharedMesh& mesh) {
-  constexpr double kCells = 24;  // along its longest side
+  constexpr double kCells = 10;  // along its longest side
   const Eigen::Vector3d low = mesh.box().min();
   const double cell_m = mesh.box().sizes().maxCoeff() / kCells;
   if (!(cell_m > 0)) return mesh;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "collision/model_spheres.h"
 #include "common/error.h"
@@ -267,7 +268,7 @@ class View {
 
   const Robot& robot_;
   const std::vector<LinkSphere>& spheres_;  // That stand for it,
-  std::vector<LinkGeometry> bodies_;        // or, if there are none, its own bodies.
+  std::span<const LinkGeometry> bodies_;    // or, if there are none, its own bodies.
   const PlanningGroup& group_;
   ResolvedQuery query_;
   GroupKinematics kinematics_;

@@ -167,8 +167,8 @@ TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
   EXPECT_EQ(arm["shapes"][0]["pose"], Json({0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
   const Json& hand = view["links"][3]["shapes"][0]["shape"];
   EXPECT_EQ(hand["type"], "mesh");
-  EXPECT_GT(hand["triangles"].size(), 3u * 50);
-  EXPECT_LT(hand["triangles"].size(), 3u * 400) << "a picture needs no more";
+  EXPECT_GT(hand["triangles"].size(), 3u * 30);
+  EXPECT_LT(hand["triangles"].size(), 3u * 150) << "a picture needs no more";
   EXPECT_EQ(view["motions"][0]["frames"][0].size(), 3u * 7) << "they move";
   for (const Json& link : RunView(robot_, scene_, run_, 10)["links"]) {
     EXPECT_TRUE(link["shapes"].empty()) << "spheres are shown";
