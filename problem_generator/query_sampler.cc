@@ -67,10 +67,8 @@ std::optional<std::vector<double>> QuerySampler::Sample(
     for (int solution = 0; solution < spec_->effort.solutions; ++solution) {
       const IkResult result = kinematics.Solve(X_BT, random->engine(), options);
       if (!result.solved) {
-        const double off_m = result.position_error_m;
-        const double off_rad = result.orientation_error_rad;
         rejections->Add(end.name + ": no inverse kinematics solution", end.where,
-                        {off_m + off_rad, DescribeMiss(off_m, off_rad, options)});
+                        {result.position_error_m, result.orientation_error_rad, options});
         break;
       }
       const std::vector<double> q = other ? Turned(result.q, *other, &kinematics) : result.q;

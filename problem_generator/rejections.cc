@@ -7,6 +7,10 @@
 
 namespace planbench {
 
+double Rejections::Miss::Size() const {
+  return off_m / allowed.position_tolerance_m + off_rad / allowed.orientation_tolerance_rad;
+}
+
 void Rejections::Add(const Rejections& other) {
   for (const auto& [key, count] : other.counts_) counts_[key] += count;
   for (const auto& [reason, miss] : other.least_misses_) KeepLeast(reason, miss);
@@ -19,7 +23,7 @@ void Rejections::Add(const std::string& reason, const std::string& where, const 
 
 void Rejections::KeepLeast(const std::string& reason, const Miss& miss) {
   Miss& least = least_misses_.emplace(reason, miss).first->second;
-  if (miss.size < least.size) least = miss;
+  if (miss.Size() < least.Size()) least = miss;
 }
 
 std::map<std::string, long> Rejections::ByReason() const {
@@ -38,7 +42,9 @@ std::string Rejections::Summary() const {
   for (const auto& [reason, count] : sorted) {
     counts.push_back(fmt::format("{} {}", reason, count));
     const auto miss = least_misses_.find(reason);
-    if (miss != least_misses_.end()) counts.back() += fmt::format(" ({})", miss->second.text);
+    if (miss == least_misses_.end()) continue;
+    const auto& [off_m, off_rad, allowed] = miss->second;
+    counts.back() += fmt::format(" ({})", DescribeMiss(off_m, off_rad, allowed));
   }
   return fmt::format("{}", fmt::join(counts, ", "));
 }

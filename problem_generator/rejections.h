@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "robot_model/inverse_kinematics.h"
+
 namespace planbench {
 
 /// Counts what was drawn and thrown away.
@@ -12,10 +14,13 @@ class Rejections {
   /// `reason`: what is wrong, with whom ("approach goal: no inverse kinematics solution");
   /// `where`: the place in the specification it comes from.
   void Add(const std::string& reason, const std::string& where) { ++counts_[{reason, where}]; }
-  /// By how much something was missed, in any measure that is the same for all of a reason.
+  /// By how much a pose was missed, and how much is allowed.
   struct Miss {
-    double size = 0;
-    std::string text;
+    double off_m = 0;
+    double off_rad = 0;
+    IkOptions allowed;
+    /// In multiples of what is allowed.
+    double Size() const;
   };
   /// Of the misses of a reason, the summary tells the least.
   void Add(const std::string& reason, const std::string& where, const Miss& miss);
