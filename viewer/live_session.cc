@@ -220,10 +220,11 @@ const ShownRobot& LiveSession::LoadedRobot() const {
 std::optional<Json> LiveSession::View() const {
   if (!shown_) return std::nullopt;
   const auto scene = scenes_.find(shown_->request.scene_id);
-  if (scene == scenes_.end())
+  if (scene == scenes_.end()) {
     return Json{{"message",
-                 "The scene has not been heard: it was sent before this viewer listened. "
-                 "What comes next is shown."}};
+                 "The scene has not been heard. If it was sent before this viewer listened, the "
+                 "next problem is the first that is shown."}};
+  }
   try {
     return is_answered_ ? RunView(LoadedRobot(), scene->second, *shown_, kFrames)
                         : RequestView(LoadedRobot(), scene->second, *shown_);

@@ -136,6 +136,7 @@ function makeViewer(container, data, previous = null) {
     return {scene, motion, start, goal, body, hit};
   }
   let scenes = [];
+  let bounds = null;  // a sphere about all of the first
 
   // ---- Picture ----------------------------------------------------------------------------------
   const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view: drag or arrow keys turn, wheel or + and - come nearer and go away, shift and arrow keys move"});
@@ -162,6 +163,8 @@ function makeViewer(container, data, previous = null) {
     if (width === 0) return;
     renderer.setSize(canvas.clientWidth, height, false);
     camera.aspect = width / height;
+    camera.far = Math.max(50, camera.position.distanceTo(bounds.center) + 2 * bounds.radius);
+    camera.near = camera.far / 1000;
     camera.updateProjectionMatrix();
     scenes.forEach((one, i) => {
       renderer.setViewport(i * width, 0, width, height);
@@ -254,6 +257,7 @@ function makeViewer(container, data, previous = null) {
 
   function rebuild() {
     scenes = (moves ? data.motions : [null]).map(makeScene);
+    bounds = new THREE.Box3().setFromObject(scenes[0].scene).getBoundingSphere(new THREE.Sphere());
     toggles.forEach(toggle => toggle.apply());
     moveTo(time);
   }
