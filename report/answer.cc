@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "collision/collision_model.h"
 #include "common/lookup.h"
 #include "messaging/asked_runs.h"
 #include "results/quality.h"
@@ -531,6 +532,34 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     }
   }
   return cautions;
+}
+
+std::string WithoutMeshRobot(const ComparedSessions& compared) {
+  std::vector<std::string> by_meshes, by_enclosing, by_others;
+  for (const ComparedContestant& one : compared.contestants()) {
+    const auto model = Lookup(ParseSettings(one.settings), "collision_model").value_or("");
+    (model == EnumName(CollisionModel::kMeshes)      ? by_meshes
+     : model == EnumName(CollisionModel::kEnclosing) ? by_enclosing
+                                                     : by_others)
+        .push_back(one.name);
+  }
+  std::string text = "Planners and referee judge by the collision model of each contestant.";
+  const auto add = [&](const std::vector<std::string>& names, const char* sentence) {
+    if (names.empty()) return;
+    const bool are_all = names.size() == compared.contestants().size();
+    text += fmt::format(fmt::runtime(sentence),
+                        are_all ? "all" : fmt::format("{}", fmt::join(names, ", ")));
+  };
+  add(by_meshes,
+      " Of {} it is the robot's own meshes and solids: what was confirmed is free on the true "
+      "geometry.");
+  add(by_enclosing,
+      " Of {} it is spheres that contain the robot's meshes and solids: what was confirmed is free "
+      "on the true geometry, too.");
+  add(by_others,
+      " No robot with meshes judged the paths besides (--referee-robot), so that what those of {} "
+      "are worth on the true geometry is not known.");
+  return text + " Success tells what was claimed and what was confirmed.";
 }
 
 }  // namespace planbench

@@ -19,4 +19,8 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
 /// odd, or whose simplified paths were rejected.
 std::vector<std::string> Cautions(const ComparedSessions& compared);
 
+/// What confirmed paths are worth on the robot's true geometry, where no robot with meshes judged
+/// them besides: by what collision model each contestant's were planned and judged.
+std::string WithoutMeshRobot(const ComparedSessions& compared);
+
 }  // namespace planbench

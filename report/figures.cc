@@ -307,6 +307,7 @@ Json FigureData(const ComparedSessions& compared, const std::vector<ComparedPair
   json["made_by"] = "planbench " + Version() + " (" + Commit() + ")";
   json["answer"] = Answer(compared, pairs);
   json["limits_note"] = LimitsNote(compared);
+  json["without_mesh_robot"] = WithoutMeshRobot(compared);
   json["contestants"] = Json::array();
   for (const ComparedContestant& one : compared.contestants()) {
     json["contestants"].push_back({{"name", one.name},

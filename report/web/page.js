@@ -99,11 +99,11 @@ const report = (() => {
   function swatch(colour, dash = () => []) {
     const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     line.setAttribute("class", "swatch");
-    line.setAttribute("viewBox", "0 0 26 12");
+    line.setAttribute("viewBox", "0 0 38 12");
     line.setAttribute("aria-hidden", "true");
     const stroke = document.createElementNS("http://www.w3.org/2000/svg", "path");
-    stroke.setAttribute("d", "M0,6H26");
-    stroke.setAttribute("stroke-width", "4");
+    stroke.setAttribute("d", "M0,6H38");
+    stroke.setAttribute("stroke-width", "3");
     const paint = () => {
       stroke.setAttribute("stroke", colour());
       stroke.setAttribute("stroke-dasharray", dash().join(","));
@@ -321,9 +321,7 @@ const report = (() => {
     section("failures", "What failed, and why", tables.failures ? tableBlock("failures", true, failureCell) :
                                                                   note("Every attempt ended with a confirmed path."));
     section("meshes", "Honesty", tables.meshes ? tableBlock("meshes", true) :
-      note("Planners and referee judge by the collision model of each contestant. No robot with meshes judged the paths besides " +
-           "(--referee-robot), so that what they are worth on the true geometry is not known. Success tells what was claimed and " +
-           "what was confirmed."));
+                                                                  note(data.without_mesh_robot));
     section("conditions", "Conditions of the measurement", ...data.cautions.map(caution => element("p", {}, caution)),
             tableBlock("conditions", true));
   }

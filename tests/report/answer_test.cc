@@ -388,5 +388,23 @@ TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
       << "those that await others are recorded";
 }
 
+TEST_F(ReportTest, WhatPathsAreWorthOnTheMeshesDependsOnWhatTheyWerePlannedWith) {
+  const auto told = [](const std::vector<std::string>& models) {
+    std::vector<MadeRun> runs;
+    for (const std::string& model : models) {
+      runs.push_back({.contestant = "by " + model, .settings = {{"collision_model", model}}});
+    }
+    return WithoutMeshRobot(Read(runs));
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(told({"spheres", "voxels"}),
+              HasSubstr("those of all are worth on the true geometry is not known"));
+  EXPECT_THAT(told({"meshes"}),
+              AllOf(HasSubstr("Of all it is the robot's own meshes"), Not(HasSubstr("not known"))));
+  EXPECT_THAT(told({"meshes", "enclosing", "spheres"}),
+              AllOf(HasSubstr("Of by meshes it is"), HasSubstr("Of by enclosing it is"),
+                    HasSubstr("those of by spheres are")));
+}
+
 }  // namespace
 }  // namespace planbench
