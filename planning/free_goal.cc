@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,8 @@ GoalFinding FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
 
 GoalFinding KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
                           std::vector<GoalBox>* goals, const std::function<bool()>& should_stop) {
+  std::set<GoalBox> met;
+  std::erase_if(*goals, [&met](const GoalBox& goal) { return !met.insert(goal).second; });
   std::vector<GoalBox> free;
   GoalFinding first;
   for (GoalBox& goal : *goals) {

@@ -40,8 +40,8 @@ GoalFinding FindFreeGoal(EdgeChecker* edges, GoalBox* goal,
                          const std::function<bool()>& should_stop);
 
 /// Leaves, of several goals, those that have a valid point (see FindFreeGoal), nearest to the start
-/// first. kInvalid if there is none; kUndecided if one is not decided, which leaves no time for the
-/// others either.
+/// first, and of equal ones one. kInvalid if there is none; kUndecided if one is not decided, which
+/// leaves no time for the others either.
 GoalFinding KeepFreeGoals(EdgeChecker* edges, const Configuration& start,
                           std::vector<GoalBox>* goals, const std::function<bool()>& should_stop);
 

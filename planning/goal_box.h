@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 
 #include "planning/plan_result.h"
 #include "robot_model/joint_space.h"
@@ -17,6 +18,10 @@ struct GoalBox {
   /// True if q is inside (continuous joints compared the short way round from nominal), limits
   /// inclusive with 1e-9 to spare for rounding.
   bool Contains(const JointSpace& space, std::span<const double> q) const;
+  /// An order, by which equal boxes are found.
+  friend bool operator<(const GoalBox& a, const GoalBox& b) {
+    return std::tie(a.nominal, a.lower, a.upper) < std::tie(b.nominal, b.lower, b.upper);
+  }
 };
 
 }  // namespace planbench

@@ -223,6 +223,7 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
     });
   }
   const std::vector<double> known_before = lower_bounds;
+  const std::uint64_t seed = query->seed_;
 
   SearchResult found;  // the best path or, without one, what came of the goals so far
   bool has_path = false;
@@ -238,6 +239,7 @@ SearchResult Planner::SearchInTurn(const std::string& algorithm, const ResolvedQ
     // A search that goes on knows itself what of its proof still holds: its space may grow.
     if (!has_path || query->IsKept(turn)) lower_bounds[turn] = known_before[turn];
     query->turn_ = turn;
+    query->seed_ = seed + turn;  // lest all turns draw alike
     query->turn_ends_work_ = num_left > 1 || !later.empty() ? query->Work() + turn_work : kInfinity;
     query->known_cost_ = has_path ? found.cost : kInfinity;
     query->lower_bound_ = std::exchange(lower_bounds[turn], kInfinity);

@@ -96,10 +96,11 @@ class Planner {
   /// Searches for goals, all with valid nominal points, in turn until one is reached: first the one
   /// that a path is given to, then those to which paths may be the cheapest. Searches that can
   /// (SearchQuery::TurnIsOver) go round after round, each turn of twice the work of the round
-  /// before; the others have one turn. Of k goals left in a round each has a k-th of the time that
-  /// is left at most, with a path to it in hand all of it. As long as the search wants a better
-  /// bound (SearchResult::wanted_epsilon) than is proven over all goals, the turns go on with the
-  /// goals that stand against it.
+  /// before; the others have one turn, each with a seed of its own, that of the nearest goal being
+  /// the request's. Of k goals left in a round each has a k-th of the time that is left at most,
+  /// with a path to it in hand all of it. As long as the search wants a better bound
+  /// (SearchResult::wanted_epsilon) than is proven over all goals, the turns go on with the goals
+  /// that stand against it.
   SearchResult SearchInTurn(const std::string& algorithm, const ResolvedQuery& resolved,
                             bool backward, SearchQuery* query);
   /// One turn of these: sets the ends of the query, and searches.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -132,6 +134,38 @@ TEST_F(SeveralGoals, ShareTheTime) {
       request);
   EXPECT_EQ(solved.status, PlanStatus::kSolved) << solved.message;
   EXPECT_EQ(num_searches_, 1);
+}
+
+TEST_F(SeveralGoals, EqualOnesAreOne) {
+  const Configuration goal = {0.5, 0, 0};
+  PlanRequest request = RequestFor({goal, {0.4, 0, 0}, goal, goal});
+  request.time_limit_s = 3600;
+  std::vector<double> shares;
+  const auto share = [&](SearchQuery& query) {
+    shares.push_back(query.RemainingSeconds());
+    return Ended(PlanStatus::kExhausted);
+  };
+  Plan(share, request);
+  ASSERT_EQ(shares.size(), 2u);
+  EXPECT_NEAR(shares[0], 1800, 60);
+  request.goal.back().tolerance_above = 0.1;
+  Plan(share, request);
+  EXPECT_EQ(shares.size(), 5u) << "of which one is larger";
+  EXPECT_EQ(Plan(StraightLine, RequestFor({{0, 0, 0}, {0, 0, 0}}), PostsScene()).message,
+            Plan(StraightLine, RequestFor({{0, 0, 0}}), PostsScene()).message);
+}
+
+TEST_F(SeveralGoals, EachHasASeedOfItsOwn) {
+  PlanRequest request = RequestFor({{0.3, 0, 0}, {0.5, 0, 0}, {0.4, 0, 0}});
+  request.seed = 7;
+  std::vector<std::uint64_t> seeds;
+  const auto note = [&](SearchQuery& query) {
+    seeds.push_back(query.seed());
+    return Ended(PlanStatus::kExhausted);
+  };
+  Plan(note, request);
+  EXPECT_EQ(std::set<std::uint64_t>(seeds.begin(), seeds.end()).size(), 3u);
+  EXPECT_EQ(seeds.front(), 7u) << "as if the nearest were the only one";
 }
 
 TEST_F(SeveralGoals, ATurnEndsThoughItsSearchAsksForNothingButEdges) {
