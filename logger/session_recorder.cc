@@ -97,7 +97,7 @@ bool SessionRecorder::Report(const std::string& bus) {
   bus_ = AddBusJson(bus_, bus);
   is_bus_told_ = true;
   if (!bus.empty() || event_log_.num_files() > 1 || IsFile(folder_.run_json())) DescribeSessions();
-  spdlog::info("recorded {} messages, {} runs ({} repeated)", tally_.events, tally_.runs,
+  spdlog::info("recorded {} messages, {} runs ({} records came again)", tally_.events, tally_.runs,
                tally_.repetitions);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
     spdlog::warn("session {} {} {} runs, of which {} are recorded here", session.run_id,

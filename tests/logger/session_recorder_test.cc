@@ -85,6 +85,11 @@ TEST_F(SessionRecorderTest, AcknowledgesARepetitionAgain) {
   EXPECT_EQ(recorder->tally().runs, 1);
   EXPECT_EQ(recorder->tally().repetitions, 1);
   EXPECT_EQ(recorder->tally().failures, 0);
+  testing::internal::CaptureStdout();
+  recorder->Report();
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("1 runs (1 records came again)"),
+            std::string::npos)
+      << "no word of repeats, which runs are that were disturbed";
 }
 
 TEST_F(SessionRecorderTest, TheFirstRecordOfARunStandsAndTheOtherIsRefused) {
