@@ -39,7 +39,7 @@ std::string FailureSummary(const SessionResults& results) {
           line += fmt::format(" {}", problem);
         text += Shortened(line) + "\n";
         if (const std::string reason = failures.reasons.Summary(); !reason.empty()) {
-          text += Shortened("    " + reason) + "\n";
+          text += BreakLines(Shortened(reason, 3 * kTextWidth), 4);
         }
       }
     }

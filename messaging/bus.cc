@@ -223,7 +223,7 @@ Bus::Counters Bus::counters() const {
   const std::int64_t dropped = impl_->inbox.num_dropped();
   const std::scoped_lock lock(impl_->packets_mutex);
   const PacketReader::Counters& packets = impl_->packets.counters();
-  return {packets.malformed, packets.lost, dropped};
+  return {packets.malformed, packets.lost, dropped, packets.incomplete};
 }
 
 }  // namespace planbench

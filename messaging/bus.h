@@ -112,11 +112,13 @@ class Bus {
   /// To all channels.
   [[nodiscard]] Subscription SubscribeToAll(BytesHandler handler, int queue_capacity);
 
-  /// Of a bus with a subscription to all channels: others do not see all packets.
+  /// All but `incomplete` are of a bus with a subscription to all channels: others do not see all
+  /// packets.
   struct Counters {
     std::int64_t malformed = 0;  ///< Packets that were none of LCM's.
     std::int64_t lost = 0;       ///< Messages sent that did not come whole, as far as can be known.
     std::int64_t dropped = 0;    ///< Messages that came faster than they were handled.
+    std::int64_t incomplete = 0;  ///< Large messages sent of which only parts came.
   };
   Counters counters() const;
   /// Messages that claimed to be from another sender than theirs, as those who took or refused them

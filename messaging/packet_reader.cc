@@ -134,6 +134,7 @@ std::optional<ReceivedMessage> PacketReader::Complete(Known* known) {
 
 void PacketReader::GiveUp(std::list<Pending>::iterator pending) {
   ++counters_.lost;
+  ++counters_.incomplete;
   pending_bytes_ -= pending->footprint;
   senders_.at(pending->sender).pending = pending_.end();
   pending_.erase(pending);

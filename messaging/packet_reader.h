@@ -54,6 +54,10 @@ class PacketReader {
     std::int64_t malformed = 0;  ///< Packets that break the protocol.
     /// Messages that a sender's sequence numbers say were sent, and that did not come (whole).
     std::int64_t lost = 0;
+    /// Of them those of several packets of which some came, as is known when their sender's next
+    /// such comes. Packets that are kept from a receiver (MulticastReceiver::Hear) are none of
+    /// them.
+    std::int64_t incomplete = 0;
   };
 
   explicit PacketReader(std::size_t max_pending_bytes = kMaxPendingBytes)

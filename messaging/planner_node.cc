@@ -147,6 +147,7 @@ void PlannerNode::OnRequest(const PlanRequest& request, const PacketSender& send
   auto job = std::make_unique<Job>();
   job->request = request;
   job->sender = sender;
+  job->num_incomplete = bus_->counters().incomplete;
   job->accepted = Clock::now();
   job->next_scene_request = job->accepted;
   for (const auto& [id, scene] : scenes_) {
@@ -262,6 +263,13 @@ std::string PlannerNode::SceneRequestId() const { return name_ + "/" + job_->req
 
 void PlannerNode::FinishWithoutScene(PlanStatus status, std::string message) {
   if (!job_->scene_fault.empty()) message += ": " + job_->scene_fault;
+  const std::int64_t num_incomplete = bus_->counters().incomplete - job_->num_incomplete;
+  if (num_incomplete > 0) {
+    message += fmt::format(
+        "; meanwhile {} large messages came in part only: receive buffers are too small "
+        "(recv_buf_size of --lcm-url, net.core.rmem_max)",
+        num_incomplete);
+  }
   PlanResult result;
   result.status = status;
   result.message = std::move(message);
@@ -272,8 +280,8 @@ void PlannerNode::AskForScene() {
   const Clock::time_point now = Clock::now();
   if (!job_ || job_->scene || job_->control.cancelled) return;
   if (now - job_->accepted > kSceneTimeout) {
-    FinishWithoutScene(PlanStatus::kInvalidRequest, "the scene " + job_->request.scene_id +
-                                                        " was not to be had on " + channel::kScene);
+    FinishWithoutScene(PlanStatus::kInvalidRequest,
+                       fmt::format("no scene within {} s", kSceneTimeout.count()));
   } else if (now >= job_->next_scene_request) {
     bus_->Publish(channel::kSceneRequest,
                   SceneRequestMessage{SceneRequestId(), job_->request.scene_id});

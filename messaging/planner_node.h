@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <list>
 #include <map>
 #include <memory>
@@ -47,6 +48,7 @@ class PlannerNode {
     PacketSender sender;                 // of the request
     std::shared_ptr<const Scene> scene;  // null until it has arrived
     std::string scene_fault;             // Why what came in its place cannot be used.
+    std::int64_t num_incomplete = 0;     // Of the bus, when the request came.
     std::chrono::steady_clock::time_point accepted;
     std::chrono::steady_clock::time_point next_scene_request;
     PlanControl control;

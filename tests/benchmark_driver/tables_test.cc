@@ -156,6 +156,14 @@ TEST(TablesTest, FailuresAreListedWithProblemAndReason) {
             "elbow hits board");
 }
 
+TEST(TablesTest, ALongReasonOfFailuresIsBrokenNotCut) {
+  RunRecordMessage record = AttemptOf(PlanStatus::kTimedOut, 60);
+  const std::string before = "no scene: object[5].shape[0].mesh_resource:";
+  const std::string file = fmt::format("/{:d>80}.obj:3: no", "");
+  record.message = fmt::format("{} {}", before, file);
+  EXPECT_THAT(Brief({record}), HasSubstr(fmt::format("    mostly: {}\n    {}\n", before, file)));
+}
+
 TEST(TablesTest, NothingFailedIsNotMentioned) {
   const std::vector<RunRecordMessage> records = {AttemptOf(PlanStatus::kSolved, 1)};
   EXPECT_THAT(Brief(records), Not(HasSubstr(kFailed)));

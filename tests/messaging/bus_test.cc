@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "messaging/multicast_receiver.h"
+#include "tests/messaging/stranger.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
 #include "tests/support/private_bus.h"
@@ -197,31 +198,6 @@ TEST(BusTest, LargeMessageArrivesWhole) {
   EXPECT_TRUE(collector.messages().front().sender == text);
 }
 
-/// Sends packets to a bus as anybody can.
-class Stranger {
- public:
-  Stranger(const std::string& url, const char* group) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-    to_.sin_family = AF_INET;
-    to_.sin_port = htons(MulticastAddress::Parse(url).port);
-    inet_pton(AF_INET, group, &to_.sin_addr);
-    const unsigned char hops = 0;
-    setsockopt(socket_, IPPROTO_IP, IP_MULTICAST_TTL, &hops, sizeof(hops));
-  }
-  ~Stranger() { close(socket_); }
-  Stranger(const Stranger&) = delete;
-  Stranger& operator=(const Stranger&) = delete;
-
-  void Send(const std::string& packet) const {
-    ASSERT_EQ(sendto(socket_, packet.data(), packet.size(), 0,
-                     reinterpret_cast<const sockaddr*>(&to_), sizeof(to_)),
-              static_cast<ssize_t>(packet.size()));
-  }
-
- private:
-  int socket_;
-  sockaddr_in to_ = {};
-};
-
 std::string SmallPacket(const std::string& after_header) {
   return std::string("LC02\0\0\0\1", 8) + after_header;
 }
@@ -235,7 +211,7 @@ TEST(MulticastReceiverTest, LeavesToTheKernelWhatIsOnOtherChannels) {
                                const std::scoped_lock lock(mutex);
                                received.emplace_back(packet.begin(), packet.end());
                              });
-  const Stranger stranger(url, MulticastAddress().group.c_str());
+  const Stranger stranger(url);
   const auto message = [](const std::string& channel) {
     return SmallPacket(channel + std::string("\0bytes", 6));
   };
@@ -290,7 +266,7 @@ class OpenBusTest : public testing::Test {
 };
 
 TEST_F(OpenBusTest, PacketsOfNoMeaningAreCountedAndHarmNobody) {
-  const Stranger stranger(url_, MulticastAddress().group.c_str());
+  const Stranger stranger(url_);
   const std::vector<std::string> packets = {
       "",
       "LC02",

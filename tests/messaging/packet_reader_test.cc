@@ -185,8 +185,10 @@ TEST(PacketReader, CountsMessagesThatDidNotCome) {
   const std::vector<Packet> packets = Cut(2, "B", "bbbb", 2);
   EXPECT_FALSE(reader.Read(kAlice, packets[0], 0));
   EXPECT_EQ(reader.counters().lost, 3);
+  EXPECT_EQ(reader.counters().incomplete, 0);
   EXPECT_FALSE(reader.Read(kAlice, Cut(3, "B", "bbbb", 2)[0], 0));
   EXPECT_EQ(reader.counters().lost, 4);
+  EXPECT_EQ(reader.counters().incomplete, 1);
 }
 
 TEST(PacketReader, TakesFragmentsOfANewProcessOnAnOldPort) {

@@ -8,9 +8,11 @@
 #include <memory>
 #include <thread>
 
+#include "tests/messaging/stranger.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
 #include "tests/support/planning_problems.h"
+#include "tests/support/private_bus.h"
 #include "tests/support/scripted_planner.h"
 
 namespace planbench {
@@ -27,7 +29,7 @@ const Robot& PlanarRobot() {
 /// A planner node and everything it talks to, on a bus within this process.
 class PlannerNodeTest : public testing::Test {
  protected:
-  PlannerNodeTest() { bus_.Start(); }
+  explicit PlannerNodeTest(const std::string& url = "memq://") : bus_(url) { bus_.Start(); }
   ~PlannerNodeTest() override { StopNode(); }
 
   void StartNode(PlannerDescription description = ScriptedPlanner::Able()) {
@@ -116,7 +118,7 @@ class PlannerNodeTest : public testing::Test {
     return WaitUntil([&] { return NumResultsOf(id) >= count; });
   }
 
-  Bus bus_{"memq://"};
+  Bus bus_;
   const PlannerChannels channels_{"arm"};
   const Scene scene_ = EmptyPlanarScene();
   std::atomic<int> num_searches_ = 0;
@@ -383,6 +385,34 @@ TEST_F(PlannerNodeTest, SaysWhyItLacksTheScene) {
               HasSubstr("scene: it was eaten"));
   // What others are sent is nothing to this one.
   EXPECT_THAT(lack("c", {"leg/c", scene_id, true, "", bad}), testing::EndsWith("the scene"));
+}
+
+class PlannerNodeOnTheNetworkTest : public PlannerNodeTest {
+ protected:
+  PlannerNodeOnTheNetworkTest() : PlannerNodeTest(PrivateUdpUrl()) {}
+};
+
+TEST_F(PlannerNodeOnTheNetworkTest, TellsOfLargeMessagesThatCameInPartWhileItLackedTheScene) {
+  StartNode();
+  const Stranger stranger(bus_.url());
+  // The first of two packets.
+  const auto send_a_part = [&](char sequence) {
+    std::string packet("LC03\0\0\0 \0\0\0\4\0\0\0\0\0\0\0\2A\0ab", 24);
+    packet[7] = sequence;
+    stranger.Send(packet);
+  };
+  const auto are_given_up = [&](int number) {
+    return WaitUntil([&] { return bus_.counters().incomplete == number; });
+  };
+  for (const char sequence : {'\1', '\2', '\3'}) send_a_part(sequence);
+  ASSERT_TRUE(are_given_up(2));
+  Send(Request("a"));
+  ASSERT_FALSE(scene_requests_.WaitFor(1).empty());
+  send_a_part('\4');
+  ASSERT_TRUE(are_given_up(3));
+  Cancel("a");
+  EXPECT_THAT(ResultOf("a", PlanStatus::kCancelled).result.message,
+              HasSubstr("the scene; meanwhile 1 large messages came in part only"));
 }
 
 TEST_F(PlannerNodeTest, CancelledRequestStaysCancelled) {
