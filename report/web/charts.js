@@ -32,7 +32,7 @@ const charts = (() => {
   function textWidth(text, fontSize = 12) {
     const letterWidth = letter => (/[ ,.:;'!|()[\]fijlrtI-]/.test(letter) ? 0.36 :
                                    /[MWmw%@&]/.test(letter) || letter.codePointAt(0) >= 0x1100 ? 1 :
-                                   /[A-Z]/.test(letter) ? 0.72 : 0.62);
+                                   /[A-Z]/.test(letter) ? 0.8 : 0.64);
     return [...text].reduce((sum, letter) => sum + fontSize * letterWidth(letter), 0);
   }
 
@@ -52,21 +52,28 @@ const charts = (() => {
   // One row a contestant, whose name takes less than half of a figure so wide, px.
   const rowNames = (names, width) => names.map(name => lines(name, Math.max(80, 0.4 * width)));
   const LINE = 13;
+  // A row is as high as its name; what is drawn in it is in a band about its middle, of one height in all, px.
+  const bandHeight = names => (names.length > 12 ? 19 : 27);
+  const rowHeight = (names, name) => Math.max(1.25 * bandHeight(names), LINE * name.length + 8);
   // Without the width that of a figure beside another in the page.
-  const rowsHeight = (names, width = 544) => names.length *
-    Math.max(names.length > 12 ? 24 : 34, ...rowNames(names, width).map(name => LINE * name.length + 8));
-  const rows = (names, width) => ({
-    height: rowsHeight(names, width),
-    scale: {name: "y", type: "band", domain: names.map((name, i) => i), range: "height", padding: 0.2},
-    axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8, labelOverlap: false,
-           encode: {labels: {update: {
-             text: {signal: "names[datum.value]"}, lineHeight: {value: LINE},
-             dy: {signal: `${-LINE / 2} * (length(names[datum.value]) - 1)`}}}}},
-    signal: {name: "names", value: rowNames(names, width)},
-  });
+  const rowsHeight = (names, width = 544) =>
+    rowNames(names, width).reduce((sum, name) => sum + rowHeight(names, name), 0);
+  function rows(names, width) {
+    const broken = rowNames(names, width);
+    let end = 0;
+    const middles = broken.map(name => (end += rowHeight(names, name)) - rowHeight(names, name) / 2);
+    return {
+      height: end, band: bandHeight(names),
+      scale: {name: "y", type: "ordinal", domain: names.map((name, i) => i), range: middles},
+      axis: {scale: "y", orient: "left", ticks: false, domain: false, labelPadding: 8, labelOverlap: false,
+             encode: {labels: {update: {
+               text: {signal: "names[datum.value]"}, lineHeight: {value: LINE},
+               dy: {signal: `${-LINE / 2} * (length(names[datum.value]) - 1)`}}}}},
+      signal: {name: "names", value: broken},
+    };
+  }
   // A range of x that leaves a column free on the right, and is none the other way round where there is no room.
   const besideColumn = column => [0, {signal: `max(width - ${column}, 40)`}];
-  const middle = {scale: "y", band: 0.5};
 
   // ---- Figures ----------------------------------------------------------------------------------
   // Those of rows are told how wide they will be with all their labels, px.
@@ -85,14 +92,14 @@ const charts = (() => {
                       title: "problems with a confirmed path"}],
       marks: [
         {type: "rule", from: {data: "rows"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"},
+          y: {scale: "y", field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"},
           stroke: {field: "colour"}, strokeWidth: {value: 3}, strokeCap: {value: "round"}, tooltip: {field: "tip"}}}},
         {type: "symbol", name: "claimed", from: {data: "rows"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {scale: "x", field: "claimed_share"}, shape: {value: "diamond"}, size: {value: 130},
+          y: {scale: "y", field: "y"}, x: {scale: "x", field: "claimed_share"}, shape: {value: "diamond"}, size: {value: 130},
           fill: {value: "transparent"}, stroke: {value: theme.property("--text")}, strokeWidth: {value: 1.5},
           opacity: {signal: "datum.claimed > datum.confirmed ? 1 : 0"}, tooltip: {field: "tip"}}}},
         {type: "symbol", name: "confirmed", from: {data: "rows"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {scale: "x", field: "share"}, size: {value: 90}, fill: {field: "colour"},
+          y: {scale: "y", field: "y"}, x: {scale: "x", field: "share"}, size: {value: 90}, fill: {field: "colour"},
           stroke: {value: theme.property("--background")}, tooltip: {field: "tip"}}}},
       ],
     };
@@ -128,8 +135,7 @@ const charts = (() => {
     const crowded = Math.max(...values.map(value => value.time.length)) > 150;
     const domain = logDomain([...runs.map(run => run.time).filter(time => time != null), limit]);
     const column = 86;
-    const jittered = {scale: "y", field: "y", band: 0.5,
-                      offset: {signal: "datum.jitter * bandwidth('y') * 0.8"}};
+    const jittered = {scale: "y", field: "y", offset: {signal: `datum.jitter * ${0.8 * r.band}`}};
     return {
       height: r.height, signals: [r.signal],
       data: [
@@ -156,13 +162,13 @@ const charts = (() => {
           size: {value: crowded ? 14 : 45}, stroke: {value: theme.property("--failure")}, strokeWidth: {value: 1.3},
           strokeOpacity: {value: 0.7}, cursor: {value: "pointer"}, tooltip: {field: "tip"}}}},
         {type: "text", from: {data: "counts"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
+          y: {scale: "y", field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
           text: {field: "text"}}}},
         {type: "rule", from: {data: "intervals"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"}, stroke: {value: theme.property("--text")},
+          y: {scale: "y", field: "y"}, x: {scale: "x", field: "lower"}, x2: {scale: "x", field: "upper"}, stroke: {value: theme.property("--text")},
           strokeWidth: {value: 2}}}},
         {type: "symbol", name: "median", from: {data: "medians"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {scale: "x", field: "median"}, shape: {value: "diamond"}, size: {value: 95},
+          y: {scale: "y", field: "y"}, x: {scale: "x", field: "median"}, shape: {value: "diamond"}, size: {value: 95},
           fill: {value: theme.property("--background")}, stroke: {value: theme.property("--text")},
           strokeWidth: {value: 2}, tooltip: {field: "tip"}}}},
       ],
@@ -269,7 +275,7 @@ const charts = (() => {
     });
     collect(raw, "raw", -0.22);
     collect(simplified, "simplified", 0.22);
-    const y = {...middle, field: "y", offset: {signal: "datum.shift * bandwidth('y')"}};
+    const y = {scale: "y", field: "y", offset: {signal: `datum.shift * ${r.band}`}};
     return {
       height: r.height, signals: [r.signal], data: [{name: "values", values}],
       scales: [r.scale, {name: "x", type: "linear", zero: true, nice: true, range: "width",
@@ -309,11 +315,11 @@ const charts = (() => {
                       title: "share of the time to the end of the search"}],
       marks: [
         {type: "rect", from: {data: "parts"}, encode: {update: {
-          y: {scale: "y", field: "y"}, height: {scale: "y", band: 1}, x: {scale: "x", field: "begin"},
+          y: {scale: "y", field: "y", offset: -r.band / 2}, height: {value: r.band}, x: {scale: "x", field: "begin"},
           x2: {scale: "x", field: "end"}, fill: {scale: "colour", field: "phase"},
           stroke: {value: theme.property("--background")}, tooltip: {field: "tip"}}}},
         {type: "text", from: {data: "totals"}, encode: {update: {
-          y: {...middle, field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
+          y: {scale: "y", field: "y"}, x: {signal: "width"}, align: {value: "right"}, baseline: {value: "middle"},
           text: {field: "text"}}}},
       ],
     };

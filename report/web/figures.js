@@ -21,7 +21,8 @@ const figureKinds = {
       const list = values.map((value, i) => ({...value, place: places[i], name: names[i], x: value.time, end: endOf(value)}));
       const last = Math.max(...list.map(curve => curve.end));
       // Where the first of them rises, or ends.
-      const first = charts.logDomain([...list.map(curve => curve.end), ...values.flatMap(value => value.time.slice(0, 2))])[0];
+      const rise = charts.logDomain([...list.map(curve => curve.end), ...values.flatMap(value => value.time.slice(0, 2))])[0];
+      const first = last < 2 * rise ? rise / 10 : rise;
       return charts.curves(list, {first, last, title: "time, ms", share: "solved"});
     },
   },

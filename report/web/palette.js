@@ -1,16 +1,16 @@
 "use strict";
 // Colours of figures; property(name) gives a variable of page.css.
 function makePalette(property) {
-  const DASHES = [[], [7, 3], [2, 2], [9, 3, 2, 3]];
+  const DASHES = [[], [9, 3], [2, 2], [9, 3, 2, 3], [9, 3, 2, 3, 2, 3]];
   const NARROW = 480;
   const list = name => property(name).split(",").map(colour => colour.trim());
   const series = () => list("--series");
   return {
     property,
-    // Of the contestant at a place: colours repeat with another dash.
+    // Of the contestant at a place: neighbours have other dashes, too, and so has a colour when it comes again.
     colour: index => { const all = series(); return all[index % all.length]; },
     phase: index => list("--phases")[index],
-    dash: index => DASHES[Math.floor(index / series().length) % DASHES.length],
+    dash: index => DASHES[index % DASHES.length],
     // Of a figure that is so wide, px.
     vegaConfig: width => {
       const text = property("--text"), muted = property("--muted"), line = property("--line");

@@ -1,7 +1,8 @@
 "use strict";
-// Figures in the page: made when they come into sight, made anew when colours or width change.
+// Figures in the page: made when they come into sight, made anew when colours or width change, and for paper.
 const pictures = (() => {
   const all = [];
+  const PAPER = 640;  // the width between the margins of most sheets, px
   const tooltip = document.getElementById("tooltip");
   const sight = new IntersectionObserver(entries => {
     for (const entry of entries) if (entry.isIntersecting) render(entry.target.planbenchChart);
@@ -10,8 +11,9 @@ const pictures = (() => {
   function render(chart) {
     sight.unobserve(chart.element);
     if (chart.view) chart.view.finalize();
-    const width = chart.element.clientWidth;
+    const width = Math.min(chart.element.clientWidth, theme.isForPaper() ? PAPER : Infinity);
     if (width === 0) return;
+    chart.element.style.minHeight = "";
     chart.width = width;
     const spec = {description: chart.label, ...chart.make(width)};
     const numMarks = spec.data.reduce((sum, data) => sum + (data.values || []).length, 0);
@@ -46,7 +48,7 @@ const pictures = (() => {
     sight.observe(element);
     return chart;
   }
-  const again = () => all.forEach(chart => { if (chart.view) render(chart); });
+  const again = () => all.forEach(chart => { if (chart.view || theme.isForPaper()) render(chart); });
   theme.onChange(again);
   let resizing = 0;
   addEventListener("resize", () => {
@@ -55,7 +57,6 @@ const pictures = (() => {
       if (chart.view && chart.element.clientWidth !== chart.width) render(chart);
     }), 150);
   });
-  addEventListener("beforeprint", () => all.forEach(chart => chart.view || render(chart)));
 
   return {add, all, render};
 })();

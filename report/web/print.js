@@ -9,6 +9,25 @@ config.legend = {labelColor: theme.property("--text"), labelFontSize: 12, labelF
 const AXIS = 60, SYMBOL = 30;  // what an axis of shares takes on the left, and the symbol of an entry, px
 requireModule("vega-scenegraph").textMetrics.width = (item, text) => charts.textWidth(String(text ?? ""), item.fontSize);
 
+// Away from the page a figure tells itself what it shows: of which set, how many problems, under which limit, measured on what.
+function titled(spec, title, set) {
+  const ofSets = set.all ? data.sets.filter(one => !one.all) : [set];
+  const numProblems = ofSets.reduce((sum, one) => sum + new Set(one.problem_times.flatMap(times => times.problem)).size, 0);
+  const limits = set.survival.map(one => one.limit).filter(limit => limit > 0).map(limit => limit / 1000);
+  const least = Math.min(...limits), most = Math.max(...limits);
+  const sessions = data.tables.find(table => table.name === "sessions");
+  const processors = sessions ? sessions.rows.filter(row => row[0] === "processor").flatMap(row => row.slice(1)) : [];
+  const facts = [`${numProblems} problem${numProblems === 1 ? "" : "s"}`,
+                 limits.length === 0 ? "" : `time limit ${least === most ? least : `${least} to ${most}`} s`, ...new Set(processors)];
+  // The title is bold, and wider than its size tells.
+  const inLines = (text, fontSize) => charts.lines(text, (WIDTH - 20) * 12 / fontSize);
+  return {...spec, title: {
+    text: inLines(`${title}: ${set.name}`, 15), subtitle: inLines(facts.filter(fact => fact).join(", "), 11), anchor: "start", frame: "bounds",
+    fontSize: 13, subtitleFontSize: 11, offset: 12, color: theme.property("--text"), subtitleColor: theme.property("--muted"),
+    font: config.axis.labelFont, subtitleFont: config.axis.labelFont,
+  }};
+}
+
 function write(name, spec) {
   return vega.view(spec, WIDTH, config, {renderer: "none"}).toSVG().then(svg =>
     fs.writeFileSync(`${folder}/${name}.svg`, svg));
@@ -49,16 +68,16 @@ fs.writeFileSync(`${folder}/kinds.json`, JSON.stringify([...Object.keys(figureKi
 const written = [];
 for (const set of data.sets) {
   const own = fileName(set.name);
-  for (const [kind, {list, make}] of Object.entries(figureKinds)) {
+  for (const [kind, {title, list, make}] of Object.entries(figureKinds)) {
     const values = list(set);
     if (!values || values.length === 0) continue;
     const places = values.map(value => value.contestant);
     const spec = make(WIDTH, namesOf(data, set, places), places, values, () => {});
-    written.push(write(`${kind}-${own}`, withLegend(kind, set, spec, namesOf(data, set, [...data.contestants.keys()]))));
+    written.push(write(`${kind}-${own}`, titled(withLegend(kind, set, spec, namesOf(data, set, [...data.contestants.keys()])), title, set)));
   }
   data.measures.forEach((measure, kind) => {
     if (set.all || set.quality[kind].raw.length === 0) return;
-    written.push(write(`${measure.name}-${own}`, qualityFigure(WIDTH, data, set, kind)));
+    written.push(write(`${measure.name}-${own}`, titled(qualityFigure(WIDTH, data, set, kind), measure.name.replace(/_/g, " "), set)));
   });
 }
 Promise.all(written).catch(error => {

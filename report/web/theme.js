@@ -1,11 +1,11 @@
 "use strict";
-// Light and dark: the system's, until the reader chooses.
+// Light and dark: the system's, until the reader chooses. Paper is light.
 const theme = (() => {
   const system = matchMedia("(prefers-color-scheme: dark)");
   const listeners = [];
-  let chosen = null;
+  let chosen = null, printing = false;
 
-  const isDark = () => (chosen === null ? system.matches : chosen === "dark");
+  const isDark = () => !printing && (chosen === null ? system.matches : chosen === "dark");
   // Those in force, by name: to ask the document for one makes it work out all its styles anew.
   const properties = new Map();
   function property(name) {
@@ -26,10 +26,14 @@ const theme = (() => {
     apply();
   });
   system.addEventListener("change", apply);
+  for (const [event, begins] of [["beforeprint", true], ["afterprint", false]]) {
+    addEventListener(event, () => { printing = begins; apply(); });
+  }
   apply();
 
   return {
     ...makePalette(property),
+    isForPaper: () => printing,
     // Returns what ends it.
     onChange: listener => {
       listeners.push(listener);

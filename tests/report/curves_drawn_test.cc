@@ -96,6 +96,15 @@ TEST_F(CurvesDrawnTest, SharesBeginWithTheirIntervalAndEndAtTheirOwnLimit) {
   EXPECT_EQ(Of(Draw(backward, "survival"), 0).back()["x"], 3000);
 }
 
+TEST_F(CurvesDrawnTest, NothingSolvedUnderALimitThatIsAPowerOfTenIsACurveAllTheSame) {
+  for (const double limit_s : {1.0, 1.5}) {
+    const Json points = Draw(
+        Sessions({{limit_s, {{.contestant = "A", .status = PlanStatus::kTimedOut}}}}), "survival");
+    EXPECT_EQ(points.front()["x"], 100);
+    EXPECT_EQ(points.back()["x"], 1000 * limit_s);
+  }
+}
+
 TEST_F(CurvesDrawnTest, ImprovementsEndAtTheirOwnLimit) {
   const std::vector<PlanProgress> progress = {{0.1, 0, 3, 1}, {1, 0, 2, 1}};
   const std::vector<PlanProgress> longer = {{0.2, 0, 3, 1}, {9, 0, 2, 1}};

@@ -31,6 +31,7 @@ constexpr char kPrintedProbe[] = R"script(
         .sort((one, other) => one[0] - other[0]).map(one => one[1]);
       if (ends.some((end, i) => end < ends[i - 1] - 1)) found.faults.push("mirrored");
     }
+    found.titles = {...found.titles, [figure.parentElement.id]: [...figure.querySelectorAll(".role-title text")].map(one => one.textContent)};
     found.labels[figure.parentElement.id] = texts.map(one => one.textContent.replace(/ /g, ""));
   }
 )script";
@@ -74,12 +75,37 @@ constexpr char kProbe[] = R"script(
     for (const chart of pictures.all) visit(chart.view.scenegraph().root);
     return all;
   };
-  const contrasts = () => {
-    const luminance = colour => {
-      const parts = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16) / 255)
-        .map(c => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
-      return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+  const linear = colour => [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16) / 255)
+    .map(c => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const luminance = colour => {
+    const parts = linear(colour);
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+  };
+  // Of two contestants' colours the least difference (Oklab), as who lacks a kind of cones sees them (Machado, Oliveira and
+  // Fernandes 2009), and in grey, that of lightness.
+  const differences = () => {
+    const times = (matrix, v) => matrix.map(row => row.reduce((sum, one, i) => sum + one * v[i], 0));
+    const seen = {
+      deutan: [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
+      protan: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
     };
+    const oklab = v => times([[0.2104542553, 0.793617785, -0.0040720468], [1.9779984951, -2.428592205, 0.4505937099],
+                              [0.0259040371, 0.7827717662, -0.808675766]],
+      times([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6806995451, 0.1073969566],
+             [0.0883024619, 0.2817188376, 0.6299787005]], v).map(Math.cbrt));
+    const all = theme.property("--series").split(",").map(c => c.trim());
+    const least = of => Math.min(...all.flatMap((one, i) => all.slice(0, i).map(other => {
+      const a = of(one), b = of(other);
+      return Math.hypot(...a.map((value, k) => value - b[k]));
+    })));
+    const cut = v => v.map(value => Math.min(Math.max(value, 0), 1));
+    return {
+      ...Object.fromEntries(Object.entries(seen).map(([kind, matrix]) =>
+        [kind, least(colour => oklab(cut(times(matrix, linear(colour)))))])),
+      grey: least(colour => [Math.cbrt(luminance(colour))]),
+    };
+  };
+  const contrasts = () => {
     const contrast = (a, b) => {
       const [dark, light] = [luminance(a), luminance(b)].sort((x, y) => x - y);
       return (light + 0.05) / (dark + 0.05);
@@ -100,8 +126,21 @@ constexpr char kProbe[] = R"script(
   found.marks = count();
   found.faults = faults();
   found.contrast = [contrasts()];
+  found.difference = [differences()];
   document.getElementById("theme").click();
   found.contrast.push(contrasts());
+  found.difference.push(differences());
+  const strokes = [...Array(32).keys()].map(place => `${theme.colour(place)} ${theme.dash(place)}`);
+  found.strokes = new Set(strokes).size;
+  found.neighbours = strokes.filter((one, place) => place > 0 && String(theme.dash(place)) === String(theme.dash(place - 1))).length;
+  // On paper: light, and as wide as a sheet. Only then in the reader's colours again.
+  dispatchEvent(new Event("beforeprint"));
+  found.printed = {
+    theme: document.documentElement.dataset.theme,
+    widest: Math.max(0, ...pictures.all.map(chart => chart.width)),
+  };
+  dispatchEvent(new Event("afterprint"));
+  found.printed.after = document.documentElement.dataset.theme;
   found.themes = document.documentElement.dataset.theme;
   found.evil = document.querySelectorAll(".evil, main i").length;
   found.unreachable = [...document.querySelectorAll("a, button:not(:disabled), select, summary, .scroll")]
@@ -174,6 +213,16 @@ class PageTest : public testing::Test {
       EXPECT_GE(contrast["text"], 4.5);
       EXPECT_GE(contrast["series"], 3);
     }
+    for (const auto& difference : found["difference"]) {
+      EXPECT_GE(difference["deutan"], 0.075);
+      EXPECT_GE(difference["protan"], 0.075);
+      EXPECT_GE(difference["grey"], 0.025);
+    }
+    EXPECT_EQ(found["strokes"], 32) << "contestants that look alike";
+    EXPECT_EQ(found["neighbours"], 0) << "told apart by colour alone";
+    EXPECT_EQ(found["printed"]["theme"], "light");
+    EXPECT_LE(found["printed"]["widest"], 640);
+    EXPECT_EQ(found["printed"]["after"], found["themes"]);
     return found;
   }
 
@@ -287,6 +336,9 @@ TEST_F(PageTest, PrintedFiguresHoldTheNamesOfASweep) {
     for (const std::string& name : names) EXPECT_THAT(labels, testing::Contains(name)) << kind;
   }
   EXPECT_THAT(found["labels"]["phases"], testing::Contains("collisionchecking"));
+  EXPECT_EQ(found["titles"].size(), 6u);
+  EXPECT_EQ(found["titles"]["survival"], (nlohmann::json{"Share solved by a time: shelf",
+                                                         "4 problems, time limit 10 s, Fast CPU"}));
 }
 
 }  // namespace
