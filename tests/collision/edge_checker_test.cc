@@ -291,6 +291,7 @@ TEST(EdgeCheckerTest, EdgesAreGivenUpWhenToldTo) {
   for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
     SCOPED_TRACE(EnumName(method));
     ScriptedChecker checker(robot, 1);
+    checker.clearance = 1e-3;
     EdgeChecker edges(&checker, 1e-3, method);
     int num_asked = 0;
     bool goes_on = false;
