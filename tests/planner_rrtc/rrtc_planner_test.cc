@@ -284,7 +284,6 @@ TEST_F(RrtcPlannerTest, WholeNumbersBeyondOmplsSuggestionsDoNoHarm) {
   for (const std::string text :
        {"{algorithm: STRIDE, ompl: {degree: 1000, max_degree: 1000, min_degree: 1000}}",
         "{algorithm: STRIDE, ompl: {degree: 30, max_degree: 40, max_pts_per_leaf: 1000000}}",
-        "{algorithm: LazyPRM, ompl: {max_nearest_neighbors: 1000000}}",
         "{algorithm: PRM, ompl: {max_nearest_neighbors: 1000000}}",
         "{algorithm: InformedRRTstar, ompl: {number_sampling_attempts: 1000000}}"}) {
     const PlanResult result = Solve(text);

@@ -214,6 +214,7 @@ TEST_F(TrajoptPlannerTest, APathThatIsGivenIsNotSaidToCollideIfThereWasNoTimeToC
   PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
   request.initial_joint_names = {"shoulder", "elbow", "wrist"};
   request.initial_path = {{0.6, 0, 0}, {-0.6, 0, 0}};
+  request.edge_check = EdgeCheck::kFixed;
   request.edge_resolution_m = 1e-4;
   request.time_limit_s = 1e-6;
   const PlanResult result =
