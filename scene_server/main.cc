@@ -1,11 +1,13 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "messaging/multicast_receiver.h"
 #include "messaging/program.h"
 #include "messaging/robot_flags.h"
 #include "scene_server/scene_server_node.h"
@@ -40,8 +42,11 @@ int main(int argc, char** argv) {
     std::optional<Robot> referee;
     if (!referee_folder.empty())
       referee = LoadRefereeRobot(referee_folder, robot, robot_flags.Packages());
+    // Those of whoever asks for less lose messages as it is.
+    const int receive_buffer_bytes = std::max(
+        MulticastAddress::Parse(program.lcm_url()).receive_buffer_bytes, kReceiveBufferBytes);
     SceneService service(std::move(robot), std::move(referee), problem_folders,
-                         allow_standing_contacts);
+                         allow_standing_contacts, static_cast<std::size_t>(receive_buffer_bytes));
     Bus bus(program.lcm_url());
     SceneServerNode node(&bus, name, &service);
     bus.Start();

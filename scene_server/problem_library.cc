@@ -11,6 +11,7 @@
 #include "common/read_text.h"
 #include "messaging/channels.h"
 #include "messaging/codec.h"
+#include "messaging/packet_reader.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -78,6 +79,8 @@ std::string Summary(const std::vector<std::string>& warnings) {
   return fmt::format("{} (and {} more)", warnings.front(), warnings.size() - 1);
 }
 
+double Megabytes(std::size_t bytes) { return static_cast<double>(bytes) / 1e6; }
+
 /// With spheres for meshes, which go into a store on disk when they are sent.
 Scene WithoutMeshes(Scene scene) {
   const auto replace = [](SceneObject* object) {
@@ -91,11 +94,19 @@ Scene WithoutMeshes(Scene scene) {
 }
 
 /// Throws InputError for what others would not take off the bus: they would wait for it in vain.
+/// Returns its size, bytes.
 template <typename Message>
-void RequireDeliverable(Message message, const std::string& channel, const fs::path& file) {
+std::size_t RequireDeliverable(Message message, const std::string& channel, const fs::path& file) {
   message.request_id = file.filename().string();
   try {
-    Decode<Message>(Encode(message), channel);
+    const std::vector<std::uint8_t> bytes = Encode(message);
+    if (bytes.size() > PacketReader::kMaxMessageBytes) {
+      throw InputError(fmt::format("{}: cannot be sent: {:.0f} MB, of which a message has {:.0f}",
+                                   file.string(), Megabytes(bytes.size()),
+                                   Megabytes(PacketReader::kMaxMessageBytes)));
+    }
+    Decode<Message>(bytes, channel);
+    return bytes.size();
   } catch (const MessageError& error) {
     throw InputError(fmt::format("{}: cannot be sent: {}", file.string(), error.what()));
   }
@@ -117,8 +128,9 @@ std::string DescribeIndices(const std::vector<ProblemFiles>& problems) {
   return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
-ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& folders)
-    : robot_(&robot) {
+ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& folders,
+                               std::size_t receive_buffer_bytes)
+    : robot_(&robot), receive_buffer_bytes_(receive_buffer_bytes) {
   if (folders.empty()) throw InputError("--problems: at least one folder of problems is needed");
   try {
     for (const fs::path& folder : folders) {
@@ -210,7 +222,7 @@ std::shared_ptr<const Scene> ProblemLibrary::FindScene(const std::string& scene_
   const std::scoped_lock lock(mutex_);
   if (scenes_.count(scene_id) == 0) ReadAll();
   const auto found = scenes_.find(scene_id);
-  return found == scenes_.end() ? nullptr : found->second;
+  return found == scenes_.end() ? nullptr : found->second.scene;
 }
 
 const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFiles& files) {
@@ -222,30 +234,37 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   const YamlNode request_file = YamlNode::Parse(TextOf(files.request), files.request.string());
   Problem problem = ParseProblem(scene_file, request_file, *robot_,
                                  {files.scene.parent_path(), robot_->resources.packages});
-  for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
-
   ServedProblem served;
   served.message.problem_set = set.name;
   served.message.problem_index = files.index;
   served.message.scene_id = SceneId(problem.scene);
   RequireUnchanged(NamedBy(files), served.message.scene_id);
+  // Problems that differ only in their query share the scene.
+  auto known_scene = scenes_.find(served.message.scene_id);
+  if (known_scene == scenes_.end()) {
+    const Scene meshless = WithoutMeshes(problem.scene);
+    const std::size_t bytes = RequireDeliverable(
+        SceneMessage{"", SceneId(meshless), true, "", meshless}, channel::kScene, files.scene);
+    auto scene = std::make_shared<const Scene>(std::move(problem.scene));
+    known_scene =
+        scenes_.emplace(served.message.scene_id, KnownScene{std::move(scene), bytes}).first;
+  }
+  served.scene = known_scene->second.scene;
+  if (const std::size_t bytes = known_scene->second.bytes; bytes > receive_buffer_bytes_) {
+    problem.warnings.insert(
+        problem.warnings.begin(),
+        fmt::format("{}: the scene is a message of {:.1f} MB, and receive buffers hold {:.1f} MB: "
+                    "it may come late, or never; raise recv_buf_size of every process's --lcm-url, "
+                    "and net.core.rmem_max, or make it smaller",
+                    files.scene.string(), Megabytes(bytes), Megabytes(receive_buffer_bytes_)));
+  }
+  for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
   served.message.message = Summary(problem.warnings);
   served.message.group = problem.group;
   served.message.start = problem.start;
   served.message.goal = problem.goal;
   served.message.time_limit_s = problem.time_limit_s;
   RequireDeliverable(served.message, channel::kProblem, files.request);
-  // Problems that differ only in their query share the scene.
-  const std::string& scene_id = served.message.scene_id;
-  auto scene = scenes_.find(scene_id);
-  if (scene == scenes_.end()) {
-    const Scene meshless = WithoutMeshes(problem.scene);
-    RequireDeliverable(SceneMessage{"", SceneId(meshless), true, "", meshless}, channel::kScene,
-                       files.scene);
-    scene =
-        scenes_.emplace(scene_id, std::make_shared<const Scene>(std::move(problem.scene))).first;
-  }
-  served.scene = scene->second;
   return problems_.emplace(key, std::move(served)).first->second;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -28,9 +29,11 @@ class ProblemLibrary {
  public:
   /// Each folder is a set, or, if it holds no problem itself, a folder of sets, at any depth. The
   /// first problem of every set is read: that it cannot be is logged, so that a set for another
-  /// robot is noticed here. Throws InputError: no such folder, no problem in it, two sets of one
+  /// robot is noticed here. `receive_buffer_bytes`: of those who receive scenes; one that is larger
+  /// is served with a warning. Throws InputError: no such folder, no problem in it, two sets of one
   /// name (both folders named).
-  ProblemLibrary(const Robot& robot, const std::vector<std::filesystem::path>& folders);
+  ProblemLibrary(const Robot& robot, const std::vector<std::filesystem::path>& folders,
+                 std::size_t receive_buffer_bytes);
 
   /// By name.
   const std::map<std::string, ProblemSet>& sets() const { return sets_; }
@@ -57,11 +60,16 @@ class ProblemLibrary {
   void ReadAll();
 
   const Robot* robot_;
+  std::size_t receive_buffer_bytes_;
   std::map<std::string, ProblemSet> sets_;
   std::mutex mutex_;
   std::map<std::pair<std::string, int>, ServedProblem> problems_;  // by set and index
-  std::map<std::string, std::shared_ptr<const Scene>> scenes_;     // by content id
-  std::map<std::string, std::string> ids_;  // what RequireUnchanged was first told
+  struct KnownScene {
+    std::shared_ptr<const Scene> scene;
+    std::size_t bytes;  // as a message
+  };
+  std::map<std::string, KnownScene> scenes_;  // by content id
+  std::map<std::string, std::string> ids_;    // what RequireUnchanged was first told
   bool all_read_ = false;
 };
 

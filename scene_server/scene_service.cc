@@ -41,10 +41,10 @@ Reply AnswerOrRefuse(const std::string& request_id, Answer answer) {
 
 SceneService::SceneService(Robot robot, std::optional<Robot> mesh_robot,
                            const std::vector<std::filesystem::path>& problem_folders,
-                           bool allow_standing_contacts)
+                           bool allow_standing_contacts, std::size_t receive_buffer_bytes)
     : robot_(std::move(robot)),
       mesh_robot_(std::move(mesh_robot)),
-      library_(robot_, problem_folders),
+      library_(robot_, problem_folders, receive_buffer_bytes),
       collision_(robot_),
       referee_(robot_, mesh_robot_ ? &*mesh_robot_ : nullptr) {
   if (mesh_robot_) SettleStandingContacts(allow_standing_contacts);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "messaging/messages.h"
+#include "messaging/multicast_receiver.h"
 #include "robot_model/robot_folder.h"
 #include "scene_server/collision_service.h"
 #include "scene_server/path_referee.h"
@@ -27,10 +29,12 @@ class SceneService {
  public:
   /// `mesh_robot`: the referee's, whose meshes judge paths too (see LoadRefereeRobot). If links of
   /// it touch in every configuration, as the first problem of a set has it, they are allowed to and
-  /// named, or refused. Throws InputError as ProblemLibrary and PathReferee do, and for such links.
+  /// named, or refused. `receive_buffer_bytes`: ProblemLibrary's. Throws InputError as
+  /// ProblemLibrary and PathReferee do, and for such links.
   SceneService(Robot robot, std::optional<Robot> mesh_robot,
                const std::vector<std::filesystem::path>& problem_folders,
-               bool allow_standing_contacts = false);
+               bool allow_standing_contacts = false,
+               std::size_t receive_buffer_bytes = kReceiveBufferBytes);
   // Its parts refer to each other.
   SceneService(const SceneService&) = delete;
   SceneService& operator=(const SceneService&) = delete;

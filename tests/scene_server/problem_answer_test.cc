@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -140,6 +141,29 @@ fixed_frame_transforms:
   EXPECT_THAT(answer.problem.message,
               AllOf(HasSubstr("scene0002.yaml: cannot be sent: SCENE: frame[1]"),
                     HasSubstr("occurs twice")));
+}
+
+TEST(ProblemAnswer, OfASceneThatReceiveBuffersDoNotHoldTheSizeIsTold) {
+  const TemporaryFolder folder;
+  const fs::path set = folder.path() / "cans";
+  Problem large = TinyProblem();
+  large.scene.objects[0].shapes.resize(3000, large.scene.objects[0].shapes[0]);
+  WriteTinyProblem(large, set, 1);
+  WriteTinyProblem(large, set, 2);  // of the same scene
+  const Robot robot = LoadRobot(WriteTinyRobot(folder));
+  const auto told = [&](std::size_t receive_buffer_bytes, int index) {
+    SceneService service(robot, std::nullopt, {set}, false, receive_buffer_bytes);
+    const ProblemMessage problem = service.AnswerProblem({"id", "cans", index}).problem;
+    EXPECT_TRUE(problem.ok);
+    return problem.message;
+  };
+  EXPECT_EQ(told(300'000, 1), "");
+  for (const int index : {1, 2}) {
+    EXPECT_THAT(
+        told(200'000, index),
+        AllOf(HasSubstr(fmt::format("scene000{}.yaml: the scene is a message of 0.3 MB", index)),
+              HasSubstr("hold 0.2 MB"), HasSubstr("recv_buf_size")));
+  }
 }
 
 TEST(ProblemAnswer, ProblemsAreReadOnceAndKept) {
