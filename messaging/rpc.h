@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -98,10 +99,12 @@ class RpcClient {
 
 /// Server half: answers each request on a thread of its own, in order, one at a time. A request
 /// that is repeated while it waits or is being answered is not queued again; one answered lately is
-/// answered from memory.
+/// answered from memory. One that comes when kMostWaiting wait is dropped: it will be repeated.
 template <typename Request, typename Reply>
 class RpcServer {
  public:
+  static constexpr std::size_t kMostWaiting = Bus::kDefaultQueueCapacity;
+
   /// `answer` must set nothing but the content: request_id is copied by the server. What it throws
   /// as InputError becomes a reply with ok = false and the message.
   RpcServer(Bus* bus, const std::string& request_channel, std::string reply_channel,
@@ -131,6 +134,7 @@ class RpcServer {
       bus_->PublishBytes(reply_channel_, *reply);
       return;
     }
+    if (queue_.size() >= kMostWaiting) return;
     if (!pending_.insert(request.request_id).second) return;
     queue_.push_back(request);
     changed_.notify_all();

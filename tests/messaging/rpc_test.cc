@@ -106,6 +106,23 @@ TEST_F(RpcServerTest, DoesNotQueueARequestTwice) {
   EXPECT_EQ(replies_.messages().size(), 3u);
 }
 
+TEST_F(RpcServerTest, DropsWhatComesWhenTooManyRequestsWait) {
+  Send({"slow", "slow", 1});
+  ASSERT_TRUE(WaitUntil([&] { return num_answers_ == 1; }));
+  MessageCollector<DiscoverMessage> barriers(&bus_, channel::kDiscover);
+  std::size_t num_sent = 0;
+  for (std::size_t num_barriers = 1; num_sent <= Server::kMostWaiting; ++num_barriers) {
+    // Fewer at once than the bus itself drops.
+    for (int i = 0; i < 100; ++i) Send({std::to_string(num_sent++), "set", 1});
+    bus_.Publish(channel::kDiscover, DiscoverMessage{"test"});
+    ASSERT_EQ(barriers.WaitFor(num_barriers).size(), num_barriers);
+  }
+  release_.set_value();
+  // Comes after all that wait.
+  EXPECT_TRUE(client_.Call({"another", "set", 1}, kRetry, kTestPatience));
+  EXPECT_EQ(num_answers_, static_cast<int>(Server::kMostWaiting) + 2);
+}
+
 TEST_F(RpcServerTest, InputErrorsBecomeRefusals) {
   const auto reply = client_.Call({"id", "unknown", 1}, kRetry, kTestPatience);
   ASSERT_TRUE(reply);
