@@ -217,7 +217,8 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   const auto bind_columns = [&](SqliteStatement* statement, int parameter) {
     for (const SqliteValue& value : values) statement->Bind(++parameter, value);
   };
-  if (const auto known = FindRun(record)) {
+  const auto known = FindRun(record);
+  if (known) {
     bind_columns(&find_equal_run_.BindAll(known->id), 1);
     const auto& request_step_m = record.request.edge_resolution_m;
     find_equal_run_.Bind(static_cast<int>(values.size()) + 2,
@@ -243,7 +244,7 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   InsertPath(run, "raw", result.path, record.result.joint_names);
   InsertPath(run, "simplified", result.simplified_path, record.result.joint_names);
   transaction.Commit();
-  return Outcome::kStored;
+  return known ? Outcome::kReplaced : Outcome::kStored;
 }
 
 std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecordMessage& record) {

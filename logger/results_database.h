@@ -37,11 +37,11 @@ class ResultsDatabase {
   /// Stores a session or its later state, by SessionOrder: a late repetition changes nothing.
   void Store(const SessionMessage& session);
 
-  enum class Outcome { kStored, kAlreadyStored, kContradicts };
-  /// Stores a run. Of records with the same run_id and request_id the first that tells of a request
-  /// counts, or, if none does, the one of the last attempt, and of a disturbed attempt and its
-  /// repeats the last (asked_runs.h); others repeat or contradict it. Throws InputError for a
-  /// record that contradicts itself.
+  enum class Outcome { kStored, kReplaced, kAlreadyStored, kContradicts };
+  /// Stores a run, maybe in the place of another record of it. Of records with the same run_id and
+  /// request_id the first that tells of a request counts, or, if none does, the one of the last
+  /// attempt, and of a disturbed attempt and its repeats the last (asked_runs.h); others repeat or
+  /// contradict it. Throws InputError for a record that contradicts itself.
   Outcome Store(const RunRecordMessage& record);
 
   /// SessionJson of every session, oldest first.

@@ -43,12 +43,11 @@ void SessionRecorder::Restore() {
         Store(message, &id);  // what was refused when it came is again
       });
   for (const std::string& line : passed_over) spdlog::warn("{}", line);
-  if (tally_.runs > 0) {
-    spdlog::warn("{} lacked {} runs of the event log: they are stored again",
-                 folder_.results().string(), tally_.runs);
+  if (const auto lacked = tally_.runs + tally_.replacements; lacked > 0) {
+    spdlog::warn("{} lacked {} run records of the event log: they are stored again",
+                 folder_.results().string(), lacked);
   }
   tally_ = {};
-  counted_.clear();
   DescribeSessions();
 }
 
@@ -97,8 +96,8 @@ bool SessionRecorder::Report(const std::string& bus) {
   bus_ = AddBusJson(bus_, bus);
   is_bus_told_ = true;
   if (!bus.empty() || event_log_.num_files() > 1 || IsFile(folder_.run_json())) DescribeSessions();
-  spdlog::info("recorded {} messages, {} runs ({} records came again)", tally_.events, tally_.runs,
-               tally_.repetitions);
+  spdlog::info("recorded {} messages, {} runs ({} records came again, {} were replaced)",
+               tally_.events, tally_.runs, tally_.repetitions, tally_.replacements);
   for (const IncompleteSession& session : database_.IncompleteSessions()) {
     spdlog::warn("session {} {} {} runs, of which {} are recorded here", session.run_id,
                  session.finished ? "finished with" : "has not finished and was to have",
@@ -126,8 +125,10 @@ std::string SessionRecorder::Store(const ReceivedMessage& message, std::string* 
       *id = RunRecordAckId(record);
       switch (database_.Store(record)) {
         case ResultsDatabase::Outcome::kStored:
-          // A record that replaces another is no further run.
-          tally_.runs += counted_.emplace(record.run_id, record.request_id).second;
+          ++tally_.runs;
+          break;
+        case ResultsDatabase::Outcome::kReplaced:
+          ++tally_.replacements;
           break;
         case ResultsDatabase::Outcome::kAlreadyStored:
           ++tally_.repetitions;

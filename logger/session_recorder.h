@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 
 #include "logger/message_queue.h"
 #include "logger/results_database.h"
@@ -17,10 +15,11 @@ namespace planbench {
 
 /// What a logger has done.
 struct RecorderTally {
-  std::int64_t events = 0;       ///< Written to the event log.
-  std::int64_t runs = 0;         ///< Of which records were stored in the database.
-  std::int64_t repetitions = 0;  ///< Run records that were stored already.
-  std::int64_t failures = 0;     ///< Run records and sessions that could not be stored.
+  std::int64_t events = 0;        ///< Written to the event log.
+  std::int64_t runs = 0;          ///< Of which the database had no record.
+  std::int64_t replacements = 0;  ///< Run records that took the place of others.
+  std::int64_t repetitions = 0;   ///< Run records that were stored already.
+  std::int64_t failures = 0;      ///< Run records and sessions that could not be stored.
 };
 
 /// Writes messages into a session folder: each into the event log; run records and sessions,
@@ -74,7 +73,6 @@ class SessionRecorder {
   EventLog event_log_;
   ResultsDatabase database_;
   RecorderTally tally_;
-  std::set<std::pair<std::string, std::string>> counted_;  ///< Runs: run id and request id.
   std::string bus_;           ///< Of the parts of the session before, and of this one at its end.
   bool is_bus_told_ = false;  ///< Of this one.
 };

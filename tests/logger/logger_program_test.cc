@@ -168,7 +168,7 @@ TEST_F(LoggerProgramTest, AResumedOneTellsOfDamageAndKeepsWhatFollowsIt) {
   EXPECT_GE(std::filesystem::file_size(log), size);
   EXPECT_NE(Stderr().find(log.string() + ": "), std::string::npos) << Stderr();
   EXPECT_NE(Stderr().find("from byte 0 on are passed over"), std::string::npos) << Stderr();
-  EXPECT_NE(Stderr().find("lacked 1 runs of the event log"), std::string::npos) << Stderr();
+  EXPECT_NE(Stderr().find("lacked 1 run records of the event log"), std::string::npos) << Stderr();
 }
 
 TEST_F(LoggerProgramTest, AKilledOneCanBeResumed) {

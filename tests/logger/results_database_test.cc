@@ -257,12 +257,12 @@ TEST_F(ResultsDatabaseTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   RunRecordMessage not_asked_again = not_asked;
   not_asked_again.start_utime += 1;
   not_asked_again.message = "given up: it died again";
-  EXPECT_EQ(database_.Store(not_asked_again), Outcome::kStored) << "the session was resumed";
+  EXPECT_EQ(database_.Store(not_asked_again), Outcome::kReplaced) << "the session was resumed";
   for (const RunRecordMessage& record : {not_asked, not_asked_again}) {
     EXPECT_EQ(database_.Store(record), Outcome::kAlreadyStored) << "as when a log is read anew";
     EXPECT_EQ(Run("message"), SqliteValue(not_asked_again.message));
   }
-  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kStored);
+  EXPECT_EQ(database_.Store(SampleRecord()), Outcome::kReplaced);
   EXPECT_EQ(Count("runs"), Int(1));
   EXPECT_EQ(Run("solved"), Int(1));
   EXPECT_EQ(Count("progress"), Int(2));
@@ -281,7 +281,7 @@ TEST_F(ResultsDatabaseTest, ADisturbedRunGivesWayToItsRepeat) {
     record.result.result.counters["disturbed"] = repeats < 2 ? 1 : 0;
     record.result.result.counters["repeats"] = repeats;
     attempts.push_back(record);
-    EXPECT_EQ(database_.Store(record), Outcome::kStored);
+    EXPECT_EQ(database_.Store(record), repeats == 0 ? Outcome::kStored : Outcome::kReplaced);
     EXPECT_EQ(Count("runs"), Int(1));
     EXPECT_EQ(Count("progress"), Int(2));
   }
@@ -303,7 +303,7 @@ TEST_F(ResultsDatabaseTest, ADisturbedRunGivesWayToARepeatThatKilledThePlanner) 
   crashed.roundtrip_time_s = 0.5;
   crashed.result.result.counters["repeats"] = 1;
   database_.Store(disturbed);
-  EXPECT_EQ(database_.Store(crashed), Outcome::kStored);
+  EXPECT_EQ(database_.Store(crashed), Outcome::kReplaced);
   EXPECT_EQ(Run("solved"), Int(0));
 }
 

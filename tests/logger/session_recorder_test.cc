@@ -87,8 +87,9 @@ TEST_F(SessionRecorderTest, AcknowledgesARepetitionAgain) {
   EXPECT_EQ(recorder->tally().failures, 0);
   testing::internal::CaptureStdout();
   recorder->Report();
-  EXPECT_NE(testing::internal::GetCapturedStdout().find("1 runs (1 records came again)"),
-            std::string::npos)
+  EXPECT_NE(
+      testing::internal::GetCapturedStdout().find("1 runs (1 records came again, 0 were replaced)"),
+      std::string::npos)
       << "no word of repeats, which runs are that were disturbed";
 }
 
@@ -186,6 +187,7 @@ TEST_F(SessionRecorderTest, ARunWhoseRecordIsReplacedIsCountedOnce) {
     recorder->Record(Received(channel::kRunRecord, record));
   }
   EXPECT_EQ(recorder->tally().runs, 1);
+  EXPECT_EQ(recorder->tally().replacements, 2);
   EXPECT_EQ(recorder->tally().repetitions, 0);
   recorder->Record(Received(channel::kRunRecord, SampleRecord("b")));
   EXPECT_EQ(recorder->tally().runs, 2);
