@@ -68,7 +68,7 @@ TEST_F(RunExecutorTest, FetchesTheProblemHasItSolvedAndJudged) {
 
 TEST_F(RunExecutorTest, AProblemThatIsAnotherThanBeforeIsNone) {
   FakeSceneServer server(&bus_);
-  ASSERT_TRUE(executor_.AskForProblem("cans", 2, [] { return false; })->ok);
+  ASSERT_TRUE(executor_.AskForProblem("cans", 2, [] { return false; }).value().ok);
   server.AlterProblems([](ProblemMessage* problem) { problem->goal[0].position += 1; });
   const auto record = Execute();
   ASSERT_TRUE(record);
