@@ -26,9 +26,10 @@ int main(int argc, char** argv) {
     options.split_bytes.reset();
     if (split_mb > 0) options.split_bytes = static_cast<std::uintmax_t>(split_mb) << 20;
     if (!from.empty()) return RebuildSession(from, options) ? kExitOk : kExitFailed;
+    const auto stop = AwaitStopSignals();  // before anything is on the disk that is to be closed
     Bus bus(program.lcm_url());
     LoggerNode logger(&bus, options);
     bus.Start();
-    return logger.Run(AwaitStopSignals()) ? kExitOk : kExitFailed;
+    return logger.Run(stop) ? kExitOk : kExitFailed;
   });
 }
