@@ -200,6 +200,20 @@ TEST_P(CollisionCheckerContract, SamplesAreJudgedAsTheirConfigurations) {
   EXPECT_GT(num_blocked, 50);
 }
 
+/// Expects the oracle to find configurations of a stretch free, those within limits.
+void ExpectFreeAlong(const MotionSample& stretch, const std::vector<double>& start,
+                     const std::vector<double>& motion, const CollisionChecker& checker,
+                     const Scene& scene, const std::vector<double>& base) {
+  for (int k = -10; k <= 10; ++k) {
+    const double position = stretch.position + k / 10.0 * stretch.half_length;
+    std::vector<double> q(start);
+    for (std::size_t j = 0; j < q.size(); ++j) q[j] += position * motion[j];
+    if (!checker.space().WithinLimits(q)) continue;
+    const auto pairs = OraclePairs(checker.robot(), checker.group(), scene, base, q);
+    EXPECT_GT(OracleClearance(pairs), 0);
+  }
+}
+
 TEST_P(CollisionCheckerContract, StretchesProvenFreeAreFree) {
   const Robot arm = MakeTestArm();
   const auto checker = Make(arm);
@@ -222,14 +236,7 @@ TEST_P(CollisionCheckerContract, StretchesProvenFreeAreFree) {
       if (verdicts.blocked != 0) continue;
       ++num_proven;
       for (const MotionSample& stretch : stretches) {
-        for (int k = -10; k <= 10; ++k) {
-          const double position = stretch.position + k / 10.0 * stretch.half_length;
-          std::vector<double> q(start);
-          for (std::size_t j = 0; j < q.size(); ++j) q[j] += position * motion[j];
-          if (!space.WithinLimits(q)) continue;
-          EXPECT_GT(
-              OracleClearance(OraclePairs(arm, checker->group(), world.scene, ArmBase(arm), q)), 0);
-        }
+        ExpectFreeAlong(stretch, start, motion, *checker, world.scene, ArmBase(arm));
       }
     }
   }
@@ -276,14 +283,7 @@ TEST_P(CollisionCheckerContract, CutsProvenFreeAreFree) {
           continue;
         }
         ++num_proven;
-        for (const double side : {-1, 0, 1}) {
-          const double position = cuts[k].position + side * cuts[k].half_length;
-          std::vector<double> q(start);
-          for (std::size_t j = 0; j < q.size(); ++j) q[j] += position * motion[j];
-          if (!space.WithinLimits(q)) continue;
-          EXPECT_GT(
-              OracleClearance(OraclePairs(arm, checker->group(), world.scene, ArmBase(arm), q)), 0);
-        }
+        ExpectFreeAlong(cuts[k], start, motion, *checker, world.scene, ArmBase(arm));
       }
     }
   }
