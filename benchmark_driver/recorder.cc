@@ -45,22 +45,25 @@ void Recorder::OnAck(const AckMessage& ack, const Origin& origin) {
     return;
   }
   Logger& logger = found->second;
-  logger.silent = false;
-  ++num_acks_;
   // A record that cannot be decoded is refused without its repeat: ID#1 to ID#9... may be meant.
   const auto last = awaited_.upper_bound(ack.ok ? ack.id : ack.id + "#:");
   const auto record = std::find_if(awaited_.lower_bound(ack.id), last,
                                    [&](const auto& one) { return !logger.Has(one.second); });
   if (session_ && ack.id == SessionAckId(*session_)) {
-    if (!ack.ok && logger.session != ack.id) {
+    if (logger.session == ack.id) return;
+    if (!ack.ok) {
       spdlog::error("the logger '{}' refuses the session: {}", logger.name, ack.message);
     }
     logger.session = ack.id;
-  } else if (record != last) {
+  } else if (record == last) {
+    return;  // what it knows, or nobody sent: whoever says no more than that is silent
+  } else {
     logger.beyond.insert(record->second);
     if (!ack.ok) logger.refused[record->second] = ack.message;
     while (logger.beyond.erase(logger.next) > 0) ++logger.next;
   }
+  logger.silent = false;
+  ++num_acks_;
   changed_.notify_all();
 }
 

@@ -23,7 +23,7 @@ namespace planbench {
 /// once that nobody records, and once that somebody does again. Thread-safe.
 class Recorder {
  public:
-  /// How long a live logger may say nothing before it is no longer waited for.
+  /// How long a live logger may acknowledge nothing new before it is no longer waited for.
   std::chrono::milliseconds silence_patience{10'000};
   /// How long it is waited at the end for a logger that was there to come back.
   std::chrono::milliseconds return_patience{15'000};

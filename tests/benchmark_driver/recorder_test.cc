@@ -228,6 +228,19 @@ TEST_F(RecorderTest, AcknowledgementOfAnotherRecordOrByAStrangerIsNone) {
   EXPECT_EQ(bus_.contradictions().count(), 1);
 }
 
+TEST_F(RecorderTest, ALoggerThatAcknowledgesNothingButOtherRecordsIsNotWaitedFor) {
+  FakeLogger logger(&bus_);
+  logger.num_to_ignore = 1'000'000;
+  const Subscription others =
+      bus_.Subscribe<RunRecordMessage>(channel::kRunRecord, [this](const RunRecordMessage&) {
+        bus_.Publish(channel::kRunRecordAck, AckMessage{"another", "logger", true, ""});
+      });
+  AwaitLogger();
+  recorder_.silence_patience = std::chrono::milliseconds(800);  // more than until it is sent again
+  recorder_.Record(RunOf("a"));
+  EXPECT_EQ(recorder_.num_unrecorded(), 1u);
+}
+
 TEST(RecordSpoolTest, GivesBackWhatItWasGivenInMemoryAndBeyond) {
   RecordSpool spool(100);
   for (int i = 0; i < 50; ++i) {
