@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <exception>
 #include <set>
 #include <string_view>
 #include <thread>
@@ -149,20 +150,33 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
 }
 
-void StopProcesses(const std::vector<LineUpEntry>& line_up, Bus* bus, Supervisor* supervisor) {
-  std::vector<std::string> order;
-  std::set<std::string> foreign;
+ProcessStopper::ProcessStopper(const std::vector<LineUpEntry>& line_up, Bus* bus,
+                               Supervisor* supervisor)
+    : bus_(bus), supervisor_(supervisor) {
   for (const LineUpEntry& entry : line_up) {
-    order.push_back(entry.contestant.planner);
-    if (!entry.contestant.command.empty()) foreign.insert(entry.contestant.planner);
+    planners_.push_back(entry.contestant.planner);
+    if (!entry.contestant.command.empty()) foreign_.insert(entry.contestant.planner);
   }
+}
+
+ProcessStopper::~ProcessStopper() {
+  try {
+    Stop();
+  } catch (const std::exception& error) {
+    spdlog::error("what still runs is not known: {}", error.what());
+  }
+}
+
+void ProcessStopper::Stop() {
+  if (std::exchange(stopped_, true)) return;
+  std::vector<std::string> order = planners_;
   order.insert(order.end(), {kSceneServer, kLogger});
-  supervisor->StopAll(order);
+  supervisor_->StopAll(order);
   // Our own do not leave their process group: there is nobody to wait for.
-  if (foreign.empty()) return;
+  if (foreign_.empty()) return;
   // Four of its announcements, however loaded the machine is.
-  for (const NodeStatusMessage& node : WhoAnswers(bus, std::chrono::seconds(2))) {
-    if (node.kind != NodeKind::kPlanner || !foreign.contains(node.name)) continue;
+  for (const NodeStatusMessage& node : WhoAnswers(bus_, std::chrono::seconds(2))) {
+    if (node.kind != NodeKind::kPlanner || !foreign_.contains(node.name)) continue;
     spdlog::warn("the {} still runs: its command has taken it out of its process group; end it",
                  Named(node));
   }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "benchmark_driver/driver_options.h"
 #include "benchmark_driver/supervisor.h"
@@ -37,8 +39,24 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor);
 
-/// Stops them: planners and scene server first, the logger last, so that it stores what was still
-/// under way. Planners of commands that are live on the bus all the same are named.
-void StopProcesses(const std::vector<LineUpEntry>& line_up, Bus* bus, Supervisor* supervisor);
+/// Stops what was launched, when it goes at the latest: however a session ends.
+class ProcessStopper {
+ public:
+  ProcessStopper(const std::vector<LineUpEntry>& line_up, Bus* bus, Supervisor* supervisor);
+  ~ProcessStopper();
+  ProcessStopper(const ProcessStopper&) = delete;
+  ProcessStopper& operator=(const ProcessStopper&) = delete;
+
+  /// Planners and scene server first, the logger last, so that it stores what was still under way.
+  /// Planners of commands that are live on the bus all the same are named. Once.
+  void Stop();
+
+ private:
+  std::vector<std::string> planners_;
+  std::set<std::string> foreign_;  // of commands
+  Bus* bus_;
+  Supervisor* supervisor_;
+  bool stopped_ = false;
+};
 
 }  // namespace planbench

@@ -84,10 +84,12 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   std::optional<NewSessionFolder> new_folder;
   if (options.launch) new_folder.emplace(folder);
   std::optional<Supervisor> supervisor;
+  std::optional<ProcessStopper> stopper;
   bus.Start();
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor.emplace();
+    stopper.emplace(line_up, &bus, &*supervisor);
     // The driver hands out the log's scenes; a planner may need more of a scene server than that.
     if (!options.problems.empty()) LaunchSceneServer(options, folder / "logs", url, &*supervisor);
     LaunchPlanners(options, line_up, folder / "logs", url, &*supervisor);
@@ -122,7 +124,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
     WriteOut(fmt::format("{}\n", line));
     std::fflush(stdout);
   });
-  if (supervisor) supervisor->StopAll(planners);
+  if (stopper) stopper->Stop();
   if (interrupted()) WriteOut("Interrupted: what follows is incomplete.\n");
   WriteOut(fmt::format("\n{}", replay.Table()));
   for (const std::string& line : missing_runs) WriteOut(fmt::format("{}\n", line));

@@ -199,10 +199,12 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::unique_ptr<Supervisor> supervisor;
+  std::optional<ProcessStopper> stopper;
   bus.Start();
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor = std::make_unique<Supervisor>();
+    stopper.emplace(line_up, &bus, supervisor.get());
     LaunchProcesses(options, line_up, session_folder, url, supervisor.get());
   }
 
@@ -258,8 +260,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   const SessionTables tables =
       MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing,
                  driver.left_out(), driver.num_owed(), driver.num_to_repeat());
-  if (supervisor) {
-    StopProcesses(line_up, &bus, supervisor.get());
+  if (stopper) {
+    stopper->Stop();
     WriteTables(session_folder / "tables.txt", tables.full);
     WriteOut(fmt::format("Session folder: {}\n", session_folder.string()));
   }

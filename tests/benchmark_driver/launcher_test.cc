@@ -27,7 +27,7 @@ TEST(RequireProgramsTest, EveryContestantNeedsAProgramOrACommand) {
                    {"'prm'", "ara, rrtc", "--planner-command mine="});
 }
 
-TEST(StopProcessesTest, OfPlannersThatAreLiveThoseOfACommandAreNamed) {
+TEST(ProcessStopperTest, OfPlannersThatAreLiveThoseOfACommandAreNamedOnceHoweverASessionEnds) {
   Bus bus("memq://");
   bus.Start();
   const auto announce = [&](const std::string& name) {
@@ -42,12 +42,19 @@ TEST(StopProcessesTest, OfPlannersThatAreLiveThoseOfACommandAreNamed) {
   line_up[0].contestant.command = "./mine";
   line_up[1].contestant.planner = "own";
   Supervisor supervisor;
-  testing::internal::CaptureStdout();  // Where messages go.
-  StopProcesses(line_up, &bus, &supervisor);
-  const std::string output = testing::internal::GetCapturedStdout();
-  EXPECT_THAT(output, testing::HasSubstr("the planner 'mine' (host "));
-  EXPECT_THAT(output, testing::Not(testing::HasSubstr("'own'")));
-  EXPECT_THAT(output, testing::Not(testing::HasSubstr("'elsewhere'")));
+  for (const bool ends_well : {true, false}) {
+    testing::internal::CaptureStdout();  // Where messages go.
+    {
+      ProcessStopper stopper(line_up, &bus, &supervisor);
+      if (ends_well) stopper.Stop();
+    }
+    const std::string output = testing::internal::GetCapturedStdout();
+    const std::string named = "the planner 'mine' (host ";
+    EXPECT_THAT(output, testing::HasSubstr(named));
+    EXPECT_EQ(output.find(named), output.rfind(named)) << output;
+    EXPECT_THAT(output, testing::Not(testing::HasSubstr("'own'")));
+    EXPECT_THAT(output, testing::Not(testing::HasSubstr("'elsewhere'")));
+  }
 }
 
 }  // namespace

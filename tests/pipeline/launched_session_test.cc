@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "messaging/node_registry.h"
 #include "messaging/record_log.h"
 #include "tests/pipeline/pipeline_fixture.h"
 
@@ -232,17 +233,50 @@ TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScri
   }
 }
 
+/// A planner `mine` that leaves its process group.
+std::string LeavingCommand(const std::string& program, const std::string& robot) {
+  return fmt::format("mine=setsid {} --robot {} --name mine & exec sleep 1000", program, robot);
+}
+
 TEST_F(LaunchedSession, APlannerThatLeftItsProcessGroupIsNamedWhenItOutlivesTheSession) {
   ChildProcess* driver = StartLaunchedDriver(
       folder() / "session",
       {"--problems-range", "1", "--time", "30", "--planners", "mine", "--planner-command",
-       fmt::format("mine=setsid {} --robot {} --name mine & exec sleep 1000",
-                   Program("planner_rrtc"), RobotFolder())});
+       LeavingCommand(Program("planner_rrtc"), RobotFolder())});
   EXPECT_EQ(driver->Wait(), 0) << driver->Errors();
   const int planner = PidOf("planner_rrtc");
   ASSERT_GT(planner, 0);
   kill(planner, SIGTERM);
   EXPECT_THAT(driver->Errors(), testing::HasSubstr(fmt::format(", pid {}) still runs: ", planner)));
+}
+
+TEST_F(LaunchedSession, APlannerThatLeftItsProcessGroupIsNamedWhenASignalOrAnErrorEndsTheSession) {
+  Bus bus(url());
+  NodeRegistry registry(&bus);
+  bus.Start();
+  const auto mine = [&] { return registry.Find("mine", NodeKind::kPlanner).has_value(); };
+  for (const bool is_signal : {true, false}) {
+    // Another is waited for before the first run, until there is that file: then it refuses.
+    const std::filesystem::path refuses = folder() / "refuses";
+    ChildProcess* driver = StartLaunchedDriver(
+        folder() / fmt::format("session{}", is_signal),
+        {"--lcm-url", url(), "--planners", "mine,late", "--planner-command",
+         fmt::format("late=until [ -e {} ]; do sleep 0.1; done; exit 2", refuses.string()),
+         "--planner-command", LeavingCommand(Program("planner_rrtc"), RobotFolder())});
+    ASSERT_TRUE(registry.WaitUntil(mine, kTestPatience)) << driver->Errors();
+    if (is_signal) {
+      driver->Signal(SIGTERM);
+    } else {
+      std::ofstream(refuses) << "\n";
+    }
+    EXPECT_EQ(driver->Wait(), is_signal ? 1 : 2) << driver->Errors();
+    const int planner = PidOf("planner_rrtc");
+    ASSERT_GT(planner, 0);
+    kill(planner, SIGTERM);
+    EXPECT_THAT(driver->Errors(),
+                testing::HasSubstr(fmt::format(", pid {}) still runs: ", planner)));
+    ASSERT_TRUE(registry.WaitUntil([&] { return registry.Live().empty(); }, kTestPatience));
+  }
 }
 
 }  // namespace
