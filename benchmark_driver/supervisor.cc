@@ -277,12 +277,11 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
     }
   }
   for (const std::string& name : names) {
-    std::optional<Clock::time_point> asked;
-    bool killed = false;
+    std::optional<Clock::time_point> asked, killed;
     while (true) {
       {
         const std::scoped_lock lock(mutex_);
-        const Child* child = Find(name);
+        Child* child = Find(name);
         if (child == nullptr || child->pid < 0) break;
         if (!asked) {
           kill(-child->pid, SIGTERM);
@@ -290,7 +289,12 @@ void Supervisor::StopAll(const std::vector<std::string>& order,
         } else if (!killed && Clock::now() - *asked > patience) {
           spdlog::error("{} does not end; killing it", name);
           kill(-child->pid, SIGKILL);
-          killed = true;
+          killed = Clock::now();
+        } else if (killed && Clock::now() - *killed > death_patience) {
+          spdlog::error(
+              "{} (pid {}) was killed and has not ended: a debugger or a disk may hold it", name,
+              child->pid);
+          child->pid = -1;
         }
       }
       std::this_thread::sleep_for(kExitPoll);

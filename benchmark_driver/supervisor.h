@@ -38,7 +38,8 @@ class Supervisor {
 
   void Start(ChildSpec spec);
   /// Asks the children to end (SIGTERM) in the given order, each waited for up to `patience`, then
-  /// killed. Others follow, the last started first.
+  /// killed. Others follow, the last started first. What even then does not end within
+  /// `death_patience`, as one that a debugger or a disk holds, is named and left behind.
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// That child's process does its work, so that it will not have died of its start: quick deaths
@@ -54,6 +55,9 @@ class Supervisor {
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
   /// How often that child died after it had come up, unless it was told to end, or killed here.
   int NumDeathsAtWork(const std::string& name);
+
+  /// How long a child that was killed may take to be gone.
+  std::chrono::milliseconds death_patience{10'000};
 
   static constexpr int kMaxQuickDeaths = 5;
   static constexpr std::chrono::seconds kQuick{5};

@@ -1,12 +1,15 @@
 #include "benchmark_driver/supervisor.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -318,6 +321,33 @@ TEST_F(SupervisorTest, KillsWhatDoesNotEnd) {
   const pid_t pid = std::stoi(AwaitOutput(1).at(0));
   supervisor.StopAll({}, milliseconds(50));
   EXPECT_FALSE(IsRunning(pid));
+}
+
+TEST_F(SupervisorTest, WhatIsHeldThoughItWasKilledIsNamedAndLeftBehind) {
+  Supervisor supervisor;
+  supervisor.death_patience = milliseconds(200);
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
+  std::array<int, 2> pipe_ends = {};
+  ASSERT_EQ(pipe(pipe_ends.data()), 0);
+  const pid_t debugger = fork();
+  ASSERT_GE(debugger, 0);
+  if (debugger == 0) {
+    const char holds = ptrace(PTRACE_SEIZE, pid, nullptr, nullptr) == 0 ? 1 : 0;
+    if (write(pipe_ends[1], &holds, 1) == 1) pause();
+    _exit(1);
+  }
+  char holds = 0;
+  EXPECT_EQ(read(pipe_ends[0], &holds, 1), 1);
+  testing::internal::CaptureStdout();  // Where messages go.
+  supervisor.StopAll({}, milliseconds(50));
+  const std::string output = testing::internal::GetCapturedStdout();
+  kill(debugger, SIGKILL);
+  waitpid(debugger, nullptr, 0);
+  for (const int end : pipe_ends) close(end);
+  if (holds == 0) GTEST_SKIP() << "no process may be traced here";
+  waitpid(pid, nullptr, 0);
+  EXPECT_THAT(output, HasSubstr(fmt::format("child (pid {}) was killed and has not ended", pid)));
 }
 
 TEST_F(SupervisorTest, LeavesNothingBehind) {
