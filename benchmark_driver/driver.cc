@@ -29,12 +29,6 @@ namespace {
 // What a planner does only once takes well below that.
 constexpr double kWarmUpLimit = 1;  // s
 
-/// Of how many deaths of the scene server a problem is the cause; one may be another's doing.
-constexpr int kServerDeaths = 2;
-
-/// Of how many problems in succession the scene server dies if the cause is in itself.
-constexpr std::size_t kDeadlyProblems = 3;
-
 /// Planbench's own, not one that a command starts, or somebody else's.
 bool IsOwn(const LineUpEntry& entry) {
   return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
@@ -81,7 +75,7 @@ std::string Driver::Missing(bool need_logger) const {
 }
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch,
-                      const std::function<int()>& server_deaths) {
+                      ServerPatience patience) {
   AwaitNodes(
       &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
@@ -107,13 +101,13 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
   // One that is started again has as long to come up as the first one had.
-  ServerPatience patience;
-  patience.until_given_up = std::max(
-      patience.until_given_up, std::chrono::ceil<std::chrono::milliseconds>(
-                                   std::chrono::duration<double>(options_.DiscoveryTimeout())));
+  const auto to_come = std::chrono::ceil<std::chrono::milliseconds>(
+      std::chrono::duration<double>(options_.DiscoveryTimeout()));
+  patience.until_passed_over = std::max(patience.until_passed_over, to_come);
+  patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
-                                            first_planners_, patience);
-  CheckProblems(met, watch, server_deaths);
+                                            first_planners_, std::move(patience));
+  CheckProblems(met, watch);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
@@ -231,50 +225,32 @@ void Driver::Owe(const Known& known) {
 }
 
 void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
-                           const std::function<void()>& watch,
-                           const std::function<int()>& server_deaths) {
+                           const std::function<void()>& watch) {
   std::set<ProblemKey> problems;
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
   std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
-  std::vector<std::string> deadly;  // since one was answered
+  const auto interrupted = [&] {
+    watch();  // throws, if so
+    return false;
+  };
   for (const auto& [set, index] : problems) {
-    const int deaths_before = server_deaths();
-    std::optional<ProblemMessage> answer = executor_->AskForProblem(set, index, [&] {
-      watch();
-      return server_deaths() - deaths_before >= kServerDeaths;
-    });
-    if (answer) {
-      deadly.clear();
-    } else {
-      deadly.push_back(LeftOutName(set, index));
-      if (deadly.size() == kDeadlyProblems) {
-        throw std::runtime_error(
-            fmt::format("the scene server dies whatever it is asked for: twice each with {}, and "
-                        "it answered none between; mend what it dies of, or, if it is these, "
-                        "choose others (--problems-range)",
-                        fmt::join(deadly, ", ")));
-      }
-      answer.emplace();
-      answer->ok = false;
-      answer->message = "the scene server died of it, twice";
-      executor_->TakeAsAnswer(set, index, *answer);
-    }
+    const ProblemMessage answer = executor_->AskForProblem(set, index, interrupted).value();
     const auto before = met.find({set, index});
-    if (answer->ok && before != met.end() && !before->second.scene_id.empty()) {
-      const std::string_view part = ChangedPart(before->second, *answer);
+    if (answer.ok && before != met.end() && !before->second.scene_id.empty()) {
+      const std::string_view part = ChangedPart(before->second, answer);
       if (!part.empty()) {
         throw InputError(fmt::format("--resume: the {} of {} is another than in the session's runs",
                                      part, LeftOutName(set, index)));
       }
     }
-    if (!answer->ok && before != met.end()) {
-      spdlog::error("{} {}: {}", set, index, answer->message);
-    } else if (!answer->ok) {
+    if (!answer.ok && before != met.end()) {
+      spdlog::error("{} {}: {}", set, index, answer.message);
+    } else if (!answer.ok) {
       bad.emplace(set, index);
-      left_out_[LeftOutName(set, index)] = answer->message;
-    } else if (!answer->message.empty()) {
-      warnings.push_back(answer->message);
+      left_out_[LeftOutName(set, index)] = answer.message;
+    } else if (!answer.message.empty()) {
+      warnings.push_back(answer.message);
     }
   }
   constexpr std::size_t kMostWarnings = 5;

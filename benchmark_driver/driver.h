@@ -35,13 +35,12 @@ class Driver {
 
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
-  /// it, so that bad ones are known before the first run. `watch` is called while waiting and may
-  /// throw. `server_deaths`: how often the scene server died after it had come up, where that is
-  /// known: a problem on which it does so twice is bad; of three in succession it is the server
-  /// that is: std::runtime_error. Throws InputError naming what is missing or does not fit.
-  void Discover(
-      bool need_logger, const std::function<void()>& watch,
-      const std::function<int()>& server_deaths = [] { return 0; });
+  /// it, so that bad ones, at which the scene server fails included, are known before the first
+  /// run. `watch` is called while waiting and may throw. `patience`: one that has gone is given as
+  /// long to come back as it had to come.
+  /// Throws InputError naming what is missing or does not fit, std::runtime_error when the scene
+  /// server is given up.
+  void Discover(bool need_logger, const std::function<void()>& watch, ServerPatience patience = {});
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded; a session that was to make others before it was resumed, or to repeat them, in which
   /// one was not asked (num_not_asked), or which awaits shards, is not finished by that.
@@ -88,7 +87,7 @@ class Driver {
   /// a run) ends it no more than it would have ended that session, and is not left out either: the
   /// runs it has are recorded. One that is another than it was ends it.
   void CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
-                     const std::function<void()>& watch, const std::function<int()>& server_deaths);
+                     const std::function<void()>& watch);
   void CompleteConditions();
   /// Contestants with their conditions; throws InputError for planners that do not fit.
   void AddContestant(const LineUpEntry& entry);

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <exception>
+#include <map>
 #include <set>
 #include <string_view>
 #include <thread>
@@ -13,6 +14,7 @@
 
 #include "common/error.h"
 #include "common/sibling_program.h"
+#include "messaging/channels.h"
 #include "messaging/node_registry.h"
 
 namespace planbench {
@@ -148,6 +150,26 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
 
   LaunchSceneServer(options, logs, lcm_url, supervisor);
   LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
+}
+
+Subscription ReportChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
+                            Supervisor* supervisor) {
+  std::set<std::pair<NodeKind, std::string>> children;
+  children.emplace(NodeKind::kSceneServer, kSceneServer);
+  children.emplace(NodeKind::kLogger, kLogger);
+  for (const LineUpEntry& entry : line_up) {
+    children.emplace(NodeKind::kPlanner, entry.contestant.planner);
+  }
+  return bus->Subscribe<NodeStatusMessage>(
+      channel::kNodeStatus,
+      [supervisor, children = std::move(children),
+       instances = std::map<std::string, std::string>()](const NodeStatusMessage& status) mutable {
+        if (!children.contains({status.kind, status.name})) return;
+        std::string& instance = instances[status.name];
+        const bool is_new = std::exchange(instance, status.instance) != status.instance;
+        if (is_new && status.kind != NodeKind::kLogger) supervisor->CameUp(status.name);
+        supervisor->Heard(status.name, static_cast<pid_t>(status.pid));
+      });
 }
 
 ProcessStopper::ProcessStopper(const std::vector<LineUpEntry>& line_up, Bus* bus,

@@ -39,6 +39,12 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor);
 
+/// Tells the supervisor which of its children are heard, so that one that stops is started again
+/// (of a planner that a command started it is another process that is heard), and which come up,
+/// but for the logger, which is to stay up: a request may be what they die of.
+Subscription ReportChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
+                            Supervisor* supervisor);
+
 /// Stops what was launched, when it goes at the latest: however a session ends.
 class ProcessStopper {
  public:

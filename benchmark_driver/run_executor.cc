@@ -1,10 +1,12 @@
 #include "benchmark_driver/run_executor.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <thread>
 
 #include "benchmark_driver/possible_times.h"
 #include "common/error.h"
@@ -24,6 +26,13 @@ namespace {
 constexpr std::chrono::milliseconds kServerRetry{250};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
+constexpr std::chrono::milliseconds kTurnPoll{5};
+
+/// Of how many failures of the scene server a problem is the cause; one may be another's doing.
+constexpr int kServerFailures = 2;
+
+/// At how many problems in succession the scene server fails if the cause is in itself.
+constexpr std::size_t kProblemsFailedAt = 3;
 
 std::function<bool(const PacketSender&)> ServersOnly(NodeRegistry* registry,
                                                      const std::string& channel) {
@@ -79,6 +88,17 @@ void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMes
   result.progress.clear();
 }
 
+/// The record of a run whose path nobody can judge: as of one that was not asked for, to be made
+/// again.
+RunRecordMessage Unjudged(RunRecordMessage record, const std::string& why) {
+  record.status = PlanStatus::kNoAnswer;
+  record.message = "no verdict on its path: " + why;
+  record.roundtrip_time_s = 0;
+  record.result = {};
+  spdlog::error("{}: {}", record.request_id, record.message);
+  return record;
+}
+
 /// Tells of such a path what it costs by its length, once the referee has told that.
 void TellLength(const PathVerdict& verdict, bool anytime, PlanResult* result) {
   result->cost = FindMeasure(verdict.measures, "path_length").value_or(0);
@@ -103,18 +123,61 @@ RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions con
       path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
                    ServersOnly(registry, channel::kPathCheckReply)) {}
 
+std::optional<RunExecutor::Turn> RunExecutor::TakeTurn(const ProblemKey& problem,
+                                                       const std::function<bool()>& interrupted) {
+  Turn turn;
+  turn.lock = std::unique_lock(turn_, std::defer_lock);
+  while (!turn.lock.try_lock()) {
+    if (interrupted()) return std::nullopt;
+    std::this_thread::sleep_for(kTurnPoll);
+  }
+  turn.problem = problem;
+  turn.failures_before = FailuresIn(&turn);
+  return turn;
+}
+
+int RunExecutor::FailuresIn(Turn* turn) const {
+  if (patience_.failures) return patience_.failures() - turn->failures_before;
+  for (const NodeStatusMessage& server : registry_->Live(NodeKind::kSceneServer)) {
+    const std::string before = std::exchange(turn->server, server.instance);
+    turn->num_new_servers += !before.empty() && before != server.instance;
+  }
+  return turn->num_new_servers;
+}
+
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
-                                            const Request& request, const std::string& what,
+                                            const Request& request, Turn* turn,
+                                            const std::string& what,
                                             const std::function<bool()>& interrupted) {
-  std::chrono::milliseconds without_server{0};
+  const auto fails = [&] { return FailuresIn(turn) >= kServerFailures; };
+  std::chrono::milliseconds waited{0}, without_server{0};
   while (!interrupted()) {
-    if (auto reply = client->Call(request, kServerRetry, patience_.until_told, interrupted)) {
+    std::string why = WhyPassedOver(turn->problem);
+    if (why.empty() && fails()) {
+      why = "twice the scene server died or fell silent when it was asked for " + what;
+      PassOver(*turn, why);
+    } else if (why.empty() && waited >= patience_.until_passed_over) {
+      why = fmt::format("the scene server did not answer within {:g} s when it was asked for {}",
+                        std::chrono::duration<double>(waited).count(), what);
+      patience_.start_again();
+      PassOver(*turn, why);
+    }
+    if (!why.empty()) {
+      Reply none;
+      none.ok = false;
+      none.message = why;
+      return none;
+    }
+    if (auto reply = client->Call(request, kServerRetry, patience_.until_told,
+                                  [&] { return interrupted() || fails(); })) {
+      failed_at_.clear();
       return reply;
     }
-    if (interrupted()) break;
+    if (interrupted() || fails()) continue;
     const bool is_live = !registry_->Live(NodeKind::kSceneServer).empty();
     // Not by the clock, which goes on while this process is stopped.
+    waited += patience_.until_told;
     without_server = is_live ? std::chrono::milliseconds(0) : without_server + patience_.until_told;
     if (without_server >= patience_.until_given_up) {
       throw std::runtime_error(
@@ -127,14 +190,41 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
   return std::nullopt;
 }
 
+void RunExecutor::PassOver(const Turn& turn, const std::string& why) {
+  {
+    const std::scoped_lock lock(mutex_);
+    passed_over_[turn.problem] = why;
+  }
+  failed_at_.insert(LeftOutName(turn.problem.first, turn.problem.second));
+  if (failed_at_.size() < kProblemsFailedAt) return;
+  throw std::runtime_error(
+      fmt::format("the scene server fails whatever it is asked for: at {}, and it answered nothing "
+                  "between; {}; mend what it fails at, or, if it is these, choose others "
+                  "(--problems-range)",
+                  fmt::join(failed_at_, ", "), why));
+}
+
+std::string RunExecutor::WhyPassedOver(const ProblemKey& problem) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = passed_over_.find(problem);
+  return found == passed_over_.end() ? "" : found->second;
+}
+
 std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set, int index,
                                                          const std::function<bool()>& interrupted) {
+  std::optional<Turn> turn = TakeTurn({set, index}, interrupted);
+  return turn ? AskForProblem(&*turn, interrupted) : std::nullopt;
+}
+
+std::optional<ProblemMessage> RunExecutor::AskForProblem(Turn* turn,
+                                                         const std::function<bool()>& interrupted) {
+  const auto& [set, index] = turn->problem;
   ProblemRequestMessage request;
   request.request_id = UniqueId(fmt::format("{}/{}/{}", conditions_.request.run_id, set, index));
   request.problem_set = set;
   request.problem_index = index;
   std::optional<ProblemMessage> problem =
-      AskServer(&problems_, request, "the problem " + LeftOutName(set, index), interrupted);
+      AskServer(&problems_, request, turn, "the problem " + LeftOutName(set, index), interrupted);
   if (problem && problem->ok && (problem->problem_set != set || problem->problem_index != index)) {
     problem->ok = false;
     problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
@@ -142,8 +232,7 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
   }
   if (!problem || !problem->ok) return problem;
   const std::scoped_lock lock(mutex_);
-  const ProblemMessage& first =
-      problems_first_.emplace(std::pair(set, index), *problem).first->second;
+  const ProblemMessage& first = problems_first_.emplace(turn->problem, *problem).first->second;
   if (const std::string_view part = ChangedPart(first, *problem); !part.empty()) {
     problem->ok = false;
     problem->message = fmt::format(
@@ -152,25 +241,22 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(const std::string& set,
   return problem;
 }
 
-void RunExecutor::TakeAsAnswer(const std::string& set, int index, const ProblemMessage& answer) {
-  const std::scoped_lock lock(mutex_);
-  problems_known_[{set, index}] = answer;
-}
-
 std::optional<ProblemMessage> RunExecutor::ProblemOf(const ScheduledRun& run,
                                                      const std::function<bool()>& interrupted) {
   const std::pair key(run.problem_set, run.problem_index);
   {
     const std::scoped_lock lock(mutex_);
     const auto known = problems_known_.find(key);
-    if (known != problems_known_.end()) return known->second;
+    if (known != problems_known_.end() && !passed_over_.contains(key)) return known->second;
   }
   std::optional<ProblemMessage> problem;
   for (int attempt = 0; attempt < kProblemAttempts; ++attempt) {
     problem = AskForProblem(run.problem_set, run.problem_index, interrupted);
     if (!problem || problem->ok) break;
   }
-  if (problem && problem->ok) TakeAsAnswer(run.problem_set, run.problem_index, *problem);
+  if (!problem || !problem->ok) return problem;
+  const std::scoped_lock lock(mutex_);
+  problems_known_[key] = *problem;
   return problem;
 }
 
@@ -180,7 +266,6 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
                                                         const ScheduledRun& run,
                                                         const std::function<bool()>& interrupted) {
   PathCheckRequestMessage request;
-  request.request_id = UniqueId(check_id);
   request.scene_id = record.request.scene_id;
   request.group = record.request.group;
   request.start = record.request.start;
@@ -190,14 +275,19 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   request.collision_model = record.request.collision_model;
   request.step_m = conditions_.referee_step_m.value();
   request.with_clearance = conditions_.with_clearance;
-  const std::string what = "the verdict on " + check_id;
-  std::optional<PathCheckReplyMessage> reply = AskServer(&path_checks_, request, what, interrupted);
-  if (!reply || reply->ok) return reply;
-  // A scene server that was restarted meanwhile does not know the scene: asking for the problem
-  // loads it again.
-  if (!AskForProblem(run.problem_set, run.problem_index, interrupted)) return std::nullopt;
-  request.request_id = UniqueId(check_id);
-  return AskServer(&path_checks_, request, what, interrupted);
+  std::optional<Turn> turn = TakeTurn({run.problem_set, run.problem_index}, interrupted);
+  if (!turn) return std::nullopt;
+  for (bool has_scene = false;; has_scene = true) {
+    const int failures_before = FailuresIn(&*turn);
+    request.request_id = UniqueId(check_id);
+    std::optional<PathCheckReplyMessage> reply =
+        AskServer(&path_checks_, request, &*turn, "the verdict on " + check_id, interrupted);
+    const bool failed = FailuresIn(&*turn) > failures_before;
+    if (!reply || reply->ok || (has_scene && !failed)) return reply;
+    // A scene server that was restarted meanwhile does not know the scene: asking for the problem
+    // loads it again.
+    if (!AskForProblem(&*turn, interrupted)) return std::nullopt;
+  }
 }
 
 std::vector<pid_t> RunExecutor::PidsOf(const std::vector<PlannerClient*>& planners) const {
@@ -411,6 +501,8 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   const auto check =
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
+  const std::string why_none = WhyPassedOver({run.problem_set, run.problem_index});
+  if (!check->ok && !why_none.empty()) return Unjudged(std::move(record), why_none);
   record.path_check = *check;
   if (is_first_path && check->verdict) {
     TellLength(*check->verdict, record.request.anytime, &record.result.result);

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +24,15 @@ inline constexpr char kFirstPathTime[] = "first_path_time";
 struct ServerPatience {
   /// Until it is said what is waited for, again and again.
   std::chrono::milliseconds until_told = std::chrono::seconds(10);
-  /// Without a live one, until it is given up. One that is live may take its time over a problem.
+  /// Without a live one, until it is given up.
   std::chrono::milliseconds until_given_up = std::chrono::seconds(60);
+  /// For one answer in all, until its problem is passed over: large scenes take long.
+  std::chrono::milliseconds until_passed_over = std::chrono::minutes(10);
+  /// How often its process has failed at its work so far (died, fell silent): a problem at which it
+  /// does twice is passed over. Without, each that comes in the place of another tells of one.
+  std::function<int()> failures = nullptr;
+  /// Has its process started again, where that can be done: it may be at that answer for ever.
+  std::function<void()> start_again = [] {};
 };
 
 /// In what a problem is another than an earlier answer, or a request made of one, says: "scene",
@@ -43,27 +51,28 @@ class RunExecutor {
  public:
   /// `conditions`: complete, the referee's step and the contestants' included; `first_planners`
   /// likewise, who are no contestants and find paths that these improve. Answers of others than the
-  /// scene server that `registry` knows are none. What asks the scene server throws
-  /// std::runtime_error when that is given up.
+  /// scene server that `registry` knows are none. It is asked for one thing at a time, and for
+  /// nothing of a problem that was passed over. What asks it throws std::runtime_error when it is
+  /// given up, or three problems in succession were passed over.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
               KernelFolders kernel = {}, std::vector<Contestant> first_planners = {},
               ServerPatience patience = {});
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
   /// `interrupted`. The server also hands out the scene. That of a server which was started again
-  /// on other files is without ok if the problem is not what it was.
+  /// on other files is without ok if the problem is not what it was, and so is, with the reason,
+  /// that on a problem that is passed over.
   std::optional<ProblemMessage> AskForProblem(const std::string& set, int index,
                                               const std::function<bool()>& interrupted);
-  /// The answer for all runs of that problem: the scene server is not asked for it any more.
-  void TakeAsAnswer(const std::string& set, int index, const ProblemMessage& answer);
   /// Whom a run asks, one after the other: the contestant whose path its planner improves, if it
   /// does, and its planner.
   std::vector<ScheduledRun> RequestsOf(const ScheduledRun& run) const;
   /// The finished record, what kept the planners from working among the answer's counters; nothing
   /// if `interrupted`. `planners`: those of RequestsOf(run). Of several the answer is the last
   /// one's, or, if the limit comes before that has a path, the first one's path; times and counters
-  /// are sums (of kToldTime the longest stands). Where the scene server
-  /// denies the problem, which it had when the session began, the record says so.
+  /// are sums (of kToldTime the longest stands). Where the scene server denies the problem, which
+  /// it had when the session began, the record says so; where the problem is passed over before
+  /// there is a verdict, it is that of a run that was not asked for (asked_runs.h).
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run,
                                           const std::vector<PlannerClient*>& planners,
                                           const std::function<bool()>& interrupted);
@@ -73,16 +82,35 @@ class RunExecutor {
               const std::function<bool()>& interrupted);
 
  private:
+  using ProblemKey = std::pair<std::string, int>;  // set and index
+
   std::optional<ProblemMessage> ProblemOf(const ScheduledRun& run,
                                           const std::function<bool()>& interrupted);
   std::optional<PathCheckReplyMessage> Judge(const std::string& check_id, const Path& path,
                                              const RunRecordMessage& record,
                                              const ScheduledRun& run,
                                              const std::function<bool()>& interrupted);
+  /// Of whoever asks the scene server about a problem, one after the other: what it fails at
+  /// meanwhile is that.
+  struct Turn {
+    std::unique_lock<std::mutex> lock;
+    ProblemKey problem;
+    int failures_before = 0;
+    std::string server;  ///< Its instance, as last seen.
+    int num_new_servers = 0;
+  };
+  /// Nothing if `interrupted`.
+  std::optional<Turn> TakeTurn(const ProblemKey& problem, const std::function<bool()>& interrupted);
+  int FailuresIn(Turn* turn) const;
+  std::optional<ProblemMessage> AskForProblem(Turn* turn, const std::function<bool()>& interrupted);
+  /// The reply is without ok if the problem is passed over. `what`: is asked for, in words.
   template <typename Request, typename Reply>
   std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
-                                 const std::string& what,  // That it is asked for, in words.
+                                 Turn* turn, const std::string& what,
                                  const std::function<bool()>& interrupted);
+  void PassOver(const Turn& turn, const std::string& why);
+  /// "" if it is not.
+  std::string WhyPassedOver(const ProblemKey& problem);
 
   struct Asked {
     PlannerClient::Answer answer;
@@ -108,10 +136,12 @@ class RunExecutor {
   ServerPatience patience_;
   RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
   RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
+  std::mutex turn_;
+  std::set<std::string> failed_at_;  // problems passed over since it answered; whose turn it is
   std::mutex mutex_;
-  using ProblemKey = std::pair<std::string, int>;  // set and index
   std::map<ProblemKey, ProblemMessage> problems_known_;
   std::map<ProblemKey, ProblemMessage> problems_first_;  // as they were when first asked for
+  std::map<ProblemKey, std::string> passed_over_;        // and why
 };
 
 }  // namespace planbench

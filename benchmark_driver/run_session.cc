@@ -30,7 +30,6 @@
 #include "common/exit_codes.h"
 #include "common/sibling_program.h"
 #include "common/standard_output.h"
-#include "messaging/channels.h"
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/program.h"
@@ -125,31 +124,6 @@ void WriteTables(const std::filesystem::path& file, const std::string& tables) {
   if (!stream) spdlog::error("cannot write {}: {}", file.string(), std::strerror(errno));
 }
 
-/// Children that come up have not died of their start: a request may be what they die of.
-Subscription ReportWhoComesUp(Bus* bus, NodeKind kind, const std::set<std::string>& children,
-                              Supervisor* supervisor) {
-  if (supervisor == nullptr) return {};
-  return bus->Subscribe<NodeStatusMessage>(
-      channel::kNodeStatus, [=, instances = std::map<std::string, std::string>()](
-                                const NodeStatusMessage& status) mutable {
-        if (status.kind != kind || !children.contains(status.name)) return;
-        std::string& instance = instances[status.name];
-        if (std::exchange(instance, status.instance) != status.instance) {
-          supervisor->CameUp(status.name);
-        }
-      });
-}
-
-/// A scene server that stops at its work is not waited for, however long that takes.
-Subscription ReportBeatsOfServer(Bus* bus, Supervisor* supervisor) {
-  if (supervisor == nullptr) return {};
-  return bus->Subscribe<NodeStatusMessage>(
-      channel::kNodeStatus, [supervisor](const NodeStatusMessage& status) {
-        if (status.kind != NodeKind::kSceneServer) return;
-        supervisor->Heard(status.name, static_cast<pid_t>(status.pid));
-      });
-}
-
 }  // namespace
 
 int RunSession(const DriverOptions& given_options, const std::map<std::string, std::string>& flags,
@@ -221,18 +195,15 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   };
   std::set<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
-  const Subscription planner_statuses =
-      ReportWhoComesUp(&bus, NodeKind::kPlanner, planners, supervisor.get());
-  const Subscription server_beats = ReportBeatsOfServer(&bus, supervisor.get());
-  Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  {
-    // Until its problems are read: then it is to stay up, as the logger, for without it no run is
-    // made.
-    const Subscription server_statuses =
-        ReportWhoComesUp(&bus, NodeKind::kSceneServer, {kSceneServer}, supervisor.get());
-    driver.Discover(options.launch, watch,
-                    [&] { return supervisor ? supervisor->NumDeathsAtWork(kSceneServer) : 0; });
+  Subscription children;
+  ServerPatience patience;
+  if (supervisor) {
+    children = ReportChildren(&bus, line_up, supervisor.get());
+    patience.failures = [&] { return supervisor->NumFailuresAtWork(kSceneServer); };
+    patience.start_again = [&] { supervisor->StartAgain(kSceneServer); };
   }
+  Driver driver(&bus, options, line_up, flags, std::move(earlier));
+  driver.Discover(options.launch, watch, patience);
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

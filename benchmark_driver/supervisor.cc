@@ -88,10 +88,18 @@ void Supervisor::Start(ChildSpec spec) {
   children_.push_back(std::move(child));
 }
 
-int Supervisor::NumDeathsAtWork(const std::string& name) {
+void Supervisor::StartAgain(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  Child* child = Find(name);
+  if (child == nullptr || child->pid < 0) return;
+  spdlog::error("killing {}, to start it again", name);
+  Kill(child);
+}
+
+int Supervisor::NumFailuresAtWork(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   const Child* child = Find(name);
-  return child == nullptr ? 0 : child->num_deaths_at_work;
+  return child == nullptr ? 0 : child->num_failures_at_work;
 }
 
 void Supervisor::CameUp(const std::string& name) {
@@ -156,8 +164,8 @@ void Supervisor::Reap(Child* child) {
   child->silent.reset();
   if (!child->wanted) return;
   const bool was_at_work = std::exchange(child->came_up, false);
-  const bool was_killed = std::exchange(child->killed_for_silence, false);
-  child->num_deaths_at_work += was_at_work && !was_killed && !WasToldToEnd(status);
+  const bool was_killed = std::exchange(child->killed_here, false);
+  child->num_failures_at_work += was_at_work && !was_killed && !WasToldToEnd(status);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;
@@ -189,8 +197,13 @@ void Supervisor::KillIfSilent(Child* child) const {
   if ((*child->silent += kExitPoll) < silence_) return;
   spdlog::error("{} has been silent for {:g} s; killing it", child->spec.name,
                 std::chrono::duration<double>(silence_).count());
+  child->num_failures_at_work += child->came_up;
+  Kill(child);
+}
+
+void Supervisor::Kill(Child* child) {
   kill(-child->pid, SIGKILL);
-  child->killed_for_silence = true;
+  child->killed_here = true;
   child->silent.reset();
 }
 

@@ -53,8 +53,10 @@ class Supervisor {
   /// Throws for a hopeless child, but for the `spared`: InputError with its last words for bad
   /// input, else std::runtime_error.
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
-  /// How often that child died after it had come up, unless it was told to end, or killed here.
-  int NumDeathsAtWork(const std::string& name);
+  /// Kills that child, which is started again.
+  void StartAgain(const std::string& name);
+  /// How often that child, after it had come up, died, unless it was told to end, or fell silent.
+  int NumFailuresAtWork(const std::string& name);
 
   /// How long a child that was killed may take to be gone.
   std::chrono::milliseconds death_patience{10'000};
@@ -73,8 +75,8 @@ class Supervisor {
     bool came_up = false;  // this process
     /// Since this process was last heard; nothing if it never was.
     std::optional<std::chrono::milliseconds> silent;
-    bool killed_for_silence = false;  // this process
-    int num_deaths_at_work = 0;
+    bool killed_here = false;  // this process
+    int num_failures_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
     off_t log_begin = 0;   // of the log, where this process began to write
@@ -85,6 +87,7 @@ class Supervisor {
   void Supervise();
   void Reap(Child* child);
   void KillIfSilent(Child* child) const;
+  static void Kill(Child* child);
   void Spawn(Child* child);
 
   const std::chrono::milliseconds silence_;

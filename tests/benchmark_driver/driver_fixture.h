@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,6 +34,13 @@ inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners)
   LineUpFlags flags;
   flags.planners = planners;
   return MakeLineUp(flags, std::nullopt);
+}
+
+/// With a scene server whose failures the test counts.
+inline ServerPatience CountedBy(const std::atomic<int>& num_failures) {
+  ServerPatience patience;
+  patience.failures = [&num_failures] { return num_failures.load(); };
+  return patience;
 }
 
 /// Problem 2 is solved backward only, others in any direction.

@@ -377,6 +377,56 @@ TEST_F(RunExecutorTest, TellsWhichProblemItWaitsForUntilTheSceneServerIsGone) {
   is_over = true;
 }
 
+TEST_F(RunExecutorTest, AProblemThatTheSceneServerIsTooLongAtIsPassedOver) {
+  ServerPatience patience;
+  patience.until_told = std::chrono::milliseconds(1);
+  patience.until_passed_over = std::chrono::milliseconds(20);
+  int num_new_starts = 0;
+  patience.start_again = [&] { ++num_new_starts; };
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  std::atomic<bool> is_over = false;
+  FakeSceneServer server(&bus_);
+  server.BeforeAnswers([&](const auto&) { WaitUntil([&] { return is_over.load(); }); });
+  ASSERT_TRUE(WaitUntil([&] { return !registry_.Live(NodeKind::kSceneServer).empty(); }));
+  for (int time = 1; time <= 2; ++time) {
+    const auto answer = executor.AskForProblem("cans", 2, [] { return false; });
+    ASSERT_TRUE(answer);
+    EXPECT_FALSE(answer->ok);
+    EXPECT_EQ(answer->message,
+              "the scene server did not answer within 0.02 s when it was asked for the problem "
+              "cans 2");
+  }
+  EXPECT_EQ(num_new_starts, 1);
+  is_over = true;
+}
+
+TEST_F(RunExecutorTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
+  std::atomic<int> num_failures = 0;
+  ServerPatience patience;
+  patience.failures = [&] { return num_failures.load(); };
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  FakeSceneServer server(&bus_);
+  // As one that dies of it does, and then does not know the scene.
+  server.OnPathCheck([&](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
+    ++num_failures;
+    throw InputError("no such scene");
+  });
+  const std::string why = "twice the scene server died or fell silent when it was asked for ";
+  const auto execute = [&] {
+    return executor.Execute(Scheduled(), {&client_}, [] { return false; }).value();
+  };
+  const RunRecordMessage unjudged = execute();
+  EXPECT_EQ(unjudged.status, PlanStatus::kNoAnswer);
+  EXPECT_THAT(unjudged.message, testing::StartsWith("no verdict on its path: " + why));
+  EXPECT_FALSE(WasAsked(unjudged));
+  EXPECT_TRUE(unjudged.result.result.path.empty());
+  const std::size_t num_requests = planner_.requests().messages().size();
+  const RunRecordMessage next = execute();
+  EXPECT_THAT(next.message, testing::StartsWith("no problem: " + why)) << "what is left of it";
+  EXPECT_FALSE(WasAsked(next));
+  EXPECT_EQ(planner_.requests().messages().size(), num_requests);
+}
+
 TEST_F(RunExecutorTest, InterruptionLeavesNoRecord) {
   interrupted_ = true;
   EXPECT_FALSE(Execute());  // no scene server either

@@ -142,18 +142,28 @@ TEST_F(SupervisorTest, WhatFallsSilentIsStartedAgainUnlessItWasNeverHeard) {
   EXPECT_TRUE(IsRunning(silent));
 }
 
-TEST_F(SupervisorTest, SilenceIsNoDeathAtWork) {
+TEST_F(SupervisorTest, WhatDiesOrFallsSilentHasFailedAtItsWork) {
   Supervisor supervisor(milliseconds(100));
   supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
   const pid_t pid = std::stoi(AwaitOutput(1).at(0));
   supervisor.CameUp("child");
   supervisor.Heard("child", pid);
   const pid_t next = std::stoi(AwaitOutput(2).at(1));
-  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 0);
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 1);
   supervisor.CameUp("child");
   kill(next, SIGKILL);
   AwaitOutput(3);
-  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 1) << "by another";
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 2) << "killed by another";
+}
+
+TEST_F(SupervisorTest, WhatIsToBeStartedAgainHasNotFailed) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  AwaitOutput(1);
+  supervisor.CameUp("child");
+  supervisor.StartAgain("child");
+  AwaitOutput(2);
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 0);
 }
 
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
@@ -265,10 +275,10 @@ TEST_F(SupervisorTest, DeathsAtStartAreNoneAtWork) {
     const pid_t pid = std::stoi(AwaitOutput(static_cast<std::size_t>(time)).back());
     supervisor.CameUp("child");
     kill(pid, SIGKILL);
-    ASSERT_TRUE(WaitUntil([&] { return supervisor.NumDeathsAtWork("child") == time; }));
+    ASSERT_TRUE(WaitUntil([&] { return supervisor.NumFailuresAtWork("child") == time; }));
   }
   ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
-  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 2);
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 2);
 }
 
 TEST_F(SupervisorTest, WhatIsToldToEndHasNotDiedOfItsWork) {
@@ -284,7 +294,7 @@ TEST_F(SupervisorTest, WhatIsToldToEndHasNotDiedOfItsWork) {
   end(AwaitOutput(1).at(0));
   end(AwaitOutput(3).at(1));
   AwaitOutput(5);
-  EXPECT_EQ(supervisor.NumDeathsAtWork("child"), 0);
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 0);
 }
 
 TEST_F(SupervisorTest, TheHopelessCanBeSpared) {
