@@ -104,7 +104,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   const auto to_come = std::chrono::ceil<std::chrono::milliseconds>(
       std::chrono::duration<double>(options_.DiscoveryTimeout()));
   patience.until_passed_over = std::max(patience.until_passed_over, to_come);
-  patience.until_given_up = std::max(patience.until_given_up, to_come);
+  absence_patience_ = patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
                                             first_planners_, std::move(patience));
   CheckProblems(met, watch);
@@ -419,12 +419,17 @@ std::map<std::string, std::string> Driver::given_up() const {
   return given_up_;
 }
 
-PlannerClient::Terms Driver::TermsOf(const std::string& planner) const {
-  return {.expected = planners_.at(planner), .given_up = [this, planner]() -> std::string {
-            const std::scoped_lock lock(mutex_);
-            const auto found = given_up_.find(planner);
-            return found == given_up_.end() ? "" : "given up: " + found->second;
-          }};
+PlannerClient::Terms Driver::TermsOf(const std::string& planner) {
+  PlannerClient::Terms terms;
+  terms.expected = planners_.at(planner);
+  terms.given_up = [this, planner]() -> std::string {
+    const std::scoped_lock lock(mutex_);
+    const auto found = given_up_.find(planner);
+    return found == given_up_.end() ? "" : "given up: " + found->second;
+  };
+  terms.patience = absence_patience_;
+  terms.on_absence = [this, planner](const std::string& why) { GiveUp(planner, why); };
+  return terms;
 }
 
 std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,

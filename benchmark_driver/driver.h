@@ -36,8 +36,8 @@ class Driver {
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
   /// it, so that bad ones, at which the scene server fails included, are known before the first
-  /// run. `watch` is called while waiting and may throw. `patience`: one that has gone is given as
-  /// long to come back as it had to come.
+  /// run. `watch` is called while waiting and may throw. `patience`: with a scene server, and
+  /// without a planner; a process that has gone is given as long to come back as it had to come.
   /// Throws InputError naming what is missing or does not fit, std::runtime_error when the scene
   /// server is given up.
   void Discover(bool need_logger, const std::function<void()>& watch, ServerPatience patience = {});
@@ -128,7 +128,7 @@ class Driver {
   /// Every attempt is recorded at once, a repeat's record in the place of the one before, so that a
   /// session that is interrupted lacks no run for having been disturbed, as long ones are sooner.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
-  PlannerClient::Terms TermsOf(const std::string& planner) const;
+  PlannerClient::Terms TermsOf(const std::string& planner);
   using Clients = std::map<std::string, std::unique_ptr<PlannerClient>>;
   /// The record of a run, nothing if interrupted.
   std::optional<RunRecordMessage> Make(const ScheduledRun& run, Clients* clients,
@@ -154,6 +154,7 @@ class Driver {
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::vector<Contestant> first_planners_;       // who find paths for contestants and are none
   std::unique_ptr<RunExecutor> executor_;
+  std::chrono::milliseconds absence_patience_{0};
 
   /// By name, as found: processes that are described otherwise are not asked.
   std::map<std::string, NodeStatusMessage> planners_;

@@ -16,6 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{50};
+constexpr std::chrono::milliseconds kAbsencePoll{100};
 
 /// Whether the process runs on this machine, as far as its id can be seen from here.
 bool IsSeenHere(const NodeStatusMessage& process) {
@@ -127,14 +128,25 @@ std::optional<NodeRegistry::Node> PlannerClient::Live() const {
 
 std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
     const std::function<bool()>& interrupted) {
-  bool told = false;
-  while (!interrupted() && terms_.given_up().empty()) {
+  const std::chrono::milliseconds patience = terms_.patience + unanswered_limit_;
+  const double patience_s = std::chrono::duration<double>(patience).count();
+  // Not by the clock, which goes on while this process is stopped.
+  std::chrono::milliseconds waited{0};
+  while (!interrupted() && WhyGivenUp().empty()) {
     if (auto node = Live()) return node;
-    if (!told) spdlog::warn("waiting for the planner '{}' to come (back) to the bus", planner_);
-    told = true;
+    if (waited >= patience) {
+      const std::string why = fmt::format("it was not on the bus for {:g} s", patience_s);
+      absence_ = "given up: " + why;
+      terms_.on_absence(why);
+      break;
+    }
+    if (waited == waited.zero()) {
+      spdlog::warn("waiting for the planner '{}' to come (back) to the bus, {:g} s at most",
+                   planner_, patience_s);
+    }
     registry_->WaitUntil(
-        [&] { return interrupted() || !terms_.given_up().empty() || Live().has_value(); },
-        std::chrono::seconds(1));
+        [&] { return interrupted() || !WhyGivenUp().empty() || Live().has_value(); }, kAbsencePoll);
+    waited += kAbsencePoll;
   }
   return std::nullopt;
 }
@@ -152,7 +164,7 @@ std::string PlannerClient::ReasonNotToAsk(const NodeStatusMessage& process) cons
 PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
                                            const std::function<bool()>& interrupted) {
   const std::optional<NodeRegistry::Node> process = WaitUntilLive(interrupted);
-  const std::string reason = process ? ReasonNotToAsk(process->status) : terms_.given_up();
+  const std::string reason = process ? ReasonNotToAsk(process->status) : WhyGivenUp();
   if (interrupted() || (!process && reason.empty())) return {.outcome = Outcome::kInterrupted};
   if (!reason.empty()) return {.outcome = Outcome::kNoAnswer, .message = reason};
   seen_here_ = IsSeenHere(process->status) ? process->status.instance : "";
@@ -179,8 +191,11 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   while (true) {
     RequestExchange::Step step = exchange.Take(Clock::now(), event);
     if (step.answer) {
-      // Whoever may still come to it, one that was started again perhaps, need not.
+      unanswered_limit_ = std::chrono::milliseconds(0);
       if (step.answer->outcome == Outcome::kNoAnswer) {
+        unanswered_limit_ = std::chrono::ceil<std::chrono::milliseconds>(
+            std::chrono::duration<double>(request.time_limit_s));
+        // Whoever may still come to it, one that was started again perhaps, need not.
         bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
       }
       const std::scoped_lock lock(mutex_);

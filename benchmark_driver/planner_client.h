@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -27,6 +28,10 @@ class PlannerClient {
     std::optional<NodeStatusMessage> expected = {};
     /// Why the planner will not come any more; "" while it may.
     std::function<std::string()> given_up = [] { return std::string(); };
+    /// How long one that is not live is waited for, beyond the time limit of a request that it may
+    /// be at still; then it is given up, and `on_absence` told why, once.
+    std::chrono::milliseconds patience = std::chrono::seconds(60);
+    std::function<void(const std::string& why)> on_absence = [](const std::string&) {};
   };
 
   PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner);
@@ -34,7 +39,8 @@ class PlannerClient {
 
   const std::string& planner() const { return planner_; }
 
-  /// Waits until the planner is live, or given up, or the caller interrupts.
+  /// Waits until the planner is live, or given up, or the caller interrupts. Of one that is not
+  /// live it says once for how long.
   void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
   /// Waits until the planner is live and asks it until the request has come to its end. Only what
   /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
@@ -47,6 +53,7 @@ class PlannerClient {
 
   std::optional<NodeRegistry::Node> WaitUntilLive(const std::function<bool()>& interrupted);
   std::optional<NodeRegistry::Node> Live() const;
+  std::string WhyGivenUp() const { return absence_.empty() ? terms_.given_up() : absence_; }
   /// Of a process that has been seen on this machine, at once: whether it has ended.
   bool HasEnded(const NodeStatusMessage& process) const;
   /// Why that process is not to be asked; "" if it is.
@@ -67,6 +74,8 @@ class PlannerClient {
   PlannerChannels channels_;
   Terms terms_;
   std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
+  std::string absence_;    // for which it is given up
+  std::chrono::milliseconds unanswered_limit_{0};  // of the last request, if it had no answer
 
   std::mutex mutex_;
   std::condition_variable changed_;

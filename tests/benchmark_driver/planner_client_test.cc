@@ -272,6 +272,32 @@ TEST_F(PlannerClientTest, APlannerThatIsGivenUpIsNotWaitedFor) {
             PlannerClient::Outcome::kNoAnswer);
 }
 
+TEST_F(PlannerClientTest, OneThatStaysAwayIsGivenUpWhenItCannotBeAtItsRequestAnyMore) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
+  std::vector<std::string> told;
+  PlannerClient::Terms terms;
+  terms.patience = std::chrono::milliseconds(200);
+  terms.on_absence = [&](const std::string& why) { told.push_back(why); };
+  PlannerClient client(&bus_, &registry_, "arm", terms);
+  const auto solve = [&](const std::string& id) {
+    PlanRequest request = Request(id);
+    request.time_limit_s = 0.3;
+    return client.Solve(request, [] { return false; });
+  };
+  EXPECT_THAT(solve("a").message, HasSubstr("died or fell silent"));
+  testing::internal::CaptureStdout();  // Where messages go.
+  const PlannerClient::Answer answer = solve("b");
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("waiting for the planner 'arm' to come (back) to the bus, 0.5 s at most"));
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+  EXPECT_EQ(answer.message, "given up: it was not on the bus for 0.5 s");
+  EXPECT_EQ(answer.roundtrip_time_s, 0);
+  Reannounce(&registry_, &planner);
+  EXPECT_EQ(solve("c").message, answer.message);
+  EXPECT_EQ(told, (std::vector<std::string>{"it was not on the bus for 0.5 s"}));
+}
+
 TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {
   for (const bool announced : {true, false}) {
     std::atomic<int> num_requests = 0;
