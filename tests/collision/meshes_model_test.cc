@@ -13,6 +13,7 @@
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/obj_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -33,19 +34,6 @@ Robot RailRobotWith(const std::string& geometry, const std::filesystem::path& fo
   robot.groups = {robot.model.MakeGroup("rail", {"slide"}, "tool")};
   robot.resources.base_folder = folder;
   return robot;
-}
-
-std::string ObjText(const TriangleMesh& mesh) {
-  std::string text;
-  for (const auto& v : mesh.vertices) {
-    text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
-            std::to_string(v.z()) + "\n";
-  }
-  for (const auto& t : mesh.triangles) {
-    text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
-            std::to_string(t[2] + 1) + "\n";
-  }
-  return text;
 }
 
 constexpr char kBoxGeometry[] = R"(<box size="0.5 1 0.25"/>)";
