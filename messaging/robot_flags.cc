@@ -8,9 +8,14 @@ std::vector<CLI::Option*> RobotFlags::AddTo(CLI::App* app) {
   return {app->add_option("--robot", folder, "robot folder, or the name of a robot that ships"),
           app->add_option("--spheres", spheres,
                           "file of spheres that take the place of the robot folder's `spheres`"),
-          app->add_option("--package-path", package_paths,
-                          "NAME=DIR: folder that package://NAME/ stands for; repeatable")
-              ->allow_extra_args(false)};
+          AddPackagePaths(app)};
+}
+
+CLI::Option* RobotFlags::AddPackagePaths(CLI::App* app) {
+  return app
+      ->add_option("--package-path", package_paths,
+                   "NAME=DIR: folder that package://NAME/ stands for; repeatable")
+      ->allow_extra_args(false);
 }
 
 std::map<std::string, std::filesystem::path> RobotFlags::Packages() const {

@@ -18,6 +18,8 @@ struct RobotFlags {
 
   /// Returns the three options, --robot first.
   std::vector<CLI::Option*> AddTo(CLI::App* app);
+  /// --package-path alone.
+  CLI::Option* AddPackagePaths(CLI::App* app);
   std::map<std::string, std::filesystem::path> Packages() const;
   /// Throws InputError as LoadRobot and ParsePackagePath do.
   Robot Load() const { return LoadRobot(folder, Packages(), spheres); }

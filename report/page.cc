@@ -53,6 +53,7 @@ std::string ReportPage(const Json& data, const EmbeddedViews& views) {
   for (const auto& [attempt, view] : views.by_attempt) {
     scripts += DataElement(fmt::format("view-{}", attempt), view);
   }
+  for (const auto& [id, mesh] : views.meshes) scripts += DataElement("mesh-" + id, mesh);
   if (!views.by_attempt.empty()) scripts += ThreeScripts();
   scripts +=
       "<!-- Vega: copyright University of Washington Interactive Data Lab, BSD-3-Clause -->\n";

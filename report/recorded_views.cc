@@ -20,12 +20,13 @@ constexpr int kFramesEmbedded = 40;
 }  // namespace
 
 RecordedViews::RecordedViews(const StoredSession& session,
-                             const std::filesystem::path& robot_folder)
+                             const std::filesystem::path& robot_folder,
+                             const std::map<std::string, std::filesystem::path>& packages)
     : log_(FindEventLog(std::filesystem::absolute(session.file).parent_path())) {
   RecordedSession recorded = ReadRecords(log_);
   SessionMessage told = LastTold(recorded, session.run_id);
   if (told.settings.empty()) told.settings = session.flags;  // The log has lost it.
-  robot_ = ShownRobot(LoadSessionRobot(told, robot_folder));
+  robot_ = ShownRobot(LoadSessionRobot(told, robot_folder, packages));
   scenes_ = ReadScenes(log_, &passed_over_);
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {
@@ -45,7 +46,8 @@ Json RecordedViews::View(const StoredRun& run, int num_frames) const {
   return RunView(robot_, scene->second, record->second, num_frames);
 }
 
-EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes) {
+EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes,
+                         const std::map<std::string, std::filesystem::path>& packages) {
   struct Candidate {
     std::size_t attempt;
     std::size_t session;
@@ -68,7 +70,7 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     if (compared.sessions()[s].imported) continue;
     try {
-      sessions[s] = std::make_unique<RecordedViews>(compared.sessions()[s], "");
+      sessions[s] = std::make_unique<RecordedViews>(compared.sessions()[s], "", packages);
       for (const std::string& line : sessions[s]->passed_over())
         embedded.notes.push_back(line + ".");
     } catch (const InputError& error) {
@@ -83,8 +85,15 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
     if (!session) continue;
     try {
       Json view = session->View(*candidate.run, kFramesEmbedded);
+      std::map<std::string, Json> new_meshes;
+      for (auto& [id, mesh] : view["meshes"].items()) {
+        if (!embedded.meshes.contains(id)) new_meshes[id] = std::move(mesh);
+        mesh = nullptr;
+      }
       num_bytes += view.dump().size();
+      for (const auto& [id, mesh] : new_meshes) num_bytes += mesh.dump().size();
       if (num_bytes > most_bytes) break;
+      embedded.meshes.merge(new_meshes);
       embedded.by_attempt.emplace(candidate.attempt, std::move(view));
     } catch (const InputError& error) {
       embedded.notes.push_back(fmt::format(

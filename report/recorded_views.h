@@ -14,9 +14,10 @@ namespace planbench {
 /// 3D views of a session's runs, made of its event log and its robot.
 class RecordedViews {
  public:
-  /// `robot_folder`, and errors of the robot, as of LoadSessionRobot. Throws InputError if the log
-  /// cannot be read.
-  RecordedViews(const StoredSession& session, const std::filesystem::path& robot_folder);
+  /// `robot_folder`, `packages`, and errors of the robot, as of LoadSessionRobot. Throws InputError
+  /// if the log cannot be read.
+  RecordedViews(const StoredSession& session, const std::filesystem::path& robot_folder,
+                const std::map<std::string, std::filesystem::path>& packages);
 
   /// `num_frames` as of RunView. Throws InputError if the log lacks the run or its scene, or the
   /// robot is another.
@@ -35,6 +36,8 @@ class RecordedViews {
 
 /// Views of as many runs as fit into `most_bytes`, those of first trials first.
 struct EmbeddedViews {
+  /// Those of all views, by id: in the views themselves null stands for them.
+  std::map<std::string, Json> meshes;
   /// By the run's place among those of all contestants, in their order.
   std::map<std::size_t, Json> by_attempt;
   /// What cannot be shown and why: what is wrong with an event log, say.
@@ -42,6 +45,8 @@ struct EmbeddedViews {
   /// How many there are, and where others are to be had; "" if there are no others.
   std::string extent;
 };
-EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes);
+/// `packages`: as of LoadSessionRobot.
+EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes,
+                         const std::map<std::string, std::filesystem::path>& packages);
 
 }  // namespace planbench

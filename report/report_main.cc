@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/write_file.h"
+#include "messaging/robot_flags.h"
 #include "report/figures.h"
 #include "report/merge_sessions.h"
 #include "report/output_folder.h"
@@ -39,6 +40,7 @@ struct Flags {
   std::vector<std::string> imports;
   std::vector<std::string> import_names;
   std::string ompl_log;
+  RobotFlags robot;
 };
 
 void WriteTables(const std::string& folder, const char* extension, const std::vector<Table>& tables,
@@ -159,7 +161,7 @@ int Run(Flags flags) {
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);
   if (!flags.figures.empty()) PrintFigures(data, flags.figures);
-  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews);
+  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews, flags.robot.Packages());
   WriteFile(flags.out, ReportPage(data, views));
   for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   std::cout << "report: " << flags.out << "\n";
@@ -193,6 +195,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("--as", flags.import_names, "name of what the --import before it brings")
       ->allow_extra_args(false);
+  flags.robot.AddPackagePaths(&app);
   app.add_option("--ompl-log", flags.ompl_log, "file for the runs as a log of OMPL's benchmarks");
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
 }

@@ -78,16 +78,18 @@ std::map<std::string, std::filesystem::path> Packages(const SessionMessage& sess
 
 }  // namespace
 
-Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder) {
+Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder,
+                       std::map<std::string, std::filesystem::path> packages) {
+  packages.merge(Packages(session));
   const std::string spheres = SpheresFile(session);
   const bool has_spheres = spheres.empty() || IsFile(spheres);
   if (robot_folder.empty()) {
     const std::filesystem::path folder = RobotFolder(session);
-    if (has_spheres) return LoadRobot(folder, Packages(session), spheres);
+    if (has_spheres) return LoadRobot(folder, packages, spheres);
     throw UnknownRobot("the session's spheres, " + spheres +
                        ", are not here: give a robot folder that holds them with --robot DIR");
   }
-  Robot robot = LoadRobot(robot_folder, Packages(session), has_spheres ? spheres : "");
+  Robot robot = LoadRobot(robot_folder, packages, has_spheres ? spheres : "");
   if (!has_spheres && !CanBeOne(robot.content_id, RobotId(session))) {
     throw InputError(fmt::format(
         "{} is not the session's robot, which has the spheres of {}: as that file is not here, the "

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "common/error.h"
 #include "messaging/messages.h"
@@ -17,10 +19,12 @@ class UnknownRobot : public InputError {
 /// The robot of a session: that of `robot_folder`, or, if that is empty, of the folder or the robot
 /// that ships which the driver's flags name, or else, as of processes that were started by hand, of
 /// the folder that the scene server of its robot tells of. The `spheres` of the flags, or else of
-/// that server, hold for all of them, and the packages of the flags; where that file is not here,
-/// `robot_folder` may hold them as its own. Whether it is the session's, its content id tells.
+/// that server, hold for all of them, and so do the packages of the flags, unless `packages` names
+/// them; where the file of spheres is not here, `robot_folder` may hold them as its own. Whether it
+/// is the session's, its content id tells.
 /// Throws UnknownRobot, and InputError if it cannot be read or another robot stands for one whose
 /// spheres are not here.
-Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder);
+Robot LoadSessionRobot(const SessionMessage& session, const std::filesystem::path& robot_folder,
+                       std::map<std::string, std::filesystem::path> packages = {});
 
 }  // namespace planbench

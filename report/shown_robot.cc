@@ -3,59 +3,116 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "collision/link_geometry.h"
 #include "common/error.h"
+#include "report/shape_json.h"
 
 namespace planbench {
 namespace {
 
-/// A mesh in which the first vertex in each cell of a grid stands for all that are in it. Of a
-/// million triangles, which some robots have, no page can hold the copies of its attempts.
-SharedMesh Coarse(const SharedMesh& mesh) {
-  constexpr double kCells = 10;  // along its longest side
-  const Eigen::Vector3d low = mesh.box().min();
-  const double cell_m = mesh.box().sizes().maxCoeff() / kCells;
+/// Cells along its longest side that a mesh keeps at least.
+constexpr double kLeastCells = 10;
+
+double LongestSide(const SharedMesh& mesh) {
+  return mesh.box().isEmpty() ? 0 : mesh.box().sizes().maxCoeff();
+}
+
+/// A mesh in which the first vertex in each cell of a grid, `most_cell_m` wide or less, stands for
+/// all that are in it.
+SharedMesh Coarse(const SharedMesh& mesh, double most_cell_m) {
+  const double cell_m = std::min(most_cell_m, LongestSide(mesh) / kLeastCells);
   if (!(cell_m > 0)) return mesh;
   TriangleMesh coarse;
-  std::map<std::array<int, 3>, std::uint32_t> by_cell;
-  const auto stand_in = [&](std::uint32_t vertex) {
-    const Eigen::Vector3d& p = mesh->vertices[vertex];
-    const Eigen::Array3i cell = ((p - low) / cell_m).array().floor().cast<int>();
-    const auto found = by_cell.try_emplace({cell.x(), cell.y(), cell.z()},
-                                           static_cast<std::uint32_t>(coarse.vertices.size()));
-    if (found.second) coarse.vertices.push_back(p);
-    return found.first->second;
-  };
+  std::map<std::array<double, 3>, std::uint32_t> by_cell;
+  std::vector<std::uint32_t> stand_ins;
+  for (const Eigen::Vector3d& p : mesh->vertices) {
+    const Eigen::Array3d cell = ((p - mesh.box().min()) / cell_m).array().floor();
+    const auto [found, is_new] =
+        by_cell.try_emplace(std::array<double, 3>{cell.x(), cell.y(), cell.z()},
+                            static_cast<std::uint32_t>(coarse.vertices.size()));
+    if (is_new) coarse.vertices.push_back(p);
+    stand_ins.push_back(found->second);
+  }
   for (const auto& triangle : mesh->triangles) {
-    const std::uint32_t a = stand_in(triangle[0]);
-    const std::uint32_t b = stand_in(triangle[1]);
-    const std::uint32_t c = stand_in(triangle[2]);
+    const std::uint32_t a = stand_ins[triangle[0]];
+    const std::uint32_t b = stand_ins[triangle[1]];
+    const std::uint32_t c = stand_ins[triangle[2]];
     if (a != b && b != c && c != a) coarse.triangles.push_back({a, b, c});
   }
   return coarse.triangles.empty() ? mesh : SharedMesh(std::move(coarse));
 }
 
-}  // namespace
+std::size_t CountTriangles(const std::vector<SharedMesh>& meshes) {
+  std::size_t count = 0;
+  for (const SharedMesh& mesh : meshes) count += mesh->triangles.size();
+  return count;
+}
 
-ShownRobot::ShownRobot(Robot robot) : robot_(std::move(robot)) {
-  if (!robot_.spheres.empty()) return;
-  try {
-    bodies_ = LoadLinkGeometry(robot_);
-  } catch (const InputError& error) {
-    why_not_ = fmt::format("has no spheres, and {}", error.what());
-    return;
-  }
-  if (bodies_.empty()) why_not_ = "has neither spheres nor collision geometry";
-  for (LinkGeometry& body : bodies_) {
+/// Leaves the bodies about so many triangles at most; what it tells of that, or nothing.
+std::string Coarsen(std::size_t most_triangles, std::vector<LinkGeometry>* bodies) {
+  std::vector<Mesh*> places;
+  std::vector<SharedMesh> meshes;
+  double longest_m = 0;
+  for (LinkGeometry& body : *bodies) {
     for (PlacedShape& placed : body.shapes) {
-      if (auto* mesh = std::get_if<Mesh>(&placed.shape)) mesh->triangles = Coarse(mesh->triangles);
+      auto* mesh = std::get_if<Mesh>(&placed.shape);
+      if (mesh == nullptr) continue;
+      places.push_back(mesh);
+      meshes.push_back(mesh->triangles);
+      longest_m = std::max(longest_m, LongestSide(mesh->triangles));
     }
   }
+  const std::size_t count = CountTriangles(meshes);
+  const double coarsest_m = longest_m / kLeastCells;
+  double cell_m = 0;
+  for (double next_m = 1e-3; CountTriangles(meshes) > most_triangles && cell_m < coarsest_m;
+       next_m *= 2) {
+    cell_m = std::min(next_m, coarsest_m);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      meshes[i] = Coarse(places[i]->triangles, cell_m);
+    }
+  }
+  if (cell_m == 0) return "";
+  for (std::size_t i = 0; i < meshes.size(); ++i) places[i]->triangles = meshes[i];
+  return fmt::format(
+      "The robot's meshes are shown coarser than they are: {} triangles instead of {}, corners up "
+      "to {} mm from their places.",
+      CountTriangles(meshes), count, FormatNumber(1e3 * std::sqrt(3.0) * cell_m));
+}
+
+}  // namespace
+
+ShownRobot::ShownRobot(Robot robot, std::size_t most_triangles)
+    : robot_(std::move(robot)), most_triangles_(most_triangles) {}
+
+const ShownBodies& ShownRobot::bodies() const {
+  if (bodies_) return *bodies_;
+  ShownBodies& shown = bodies_.emplace();
+  try {
+    std::vector<LinkGeometry> bodies = LoadLinkGeometry(robot_);
+    if (bodies.empty()) shown.why_not = "its URDF has no collision geometry";
+    shown.coarser = Coarsen(most_triangles_, &bodies);
+    for (const LinkGeometry& body : bodies) {
+      Json& shapes = shown.shapes[body.link];
+      for (const PlacedShape& placed : body.shapes) {
+        Json one;
+        one["shape"] = ShapeJson(placed.shape, &shown.meshes);
+        one["pose"] = PoseJson(placed.X_FS);
+        shapes.push_back(std::move(one));
+      }
+    }
+  } catch (const InputError& error) {
+    shown.why_not = error.what();
+  }
+  return shown;
 }
 
 }  // namespace planbench

@@ -4,74 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 #include "collision/model_spheres.h"
 #include "common/error.h"
+#include "common/lookup.h"
 #include "planning/resolve.h"
+#include "report/shape_json.h"
 #include "robot_model/group_kinematics.h"
 
 namespace planbench {
 namespace {
 
-/// To 0.01 mm, or 1e-5 of a quaternion.
-double RoundedPosition(double value) { return std::round(1e5 * value) / 1e5; }
-
-void AppendPose(const Eigen::Isometry3d& X, Json* list) {
-  const Eigen::Quaterniond q(X.linear());
-  for (const double value : {X.translation().x(), X.translation().y(), X.translation().z(), q.x(),
-                             q.y(), q.z(), q.w()}) {
-    list->push_back(RoundedPosition(value));
-  }
-}
-
 /// Without a path; more would hide one another.
 constexpr std::size_t kGoalsShown = 8;
-
-Json Pose(const Eigen::Isometry3d& X) {
-  Json pose = Json::array();
-  AppendPose(X, &pose);
-  return pose;
-}
-
-Json Point(const Eigen::Vector3d& p) {
-  return {RoundedPosition(p.x()), RoundedPosition(p.y()), RoundedPosition(p.z())};
-}
-
-Json ShapeJson(const Shape& shape) {
-  Json json = {{"type", ShapeTypeName(shape)}};
-  if (const auto* box = std::get_if<Box>(&shape)) json["size"] = Point(box->size);
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) json["radius"] = sphere->radius;
-  const auto round = [&](const auto* solid) {
-    if (solid == nullptr) return;
-    json["radius"] = solid->radius;
-    json["length"] = solid->length;
-  };
-  round(std::get_if<Cylinder>(&shape));
-  round(std::get_if<Cone>(&shape));
-  round(std::get_if<Capsule>(&shape));
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-    json["vertices"] = Json::array();
-    for (const Eigen::Vector3d& vertex : mesh->triangles->vertices) {
-      for (const double value : vertex) json["vertices"].push_back(RoundedPosition(value));
-    }
-    json["triangles"] = Json::array();
-    for (const auto& triangle : mesh->triangles->triangles) {
-      for (const std::uint32_t vertex : triangle) json["triangles"].push_back(vertex);
-    }
-  }
-  return json;
-}
-
-void AppendSolids(const SceneObject& object, const std::string& link, Json* solids) {
-  for (const PlacedShape& placed : object.shapes) {
-    Json solid = {{"name", object.id}};
-    if (!link.empty()) solid["link"] = link;
-    solid["shape"] = ShapeJson(placed.shape);
-    solid["pose"] = Pose(object.X_WO * placed.X_FS);
-    solids->push_back(std::move(solid));
-  }
-}
 
 /// "valid", or why a path is not.
 std::string Told(const PathVerdict& verdict) {
@@ -102,45 +49,31 @@ class View {
   View(const ShownRobot& shown, const Scene& scene, const std::string& group_name,
        const JointState& start, const std::vector<JointGoal>& goal, CollisionModel model)
       : robot_(shown.robot()),
-        spheres_(ModelSpheres(robot_, model)),
         group_(robot_.Group(group_name)),
         query_(ResolveQuery(robot_, group_, start, goal, "the problem")),
         kinematics_(robot_.model, group_, query_.base_positions) {
-    if (spheres_.empty()) {
-      bodies_ = shown.bodies();
-      if (!shown.why_not().empty()) {
-        notes_.push_back(fmt::format("The robot is not shown: it {}.", shown.why_not()));
-      }
-    } else if (model == CollisionModel::kMeshes) {
-      notes_.emplace_back("Checked: the robot's meshes; shown: its spheres.");
-    }
+    json_["meshes"] = Json::object();
+    ChooseGeometry(shown, model);
     json_["solids"] = Json::array();
-    for (const SceneObject& object : scene.objects) AppendSolids(object, "", &json_["solids"]);
+    for (const SceneObject& object : scene.objects) AddSolids(object, "");
     for (const AttachedObject& attached : scene.attached) {
-      AppendSolids(attached.object, attached.link, &json_["solids"]);
+      AddSolids(attached.object, attached.link);
     }
     json_["links"] = Json::array();
     kinematics_.Update(query_.start);
     for (int link = 0; link < robot_.model.num_links(); ++link) {
       if (!IsShown(link, scene)) continue;
       Json one = {{"name", robot_.model.links()[static_cast<std::size_t>(link)].name},
-                  {"pose", Pose(kinematics_.X_BL(link))},
+                  {"pose", PoseJson(kinematics_.X_BL(link))},
                   {"moves", kinematics_.Moves(link)},
-                  {"spheres", Json::array()},
-                  {"shapes", Json::array()}};
+                  {"spheres", Json::array()}};
       for (const LinkSphere& sphere : spheres_) {
         if (sphere.link != link) continue;
-        Json values = Point(sphere.p_LS);
+        Json values = PointJson(sphere.p_LS);
         values.push_back(RoundedPosition(sphere.radius));
         one["spheres"].push_back(std::move(values));
       }
-      for (const LinkGeometry& body : bodies_) {
-        if (body.link != link) continue;
-        for (const PlacedShape& placed : body.shapes) {
-          Json shape = {{"shape", ShapeJson(placed.shape)}, {"pose", Pose(placed.X_FS)}};
-          one["shapes"].push_back(std::move(shape));
-        }
-      }
+      one["shapes"] = Lookup(bodies_, link).value_or(Json::array());
       json_["links"].push_back(std::move(one));
       if (kinematics_.Moves(link)) moving_.push_back(link);
     }
@@ -163,7 +96,7 @@ class View {
     const auto add_frame = [&](const Configuration& q) {
       motion["frames"].push_back(Poses(q));
       for (std::size_t i = 0; i < tips.size(); ++i) {
-        motion["tips"][i].push_back(Point(kinematics_.X_BL(tips[i]).translation()));
+        motion["tips"][i].push_back(PointJson(kinematics_.X_BL(tips[i]).translation()));
       }
     };
     const PathVerdict* const hit = Hit(check);
@@ -219,13 +152,48 @@ class View {
   }
 
  private:
+  /// What the robot was, or is to be, checked by, or else what there is.
+  void ChooseGeometry(const ShownRobot& shown, CollisionModel model) {
+    spheres_ = ModelSpheres(robot_, model);
+    if (model != CollisionModel::kMeshes && !spheres_.empty()) return;
+    const ShownBodies& bodies = shown.bodies();
+    if (bodies.why_not.empty()) {
+      spheres_ = {};
+      bodies_ = bodies.shapes;
+      json_["meshes"] = bodies.meshes;
+      if (!bodies.coarser.empty()) notes_.push_back(bodies.coarser);
+      if (model != CollisionModel::kMeshes) {
+        notes_.push_back(
+            fmt::format("The robot has no spheres for the collision model '{}'; shown: the "
+                        "collision geometry of its URDF.",
+                        EnumName(model)));
+      }
+    } else if (spheres_.empty()) {
+      notes_.push_back(
+          fmt::format("The robot is not shown: it has no spheres, and {}.", bodies.why_not));
+    } else {
+      notes_.push_back(fmt::format("Checked: the robot's meshes; shown: its spheres, because {}.",
+                                   bodies.why_not));
+    }
+  }
+
+  /// `link`: what the object is attached to; "" if it is of the scene.
+  void AddSolids(const SceneObject& object, const std::string& link) {
+    for (const PlacedShape& placed : object.shapes) {
+      Json solid = {{"name", object.id}};
+      if (!link.empty()) solid["link"] = link;
+      solid["shape"] = ShapeJson(placed.shape, &json_["meshes"]);
+      solid["pose"] = PoseJson(object.X_WO * placed.X_FS);
+      json_["solids"].push_back(std::move(solid));
+    }
+  }
+
   bool IsShown(int link, const Scene& scene) const {
-    const auto of_link = [&](const auto& part) { return part.link == link; };
+    const auto of_link = [&](const LinkSphere& sphere) { return sphere.link == link; };
     const auto at_link = [&](const AttachedObject& attached) {
       return robot_.model.FindLink(attached.link) == link;
     };
-    return std::any_of(spheres_.begin(), spheres_.end(), of_link) ||
-           std::any_of(bodies_.begin(), bodies_.end(), of_link) ||
+    return std::any_of(spheres_.begin(), spheres_.end(), of_link) || bodies_.contains(link) ||
            std::any_of(scene.attached.begin(), scene.attached.end(), at_link);
   }
 
@@ -267,11 +235,11 @@ class View {
   }
 
   const Robot& robot_;
-  const std::vector<LinkSphere>& spheres_;  // That stand for it,
-  std::span<const LinkGeometry> bodies_;    // or, if there are none, its own bodies.
   const PlanningGroup& group_;
   ResolvedQuery query_;
   GroupKinematics kinematics_;
+  std::span<const LinkSphere> spheres_;  // That stand for the robot,
+  std::map<int, Json> bodies_;           // or its own bodies (ShownBodies::shapes).
   std::vector<int> moving_;
   std::vector<std::string> notes_;  // What is not shown, or not as it is.
   Json json_;
@@ -304,10 +272,9 @@ std::string AttemptOf(const RunRecordMessage& run) {
 
 }  // namespace
 
-Json ProblemView(const ShownRobot& shown, const Problem& problem) {
+Json ProblemView(const ShownRobot& shown, const Problem& problem, CollisionModel model) {
   const Robot& robot = shown.robot();
-  View view(shown, problem.scene, problem.group, problem.start, problem.goal,
-            CollisionModel::kSpheres);
+  View view(shown, problem.scene, problem.group, problem.start, problem.goal, model);
   view.AddGoals({}, {});
   return view.Take(
       fmt::format("{} {}", problem.set, problem.index),

@@ -25,6 +25,7 @@ struct Flags {
   std::optional<std::int64_t> run;
   std::string problem;
   RobotFlags robot;
+  CollisionModel model = CollisionModel::kSpheres;
   std::string out = "view.html";
 };
 
@@ -42,7 +43,7 @@ Json ViewOfRun(const Flags& flags) {
   for (const StoredSession& session : ReadSessions(flags.session).sessions) {
     for (const StoredRun& run : session.runs) {
       if (run.id != *flags.run) continue;
-      const RecordedViews views(session, flags.robot.folder);
+      const RecordedViews views(session, flags.robot.folder, flags.robot.Packages());
       TellPassedOver(views.passed_over());
       return views.View(run, kFrames);
     }
@@ -69,8 +70,8 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
   const SessionMessage session = LastTold(recorded, run.run_id);
-  return RunView(ShownRobot(LoadSessionRobot(session, flags.robot.folder)), scene->second, run,
-                 kFrames);
+  const ShownRobot shown(LoadSessionRobot(session, flags.robot.folder, flags.robot.Packages()));
+  return RunView(shown, scene->second, run, kFrames);
 }
 
 Json ViewOfProblem(const Flags& flags) {
@@ -87,7 +88,7 @@ Json ViewOfProblem(const Flags& flags) {
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{}: no problem {}", set.name, index));
   const ShownRobot shown(flags.robot.Load());
-  return ProblemView(shown, ReadProblem(files->scene, files->request, shown.robot()));
+  return ProblemView(shown, ReadProblem(files->scene, files->request, shown.robot()), flags.model);
 }
 
 Json ViewOf(const Flags& flags) {
@@ -120,9 +121,12 @@ int main(int argc, char** argv) {
   CLI::Option* const problems = app.add_option("--problems,--problem", flags.problem,
                                                "SET/3: problem 3 of the problem set folder SET");
   const std::vector<CLI::Option*> robot_flags = flags.robot.AddTo(&app);
-  robot_flags.front()->description("robot folder; default: the session's");
-  // What is recorded tells its spheres, and its scenes' meshes are in the store.
-  for (std::size_t i = 1; i < robot_flags.size(); ++i) robot_flags[i]->needs(problems);
+  robot_flags[0]->description("robot folder; default: the session's");
+  robot_flags[1]->needs(problems);  // What is recorded tells its spheres,
+  app.add_option("--collision-model", flags.model, "geometry by which the robot is shown")
+      ->transform(planbench::OneOf<planbench::CollisionModel>())
+      ->default_str("spheres")
+      ->needs(problems);  // and by what it was checked.
   app.add_option("--out", flags.out, "the page")->capture_default_str();
   return planbench::RunCommand(&app, argc, argv, [&] { return planbench::Run(flags); });
 }

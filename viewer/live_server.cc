@@ -6,7 +6,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <set>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "common/error.h"
 #include "viewer/live_page.h"
@@ -31,10 +34,22 @@ std::string Event(const char* name, const Json& data) {
                      data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+/// Of a view that comes after one with the meshes `held`, which are then its own; those of a robot
+/// can be megabytes, and requests take milliseconds.
+void LeaveOutMeshes(std::set<std::string>* held, Json* view) {
+  if (!view->contains("meshes")) return;
+  const std::set<std::string> before = std::exchange(*held, {});
+  for (auto& [id, mesh] : (*view)["meshes"].items()) {
+    if (before.contains(id)) mesh = nullptr;
+    held->insert(id);
+  }
+}
+
 }  // namespace
 
-LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port)
-    : bus_(bus), session_(robot_folder), http_(std::make_unique<Http>()) {
+LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port,
+                       const std::map<std::string, std::filesystem::path>& packages)
+    : bus_(bus), session_(robot_folder, packages), http_(std::make_unique<Http>()) {
   httplib::Server& server = http_->server;
   // cpp-httplib would share the port with whoever has it.
   server.set_socket_options([](socket_t socket) {
@@ -61,7 +76,8 @@ LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int 
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
         "text/event-stream",
-        [this, shown = std::int64_t{-1}, look = 0](std::size_t, httplib::DataSink& sink) mutable {
+        [this, shown = std::int64_t{-1}, look = 0, held = std::set<std::string>()](
+            std::size_t, httplib::DataSink& sink) mutable {
           std::string text;
           {
             const std::scoped_lock lock(mutex_);
@@ -71,7 +87,10 @@ LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int 
             }
             if (session_.view_number() != shown) {
               shown = session_.view_number();
-              if (const auto view = session_.View()) text += Event("view", *view);
+              if (auto view = session_.View()) {
+                LeaveOutMeshes(&held, &*view);
+                text += Event("view", *view);
+              }
             }
           }
           if (!text.empty() && !sink.write(text.data(), text.size())) return false;

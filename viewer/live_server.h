@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -12,12 +13,13 @@ namespace planbench {
 
 /// Serves LivePage on this machine alone (127.0.0.1), and at /events what happens on a bus as
 /// server-sent events: `state` (LiveSession::State) twice a second, `view` (LiveSession::View) when
-/// it has changed.
+/// it has changed, in which null stands for meshes that the view before it had.
 class LiveServer {
  public:
-  /// `port` 0: any that is free. Throws InputError if it cannot be had, or for a robot
-  /// folder (LiveSession) that is none.
-  LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port);
+  /// `port` 0: any that is free; `robot_folder`, `packages`: LiveSession's. Throws InputError if
+  /// the port cannot be had, or for a robot folder that is none.
+  LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int port,
+             const std::map<std::string, std::filesystem::path>& packages = {});
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;

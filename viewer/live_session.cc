@@ -44,8 +44,9 @@ Json UnlessZero(double value) { return value == 0 ? Json() : Json(value); }
 
 }  // namespace
 
-LiveSession::LiveSession(std::filesystem::path robot_folder)
-    : robot_folder_(std::move(robot_folder)) {
+LiveSession::LiveSession(std::filesystem::path robot_folder,
+                         std::map<std::string, std::filesystem::path> packages)
+    : robot_folder_(std::move(robot_folder)), packages_(std::move(packages)) {
   if (!robot_folder_.empty()) LoadedRobot();
 }
 
@@ -213,7 +214,7 @@ const ShownRobot& LiveSession::LoadedRobot() const {
   if (robot_) return *robot_;
   SessionMessage session = session_.value_or(SessionMessage());
   if (scene_server_) session.nodes.push_back(*scene_server_);
-  robot_ = std::make_unique<const ShownRobot>(LoadSessionRobot(session, robot_folder_));
+  robot_ = std::make_unique<const ShownRobot>(LoadSessionRobot(session, robot_folder_, packages_));
   return *robot_;
 }
 

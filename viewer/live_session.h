@@ -26,9 +26,10 @@ class LiveSession {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// `robot_folder`: empty: the one that the session or its scene server names. Throws InputError
-  /// if there is no robot in it.
-  explicit LiveSession(std::filesystem::path robot_folder);
+  /// `robot_folder`: empty: the one that the session or its scene server names; `packages`: as of
+  /// LoadSessionRobot. Throws InputError if there is no robot in the folder.
+  explicit LiveSession(std::filesystem::path robot_folder,
+                       std::map<std::string, std::filesystem::path> packages = {});
 
   /// Takes a message that came at `now`; one that cannot be decoded, or is of an improvement that
   /// is none (ImprovementRule), is counted.
@@ -59,6 +60,7 @@ class LiveSession {
   const ShownRobot& LoadedRobot() const;
 
   std::filesystem::path robot_folder_;
+  std::map<std::string, std::filesystem::path> packages_;
   mutable std::unique_ptr<const ShownRobot> robot_;
   std::optional<SessionMessage> session_;
   TimePoint session_heard_;                        ///< Its first message.

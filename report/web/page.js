@@ -336,6 +336,7 @@ const report = (() => {
   function showView(attempt) {
     if (shown.viewer) shown.viewer.dispose();
     const view = JSON.parse(viewData(attempt).textContent);
+    for (const id of Object.keys(view.meshes)) view.meshes[id] = JSON.parse(document.getElementById("mesh-" + id).textContent);
     const at = element("div");
     shown.element.replaceChildren(element("h3", {}, view.title), element("p", {}, view.facts.join(" ")), at);
     shown.viewer = makeViewer(at, view);

@@ -1,5 +1,5 @@
 "use strict";
-// A problem in 3D: its solids, the robot as spheres, or as its own bodies, at start and goal, and its paths side by side, played or scrubbed.
+// A problem in 3D: its solids, the robot by the geometry that was checked at start and goal, and its paths side by side, played or scrubbed.
 // Poses are computed beforehand (report/view_data.h); the view interpolates between neighbouring frames alone.
 // `previous`: a viewer whose place this one takes, seen from the same point.
 function makeViewer(container, data, previous = null) {
@@ -15,6 +15,25 @@ function makeViewer(container, data, previous = null) {
   const series = place => new THREE.Color(theme.property("--series").split(",")[place].trim());
 
   // ---- Bodies -----------------------------------------------------------------------------------
+  // Numbers of so many bytes each, from base64 (report/shape_json.h).
+  function numbers(text, numBytes) {
+    const bytes = atob(text);
+    const made = new (numBytes === 2 ? Uint16Array : Uint32Array)(bytes.length / numBytes);
+    for (let i = 0; i < bytes.length; ++i) made[Math.floor(i / numBytes)] |= bytes.charCodeAt(i) << (8 * (i % numBytes));
+    return made;
+  }
+
+  function meshGeometry({low, size, vertices, triangles}) {
+    const steps = numbers(vertices, 2);
+    const made = new THREE.BufferGeometry();
+    made.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(steps, (step, i) => low[i % 3] + size[i % 3] * step / 65535), 3));
+    made.setIndex(new THREE.BufferAttribute(numbers(triangles, steps.length / 3 > 65536 ? 4 : 2), 1));
+    const flat = made.toNonIndexed();
+    flat.computeVertexNormals();
+    return flat;
+  }
+
+  const madeOfMeshes = new Map();  // by id: a robot's are in every copy of it
   function geometry(shape) {
     switch (shape.type) {
       case "box": return new THREE.BoxBufferGeometry(...shape.size);
@@ -23,14 +42,9 @@ function makeViewer(container, data, previous = null) {
       case "cylinder": return new THREE.CylinderBufferGeometry(shape.radius, shape.radius, shape.length, 32).rotateX(Math.PI / 2);
       case "cone": return new THREE.ConeBufferGeometry(shape.radius, shape.length, 32).rotateX(Math.PI / 2);
       case "half-space": return new THREE.BoxBufferGeometry(4, 4, 0.01).translate(0, 0, -0.005);
-      case "mesh": {
-        const mesh = new THREE.BufferGeometry();
-        mesh.setAttribute("position", new THREE.Float32BufferAttribute(shape.vertices, 3));
-        mesh.setIndex(shape.triangles);
-        const flat = mesh.toNonIndexed();
-        flat.computeVertexNormals();
-        return flat;
-      }
+      case "mesh":
+        if (!madeOfMeshes.has(shape.mesh)) madeOfMeshes.set(shape.mesh, meshGeometry(data.meshes[shape.mesh]));
+        return madeOfMeshes.get(shape.mesh);
     }
     return null;
   }

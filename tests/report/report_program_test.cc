@@ -297,7 +297,8 @@ TEST_F(ReportProgramTest, ViewFindsMeshesAndSpheresOfAProblemWhereItIsTold) {
               {"--package-path", "boat=" + Path("elsewhere"), "--spheres", Path("one.yaml")});
   ASSERT_EQ(Run(view, "view"), kExitOk) << errors_;
   const std::string page = ReadText(folder_ / "view.html");
-  EXPECT_THAT(page, HasSubstr("\"vertices\":[0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.125]"));
+  EXPECT_THAT(page, HasSubstr("\"low\":[0.0,0.0,0.0],\"size\":[1.0,1.0,0.125],"
+                              "\"vertices\":\"AAAAAAAA//8AAAAAAAD/////\""));
   EXPECT_THAT(page, HasSubstr("\"spheres\":[[0.0625,0.0,0.0,0.25]]"));
 }
 
@@ -380,7 +381,10 @@ TEST_F(ReportProgramTest, ViewRefusesWhatItCannotShow) {
   expect_refused({"--problem", set + "/3", "--robot", robot, "--run", "1"},
                  "--problems shows no run");
   expect_refused({"--log", Path("empty.lcmlog")}, "no run is recorded");
-  expect_refused({"--log", Path("empty.lcmlog"), "--package-path", "a=" + set}, "--problems");
+  for (const auto& [flag, value] : std::map<std::string, std::string>{
+           {"--spheres", "spheres.yaml"}, {"--collision-model", "meshes"}}) {
+    expect_refused({"--log", Path("empty.lcmlog"), flag, value}, "--problems");
+  }
   const std::string log = Path("one.lcmlog");
   const std::vector<std::uint8_t> record = Encode(MakeRecord({.contestant = "A"}, "one", 1));
   EventLog(log, EventLog::Mode::kNew).Write({channel::kRunRecord, record, 1});

@@ -50,6 +50,11 @@ TEST_F(SessionRobotTest, KnowsThePackagesThatTheDriverWasToldOf) {
   session_.settings["package-path"] = "arm=/a\\,b,hand=/c,arm=/d";
   EXPECT_EQ(LoadSessionRobot(session_, "").resources.packages,
             (std::map<std::string, std::filesystem::path>{{"arm", "/a,b"}, {"hand", "/c"}}));
+  // What is given counts before that.
+  for (const auto& folder : {std::filesystem::path(), planar_}) {
+    EXPECT_EQ(LoadSessionRobot(session_, folder, {{"hand", "/e"}}).resources.packages,
+              (std::map<std::string, std::filesystem::path>{{"arm", "/a,b"}, {"hand", "/e"}}));
+  }
 }
 
 TEST_F(SessionRobotTest, IsOfTheSceneServerOfItsRobot) {

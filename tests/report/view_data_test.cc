@@ -7,12 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/read_text.h"
 #include "common/write_file.h"
 #include "geometry/polyhedra.h"
 #include "report/page.h"
 #include "tests/report/browser.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/mesh_arm.h"
+#include "tests/support/obj_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -20,16 +21,19 @@ namespace {
 
 /// What a page's script can ask of its picture.
 constexpr char kPixels[] = R"script(
-    const pixels = () => {
+    const pixels = (canvas = view.canvas) => {
       const copy = document.createElement("canvas");
-      copy.width = view.canvas.width;
-      copy.height = view.canvas.height;
+      copy.width = canvas.width;
+      copy.height = canvas.height;
       const context = copy.getContext("2d");
-      context.drawImage(view.canvas, 0, 0);
+      context.drawImage(canvas, 0, 0);
       return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
     };
     const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
 )script";
+
+/// Of a mesh of a view, with less than 65537 vertices.
+std::size_t NumTriangles(const Json& mesh) { return FromBase64(mesh["triangles"]).size() / 6; }
 
 /// The planar arm (links of 0.5, 0.4 and 0.3 m) in front of a box, and a run that folds it.
 class ViewDataTest : public testing::Test {
@@ -62,25 +66,14 @@ class ViewDataTest : public testing::Test {
     run_.path_check.verdict->contact = Contact{"hand", "box", 0.01};
   }
 
-  /// The same arm without spheres, its hand a mesh of 4000 triangles.
+  /// The same arm, its hand a mesh of 3996 triangles.
+  Robot MeshArm(const std::string& mesh = "hand.obj") const {
+    folder_.Write("arm/hand.obj", ObjText(PrismMesh(0.05, 0.2, 1000)));
+    return LoadRobot(WriteMeshArm(folder_, mesh));
+  }
   ShownRobot WithoutSpheres(const std::string& mesh = "hand.obj") const {
-    std::string urdf =
-        ReadText(std::string(PLANBENCH_SOURCE_DIR) + "/tests/data/planar3/planar3.urdf");
-    const std::size_t hand = urdf.find("<sphere", urdf.find("<link name=\"hand\">"));
-    urdf.replace(hand, urdf.find("/>", hand) + 2 - hand, "<mesh filename=\"" + mesh + "\"/>");
-    Robot robot = robot_.robot();
-    robot.model = RobotModel::FromUrdf(urdf, "arm.urdf");
+    Robot robot = MeshArm(mesh);
     robot.spheres.clear();
-    robot.resources.base_folder = folder_.path();
-    const TriangleMesh prism = PrismMesh(0.05, 0.2, 1000);
-    std::string obj;
-    for (const Eigen::Vector3d& p : prism.vertices) {
-      obj += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
-    }
-    for (const auto& t : prism.triangles) {
-      obj += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-    }
-    folder_.Write("hand.obj", obj);
     return ShownRobot(std::move(robot));
   }
 
@@ -148,16 +141,64 @@ TEST_F(ViewDataTest, SolidsAndSpheresAreThoseOfSceneAndRobot) {
   EXPECT_EQ(view["links"][1]["spheres"][0], Json({0.1, 0.0, 0.0, 0.04}));
 }
 
-TEST_F(ViewDataTest, SpheresThatStandForMeshesAreToldAsSuch) {
-  const std::string note = "Checked: the robot's meshes; shown: its spheres.";
-  EXPECT_THAT(RunView(robot_, scene_, run_, 10)["facts"], testing::Not(testing::Contains(note)));
+TEST_F(ViewDataTest, TheGeometryThatWasCheckedIsShown) {
+  Robot robot = MeshArm();
+  robot.enclosing_spheres = {robot.spheres.back()};
+  const ShownRobot shown(std::move(robot));
+  // Spheres and shapes of the upper arm and of the hand.
+  const auto counts = [&](CollisionModel model) {
+    run_.request.collision_model = model;
+    const Json view = RunView(shown, scene_, run_, 10);
+    EXPECT_EQ(view["facts"].size(), 2u) << view["facts"];
+    std::vector<std::size_t> found;
+    for (const Json& link : view["links"]) {
+      if (link["name"] != "upper_arm" && link["name"] != "hand") continue;
+      found.push_back(link["spheres"].size());
+      found.push_back(link["shapes"].size());
+    }
+    found.push_back(view["meshes"].size());
+    return found;
+  };
+  EXPECT_THAT(counts(CollisionModel::kSpheres), testing::ElementsAre(9, 0, 5, 0, 0));
+  EXPECT_THAT(counts(CollisionModel::kVoxels), testing::ElementsAre(9, 0, 5, 0, 0));
+  EXPECT_THAT(counts(CollisionModel::kMeshes), testing::ElementsAre(0, 9, 0, 5, 1));
+  EXPECT_THAT(counts(CollisionModel::kEnclosing), testing::ElementsAre(1, 0, 0));
+}
+
+TEST_F(ViewDataTest, WhatStandsForAnotherGeometryIsToldAsSuch) {
   run_.request.collision_model = CollisionModel::kMeshes;
-  EXPECT_THAT(RunView(robot_, scene_, run_, 10)["facts"], testing::Contains(note));
-  EXPECT_THAT(RunView(WithoutSpheres(), scene_, run_, 10)["facts"],
-              testing::Not(testing::Contains(note)));
+  Json view = RunView(ShownRobot(MeshArm("package://elsewhere/hand.obj")), scene_, run_, 10);
+  EXPECT_THAT(view["facts"].back().get<std::string>(),
+              testing::MatchesRegex("Checked: the robot's meshes; shown: its spheres, because "
+                                    ".*planar3.urdf.*--package-path elsewhere=DIR.*"));
+  EXPECT_EQ(view["links"][1]["spheres"].size(), 9u);
+  EXPECT_TRUE(view["links"][1]["shapes"].empty());
+  run_.request.collision_model = CollisionModel::kEnclosing;
+  view = RunView(robot_, scene_, run_, 10);
+  EXPECT_EQ(view["facts"].back(),
+            "The robot has no spheres for the collision model 'enclosing'; shown: the collision "
+            "geometry of its URDF.");
+  EXPECT_EQ(view["links"][1]["shapes"].size(), 9u);
+}
+
+TEST_F(ViewDataTest, MoreTrianglesThanAPageCanHoldAreMadeFewer) {
+  run_.request.collision_model = CollisionModel::kMeshes;
+  const Json view = RunView(ShownRobot(MeshArm(), 1000), scene_, run_, 10);
+  ASSERT_EQ(view["meshes"].size(), 1u);
+  const std::size_t num_triangles = NumTriangles(view["meshes"].front());
+  EXPECT_GT(num_triangles, 400u);
+  EXPECT_LE(num_triangles, 1000u);
+  EXPECT_EQ(view["facts"].back(),
+            fmt::format("The robot's meshes are shown coarser than they are: {} triangles instead "
+                        "of 3996, corners up to 3.46 mm from their places.",
+                        num_triangles));
+  // However few there may be, a hand stays one.
+  const Json coarsest = RunView(ShownRobot(MeshArm(), 1), scene_, run_, 10);
+  EXPECT_GT(NumTriangles(coarsest["meshes"].front()), 30u);
 }
 
 TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
+  run_.request.collision_model = CollisionModel::kMeshes;
   const Json view = RunView(WithoutSpheres(), scene_, run_, 10);
   ASSERT_EQ(view["links"].size(), 4u);
   const Json& arm = view["links"][1];
@@ -167,20 +208,17 @@ TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
   EXPECT_EQ(arm["shapes"][0]["pose"], Json({0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
   const Json& hand = view["links"][3]["shapes"][0]["shape"];
   EXPECT_EQ(hand["type"], "mesh");
-  EXPECT_GT(hand["triangles"].size(), 3u * 30);
-  EXPECT_LT(hand["triangles"].size(), 3u * 150) << "a picture needs no more";
+  EXPECT_EQ(NumTriangles(view["meshes"][hand["mesh"].get<std::string>()]), 3996u);
   EXPECT_EQ(view["motions"][0]["frames"][0].size(), 3u * 7) << "they move";
-  for (const Json& link : RunView(robot_, scene_, run_, 10)["links"]) {
-    EXPECT_TRUE(link["shapes"].empty()) << "spheres are shown";
-  }
 }
 
 TEST_F(ViewDataTest, OfARobotThatCannotBeShownItIsSaid) {
   const ShownRobot robot = WithoutSpheres("package://elsewhere/hand.obj");
   const Json view = RunView(robot, scene_, run_, 10);
-  EXPECT_THAT(view["facts"].back().get<std::string>(),
-              testing::MatchesRegex("The robot is not shown: it has no spheres, and arm.urdf.*"
-                                    "package://elsewhere/hand.obj.*"));
+  EXPECT_THAT(
+      view["facts"].back().get<std::string>(),
+      testing::MatchesRegex("The robot is not shown: it has no spheres, and .*planar3.urdf.*"
+                            "package://elsewhere/hand.obj.*"));
   EXPECT_EQ(view["links"].size(), 1u) << "what holds the tool";
 }
 
@@ -270,6 +308,34 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
   EXPECT_GT(found["dark"], 1000);
   EXPECT_EQ(found["caption"], "raw path; the referee: " + Describe(Contact{"hand", "box", 0.01}));
   EXPECT_EQ(found["left"], 0);
+}
+
+TEST_F(ViewDataTest, TheMeshOfABoxIsDrawnAsTheBox) {
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  TriangleMesh box = BoxMesh({0.5, 0.4, 0.6});
+  for (const std::size_t num_vertices : {8u, 70000u}) {  // indices of 16 and of 32 bits
+    box.vertices.resize(num_vertices, Eigen::Vector3d::Zero());
+    Mesh mesh;
+    mesh.triangles = box;
+    scene_.objects[0].shapes[0].shape = mesh;
+    scene_.objects[0].X_WO.translation() = Eigen::Vector3d(0.5, -0.5, 0.2);
+    const auto page = folder_ / fmt::format("{}.html", num_vertices);
+    WriteFile(page, ViewPage(RunView(robot_, scene_, run_, 10)));
+    const nlohmann::json found = Browse(page, std::string(kPixels) + R"script(
+      const ofMesh = pixels();
+      const data = JSON.parse(document.getElementById("data").textContent);
+      let last = view;
+      const picture = shape => {
+        data.solids[0].shape = shape;
+        last = makeViewer(document.getElementById("main"), data, last);
+        return pixels(last.canvas);
+      };
+      found.to_box = differing(ofMesh, picture({type: "box", size: [0.5, 0.4, 0.6]}));
+      found.to_another = differing(ofMesh, picture({type: "box", size: [0.5, 0.4, 0.5]}));
+    )script");
+    EXPECT_LT(found["to_box"], 200);
+    EXPECT_GT(found["to_another"], 2000);
+  }
 }
 
 TEST_F(ViewDataTest, ARobotWithoutSpheresIsDrawnAndOneThatCannotBeIsNoHarm) {

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include "geometry/mesh_loader.h"
+#include "geometry/polyhedra.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/mesh_arm.h"
+#include "tests/support/obj_text.h"
 #include "tests/support/planar_session.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -58,6 +63,36 @@ TEST_F(LiveServerTest, SendsWhatHappensOnTheBus) {
   EXPECT_NE(text.find("event: state\ndata: {"), std::string::npos);
   EXPECT_NE(text.find("event: view\ndata: {"), std::string::npos);
   EXPECT_NE(Listen("\"runs\":1").find("\"run_id\":\"session\""), std::string::npos);
+}
+
+TEST_F(LiveServerTest, MeshesAreSentOnceAsLongAsTheyAreShown) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("arm/hand.obj", ObjText(BoxMesh({0.25, 0.1, 0.1})));
+  const std::string left_out = "\"" + SharedMesh(LoadMesh(file)).id() + "\":null";
+  const std::string content = "\"triangles\":\"";
+  PlanarSession session;
+  session.session.settings["robot"] = WriteMeshArm(folder, "hand.obj").string();
+  session.record.request.collision_model = CollisionModel::kMeshes;
+  bus_.Publish(channel::kSession, session.session);
+  bus_.Publish(channel::kScene, session.scene);
+  bus_.Publish(channel::kRunRecord, session.record);
+  httplib::Client client("127.0.0.1", port_);
+  client.set_read_timeout(10, 0);
+  std::string text;
+  int num_pieces = 0;
+  bool is_first = true;
+  const auto listen = [&](const char* data, std::size_t size) {
+    text.append(data, size);
+    if (is_first && text.find(content) != std::string::npos) {
+      is_first = false;
+      session.record.request_id = "another";
+      bus_.Publish(channel::kRunRecord, session.record);
+    }
+    return ++num_pieces < 20 && text.find(left_out) == std::string::npos;
+  };
+  client.Get("/events", listen);
+  EXPECT_NE(text.find(left_out), std::string::npos) << text;
+  EXPECT_EQ(text.find(content), text.rfind(content)) << text;
 }
 
 TEST_F(LiveServerTest, APortInUseIsRefused) {

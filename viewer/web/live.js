@@ -57,7 +57,15 @@ const live = (() => {
 
   const source = new EventSource("/events");
   source.addEventListener("state", event => showState(JSON.parse(event.data)));
-  source.addEventListener("view", event => { next = JSON.parse(event.data); showNext(); });
+  let meshes = {};  // of the view that was sent last
+  source.addEventListener("view", event => {
+    next = JSON.parse(event.data);
+    if (next.meshes) {
+      for (const id of Object.keys(next.meshes)) next.meshes[id] = next.meshes[id] || meshes[id];
+      meshes = next.meshes;
+    }
+    showNext();
+  });
   source.addEventListener("error", () => { at("subtitle").textContent = "the viewer does not answer; trying again"; });
   return {viewer: () => viewer};
 })();

@@ -1,0 +1,136 @@
+// Pages of what was checked by a robot's meshes, made by the programs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/exit_codes.h"
+#include "common/read_text.h"
+#include "geometry/mesh_loader.h"
+#include "geometry/polyhedra.h"
+#include "logger/results_database.h"
+#include "messaging/event_log.h"
+#include "tests/report/browser.h"
+#include "tests/support/child_process.h"
+#include "tests/support/mesh_arm.h"
+#include "tests/support/obj_text.h"
+#include "tests/support/planar_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace planbench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The planar arm, whose hand is a mesh of a package that is nowhere near it.
+class MeshesShownTest : public testing::Test {
+ protected:
+  MeshesShownTest() {
+    arm_ = WriteMeshArm(folder_, "package://hands/hand.obj").string();
+    const auto file = folder_.Write("elsewhere/hand.obj", ObjText(BoxMesh({0.25, 0.1, 0.1})));
+    mesh_id_ = SharedMesh(LoadMesh(file)).id();
+    hands_ = "hands=" + file.parent_path().string();
+  }
+
+  /// Two attempts, by meshes; `packages`: the driver's flag.
+  std::string Record(const std::string& name, const std::string& packages) const {
+    PlanarSession made;
+    made.session.settings["robot"] = arm_;
+    made.session.settings["package-path"] = packages;
+    made.record.request.collision_model = CollisionModel::kMeshes;
+    std::filesystem::create_directories(folder_ / name);
+    EventLog log(folder_ / name / "session.lcmlog", EventLog::Mode::kNew);
+    ResultsDatabase database(folder_ / name / "results.sqlite");
+    log.Write(PlanarSession::Received(channel::kSession, made.session));
+    log.Write(PlanarSession::Received(channel::kScene, made.scene));
+    database.Store(made.session);
+    for (const int trial : {1, 2}) {
+      made.record.trial = trial;
+      made.record.request_id = fmt::format("session/shelf/1/ara/forward/{}", trial);
+      log.Write(PlanarSession::Received(channel::kRunRecord, made.record));
+      database.Store(made.record);
+    }
+    return (folder_ / name).string();
+  }
+
+  /// The page that a program makes.
+  std::string Page(const std::string& program, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), std::string(PLANBENCH_BIN_DIR) + "/" + program);
+    arguments.insert(arguments.end(), {"--out", page_.string()});
+    ChildProcess process(arguments, folder_ / program);
+    EXPECT_EQ(process.Wait(), kExitOk) << process.Errors();
+    return ReadText(page_);
+  }
+
+  static std::size_t Count(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+  }
+
+  std::string NamesMesh() const { return "{\"type\":\"mesh\",\"mesh\":\"" + mesh_id_ + "\"}"; }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path page_ = folder_ / "page.html";
+  std::string arm_, mesh_id_, hands_;
+  const std::string fallback_ = "Checked: the robot's meshes; shown: its spheres, because ";
+};
+
+TEST_F(MeshesShownTest, OfARunTheyAreFoundWhereTheDriverOrTheViewIsTold) {
+  const std::string told = Record("told", hands_);
+  const std::string lost = Record("lost", "hands=/no/such/folder");
+  const auto of_run = [&](const std::string& session, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"--session", session, "--run", "1"});
+    return Page("view", more);
+  };
+  EXPECT_THAT(of_run(told), HasSubstr(NamesMesh()));
+  const std::string without = of_run(lost);
+  EXPECT_THAT(without, HasSubstr(fallback_));
+  EXPECT_THAT(without, Not(HasSubstr(NamesMesh())));
+  const std::string with = of_run(lost, {"--package-path", hands_});
+  EXPECT_THAT(with, HasSubstr(NamesMesh()));
+  EXPECT_THAT(with, Not(HasSubstr(fallback_)));
+  const std::string log = lost + "/session.lcmlog";
+  EXPECT_THAT(Page("view", {"--log", log}), HasSubstr(fallback_));
+  EXPECT_THAT(Page("view", {"--log", log, "--package-path", hands_}), HasSubstr(NamesMesh()));
+}
+
+TEST_F(MeshesShownTest, OfAProblemTheCollisionModelIsChosen) {
+  folder_.Write("set/scene0001.yaml", "world: {}\n");
+  folder_.Write("set/request0001.yaml",
+                "{group_name: arm, allowed_planning_time: 1, start_state: {joint_state: {name: "
+                "[shoulder, elbow, wrist], position: [0, 0, 0]}}, goal_constraints: "
+                "[{joint_constraints: [{joint_name: shoulder, position: 1}, {joint_name: elbow, "
+                "position: 0}, {joint_name: wrist, position: 0}]}]}\n");
+  std::vector<std::string> view = {
+      "--problems", (folder_ / "set/1").string(), "--robot", arm_, "--package-path", hands_};
+  EXPECT_THAT(Page("view", view), Not(HasSubstr(NamesMesh())));
+  view.insert(view.end(), {"--collision-model", "meshes"});
+  EXPECT_THAT(Page("view", view), HasSubstr(NamesMesh()));
+}
+
+TEST_F(MeshesShownTest, AReportHoldsThemOnceAndDrawsThemInEveryView) {
+  const std::string session = Record("session", "");
+  EXPECT_THAT(Page("report", {session}), HasSubstr(fallback_));
+  const std::string page = Page("report", {session, "--package-path", hands_});
+  EXPECT_EQ(Count(page, NamesMesh()), 2u);
+  EXPECT_EQ(Count(page, "\"" + mesh_id_ + "\":null"), 2u);
+  EXPECT_EQ(Count(page, "id=\"mesh-" + mesh_id_ + "\""), 1u);
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  const nlohmann::json found = Browse(page_, R"script(
+    const buttons = [...document.querySelectorAll("#problem button")].filter(one => one.textContent === "Show in 3D");
+    found.drawn = buttons.map(button => {
+      button.click();
+      const canvas = document.querySelector("canvas.view");
+      const copy = document.createElement("canvas");
+      copy.width = canvas.width;
+      copy.height = canvas.height;
+      const context = copy.getContext("2d");
+      context.drawImage(canvas, 0, 0);
+      return new Set(new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer)).size > 10;
+    });
+  )script");
+  EXPECT_EQ(found["drawn"], (nlohmann::json{true, true}));
+}
+
+}  // namespace
+}  // namespace planbench
