@@ -143,8 +143,36 @@ constexpr char kProbe[] = R"script(
   found.printed.after = document.documentElement.dataset.theme;
   found.themes = document.documentElement.dataset.theme;
   found.evil = document.querySelectorAll(".evil, main i").length;
-  found.unreachable = [...document.querySelectorAll("a, button:not(:disabled), select, summary, .scroll")]
+  found.unreachable = [...document.querySelectorAll("a, button:not(:disabled), select, summary, .scroll, .chart")]
     .filter(one => one.tabIndex < 0).length;
+  // The tooltips that arrow keys reach in each figure, in order.
+  const tooltip = document.getElementById("tooltip"), ring = document.getElementById("ring");
+  const press = (chart, key) => {
+    chart.element.dispatchEvent(new KeyboardEvent("keydown", {key}));
+    return ring.hidden || tooltip.hidden ? "" : tooltip.textContent;
+  };
+  found.reached = {};
+  for (const chart of pictures.all) {
+    chart.element.focus();
+    const tips = found.reached[chart.label] = [];
+    for (let before = null; before !== chart.at;) {
+      before = chart.at;
+      const tip = press(chart, "ArrowRight");
+      if (before !== chart.at) tips.push(tip);
+    }
+    press(chart, "Home");
+    found.below = press(chart, "ArrowDown").split("\n")[0];
+    found.above = press(chart, "ArrowUp");
+    found.escaped = press(chart, "Escape");
+    press(chart, "End");
+  }
+  const ofTimes = pictures.all.find(chart => chart.label.startsWith("Planning time of every run"));
+  if (ofTimes) {
+    ofTimes.element.focus();
+    press(ofTimes, "Home");
+    press(ofTimes, "Enter");
+    found.opened = [document.activeElement.closest("section").id, ring.hidden, tooltip.hidden];
+  }
   found.legends = [...document.querySelectorAll(".legend button")].map(one => one.textContent);
   found.pair = [...document.querySelectorAll("#pairs .controls select")].slice(1)
     .flatMap(one => [...one.options].map(option => option.textContent));
@@ -242,6 +270,26 @@ TEST_F(PageTest, HasAMarkForEveryRowOfTheData) {
   EXPECT_EQ(found["next"], "1");
   EXPECT_EQ(found["failures"], (nlohmann::json{"6", "11", "12"}));
   EXPECT_EQ(found["led"], (nlohmann::json{"a<i>set</i>", "6"}));
+}
+
+TEST_F(PageTest, KeysReachEveryMarkOfAFigure) {
+  const nlohmann::json found = Open(ExampleRuns());
+  // Every run, and a median for each contestant, from left to right.
+  const nlohmann::json& times = found["reached"]["Planning time of every run, shelf"];
+  ASSERT_EQ(times.size(), 38u);
+  const std::string first = std::string(kTagName) + "\nproblem 1, trial ";
+  EXPECT_THAT(times[0].get<std::string>(), testing::StartsWith(first));
+  EXPECT_THAT(times[24].get<std::string>(), testing::StartsWith(kTagName));
+  EXPECT_THAT(times[25].get<std::string>(), testing::StartsWith(kScriptName));
+  EXPECT_THAT(times[37].get<std::string>(), testing::HasSubstr("not solved"));
+  EXPECT_EQ(found["reached"]["Success, shelf"].size(), 2u) << "of interval and dot the dot";
+  EXPECT_EQ(found["reached"]["Share solved by a time, shelf"],
+            (nlohmann::json{kTagName, kScriptName}));
+  // In the last figure: where the time goes, of all sets.
+  EXPECT_EQ(found["below"], kScriptName);
+  EXPECT_THAT(found["above"].get<std::string>(), testing::StartsWith(kTagName));
+  EXPECT_EQ(found["escaped"], "");
+  EXPECT_EQ(found["opened"], (nlohmann::json{"problem", true, true}));
 }
 
 TEST_F(PageTest, DrawsImprovementsWithTheirBounds) {
