@@ -12,6 +12,21 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+// m, of prismatic joints. Those of more travel carry an arm about (rails, gantries, bases), others
+// lift or stretch it (torsos, booms).
+constexpr double kTravelOfARail = 1;
+constexpr double kShortSlide = 0.1;
+constexpr double kLongestSlide = 0.3;  // 0.5: two arms on a rail miss the way between things
+
+bool IsRail(const JointSpace::Joint& joint) {
+  return joint.prismatic && joint.upper - joint.lower > kTravelOfARail;
+}
+
+double LongMove(const JointSpace::Joint& joint, bool is_major) {
+  if (IsRail(joint)) return std::min((joint.upper - joint.lower) / 5, kLongestSlide);
+  return joint.prismatic ? kShortSlide : (is_major ? 20 : 40) * kDegree;
+}
+
 // The divisor of `whole` nearest to `wanted`, `wanted` itself if none is within a third of it.
 int NearestDivisor(int whole, int wanted) {
   for (int off = 0; 3 * off <= wanted; ++off) {
@@ -67,8 +82,7 @@ MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const doub
   std::vector<int> cells;
   for (std::size_t j = 0; j < n; ++j) {
     const JointSpace::Joint& joint = space.joint(static_cast<int>(j));
-    const double wanted = joint.prismatic ? 0.1 : (major[j] ? 20 : 40) * kDegree;
-    const double size = std::min(wanted, (joint.upper - joint.lower) / 3);
+    const double size = std::min(LongMove(joint, major[j] != 0), (joint.upper - joint.lower) / 3);
     const int whole = std::max(1, static_cast<int>(size / discretization[j] + 1e-9));
     const int circle = static_cast<int>(std::lround(2 * std::numbers::pi / discretization[j]));
     cells.push_back(joint.continuous ? NearestDivisor(circle, whole) : whole);
@@ -81,12 +95,13 @@ MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const doub
     move[j] = cells[j] / 2;
     if (move[j] > 0) primitives.short_moves.push_back(move);
   }
-  const auto turns_the_arm = [&](std::size_t j) {
-    return major[j] && !space.joint(static_cast<int>(j)).prismatic;
+  const auto moves_in_pairs = [&](std::size_t j) {
+    const JointSpace::Joint& joint = space.joint(static_cast<int>(j));
+    return joint.prismatic ? IsRail(joint) : major[j] != 0;
   };
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = a + 1; b < n; ++b) {
-      if (!turns_the_arm(a) || !turns_the_arm(b) || on_one_arm[a][b] == 0) continue;
+      if (!moves_in_pairs(a) || !moves_in_pairs(b) || on_one_arm[a][b] == 0) continue;
       for (const int sign : {1, -1}) {
         std::vector<int> move(n, 0);
         move[a] = cells[a];

@@ -24,11 +24,12 @@ std::vector<char> MajorJoints(const JointSpace& space, std::span<const double> r
 /// Size of a cell, rad or m: 1 degree; 5 mm, or 1/40 of a shorter travel.
 double DefaultCell(const JointSpace::Joint& joint);
 
-/// Long moves: each joint alone, by 20 degrees (40 for joints that are not major) or 0.1 m, but at
-/// most a third of its range; every two major revolute joints of one arm (JointsOnOneArm) together,
-/// in the same and in opposite directions. Short moves: each joint by half of that. Of a continuous
-/// joint the moves divide the circle where a divisor is near, so that different orders of moves
-/// meet.
+/// Long moves: each joint alone, by 20 degrees (40 for joints that are not major) or 0.1 m, a rail
+/// (a prismatic joint of more than 1 m of travel) by a fifth of its travel, but at most 0.3 m; none
+/// by more than a third of its range. Every two joints of one arm (JointsOnOneArm) that are rails,
+/// or major and revolute, together, in the same and in opposite directions. Short moves: each joint
+/// by half of that. Of a continuous joint the moves divide the circle where a divisor is near, so
+/// that different orders of moves meet.
 MotionPrimitives DefaultPrimitives(const JointSpace& space, std::span<const double> discretization,
                                    std::span<const char> major,
                                    const std::vector<std::vector<char>>& on_one_arm);

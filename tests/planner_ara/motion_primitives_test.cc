@@ -174,6 +174,33 @@ TEST(DefaultPrimitives, FollowFromLimitsAndReaches) {
   EXPECT_EQ(primitives.short_moves, (Rows{{10, 0, 0}, {0, 20, 0}, {0, 0, 10}}));
 }
 
+TEST(DefaultPrimitives, RailsMoveFurtherThanOtherSlidesAndTogetherWithOtherJoints) {
+  const auto slide = [](double travel) {
+    return JointSpace::Joint{.name = "slide", .prismatic = true, .lower = -1, .upper = travel - 1};
+  };
+  const JointSpace space({slide(1),
+                          slide(1.25),
+                          slide(4),
+                          {"pan", false, false, -3, 3, 1},
+                          {"wrist", false, false, -3, 3, 1}});
+  const std::vector<double> cells = {0.005, 0.005, 0.005, std::numbers::pi / 180,
+                                     std::numbers::pi / 180};
+  const MotionPrimitives primitives =
+      DefaultPrimitives(space, cells, std::vector<char>{1, 1, 1, 1, 0}, AllOnOneArm(5));
+  EXPECT_EQ(primitives.long_moves, (Rows{{20, 0, 0, 0, 0},
+                                         {0, 50, 0, 0, 0},
+                                         {0, 0, 60, 0, 0},
+                                         {0, 0, 0, 20, 0},
+                                         {0, 0, 0, 0, 40},
+                                         {0, 50, 60, 0, 0},
+                                         {0, 50, -60, 0, 0},
+                                         {0, 50, 0, 20, 0},
+                                         {0, 50, 0, -20, 0},
+                                         {0, 0, 60, 20, 0},
+                                         {0, 0, 60, -20, 0}}));
+  EXPECT_EQ(primitives.short_moves.size(), 5u);
+}
+
 TEST(DefaultPrimitives, DivideTheCircleWhereADivisorIsNear) {
   const JointSpace space({{"a", true, false, -std::numbers::pi, std::numbers::pi, 1},
                           {"b", true, false, -std::numbers::pi, std::numbers::pi, 1}});
