@@ -27,10 +27,12 @@ constexpr double kBand_m = 1e-4;
 /// The least margin that is tried for a clearance, as a fraction of the largest.
 constexpr double kLeastMargin = 1e-3;
 
+constexpr double kTurn = 2 * std::numbers::pi;
+
 /// Joint position as the kernels take it: angles at most 2 pi.
 float Reduced(double position, bool slides) {
-  if (std::abs(position) <= 2 * std::numbers::pi || slides) return static_cast<float>(position);
-  return static_cast<float>(std::remainder(position, 2 * std::numbers::pi));
+  if (std::abs(position) <= kTurn || slides) return static_cast<float>(position);
+  return static_cast<float>(std::remainder(position, kTurn));
 }
 
 }  // namespace
@@ -75,6 +77,18 @@ FclChecker& SimdChecker::Exact() {
 
 SimdChecker::LaneMask SimdChecker::SetLanes(std::span<const double> rows, int num) {
   return kernels::PlaceRows(joints_, rows.data(), num, q_.data());
+}
+
+void SimdChecker::PlaceManyTurns(std::span<const double> start, std::span<const double> motion,
+                                 std::span<const MotionSample> samples) {
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    if (joints_.slides[j] != 0 || std::abs(motion[j]) <= kTurn) continue;
+    float* positions = &q_[j * kBlock];
+    for (const MotionSample& sample : samples) {
+      *positions++ =
+          static_cast<float>(std::remainder(start[j] + sample.position * motion[j], kTurn));
+    }
+  }
 }
 
 template <typename Judge>
@@ -138,7 +152,9 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
   block.motion = motion_.data();
   // Between ends within the limits everything is.
   bool fits = true;
+  double widest = 0;
   for (std::size_t j = 0; j < n; ++j) {
+    widest = std::max(widest, std::abs(motion[j]));
     start_[j] = Reduced(start[j], joints_.slides[j] != 0);
     motion_[j] = static_cast<float>(motion[j]);
     const double end = start[j] + motion[j];
@@ -161,6 +177,7 @@ SampleVerdicts SimdChecker::DoCheckSamples(std::span<const double> start,
       around = around || sample.half_length > 0;
     }
     kernels::PlaceSamples(joints_, block, q_.data(), half_widths_.data());
+    if (widest > kTurn) PlaceManyTurns(start, motion, lanes);
     const auto exact = [&](int lane, FclChecker::Pairs pairs) {
       const MotionSample& sample = At(lanes, lane);
       q.assign(start.begin(), start.end());

@@ -61,6 +61,10 @@ class SimdChecker : public CollisionChecker {
   /// Puts the first `num` configurations into lanes. Returns the lanes that the kernels cannot
   /// judge: what was left out because it cannot be reached is so within the limits only.
   LaneMask SetLanes(std::span<const double> rows, int num);
+  /// Puts joints that turn further than once on a motion into lanes again, in double precision: as
+  /// floats, positions and whole turns are not exact enough there.
+  void PlaceManyTurns(std::span<const double> start, std::span<const double> motion,
+                      std::span<const MotionSample> samples);
   /// Checks the first `num` lanes; `exact(lane, pairs)` is the verdict of the FCL engine (in bit
   /// 0), asked of all pairs for lanes in `unfit`, and of those in doubt where there are doubts.
   template <typename Judge>

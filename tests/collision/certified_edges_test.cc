@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -269,6 +270,68 @@ INSTANTIATE_TEST_SUITE_P(Models, CertifiedEdges,
                                                                                    : "simd") +
                                   "_" + std::string(EnumName(instance.param.second));
                          });
+
+/// Two links that turn about vertical axes, any number of times: "a" through W's origin, "b" 1 m
+/// from it. Spheres of radius 1 mm, 1 m from b's axis, meet where b is a quarter turn.
+Robot MakeTurningRobot() {
+  Robot robot;
+  robot.name = "turning_robot";
+  robot.model = RobotModel::FromUrdf(R"(<robot name="turning_robot">
+    <link name="base"/> <link name="upper"/> <link name="fore"/>
+    <joint name="a" type="revolute">
+      <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/>
+      <limit lower="-9999" upper="9999" velocity="1" effort="1"/>
+    </joint>
+    <joint name="b" type="revolute">
+      <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/>
+      <limit lower="-9999" upper="9999" velocity="1" effort="1"/>
+    </joint>
+  </robot>)",
+                                     "turning_robot.urdf");
+  robot.groups = {robot.model.MakeGroup("arm", {"a", "b"}, "fore")};
+  const int upper = robot.model.FindLink("upper");
+  const int fore = robot.model.FindLink("fore");
+  robot.checked_pairs = {{upper, fore}};
+  robot.spheres = {{upper, Eigen::Vector3d(1, 1, 0), 0.001},
+                   {fore, Eigen::Vector3d(1, 0, 0), 0.001}};
+  return robot;
+}
+
+TEST(ManyTurnsTest, ThinPinsAreMetWhereTheyStand) {
+  const Robot robot = MakeTurningRobot();
+  SimdChecker checker(robot, robot.groups.front());
+  const std::vector<double> start = {-9998.7, 9999};
+  const std::vector<double> motion = {19997.3, -19997.9};
+  for (int i = 0; i < 50; ++i) {
+    const MotionSample sample{0.0137 + 0.0193 * i, 1e-10};
+    const double a = start[0] + sample.position * motion[0];
+    const double ab = a + start[1] + sample.position * motion[1];
+    const Eigen::Vector3d tip(std::cos(a) + std::cos(ab), std::sin(a) + std::sin(ab), 0);
+    const Eigen::Vector3d beside(std::cos(i), std::sin(i), 0);
+    for (const double distance : {-2e-4, 2e-4}) {
+      const Eigen::Isometry3d X_WO(Eigen::Translation3d(tip + (0.002 + distance) * beside));
+      checker.SetScene(SceneWith("pin", Cylinder{0.001, 0.1}, X_WO), std::vector<double>{0, 0});
+      const SampleVerdicts verdicts = checker.CheckSamples(start, motion, {&sample, 1});
+      EXPECT_EQ(verdicts.blocked, distance < 0 ? 1U : 0U) << sample.position;
+      EXPECT_EQ(verdicts.certain, verdicts.blocked) << sample.position;
+    }
+  }
+}
+
+TEST(ManyTurnsTest, HideNothingOfWhatOtherJointsMove) {
+  const Robot robot = MakeTurningRobot();
+  SimdChecker checker(robot, robot.groups.front());
+  checker.SetScene({}, std::vector<double>{0, 0});
+  // The spheres are 0.3 mm apart in the middle, and as b goes on meet or do not.
+  const double middle = std::numbers::pi / 2 - 0.0023;
+  const MotionSample all_of_it{0.5, 0.5};
+  for (const double half_width : {0.0001, 0.0004}) {
+    const std::vector<double> start = {-9999, middle - half_width};
+    const std::vector<double> motion = {19998, 2 * half_width};
+    EXPECT_EQ(checker.CheckSamples(start, motion, {&all_of_it, 1}).blocked,
+              half_width > 0.0003 ? 1U : 0U);
+  }
+}
 
 TEST(VoxelsModelAttachedTest, HeldObjectsAreJudgedExactly) {
   // A ball that reaches `depth` into a plate, or stays short of it.

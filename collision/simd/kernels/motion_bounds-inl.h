@@ -71,7 +71,8 @@ class MotionBounds {
     V sum = Zero();
     for (int j = 0; j < robot_.num_joints; ++j) {
       Store(sum, sums_ + j * kBlock);
-      sum = sum + HalfWidth(j);
+      // By more than the sum is rounded: no difference is below what lies between.
+      sum = hn::MulAdd(sum, Fill(1 + 0x1p-22f), HalfWidth(j));
     }
     Store(sum, sums_ + robot_.num_joints * kBlock);
   }

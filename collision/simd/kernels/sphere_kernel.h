@@ -305,7 +305,8 @@ struct SampleBlock {
   float position[kBlock] = {};
   float half_length[kBlock] = {};
 };
-/// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock].
+/// Writes start + position * motion, and half_length * |motion|, by [joint][kBlock]: each rounded
+/// by some 2e-7 of itself, so that angles are as exact as others if |motion| is at most a turn.
 void PlaceSamples(const Joints& joints, const SampleBlock& block, float* q, float* half_widths);
 
 /// For tests: sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
