@@ -1,5 +1,5 @@
-# `cmake --install`: the programs, what they read (robots, problems, line-ups, message types), and the CMake package
-# planbench: find_package(planbench), planbench::messaging (a planner's node and the messages), planbench::planning,
+# `cmake --install`: the programs, what they read (robots, problems, line-ups, message types), documents and examples, and
+# the CMake package planbench: find_package(planbench), planbench::messaging (a planner's node and the messages), planbench::planning,
 # planbench::collision (the checkers) and what those stand on. `cpack` in the build folder makes a Debian package of it.
 include(CMakePackageConfigHelpers)
 
@@ -25,9 +25,11 @@ install(FILES ${CMAKE_BINARY_DIR}/planbenchConfig.cmake ${CMAKE_BINARY_DIR}/plan
         DESTINATION ${package_folder})
 
 install(PROGRAMS scripts/planbench_slurm DESTINATION lib/planbench)
-install(DIRECTORY robots problems lineups lcmtypes DESTINATION share/planbench PATTERN CMakeLists.txt EXCLUDE)
-install(DIRECTORY docs DESTINATION share/doc/planbench)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/planbench)
+# Beside each other as in the tree, so that the links of the documents lead somewhere.
+install(DIRECTORY robots problems lineups lcmtypes docs DESTINATION share/planbench PATTERN CMakeLists.txt EXCLUDE)
+install(DIRECTORY examples DESTINATION share/planbench USE_SOURCE_PERMISSIONS PATTERN build EXCLUDE)
+install(FILES README.md CONTRIBUTING.md CHANGELOG.md LICENSE packages.txt DESTINATION share/planbench)
+install(FILES LICENSE DESTINATION share/doc/planbench RENAME copyright)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "planbench's maintainers <planbench@localhost>")

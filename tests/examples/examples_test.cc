@@ -2,8 +2,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,24 @@ using testing::HasSubstr;
 
 bool Succeeds(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// "FILE: LINK" of the relative links in documents below `folder` that lead nowhere.
+std::vector<std::string> DeadLinks(const fs::path& folder) {
+  static const std::regex kLink(R"(\]\(([^)\s#:]+)(#[^)\s]*)?\))");
+  std::vector<std::string> dead;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".md") continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator it(text.begin(), text.end(), kLink), end; it != end; ++it) {
+      const std::string link = (*it)[1];
+      if (!fs::exists(entry.path().parent_path() / link)) {
+        dead.push_back(entry.path().string() + ": " + link);
+      }
+    }
+  }
+  return dead;
 }
 
 class ExamplesTest : public testing::Test {
@@ -95,12 +115,14 @@ TEST_F(ExamplesTest, InCppAgainstTheInstalledPackage) {
   const fs::path build = folder_.path() / "build";
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
            {"cmake", "--install", PLANBENCH_BUILD_DIR, "--prefix", prefix},
-           {"cmake", "-S", examples_ / "cpp", "-B", build,
+           {"cmake", "-S", prefix / "share/planbench/examples/cpp", "-B", build,
             "-DCMAKE_PREFIX_PATH=" + prefix.string()},
            {"cmake", "--build", build}}) {
     ChildProcess child(command, folder_.path() / "cmake");
     ASSERT_EQ(child.Wait(), 0) << child.Output() << child.Errors();
   }
+  EXPECT_TRUE(fs::exists(prefix / "share/planbench/README.md"));
+  EXPECT_THAT(DeadLinks(prefix / "share"), testing::IsEmpty());
   // Robots that ship are found in an installation, too.
   ChildProcess server(
       {prefix / "bin/planbench-scene-server", "--robot", "nobody", "--problems", set_},
