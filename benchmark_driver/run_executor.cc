@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
+#include <utility>
 
 #include "benchmark_driver/possible_times.h"
 #include "common/error.h"
@@ -24,9 +24,9 @@ namespace {
 // Short, for a scene server that has just been started again; a repeated request is not worked on
 // twice.
 constexpr std::chrono::milliseconds kServerRetry{250};
+constexpr std::chrono::milliseconds kTurnPoll{50};
 /// How often a problem is asked for that the server had before the first run and now denies.
 constexpr int kProblemAttempts = 3;
-constexpr std::chrono::milliseconds kTurnPoll{5};
 
 /// Of how many failures of the scene server a problem is the cause; one may be another's doing.
 constexpr int kServerFailures = 2;
@@ -88,8 +88,8 @@ void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMes
   result.progress.clear();
 }
 
-/// The record of a run whose path nobody can judge: as of one that was not asked for, to be made
-/// again.
+/// The record of a run of whose paths nobody can judge one: as of one that was not asked for, to be
+/// made again.
 RunRecordMessage Unjudged(RunRecordMessage record, const std::string& why) {
   record.status = PlanStatus::kNoAnswer;
   record.message = "no verdict on its path: " + why;
@@ -117,19 +117,20 @@ RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions con
       conditions_(std::move(conditions)),
       first_planners_(std::move(first_planners)),
       kernel_(std::move(kernel)),
-      patience_(patience),
-      problems_(bus, channel::kProblemRequest, channel::kProblem,
-                ServersOnly(registry, channel::kProblem)),
-      path_checks_(bus, channel::kPathCheckRequest, channel::kPathCheckReply,
-                   ServersOnly(registry, channel::kPathCheckReply)) {}
+      patience_(std::move(patience)),
+      problems_{{bus, channel::kProblemRequest, channel::kProblem,
+                 ServersOnly(registry, channel::kProblem)},
+                {}},
+      path_checks_{{bus, channel::kPathCheckRequest, channel::kPathCheckReply,
+                    ServersOnly(registry, channel::kPathCheckReply)},
+                   {}} {}
 
 std::optional<RunExecutor::Turn> RunExecutor::TakeTurn(const ProblemKey& problem,
                                                        const std::function<bool()>& interrupted) {
   Turn turn;
   turn.lock = std::unique_lock(turn_, std::defer_lock);
-  while (!turn.lock.try_lock()) {
+  while (!turn.lock.try_lock_for(kTurnPoll)) {
     if (interrupted()) return std::nullopt;
-    std::this_thread::sleep_for(kTurnPoll);
   }
   turn.problem = problem;
   turn.failures_before = FailuresIn(&turn);
@@ -146,22 +147,29 @@ int RunExecutor::FailuresIn(Turn* turn) const {
 }
 
 template <typename Request, typename Reply>
-std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
+std::optional<Reply> RunExecutor::AskServer(Service<Request, Reply>* service,
                                             const Request& request, Turn* turn,
                                             const std::string& what,
                                             const std::function<bool()>& interrupted) {
+  const int failures_before = FailuresIn(turn);
   const auto fails = [&] { return FailuresIn(turn) >= kServerFailures; };
   std::chrono::milliseconds waited{0}, without_server{0};
   while (!interrupted()) {
     std::string why = WhyPassedOver(turn->problem);
     if (why.empty() && fails()) {
       why = "twice the scene server died or fell silent when it was asked for " + what;
-      PassOver(*turn, why);
+      PassOver(*turn, why, &service->failed_at);
     } else if (why.empty() && waited >= patience_.until_passed_over) {
       why = fmt::format("the scene server did not answer within {:g} s when it was asked for {}",
                         std::chrono::duration<double>(waited).count(), what);
+      if (!patience_.start_again) {
+        throw std::runtime_error(
+            why +
+            ", and whatever else it is asked for waits behind that: start it again, and if "
+            "it comes to that once more, leave the problem out (--problems-range)");
+      }
       patience_.start_again();
-      PassOver(*turn, why);
+      PassOver(*turn, why, &service->failed_at);
     }
     if (!why.empty()) {
       Reply none;
@@ -169,10 +177,12 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
       none.message = why;
       return none;
     }
-    if (auto reply = client->Call(request, kServerRetry, patience_.until_told,
-                                  [&] { return interrupted() || fails(); })) {
-      failed_at_.clear();
-      return reply;
+    if (auto reply = service->client.Call(request, kServerRetry, patience_.until_told,
+                                          [&] { return interrupted() || fails(); })) {
+      // One that came in the place of another may know nothing of the scene: no answer to this.
+      const bool is_answer = reply->ok || FailuresIn(turn) == failures_before;
+      if (is_answer) service->failed_at.clear();
+      if (is_answer || !fails()) return reply;
     }
     if (interrupted() || fails()) continue;
     const bool is_live = !registry_->Live(NodeKind::kSceneServer).empty();
@@ -190,18 +200,19 @@ std::optional<Reply> RunExecutor::AskServer(RpcClient<Request, Reply>* client,
   return std::nullopt;
 }
 
-void RunExecutor::PassOver(const Turn& turn, const std::string& why) {
+void RunExecutor::PassOver(const Turn& turn, const std::string& why,
+                           std::set<std::string>* failed_at) {
   {
     const std::scoped_lock lock(mutex_);
     passed_over_[turn.problem] = why;
   }
-  failed_at_.insert(LeftOutName(turn.problem.first, turn.problem.second));
-  if (failed_at_.size() < kProblemsFailedAt) return;
+  failed_at->insert(LeftOutName(turn.problem.first, turn.problem.second));
+  if (failed_at->size() < kProblemsFailedAt) return;
   throw std::runtime_error(
       fmt::format("the scene server fails whatever it is asked for: at {}, and it answered nothing "
                   "between; {}; mend what it fails at, or, if it is these, choose others "
                   "(--problems-range)",
-                  fmt::join(failed_at_, ", "), why));
+                  fmt::join(*failed_at, ", "), why));
 }
 
 std::string RunExecutor::WhyPassedOver(const ProblemKey& problem) {
@@ -501,8 +512,10 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   const auto check =
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
-  const std::string why_none = WhyPassedOver({run.problem_set, run.problem_index});
-  if (!check->ok && !why_none.empty()) return Unjudged(std::move(record), why_none);
+  const auto why_none = [&](const PathCheckReplyMessage& reply) {
+    return reply.ok ? "" : WhyPassedOver({run.problem_set, run.problem_index});
+  };
+  if (std::string why = why_none(*check); !why.empty()) return Unjudged(std::move(record), why);
   record.path_check = *check;
   if (is_first_path && check->verdict) {
     TellLength(*check->verdict, record.request.anytime, &record.result.result);
@@ -519,6 +532,9 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
         Judge(run.request_id + "/simplified", record.result.result.simplified_path, record, run,
               interrupted);
     if (!simplified_check) return std::nullopt;
+    if (std::string why = why_none(*simplified_check); !why.empty()) {
+      return Unjudged(std::move(record), why);
+    }
     record.simplified_check = *simplified_check;
   }
   return record;

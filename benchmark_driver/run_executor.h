@@ -31,8 +31,9 @@ struct ServerPatience {
   /// How often its process has failed at its work so far (died, fell silent): a problem at which it
   /// does twice is passed over. Without, each that comes in the place of another tells of one.
   std::function<int()> failures = nullptr;
-  /// Has its process started again, where that can be done: it may be at that answer for ever.
-  std::function<void()> start_again = [] {};
+  /// Has its process started again, which may be at that answer for ever. Without, that ends the
+  /// session: whatever else it is asked for waits behind that.
+  std::function<void()> start_again = nullptr;
 };
 
 /// In what a problem is another than an earlier answer, or a request made of one, says: "scene",
@@ -53,7 +54,8 @@ class RunExecutor {
   /// likewise, who are no contestants and find paths that these improve. Answers of others than the
   /// scene server that `registry` knows are none. It is asked for one thing at a time, and for
   /// nothing of a problem that was passed over. What asks it throws std::runtime_error when it is
-  /// given up, or three problems in succession were passed over.
+  /// given up, or three problems in succession were passed over, or one whose answer does not come
+  /// holds up the others.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
               KernelFolders kernel = {}, std::vector<Contestant> first_planners = {},
               ServerPatience patience = {});
@@ -93,7 +95,7 @@ class RunExecutor {
   /// Of whoever asks the scene server about a problem, one after the other: what it fails at
   /// meanwhile is that.
   struct Turn {
-    std::unique_lock<std::mutex> lock;
+    std::unique_lock<std::timed_mutex> lock;
     ProblemKey problem;
     int failures_before = 0;
     std::string server;  ///< Its instance, as last seen.
@@ -103,12 +105,18 @@ class RunExecutor {
   std::optional<Turn> TakeTurn(const ProblemKey& problem, const std::function<bool()>& interrupted);
   int FailuresIn(Turn* turn) const;
   std::optional<ProblemMessage> AskForProblem(Turn* turn, const std::function<bool()>& interrupted);
+  /// One thing that the scene server does.
+  template <typename Request, typename Reply>
+  struct Service {
+    RpcClient<Request, Reply> client;
+    std::set<std::string> failed_at;  // problems passed over since it answered; whose turn it is
+  };
   /// The reply is without ok if the problem is passed over. `what`: is asked for, in words.
   template <typename Request, typename Reply>
-  std::optional<Reply> AskServer(RpcClient<Request, Reply>* client, const Request& request,
+  std::optional<Reply> AskServer(Service<Request, Reply>* service, const Request& request,
                                  Turn* turn, const std::string& what,
                                  const std::function<bool()>& interrupted);
-  void PassOver(const Turn& turn, const std::string& why);
+  void PassOver(const Turn& turn, const std::string& why, std::set<std::string>* failed_at);
   /// "" if it is not.
   std::string WhyPassedOver(const ProblemKey& problem);
 
@@ -134,10 +142,9 @@ class RunExecutor {
   std::vector<Contestant> first_planners_;
   KernelFolders kernel_;
   ServerPatience patience_;
-  RpcClient<ProblemRequestMessage, ProblemMessage> problems_;
-  RpcClient<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
-  std::mutex turn_;
-  std::set<std::string> failed_at_;  // problems passed over since it answered; whose turn it is
+  Service<ProblemRequestMessage, ProblemMessage> problems_;
+  Service<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;
+  std::timed_mutex turn_;
   std::mutex mutex_;
   std::map<ProblemKey, ProblemMessage> problems_known_;
   std::map<ProblemKey, ProblemMessage> problems_first_;  // as they were when first asked for

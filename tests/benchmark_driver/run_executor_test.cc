@@ -400,6 +400,70 @@ TEST_F(RunExecutorTest, AProblemThatTheSceneServerIsTooLongAtIsPassedOver) {
   is_over = true;
 }
 
+TEST_F(RunExecutorTest, ASceneServerStartedByHandThatDoesNotAnswerEndsTheSessionAtOnce) {
+  ServerPatience patience;
+  patience.until_told = std::chrono::milliseconds(1);
+  patience.until_passed_over = std::chrono::milliseconds(20);
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  std::atomic<bool> is_over = false;
+  FakeSceneServer server(&bus_);
+  server.BeforeAnswers([&](const auto&) { WaitUntil([&] { return is_over.load(); }); });
+  ASSERT_TRUE(WaitUntil([&] { return !registry_.Live(NodeKind::kSceneServer).empty(); }));
+  try {
+    executor.AskForProblem("cans", 2, [] { return false; });
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("asked for the problem cans 2, and whatever else it is "
+                                        "asked for waits behind that: start it again"));
+  }
+  is_over = true;
+}
+
+TEST_F(RunExecutorTest, ASceneServerThatFailsAtEveryVerdictIsItselfAtFault) {
+  std::atomic<int> num_failures = 0;
+  ServerPatience patience;
+  patience.failures = [&] { return num_failures.load(); };
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([&](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
+    ++num_failures;
+    throw InputError("no such scene");
+  });
+  const auto execute = [&](int index) {
+    return executor.Execute(Scheduled(index), {&client_}, [] { return false; });
+  };
+  for (const int index : {1, 2}) EXPECT_FALSE(WasAsked(execute(index).value()));
+  try {
+    execute(3);
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the scene server fails whatever it is asked for: at "
+                                        "cans 1, cans 2, cans 3, and"));
+    EXPECT_THAT(error.what(), HasSubstr("the verdict on run/cans/3/"));
+  }
+}
+
+TEST_F(RunExecutorTest, ARunWhoseSimplifiedPathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
+  PlanResult result = FakePlanner::SolvedResult();
+  result.simplified_path = {{0, 0}, {0.1, 0}, {1, 0.5}};
+  AnswerWith(result);
+  std::atomic<int> num_failures = 0;
+  ServerPatience patience;
+  patience.failures = [&] { return num_failures.load(); };
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([&](const PathCheckRequestMessage& request) {
+    if (request.path.size() == 2) return FakeSceneServer::Verdict(true);
+    ++num_failures;
+    throw InputError("no such scene");
+  });
+  const RunRecordMessage record =
+      executor.Execute(Scheduled(), {&client_}, [] { return false; }).value();
+  EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
+  EXPECT_THAT(record.message, HasSubstr("the verdict on run/cans/2/arm/backward/3/simplified"));
+  EXPECT_FALSE(WasAsked(record));
+}
+
 TEST_F(RunExecutorTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
   std::atomic<int> num_failures = 0;
   ServerPatience patience;
