@@ -136,7 +136,7 @@ std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
     if (auto node = Live()) return node;
     if (waited >= patience) {
       const std::string why = fmt::format("it was not on the bus for {:g} s", patience_s);
-      absence_ = "given up: " + why;
+      given_up_ = "given up: " + why;
       terms_.on_absence(why);
       break;
     }
@@ -193,8 +193,10 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     if (step.answer) {
       unanswered_limit_ = std::chrono::milliseconds(0);
       if (step.answer->outcome == Outcome::kNoAnswer) {
-        unanswered_limit_ = std::chrono::ceil<std::chrono::milliseconds>(
-            std::chrono::duration<double>(request.time_limit_s));
+        if (!HasEnded(process->status)) {
+          unanswered_limit_ = std::chrono::ceil<std::chrono::milliseconds>(
+              std::chrono::duration<double>(request.time_limit_s));
+        }
         // Whoever may still come to it, one that was started again perhaps, need not.
         bus_->Publish(channels_.cancel, PlanCancelMessage{request.request_id});
       }

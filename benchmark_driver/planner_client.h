@@ -53,7 +53,7 @@ class PlannerClient {
 
   std::optional<NodeRegistry::Node> WaitUntilLive(const std::function<bool()>& interrupted);
   std::optional<NodeRegistry::Node> Live() const;
-  std::string WhyGivenUp() const { return absence_.empty() ? terms_.given_up() : absence_; }
+  std::string WhyGivenUp() const { return given_up_.empty() ? terms_.given_up() : given_up_; }
   /// Of a process that has been seen on this machine, at once: whether it has ended.
   bool HasEnded(const NodeStatusMessage& process) const;
   /// Why that process is not to be asked; "" if it is.
@@ -74,8 +74,9 @@ class PlannerClient {
   PlannerChannels channels_;
   Terms terms_;
   std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
-  std::string absence_;    // for which it is given up
-  std::chrono::milliseconds unanswered_limit_{0};  // of the last request, if it had no answer
+  std::string given_up_;   // why, if for its absence
+  /// Of the last request, if it had no answer and the process may be at it still.
+  std::chrono::milliseconds unanswered_limit_{0};
 
   std::mutex mutex_;
   std::condition_variable changed_;

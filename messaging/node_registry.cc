@@ -1,5 +1,6 @@
 #include "messaging/node_registry.h"
 
+#include <algorithm>
 #include <iterator>
 
 #include "messaging/channels.h"
@@ -148,11 +149,12 @@ void NodeRegistry::Discover(const std::string& sender) {
 
 bool NodeRegistry::WaitUntil(const std::function<bool()>& condition,
                              std::chrono::milliseconds timeout) {
-  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  const auto deadline = Clock::now() + timeout;
   while (!condition()) {
     std::unique_lock lock(mutex_);
-    if (std::chrono::steady_clock::now() >= deadline) return false;
-    changed_.wait_for(lock, std::chrono::milliseconds(100));
+    const auto now = Clock::now();
+    if (now >= deadline) return false;
+    changed_.wait_until(lock, std::min(deadline, now + std::chrono::milliseconds(100)));
   }
   return true;
 }

@@ -241,6 +241,29 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
   EXPECT_EQ(next.get().outcome, PlannerClient::Outcome::kResult);
 }
 
+TEST_F(PlannerClientTest, OneThatHasEndedIsNotAtItsRequestAnyMore) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    pause();
+    _exit(0);
+  }
+  FakePlanner planner(&bus_);
+  planner.status.pid = pid;
+  Reannounce(&registry_, &planner);
+  planner.OnRequest([&](const PlanRequest&) {
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+  });
+  PlannerClient::Terms terms;
+  terms.patience = std::chrono::milliseconds(200);
+  PlannerClient client(&bus_, &registry_, "arm", terms);
+  const auto solve = [&](const std::string& id) {
+    return client.Solve(Request(id), [] { return false; });
+  };
+  EXPECT_EQ(solve("a").message, "the process ended");
+  EXPECT_EQ(solve("b").message, "given up: it was not on the bus for 0.2 s");
+}
+
 TEST_F(PlannerClientTest, APlannerThatComesBackAsAnotherIsNotAsked) {
   FakePlanner planner(&bus_);
   PlannerClient client(&bus_, &registry_, "arm", {.expected = planner.status});

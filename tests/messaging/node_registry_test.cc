@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "messaging/channels.h"
 #include "messaging/node_announcer.h"
 #include "tests/support/message_collector.h"
@@ -52,6 +54,16 @@ TEST_F(NodeRegistryTest, FindsByNameAndKind) {
   EXPECT_TRUE(registry_.Find("ara", NodeKind::kPlanner));
   EXPECT_FALSE(registry_.Find("ara", NodeKind::kLogger));
   EXPECT_FALSE(registry_.Find("prm", NodeKind::kPlanner));
+}
+
+TEST_F(NodeRegistryTest, WaitsNoLongerThanTold) {
+  auto shortest = std::chrono::steady_clock::duration::max();
+  for (int time = 0; time < 10; ++time) {  // one of them, however loaded the machine is
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_FALSE(registry_.WaitUntil([] { return false; }, milliseconds(1)));
+    shortest = std::min(shortest, std::chrono::steady_clock::now() - begin);
+  }
+  EXPECT_LT(shortest, milliseconds(100));
 }
 
 TEST_F(NodeRegistryTest, KeepsTheLatestStatus) {
