@@ -100,9 +100,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
     if (request.scene_id.empty()) request = record.request;
   }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
-  // One that is started again has as long to come up as the first one had.
-  const auto to_come = std::chrono::ceil<std::chrono::milliseconds>(
-      std::chrono::duration<double>(options_.DiscoveryTimeout()));
+  const std::chrono::milliseconds to_come = options_.TimeToComeBack();
   patience.until_passed_over = std::max(patience.until_passed_over, to_come);
   absence_patience_ = patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,

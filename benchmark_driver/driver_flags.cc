@@ -240,8 +240,10 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       "make disturbed runs again at the end, twice at most, each recorded in the place of "
       "the one before");
   app->add_option("--discovery-timeout", options->discovery_timeout_s,
-                  "how long to wait for the other processes, s; default: 5, with --launch 60")
-      ->check(Positive());
+                  "how long to wait for the other processes, s; default: 5, with --launch 60; "
+                  "beyond a minute for one that has gone later, too, beyond 10 minutes for one "
+                  "answer of the scene server")
+      ->check(Positive(1e6));
   app->add_option_function<std::vector<std::string>>(
          "--reference",
          [=](const std::vector<std::string>& texts) {

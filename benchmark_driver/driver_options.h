@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "benchmark_driver/line_up.h"
 #include "benchmark_driver/machine.h"
+#include "benchmark_driver/supervisor.h"
 #include "messaging/messages.h"
 #include "messaging/robot_flags.h"
 #include "results/session_plan.h"
@@ -26,6 +28,13 @@ struct DriverOptions {
   /// Children may take their time to load meshes, and one that fails is heard of at once.
   std::optional<double> discovery_timeout_s;
   double DiscoveryTimeout() const { return discovery_timeout_s.value_or(launch ? 60 : 5); }
+  /// How long one that is started again may not be live: as long as the first one had to come up,
+  /// after the silence for which one that is launched is killed.
+  std::chrono::milliseconds TimeToComeBack() const {
+    return std::chrono::ceil<std::chrono::milliseconds>(
+               std::chrono::duration<double>(DiscoveryTimeout())) +
+           (launch ? Supervisor::kMostSilence : std::chrono::seconds(0));
+  }
   bool skip_bad_problems = false;  ///< Go on without problems that the scene server refuses.
   /// Share of a run's time beyond which what kept its planner from working makes it a disturbed
   /// one.

@@ -294,9 +294,18 @@ TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {
   ExpectRefused({"--edge-resolution", "-0.1"}, {"--edge-resolution"});
   ExpectRefused({"--referee-step", "nan"}, {"--referee-step"});
   ExpectRefused({"--discovery-timeout", "0"}, {"--discovery-timeout"});
+  ExpectRefused({"--discovery-timeout", "1e16"}, {"--discovery-timeout"});
   ExpectRefused({"--planners", ""}, {"--planners"});
   ExpectRefused({"--planners", "a,a"}, {"--planners", "'a'"});
   ExpectRefused({"--problems-range", "x"}, {"--problems-range"});
+}
+
+TEST(DriverFlagsTest, WhatIsStartedAgainHasAsLongToComeUpAsTheFirstTime) {
+  DriverOptions options;
+  options.discovery_timeout_s = 90;
+  EXPECT_EQ(options.TimeToComeBack(), std::chrono::seconds(90));
+  options.launch = true;  // where it is killed first
+  EXPECT_EQ(options.TimeToComeBack(), std::chrono::seconds(90) + Supervisor::kMostSilence);
 }
 
 TEST(DriverFlagsTest, RefusesBadLaunchFlags) {
