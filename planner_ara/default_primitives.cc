@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// m, of prismatic joints. Those of more travel carry an arm about (rails, gantries, bases), others
-// lift or stretch it (torsos, booms).
+// m, of prismatic joints: long ones (rails, gantries, bases) and short ones (torsos, booms).
 constexpr double kTravelOfARail = 1;
 constexpr double kShortSlide = 0.1;
 constexpr double kLongestSlide = 0.3;  // 0.5: two arms on a rail miss the way between things
