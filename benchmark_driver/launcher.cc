@@ -152,8 +152,8 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
 }
 
-Subscription ReportChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
-                            Supervisor* supervisor) {
+Subscription WatchChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
+                           Supervisor* supervisor) {
   std::set<std::pair<NodeKind, std::string>> children;
   children.emplace(NodeKind::kSceneServer, kSceneServer);
   children.emplace(NodeKind::kLogger, kLogger);

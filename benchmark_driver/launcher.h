@@ -42,8 +42,8 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
 /// Tells the supervisor which of its children are heard, so that one that stops is started again
 /// (of a planner that a command started it is another process that is heard), and which come up,
 /// but for the logger, which is to stay up: a request may be what they die of.
-Subscription ReportChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
-                            Supervisor* supervisor);
+Subscription WatchChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
+                           Supervisor* supervisor);
 
 /// Stops what was launched, when it goes at the latest: however a session ends.
 class ProcessStopper {

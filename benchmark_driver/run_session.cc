@@ -198,12 +198,12 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   Subscription children;
   ServerPatience patience;
   if (supervisor) {
-    children = ReportChildren(&bus, line_up, supervisor.get());
+    children = WatchChildren(&bus, line_up, supervisor.get());
     patience.failures = [&] { return supervisor->NumFailuresAtWork(kSceneServer); };
     patience.start_again = [&] { supervisor->StartAgain(kSceneServer); };
   }
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  driver.Discover(options.launch, watch, patience);
+  driver.Discover(options.launch, watch, std::move(patience));
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();
@@ -245,8 +245,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     spdlog::error("the planner '{}' was given up: {}", planner, reason);
   }
   if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
-    spdlog::warn("{} not asked for: a session that is resumed makes them",
-                 number == 1 ? "1 run was" : fmt::format("{} runs were", number));
+    spdlog::warn("{} could not be asked for or judged: a session that is resumed makes {}",
+                 number == 1 ? "1 run" : fmt::format("{} runs", number),
+                 number == 1 ? "it" : "them");
   }
   std::vector<std::string> owed;
   if (const int number = driver.num_owed(); number > 0) {
@@ -263,7 +264,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   if (const std::vector<std::string>& awaited = driver.awaited_shards(); !awaited.empty()) {
     spdlog::warn("the session is not finished; shards missing: {}", fmt::join(awaited, "; "));
   }
-  return complete && driver.given_up().empty() ? kExitOk : kExitFailed;
+  const bool made_all = complete && driver.num_not_asked() == 0 && driver.given_up().empty();
+  return made_all ? kExitOk : kExitFailed;
 }
 
 }  // namespace planbench

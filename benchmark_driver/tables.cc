@@ -339,7 +339,7 @@ std::string Missing(int num_runs, int num_without_record, int num_owed,
                        num_missing, num_runs + num_without_record);
   }
   if (num_not_asked > 0) {
-    text += fmt::format(" {} of them could not be asked for", num_not_asked);
+    text += fmt::format(" {} of them could not be asked for or judged", num_not_asked);
     const std::string reason = results.why_not_asked().Summary();
     text += reason.empty() ? "." : fmt::format(" ({}).", reason);
   }

@@ -479,11 +479,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     }
     if (session.num_not_asked > 0) {
       const std::string reason = session.why_not_asked.Summary();
-      cautions.push_back(fmt::format(
-          "{}: {} could not be asked for{}: counted as missing, not as failed; --resume makes {}.",
-          name, Count(session.num_not_asked, num_runs > 0 ? "more run" : "run"),
-          reason.empty() ? "" : fmt::format(" ({})", reason),
-          session.num_not_asked == 1 ? "it" : "them"));
+      cautions.push_back(
+          fmt::format("{}: {} could not be asked for or judged{}: counted as missing, not as "
+                      "failed; --resume makes {}.",
+                      name, Count(session.num_not_asked, num_runs > 0 ? "more run" : "run"),
+                      reason.empty() ? "" : fmt::format(" ({})", reason),
+                      session.num_not_asked == 1 ? "it" : "them"));
     }
     for (const auto& [contestant, number] : session.strangers) {
       cautions.push_back(fmt::format(

@@ -124,8 +124,9 @@ TEST(TablesTest, ARunThatWasNotAskedForIsMissing) {
       1);
   std::string in_one_line = tables.brief;
   std::replace(in_one_line.begin(), in_one_line.end(), '\n', ' ');
-  EXPECT_THAT(in_one_line, HasSubstr("2 of them could not be asked for (mostly: given up: it "
-                                     "died). 1 more found nothing in one direction"));
+  EXPECT_THAT(in_one_line,
+              HasSubstr("2 of them could not be asked for or judged (mostly: given up: it "
+                        "died). 1 more found nothing in one direction"));
   EXPECT_THAT(in_one_line, Not(HasSubstr("before it was resumed")));
   std::string resumed = MakeTables(Conditions(), rows, {}, 1, {}, 2).brief;
   std::replace(resumed.begin(), resumed.end(), '\n', ' ');

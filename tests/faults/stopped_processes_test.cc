@@ -123,7 +123,7 @@ class StoppedProcessesTest : public PipelineTest {
   std::vector<std::string> planners_ = {"rrtc"};
   std::optional<NodeAnnouncer> self_;  // the logger takes records from a live driver
   Supervisor supervisor_{std::chrono::seconds(3)};
-  const Subscription children_ = ReportChildren(&watching_, LineUp(planners_), &supervisor_);
+  const Subscription children_ = WatchChildren(&watching_, LineUp(planners_), &supervisor_);
 };
 
 TEST_F(StoppedProcessesTest, WhatIsStoppedBetweenRunsIsStartedAgain) {

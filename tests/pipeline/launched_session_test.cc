@@ -189,6 +189,27 @@ TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE status = 7"), 1) << driver->Errors();
 }
 
+TEST_F(LaunchedSession, RunsThatAreNotMadeAreAFailure) {
+  const auto session = folder() / "session";
+  const auto begun = folder() / "begun";
+  // Started again it has other settings, so that it is not asked.
+  const std::string command = fmt::format(
+      "mine=[ -e {0} ] && last=2 || last=1; touch {0}; exec {1} --robot {2} --name "
+      "mine --set range=0.0000$last --set extension=step",
+      begun.string(), Program("planner_rrtc"), RobotFolder());
+  ChildProcess* driver = StartLaunchedDriver(
+      session, {"--problems-range", "1", "--time", "2", "--trials", "4", "--directions", "forward",
+                "--planners", "mine", "--planner-command", command});
+  ASSERT_TRUE(WaitUntil([&] { return Query(session, "SELECT count(*) FROM runs") >= 1; }))
+      << driver->Errors();
+  const int victim = PidOf("planner_rrtc");
+  ASSERT_GT(victim, 0);
+  kill(victim, SIGKILL);
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM sessions WHERE finished"), 0);
+  EXPECT_THAT(driver->Errors(), testing::HasSubstr(" could not be asked for or judged: "));
+}
+
 // As Slurm, systemd and others end a job.
 TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded) {
   const auto session = folder() / "session";

@@ -301,9 +301,8 @@ TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
   const ComparedSessions compared(sessions);
   EXPECT_EQ(compared.pooled().at("B").num_runs(), 1) << "that of which it died";
   const std::string line =
-      "example: 2 more runs could not be asked for (mostly: given up: it died): counted as "
-      "missing, "
-      "not as failed; --resume makes them.";
+      "example: 2 more runs could not be asked for or judged (mostly: given up: it died): "
+      "counted as missing, not as failed; --resume makes them.";
   std::vector<std::string> cautions = Cautions(compared);
   EXPECT_THAT(cautions, testing::Contains(line));
   EXPECT_THAT(cautions, testing::Contains("C: no run counts."));
