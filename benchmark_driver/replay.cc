@@ -112,8 +112,12 @@ std::vector<std::string> MissingRuns(const std::string& log, const RecordedSessi
 
 Replay::Replay(Bus* bus, NodeRegistry* registry, std::string run_id,
                std::vector<RunRecordMessage> runs, std::map<std::string, Scene> scenes,
-               const std::vector<std::string>& planners)
-    : bus_(bus), registry_(registry), run_id_(std::move(run_id)), scenes_(std::move(scenes)) {
+               const std::vector<std::string>& planners, std::chrono::milliseconds patience)
+    : bus_(bus),
+      registry_(registry),
+      run_id_(std::move(run_id)),
+      scenes_(std::move(scenes)),
+      patience_(patience) {
   for (const std::string& planner : planners) tallies_[planner];
   for (RunRecordMessage& run : runs) {
     const auto tally = tallies_.find(run.planner);
@@ -171,10 +175,16 @@ bool Replay::Run(const std::function<bool()>& interrupted,
   ProgressLine progress(static_cast<int>(runs_.size()));
   int num_done = 0;
   int num_different = 0;
+  bool is_all_asked = true;
   for (const RunRecordMessage& run : runs_) {
     std::unique_ptr<PlannerClient>& client = clients[run.planner];
     if (!client) {
-      client = std::make_unique<PlannerClient>(bus_, registry_, run.planner);
+      PlannerClient::Terms terms;
+      terms.patience = patience_;
+      terms.on_absence = [&planner = run.planner](const std::string& why) {
+        spdlog::error("the planner '{}' is given up: {}", planner, why);
+      };
+      client = std::make_unique<PlannerClient>(bus_, registry_, run.planner, std::move(terms));
       CompareSettings(run);
     }
     PlanRequest request = run.request;
@@ -184,7 +194,9 @@ bool Replay::Run(const std::function<bool()>& interrupted,
     if (answer.outcome == PlannerClient::Outcome::kInterrupted) return false;
 
     Tally& tally = tallies_.at(run.planner);
-    if (const std::string difference = Difference(run, answer); !difference.empty()) {
+    if (answer.roundtrip_time_s == 0) {
+      is_all_asked = false;
+    } else if (const std::string difference = Difference(run, answer); !difference.empty()) {
       ++tally.num_different;
       ++num_different;
       tell(run.request_id + ": " + difference);
@@ -198,7 +210,7 @@ bool Replay::Run(const std::function<bool()>& interrupted,
     }
     progress.Show(++num_done, fmt::format("{} different", num_different));
   }
-  return num_different == 0;
+  return is_all_asked && num_different == 0;
 }
 
 std::string Replay::Table() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <string>
@@ -29,9 +30,11 @@ std::vector<std::string> MissingRuns(const std::string& log, const RecordedSessi
 class Replay {
  public:
   /// `run_id`: under which they are asked. `runs`: of those that `planners` were asked. Throws
-  /// InputError if one of these was asked nothing, or a scene is lacking.
+  /// InputError if one of these was asked nothing, or a scene is lacking. `patience`: with a
+  /// planner that is not live any more (PlannerClient::Terms); then its requests are not made.
   Replay(Bus* bus, NodeRegistry* registry, std::string run_id, std::vector<RunRecordMessage> runs,
-         std::map<std::string, Scene> scenes, const std::vector<std::string>& planners);
+         std::map<std::string, Scene> scenes, const std::vector<std::string>& planners,
+         std::chrono::milliseconds patience = PlannerClient::Terms().patience);
 
   /// Asks and compares everything; `tell` gets a line for each answer that differs. Returns early
   /// if `interrupted` (asked every 50 ms; may throw). True if all was asked and all answers agree.
@@ -60,7 +63,8 @@ class Replay {
   std::vector<RunRecordMessage> runs_;
   std::map<std::string, Scene> scenes_;
   std::map<std::string, Tally> tallies_;  // by planner
-  Subscription scene_requests_;           // last: it uses the rest
+  std::chrono::milliseconds patience_;
+  Subscription scene_requests_;  // last: it uses the rest
 };
 
 }  // namespace planbench

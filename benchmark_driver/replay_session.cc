@@ -79,16 +79,19 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   }
   Bus bus(url);
   NodeRegistry registry(&bus);
-  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), std::move(scenes), planners);
+  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), std::move(scenes), planners,
+                std::max(PlannerClient::Terms().patience, options.TimeToComeBack()));
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::optional<NewSessionFolder> new_folder;
   if (options.launch) new_folder.emplace(folder);
   std::optional<Supervisor> supervisor;
   std::optional<ProcessStopper> stopper;
+  Subscription children;
   bus.Start();
   if (options.launch) {
     if (lcm_url_given) RequireEmptyBus(&bus);
     supervisor.emplace();
+    children = WatchChildren(&bus, line_up, &*supervisor);
     stopper.emplace(line_up, &bus, &*supervisor);
     // The driver hands out the log's scenes; a planner may need more of a scene server than that.
     if (!options.problems.empty()) LaunchSceneServer(options, folder / "logs", url, &*supervisor);

@@ -122,6 +122,26 @@ TEST_F(ReplayTest, AsksAgainWhatWasAskedAndTellsWhatDiffers) {
   EXPECT_NE(requests[1].request_id, moved.request.request_id);
 }
 
+TEST_F(ReplayTest, WhatAPlannerThatHasGoneIsNotAskedDoesNotDiffer) {
+  planner_.OnRequest([this](const PlanRequest&) { planner_.FallSilent(); });
+  std::vector<RunRecordMessage> runs = {Recorded("then/a"), Recorded("then/b"), Recorded("then/c")};
+  for (RunRecordMessage& run : runs) run.request.time_limit_s = 0.1;
+  Replay replay(&bus_, &registry_, "run", runs, {{SceneId(OneBox()), OneBox()}}, {"arm"},
+                std::chrono::milliseconds(200));
+  std::vector<std::string> lines;
+  const auto tell = [&](const std::string& line) { lines.push_back(line); };
+  EXPECT_FALSE(replay.Run([] { return false; }, tell));
+  EXPECT_THAT(lines,
+              ElementsAre("then/a: SOLVED, now NO_ANSWER (the process died or fell silent)"));
+  EXPECT_THAT(replay.Table(), testing::ContainsRegex("arm +3 +0 +1 +2 "));
+  // Nor is it asked, or does it differ, if all that it was asked then is left.
+  lines.clear();
+  EXPECT_FALSE(Replay(&bus_, &registry_, "run", {runs[0]}, {{SceneId(OneBox()), OneBox()}}, {"arm"},
+                      std::chrono::milliseconds(200))
+                   .Run([] { return false; }, tell));
+  EXPECT_THAT(lines, testing::IsEmpty());
+}
+
 TEST_F(ReplayTest, HandsOutTheScenes) {
   const Replay replay = Make({Recorded("then/a")});
   MessageCollector<SceneMessage> scenes(&bus_, channel::kScene);
