@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <exception>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <thread>
@@ -154,21 +156,27 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
 
 Subscription WatchChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
                            Supervisor* supervisor) {
-  std::set<std::pair<NodeKind, std::string>> children;
-  children.emplace(NodeKind::kSceneServer, kSceneServer);
-  children.emplace(NodeKind::kLogger, kLogger);
+  // Whether they are started by a command: then the child is another process.
+  std::map<std::pair<NodeKind, std::string>, bool> children;
+  children[{NodeKind::kSceneServer, kSceneServer}] = false;
+  children[{NodeKind::kLogger, kLogger}] = false;
   for (const LineUpEntry& entry : line_up) {
-    children.emplace(NodeKind::kPlanner, entry.contestant.planner);
+    children[{NodeKind::kPlanner, entry.contestant.planner}] = !entry.contestant.command.empty();
   }
   return bus->Subscribe<NodeStatusMessage>(
       channel::kNodeStatus,
       [supervisor, children = std::move(children),
        instances = std::map<std::string, std::string>()](const NodeStatusMessage& status) mutable {
-        if (!children.contains({status.kind, status.name})) return;
+        const auto pid = static_cast<pid_t>(status.pid);
+        if (status.kind == NodeKind::kDriver && pid == getpid()) supervisor->HeardMyself();
+        const auto child = children.find({status.kind, status.name});
+        if (child == children.end()) return;
         std::string& instance = instances[status.name];
         const bool is_new = std::exchange(instance, status.instance) != status.instance;
-        if (is_new && status.kind != NodeKind::kLogger) supervisor->CameUp(status.name);
-        supervisor->Heard(status.name, static_cast<pid_t>(status.pid));
+        if (is_new && status.kind != NodeKind::kLogger) {
+          supervisor->CameUp(status.name, child->second ? std::nullopt : std::optional(pid));
+        }
+        supervisor->Heard(status.name, pid);
       });
 }
 

@@ -41,7 +41,8 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
 
 /// Tells the supervisor which of its children are heard, so that one that stops is started again
 /// (of a planner that a command started it is another process that is heard), and which come up,
-/// but for the logger, which is to stay up: a request may be what they die of.
+/// but for the logger, which is to stay up: a request may be what they die of. And whether this
+/// process is heard: a driver that announces itself.
 Subscription WatchChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,
                            Supervisor* supervisor);
 

@@ -68,8 +68,8 @@ bool WasToldToEnd(int status) {
 
 }  // namespace
 
-Supervisor::Supervisor(std::chrono::milliseconds silence)
-    : silence_(silence), thread_([this] { Supervise(); }) {}
+Supervisor::Supervisor(std::chrono::milliseconds most_silence)
+    : most_silence_(most_silence), thread_([this] { Supervise(); }) {}
 
 Supervisor::~Supervisor() {
   StopAll({});
@@ -102,10 +102,10 @@ int Supervisor::NumFailuresAtWork(const std::string& name) {
   return child == nullptr ? 0 : child->num_failures_at_work;
 }
 
-void Supervisor::CameUp(const std::string& name) {
+void Supervisor::CameUp(const std::string& name, std::optional<pid_t> pid) {
   const std::scoped_lock lock(mutex_);
   Child* child = Find(name);
-  if (child == nullptr) return;
+  if (child == nullptr || (pid && child->pid != *pid)) return;
   child->quick_deaths = 0;
   child->came_up = true;
 }
@@ -113,7 +113,12 @@ void Supervisor::CameUp(const std::string& name) {
 void Supervisor::Heard(const std::string& name, pid_t pid) {
   const std::scoped_lock lock(mutex_);
   Child* child = Find(name);
-  if (child != nullptr && child->pid == pid) child->silent.emplace(0);
+  if (child != nullptr && child->pid == pid) child->silence.emplace(0);
+}
+
+void Supervisor::HeardMyself() {
+  const std::scoped_lock lock(mutex_);
+  own_silence_.emplace(0);
 }
 
 std::map<std::string, std::string> Supervisor::Hopeless() const {
@@ -139,6 +144,7 @@ void Supervisor::Supervise() {
     {
       const std::scoped_lock lock(mutex_);
       if (stopping_) return;
+      if (own_silence_) *own_silence_ += kExitPoll;
       for (Child& child : children_) {
         if (child.pid > 0) Reap(&child);
         if (child.pid > 0) KillIfSilent(&child);
@@ -161,7 +167,7 @@ void Supervisor::Reap(Child* child) {
   int status = 0;
   waitpid(child->pid, &status, 0);
   child->pid = -1;
-  child->silent.reset();
+  child->silence.reset();
   if (!child->wanted) return;
   const bool was_at_work = std::exchange(child->came_up, false);
   const bool was_killed = std::exchange(child->killed_here, false);
@@ -192,11 +198,12 @@ void Supervisor::Reap(Child* child) {
 }
 
 void Supervisor::KillIfSilent(Child* child) const {
-  if (!child->wanted || !child->silent) return;
+  if (!child->wanted || !child->silence) return;
+  if (own_silence_ && *own_silence_ >= most_silence_ / 4) return;
   // No clock is asked: while this process itself is stopped, nobody is silent.
-  if ((*child->silent += kExitPoll) < silence_) return;
+  if ((*child->silence += kExitPoll) < most_silence_) return;
   spdlog::error("{} has been silent for {:g} s; killing it", child->spec.name,
-                std::chrono::duration<double>(silence_).count());
+                std::chrono::duration<double>(most_silence_).count());
   child->num_failures_at_work += child->came_up;
   Kill(child);
 }
@@ -204,7 +211,7 @@ void Supervisor::KillIfSilent(Child* child) const {
 void Supervisor::Kill(Child* child) {
   kill(-child->pid, SIGKILL);
   child->killed_here = true;
-  child->silent.reset();
+  child->silence.reset();
 }
 
 void Supervisor::Spawn(Child* child) {

@@ -29,8 +29,8 @@ struct ChildSpec {
 /// process dies. What a child has started itself is ended with it, if it stayed in its group.
 class Supervisor {
  public:
-  /// `silence`: after which a child that had been heard is killed, and started again.
-  explicit Supervisor(std::chrono::milliseconds silence = kMostSilence);
+  /// `most_silence`: after it a child that had been heard is killed, and started again.
+  explicit Supervisor(std::chrono::milliseconds most_silence = kMostSilence);
   /// Stops what still runs.
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
@@ -43,10 +43,13 @@ class Supervisor {
   void StopAll(const std::vector<std::string>& order,
                std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// That child's process does its work, so that it will not have died of its start: quick deaths
-  /// until now do not count.
-  void CameUp(const std::string& name);
+  /// until now do not count. `pid`: of who does it; nothing where that is not the child itself.
+  void CameUp(const std::string& name, std::optional<pid_t> pid = std::nullopt);
   /// That child is heard, by the process of that id. One that is never heard may be silent.
   void Heard(const std::string& name, pid_t pid);
+  /// This process is heard by the same ears. Once it was, nobody is silent while these do not hear
+  /// it, be it that they wait for a disk.
+  void HeardMyself();
   /// Why children, by name, are not started again: one ended with exit code 2 (bad input: a restart
   /// would not help), or died kMaxQuickDeaths times in a row within kQuick of its start.
   std::map<std::string, std::string> Hopeless() const;
@@ -74,7 +77,7 @@ class Supervisor {
     int quick_deaths = 0;
     bool came_up = false;  // this process
     /// Since this process was last heard; nothing if it never was.
-    std::optional<std::chrono::milliseconds> silent;
+    std::optional<std::chrono::milliseconds> silence;
     bool killed_here = false;  // this process
     int num_failures_at_work = 0;
     bool bad_input = false;
@@ -90,7 +93,8 @@ class Supervisor {
   static void Kill(Child* child);
   void Spawn(Child* child);
 
-  const std::chrono::milliseconds silence_;
+  const std::chrono::milliseconds most_silence_;
+  std::optional<std::chrono::milliseconds> own_silence_;  // nothing if this process was never heard
   mutable std::mutex mutex_;
   std::vector<Child> children_;
   bool stopping_ = false;

@@ -9,11 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
@@ -140,6 +141,36 @@ TEST_F(SupervisorTest, WhatFallsSilentIsStartedAgainUnlessItWasNeverHeard) {
   AwaitOutput(3);
   EXPECT_FALSE(IsRunning(heard));
   EXPECT_TRUE(IsRunning(silent));
+}
+
+TEST_F(SupervisorTest, WhileThisProcessDoesNotHearItselfNobodyIsSilent) {
+  Supervisor supervisor(milliseconds(200));
+  supervisor.HeardMyself();
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
+  supervisor.Heard("child", pid);
+  std::this_thread::sleep_for(milliseconds(600));
+  EXPECT_TRUE(IsRunning(pid));
+  EXPECT_TRUE(WaitUntil([&] {
+    supervisor.HeardMyself();
+    return !IsRunning(pid);
+  }));
+}
+
+TEST_F(SupervisorTest, WhatIsHeardOfOneThatHasGoneTellsNothingOfTheNext) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+  const pid_t first = std::stoi(AwaitOutput(1).at(0));
+  kill(first, SIGKILL);
+  const pid_t second = std::stoi(AwaitOutput(2).at(1));
+  supervisor.CameUp("child", first);
+  kill(second, SIGKILL);
+  const pid_t third = std::stoi(AwaitOutput(3).at(2));
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 0);
+  supervisor.CameUp("child", third);
+  kill(third, SIGKILL);
+  AwaitOutput(4);
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 1);
 }
 
 TEST_F(SupervisorTest, WhatDiesOrFallsSilentHasFailedAtItsWork) {
@@ -334,30 +365,31 @@ TEST_F(SupervisorTest, KillsWhatDoesNotEnd) {
 }
 
 TEST_F(SupervisorTest, WhatIsHeldThoughItWasKilledIsNamedAndLeftBehind) {
-  Supervisor supervisor;
-  supervisor.death_patience = milliseconds(200);
-  supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
-  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
-  std::array<int, 2> pipe_ends = {};
-  ASSERT_EQ(pipe(pipe_ends.data()), 0);
-  const pid_t debugger = fork();
-  ASSERT_GE(debugger, 0);
-  if (debugger == 0) {
-    const char holds = ptrace(PTRACE_SEIZE, pid, nullptr, nullptr) == 0 ? 1 : 0;
-    if (write(pipe_ends[1], &holds, 1) == 1) pause();
-    _exit(1);
+  const std::filesystem::path held = folder_ / "held", words = folder_ / "words";
+  // So that this process, which holds the child, is above it: Yama lets no other do that.
+  const pid_t parent = fork();
+  ASSERT_GE(parent, 0);
+  if (parent == 0) {
+    dup2(open(words.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);  // Where messages go.
+    Supervisor supervisor;
+    supervisor.death_patience = milliseconds(200);
+    supervisor.Start(Script("child", "echo $$ >> $OUT; exec sleep 1000"));
+    WaitUntil([&] { return std::filesystem::exists(held); });
+    supervisor.StopAll({}, milliseconds(50));
+    fflush(stdout);
+    _exit(0);
   }
-  char holds = 0;
-  EXPECT_EQ(read(pipe_ends[0], &holds, 1), 1);
-  testing::internal::CaptureStdout();  // Where messages go.
-  supervisor.StopAll({}, milliseconds(50));
-  const std::string output = testing::internal::GetCapturedStdout();
-  kill(debugger, SIGKILL);
-  waitpid(debugger, nullptr, 0);
-  for (const int end : pipe_ends) close(end);
-  if (holds == 0) GTEST_SKIP() << "no process may be traced here";
-  waitpid(pid, nullptr, 0);
-  EXPECT_THAT(output, HasSubstr(fmt::format("child (pid {}) was killed and has not ended", pid)));
+  const pid_t pid = std::stoi(AwaitOutput(1).at(0));
+  const bool holds = ptrace(PTRACE_SEIZE, pid, nullptr, nullptr) == 0;
+  folder_.Write("held", "");
+  waitpid(parent, nullptr, 0);
+  if (!holds) GTEST_SKIP() << "no process may be traced here";
+  kill(pid, SIGKILL);
+  waitpid(pid, nullptr, __WALL);
+  const std::vector<std::string> lines = Lines(words);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_THAT(lines.back(),
+              HasSubstr(fmt::format("child (pid {}) was killed and has not ended", pid)));
 }
 
 TEST_F(SupervisorTest, LeavesNothingBehind) {
