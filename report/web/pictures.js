@@ -69,7 +69,7 @@ const pictures = (() => {
     const to = {ArrowRight: chart.at + 1, ArrowLeft: chart.at - 1, ArrowDown: firstOf(row + 1), ArrowUp: firstOf(row - 1),
                 Home: 0, End: marks.length - 1}[event.key];
     if (event.key === "Escape") leave();
-    else if ((event.key === "Enter" || event.key === " ") && now && now.open) now.open();
+    else if ((event.key === "Enter" || event.key === " ") && now && !ring.hidden && now.open) now.open();
     else if (to !== undefined) show(chart, marks, to);
     else return;
     event.preventDefault();
@@ -98,7 +98,7 @@ const pictures = (() => {
   function add(element, label, height, make) {
     element.classList.add("chart");
     element.setAttribute("role", "application");
-    element.setAttribute("aria-label", label);
+    element.setAttribute("aria-label", label + "; arrow keys go from mark to mark, Enter opens");
     element.tabIndex = 0;
     element.style.minHeight = height + "px";
     const chart = {element, label, make, view: null, at: -1};

@@ -152,6 +152,9 @@ constexpr char kProbe[] = R"script(
     return ring.hidden || tooltip.hidden ? "" : tooltip.textContent;
   };
   found.reached = {};
+  found.below = {};
+  found.back = {};
+  found.escaped = {};
   for (const chart of pictures.all) {
     chart.element.focus();
     const tips = found.reached[chart.label] = [];
@@ -161,14 +164,23 @@ constexpr char kProbe[] = R"script(
       if (before !== chart.at) tips.push(tip);
     }
     press(chart, "Home");
-    found.below = press(chart, "ArrowDown").split("\n")[0];
-    found.above = press(chart, "ArrowUp");
-    found.escaped = press(chart, "Escape");
+    found.below[chart.label] = press(chart, "ArrowDown").split("\n")[0];
+    found.back[chart.label] = press(chart, "ArrowUp") === tips[0];
+    found.escaped[chart.label] = press(chart, "Escape") === "";
     press(chart, "End");
   }
   const ofTimes = pictures.all.find(chart => chart.label.startsWith("Planning time of every run"));
   if (ofTimes) {
     ofTimes.element.focus();
+    press(ofTimes, "Home");
+    press(ofTimes, "Escape");
+    press(ofTimes, "Enter");
+    found.unseen = [document.activeElement === ofTimes.element];
+    press(ofTimes, "Home");
+    ofTimes.element.blur();
+    ofTimes.element.focus();
+    press(ofTimes, "Enter");
+    found.unseen.push(document.activeElement === ofTimes.element);
     press(ofTimes, "Home");
     press(ofTimes, "Enter");
     found.opened = [document.activeElement.closest("section").id, ring.hidden, tooltip.hidden];
@@ -285,10 +297,16 @@ TEST_F(PageTest, KeysReachEveryMarkOfAFigure) {
   EXPECT_EQ(found["reached"]["Success, shelf"].size(), 2u) << "of interval and dot the dot";
   EXPECT_EQ(found["reached"]["Share solved by a time, shelf"],
             (nlohmann::json{kTagName, kScriptName}));
-  // In the last figure: where the time goes, of all sets.
-  EXPECT_EQ(found["below"], kScriptName);
-  EXPECT_THAT(found["above"].get<std::string>(), testing::StartsWith(kTagName));
-  EXPECT_EQ(found["escaped"], "");
+  for (const char* figure :
+       {"Planning time of every run, shelf", "Success, shelf", "Share solved by a time, shelf"}) {
+    EXPECT_EQ(found["below"][figure], kScriptName) << figure;
+  }
+  EXPECT_EQ(found["back"].size(), found["charts"]);
+  for (const auto& [figure, tips] : found["reached"].items()) {
+    EXPECT_EQ(found["back"][figure], true) << "to the first mark of " << figure;
+    EXPECT_EQ(found["escaped"][figure], true) << figure;
+  }
+  EXPECT_EQ(found["unseen"], (nlohmann::json{true, true})) << "a point opened without a ring";
   EXPECT_EQ(found["opened"], (nlohmann::json{"problem", true, true}));
 }
 
