@@ -6,10 +6,10 @@
 
 #include <atomic>
 #include <chrono>
-#include <set>
+#include <map>
+#include <optional>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "common/error.h"
 #include "viewer/live_page.h"
@@ -34,14 +34,23 @@ std::string Event(const char* name, const Json& data) {
                      data.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Of a view that comes after one with the meshes `held`, which are then its own; those of a robot
-/// can be megabytes, and requests take milliseconds.
-void LeaveOutMeshes(std::set<std::string>* held, Json* view) {
+/// The meshes that a page holds, by id: in how many more views they may be missing. Contestants
+/// take turns, and not all are checked by meshes.
+using HeldMeshes = std::map<std::string, int>;
+constexpr int kViewsHeld = 16;
+
+/// Leaves null of the meshes that the page holds, and names all that it is to hold on to: those of
+/// a robot can be megabytes, and requests take milliseconds.
+void LeaveOutMeshes(HeldMeshes* held, Json* view) {
   if (!view->contains("meshes")) return;
-  const std::set<std::string> before = std::exchange(*held, {});
-  for (auto& [id, mesh] : (*view)["meshes"].items()) {
-    if (before.contains(id)) mesh = nullptr;
-    held->insert(id);
+  for (auto& [id, views_left] : *held) --views_left;
+  Json& meshes = (*view)["meshes"];
+  for (auto& [id, mesh] : meshes.items()) {
+    if (!held->insert_or_assign(id, kViewsHeld).second) mesh = nullptr;
+  }
+  std::erase_if(*held, [](const auto& one) { return one.second == 0; });
+  for (const auto& [id, views_left] : *held) {
+    if (!meshes.contains(id)) meshes[id] = nullptr;
   }
 }
 
@@ -75,23 +84,24 @@ LiveServer::LiveServer(Bus* bus, const std::filesystem::path& robot_folder, int 
   server.Get("/events", [this](const httplib::Request&, httplib::Response& response) {
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
-        "text/event-stream",
-        [this, shown = std::int64_t{-1}, look = 0, held = std::set<std::string>()](
-            std::size_t, httplib::DataSink& sink) mutable {
-          std::string text;
+        "text/event-stream", [this, shown = std::int64_t{-1}, look = 0, held = HeldMeshes()](
+                                 std::size_t, httplib::DataSink& sink) mutable {
+          std::optional<Json> state, view;
           {
             const std::scoped_lock lock(mutex_);
             if (look++ % kLooksPerState == 0) {
-              text += Event("state",
-                            session_.State(std::chrono::steady_clock::now(), bus_->counters()));
+              state = session_.State(std::chrono::steady_clock::now(), bus_->counters());
             }
             if (session_.view_number() != shown) {
               shown = session_.view_number();
-              if (auto view = session_.View()) {
-                LeaveOutMeshes(&held, &*view);
-                text += Event("view", *view);
-              }
+              view = session_.View();
             }
+          }
+          std::string text;
+          if (state) text += Event("state", *state);
+          if (view) {
+            LeaveOutMeshes(&held, &*view);
+            text += Event("view", *view);
           }
           if (!text.empty() && !sink.write(text.data(), text.size())) return false;
           std::this_thread::sleep_for(kLookPeriod);

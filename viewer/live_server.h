@@ -13,7 +13,8 @@ namespace planbench {
 
 /// Serves LivePage on this machine alone (127.0.0.1), and at /events what happens on a bus as
 /// server-sent events: `state` (LiveSession::State) twice a second, `view` (LiveSession::View) when
-/// it has changed, in which null stands for meshes that the view before it had.
+/// it has changed. A view's meshes name all that the page is to hold for it and for later ones;
+/// null stands for those that the view before it named.
 class LiveServer {
  public:
   /// `port` 0: any that is free; `robot_folder`, `packages`: LiveSession's. Throws InputError if

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <functional>
+#include <string>
+
 #include "geometry/mesh_loader.h"
 #include "geometry/polyhedra.h"
 #include "tests/support/expect_input_error.h"
@@ -22,17 +25,26 @@ class LiveServerTest : public testing::Test {
     port_ = std::stoi(url.substr(url.rfind(':') + 1));
   }
 
-  /// Listens until `wanted` stands in what was sent, for ten states at most.
-  std::string Listen(const std::string& wanted) {
+  static int Count(const std::string& text, const std::string& part) {
+    int count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+  }
+
+  /// Listens until `is_done` with the events that were sent, or to 20 states, which are 10 s.
+  std::string Listen(const std::function<bool(const std::string&)>& is_done) {
     httplib::Client client("127.0.0.1", port_);
     client.set_read_timeout(10, 0);
     std::string text;
-    int num_pieces = 0;
     client.Get("/events", [&](const char* data, std::size_t size) {
       text.append(data, size);
-      return ++num_pieces < 20 && text.find(wanted) == std::string::npos;
+      const bool is_whole = text.ends_with("\n\n");
+      return !is_whole || (Count(text, "event: state\n") < 20 && !is_done(text));
     });
     return text;
+  }
+  std::string ListenFor(const std::string& wanted) {
+    return Listen([&](const std::string& text) { return text.find(wanted) != std::string::npos; });
   }
 
   Bus bus_{"memq://"};
@@ -59,40 +71,36 @@ TEST_F(LiveServerTest, SendsWhatHappensOnTheBus) {
   bus_.Publish(channel::kSession, session.session);
   bus_.Publish(channel::kScene, session.scene);
   bus_.Publish(channel::kRunRecord, session.record);
-  const std::string text = Listen("\"title\":\"shelf 1\"");
+  const std::string text = ListenFor("\"title\":\"shelf 1\"");
   EXPECT_NE(text.find("event: state\ndata: {"), std::string::npos);
   EXPECT_NE(text.find("event: view\ndata: {"), std::string::npos);
-  EXPECT_NE(Listen("\"runs\":1").find("\"run_id\":\"session\""), std::string::npos);
+  EXPECT_NE(ListenFor("\"runs\":1").find("\"run_id\":\"session\""), std::string::npos);
 }
 
-TEST_F(LiveServerTest, MeshesAreSentOnceAsLongAsTheyAreShown) {
+TEST_F(LiveServerTest, MeshesAreSentOnceAlsoIfViewsWithoutThemComeBetween) {
   const TemporaryFolder folder;
   const auto file = folder.Write("arm/hand.obj", ObjText(BoxMesh({0.25, 0.1, 0.1})));
-  const std::string left_out = "\"" + SharedMesh(LoadMesh(file)).id() + "\":null";
-  const std::string content = "\"triangles\":\"";
+  const std::string id = SharedMesh(LoadMesh(file)).id();
   PlanarSession session;
   session.session.settings["robot"] = WriteMeshArm(folder, "hand.obj").string();
-  session.record.request.collision_model = CollisionModel::kMeshes;
   bus_.Publish(channel::kSession, session.session);
   bus_.Publish(channel::kScene, session.scene);
-  bus_.Publish(channel::kRunRecord, session.record);
-  httplib::Client client("127.0.0.1", port_);
-  client.set_read_timeout(10, 0);
-  std::string text;
-  int num_pieces = 0;
-  bool is_first = true;
-  const auto listen = [&](const char* data, std::size_t size) {
-    text.append(data, size);
-    if (is_first && text.find(content) != std::string::npos) {
-      is_first = false;
-      session.record.request_id = "another";
-      bus_.Publish(channel::kRunRecord, session.record);
-    }
-    return ++num_pieces < 20 && text.find(left_out) == std::string::npos;
+  int num_published = 0;
+  const auto publish = [&](CollisionModel model) {
+    session.record.request_id = "request " + std::to_string(++num_published);
+    session.record.request.collision_model = model;
+    bus_.Publish(channel::kRunRecord, session.record);
   };
-  client.Get("/events", listen);
-  EXPECT_NE(text.find(left_out), std::string::npos) << text;
-  EXPECT_EQ(text.find(content), text.rfind(content)) << text;
+  publish(CollisionModel::kMeshes);
+  const std::string text = Listen([&](const std::string& heard) {
+    if (Count(heard, "event: view\n") < num_published) return false;
+    if (num_published == 4) return true;
+    publish(num_published == 1 ? CollisionModel::kSpheres : CollisionModel::kMeshes);
+    return false;
+  });
+  EXPECT_EQ(Count(text, "\"mesh\":\"" + id + "\""), 3) << "views by meshes: " << text;
+  EXPECT_EQ(Count(text, "\"triangles\":\""), 1) << text;
+  EXPECT_EQ(Count(text, "\"" + id + "\":null"), 3) << text;
 }
 
 TEST_F(LiveServerTest, APortInUseIsRefused) {

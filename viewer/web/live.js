@@ -57,7 +57,7 @@ const live = (() => {
 
   const source = new EventSource("/events");
   source.addEventListener("state", event => showState(JSON.parse(event.data)));
-  let meshes = {};  // of the view that was sent last
+  let meshes = {};  // that the view sent last named, its own and others to come again
   source.addEventListener("view", event => {
     next = JSON.parse(event.data);
     if (next.meshes) {
