@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -50,42 +52,41 @@ SharedMesh Coarse(const SharedMesh& mesh, double most_cell_m) {
   return coarse.triangles.empty() ? mesh : SharedMesh(std::move(coarse));
 }
 
-std::size_t CountTriangles(const std::vector<SharedMesh>& meshes) {
+std::size_t CountTriangles(const std::map<std::string, SharedMesh>& meshes) {
   std::size_t count = 0;
-  for (const SharedMesh& mesh : meshes) count += mesh->triangles.size();
+  for (const auto& [id, mesh] : meshes) count += mesh->triangles.size();
   return count;
 }
 
-/// Leaves the bodies about so many triangles at most; what it tells of that, or nothing.
+/// Leaves the bodies' meshes, each of which a page holds once, about so many triangles at most;
+/// what it tells of that, or nothing.
 std::string Coarsen(std::size_t most_triangles, std::vector<LinkGeometry>* bodies) {
   std::vector<Mesh*> places;
-  std::vector<SharedMesh> meshes;
+  std::map<std::string, SharedMesh> finest;  // By id.
   double longest_m = 0;
   for (LinkGeometry& body : *bodies) {
     for (PlacedShape& placed : body.shapes) {
       auto* mesh = std::get_if<Mesh>(&placed.shape);
       if (mesh == nullptr) continue;
       places.push_back(mesh);
-      meshes.push_back(mesh->triangles);
+      finest.emplace(mesh->triangles.id(), mesh->triangles);
       longest_m = std::max(longest_m, LongestSide(mesh->triangles));
     }
   }
-  const std::size_t count = CountTriangles(meshes);
+  std::map<std::string, SharedMesh> meshes = finest;
   const double coarsest_m = longest_m / kLeastCells;
   double cell_m = 0;
   for (double next_m = 1e-3; CountTriangles(meshes) > most_triangles && cell_m < coarsest_m;
        next_m *= 2) {
     cell_m = std::min(next_m, coarsest_m);
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      meshes[i] = Coarse(places[i]->triangles, cell_m);
-    }
+    for (auto& [id, mesh] : meshes) mesh = Coarse(finest.at(id), cell_m);
   }
   if (cell_m == 0) return "";
-  for (std::size_t i = 0; i < meshes.size(); ++i) places[i]->triangles = meshes[i];
+  for (Mesh* place : places) place->triangles = meshes.at(place->triangles.id());
   return fmt::format(
       "The robot's meshes are shown coarser than they are: {} triangles instead of {}, corners up "
       "to {} mm from their places.",
-      CountTriangles(meshes), count, FormatNumber(1e3 * std::sqrt(3.0) * cell_m));
+      CountTriangles(meshes), CountTriangles(finest), FormatNumber(1e3 * std::sqrt(3.0) * cell_m));
 }
 
 }  // namespace

@@ -168,12 +168,19 @@ class View {
                         "collision geometry of its URDF.",
                         EnumName(model)));
       }
-    } else if (spheres_.empty()) {
+      return;
+    }
+    const bool lacks_spheres = spheres_.empty() && model != CollisionModel::kMeshes;
+    for (const auto* others : {&robot_.spheres, &robot_.enclosing_spheres}) {
+      if (spheres_.empty()) spheres_ = *others;
+    }
+    if (spheres_.empty()) {
       notes_.push_back(
           fmt::format("The robot is not shown: it has no spheres, and {}.", bodies.why_not));
     } else {
-      notes_.push_back(fmt::format("Checked: the robot's meshes; shown: its spheres, because {}.",
-                                   bodies.why_not));
+      notes_.push_back(fmt::format(
+          "The collision model is '{}'; shown: the robot's spheres, because {}{}.", EnumName(model),
+          lacks_spheres ? "it has none for that model, and " : "", bodies.why_not));
     }
   }
 

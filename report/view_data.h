@@ -12,9 +12,9 @@
 namespace planbench {
 
 /// What the 3D view shows (report/web/viewer.js) of a problem: solids, the robot by the geometry
-/// that `model` checks, start and goal. Where that cannot be had, its spheres stand for meshes or
-/// meshes for spheres, and a fact says so. Poses are [x, y, z, qx, qy, qz, qw] in the robot's
-/// base frame, m; shapes and meshes are ShapeJson's:
+/// that `model` checks, start and goal. Where that cannot be had, its spheres stand for meshes, or
+/// meshes, else other spheres, for spheres, and a fact says so. Poses are [x, y, z, qx, qy, qz, qw]
+/// in the robot's base frame, m; shapes and meshes are ShapeJson's:
 ///   {meshes: {id: {...}, ...} that shapes name,
 ///    title, facts: [line, ...],
 ///    solids: [{name, link (of attached ones), shape, pose}],

@@ -39,6 +39,20 @@ inline std::string FromBase64(const std::string& text) {
   return decoded;
 }
 
+/// What a page's script can ask of a 3D view's canvas: its pixels (without another,
+/// `view`'s), and in how many two pictures differ.
+inline constexpr char kPixels[] = R"script(
+  const pixels = (canvas = view.canvas) => {
+    const copy = document.createElement("canvas");
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+  };
+  const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
+)script";
+
 /// Opens a page in a real browser that has no network, and evaluates `probe`, statements that fill
 /// the object `found`, once it has loaded. Expects a clean console and no request.
 inline nlohmann::json Browse(const std::filesystem::path& page, const std::string& probe) {

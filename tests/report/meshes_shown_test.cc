@@ -72,7 +72,8 @@ class MeshesShownTest : public testing::Test {
   const TemporaryFolder folder_;
   const std::filesystem::path page_ = folder_ / "page.html";
   std::string arm_, mesh_id_, hands_;
-  const std::string fallback_ = "Checked: the robot's meshes; shown: its spheres, because ";
+  const std::string fallback_ =
+      "The collision model is 'meshes'; shown: the robot's spheres, because ";
 };
 
 TEST_F(MeshesShownTest, OfARunTheyAreFoundWhereTheDriverOrTheViewIsTold) {
@@ -116,17 +117,11 @@ TEST_F(MeshesShownTest, AReportHoldsThemOnceAndDrawsThemInEveryView) {
   EXPECT_EQ(Count(page, "\"" + mesh_id_ + "\":null"), 2u);
   EXPECT_EQ(Count(page, "id=\"mesh-" + mesh_id_ + "\""), 1u);
   if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
-  const nlohmann::json found = Browse(page_, R"script(
+  const nlohmann::json found = Browse(page_, std::string(kPixels) + R"script(
     const buttons = [...document.querySelectorAll("#problem button")].filter(one => one.textContent === "Show in 3D");
     found.drawn = buttons.map(button => {
       button.click();
-      const canvas = document.querySelector("canvas.view");
-      const copy = document.createElement("canvas");
-      copy.width = canvas.width;
-      copy.height = canvas.height;
-      const context = copy.getContext("2d");
-      context.drawImage(canvas, 0, 0);
-      return new Set(new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer)).size > 10;
+      return new Set(pixels(document.querySelector("canvas.view"))).size > 10;
     });
   )script");
   EXPECT_EQ(found["drawn"], (nlohmann::json{true, true}));

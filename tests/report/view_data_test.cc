@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/read_text.h"
 #include "common/write_file.h"
 #include "geometry/polyhedra.h"
 #include "report/page.h"
@@ -18,19 +19,6 @@
 
 namespace planbench {
 namespace {
-
-/// What a page's script can ask of its picture.
-constexpr char kPixels[] = R"script(
-    const pixels = (canvas = view.canvas) => {
-      const copy = document.createElement("canvas");
-      copy.width = canvas.width;
-      copy.height = canvas.height;
-      const context = copy.getContext("2d");
-      context.drawImage(canvas, 0, 0);
-      return new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
-    };
-    const differing = (a, b) => a.reduce((sum, pixel, i) => sum + (pixel !== b[i]), 0);
-)script";
 
 /// Of a mesh of a view, with less than 65537 vertices.
 std::size_t NumTriangles(const Json& mesh) { return FromBase64(mesh["triangles"]).size() / 6; }
@@ -167,13 +155,23 @@ TEST_F(ViewDataTest, TheGeometryThatWasCheckedIsShown) {
 
 TEST_F(ViewDataTest, WhatStandsForAnotherGeometryIsToldAsSuch) {
   run_.request.collision_model = CollisionModel::kMeshes;
-  Json view = RunView(ShownRobot(MeshArm("package://elsewhere/hand.obj")), scene_, run_, 10);
+  const ShownRobot lacking(MeshArm("package://elsewhere/hand.obj"));
+  const std::string why_not = ".*planar3.urdf.*--package-path elsewhere=DIR.*";
+  Json view = RunView(lacking, scene_, run_, 10);
   EXPECT_THAT(view["facts"].back().get<std::string>(),
-              testing::MatchesRegex("Checked: the robot's meshes; shown: its spheres, because "
-                                    ".*planar3.urdf.*--package-path elsewhere=DIR.*"));
+              testing::MatchesRegex(fmt::format("The collision model is 'meshes'; shown: the "
+                                                "robot's spheres, because {}",
+                                                why_not)));
   EXPECT_EQ(view["links"][1]["spheres"].size(), 9u);
   EXPECT_TRUE(view["links"][1]["shapes"].empty());
   run_.request.collision_model = CollisionModel::kEnclosing;
+  view = RunView(lacking, scene_, run_, 10);
+  EXPECT_THAT(view["facts"].back().get<std::string>(),
+              testing::MatchesRegex(fmt::format("The collision model is 'enclosing'; shown: the "
+                                                "robot's spheres, because it has none for that "
+                                                "model, and {}",
+                                                why_not)));
+  EXPECT_EQ(view["links"][1]["spheres"].size(), 9u);
   view = RunView(robot_, scene_, run_, 10);
   EXPECT_EQ(view["facts"].back(),
             "The robot has no spheres for the collision model 'enclosing'; shown: the collision "
@@ -195,6 +193,22 @@ TEST_F(ViewDataTest, MoreTrianglesThanAPageCanHoldAreMadeFewer) {
   // However few there may be, a hand stays one.
   const Json coarsest = RunView(ShownRobot(MeshArm(), 1), scene_, run_, 10);
   EXPECT_GT(NumTriangles(coarsest["meshes"].front()), 30u);
+}
+
+TEST_F(ViewDataTest, AMeshInTwoPlacesCountsOnceAsItIsHeldOnce) {
+  MeshArm();
+  const auto file = folder_ / "arm/planar3.urdf";
+  std::string urdf = ReadText(file);
+  const std::string mesh = "<mesh filename=\"hand.obj\"/>";
+  const std::size_t next = urdf.find("<sphere", urdf.find(mesh));
+  urdf.replace(next, urdf.find("/>", next) + 2 - next, mesh);
+  folder_.Write("arm/planar3.urdf", urdf);
+  run_.request.collision_model = CollisionModel::kMeshes;
+  const Json view = RunView(ShownRobot(LoadRobot(folder_ / "arm"), 5000), scene_, run_, 10);
+  const Json& hand = view["links"][3]["shapes"];
+  EXPECT_EQ(hand[0]["shape"], hand[1]["shape"]);
+  EXPECT_EQ(NumTriangles(view["meshes"].front()), 3996u);
+  EXPECT_EQ(view["facts"].size(), 2u) << view["facts"];
 }
 
 TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {
