@@ -147,6 +147,7 @@ int Run(Flags flags) {
   if (flags.sessions.empty() && flags.imports.empty()) {
     throw InputError("session is required: a session folder, or --import FILE --as NAME");
   }
+  const std::map<std::string, std::filesystem::path> packages = flags.robot.Packages();
   if (!flags.merge.empty()) {
     const std::string merged = MergeSessions(flags.sessions, flags.merge);
     std::cout << "report: " << merged << "\n";
@@ -161,7 +162,7 @@ int Run(Flags flags) {
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);
   if (!flags.figures.empty()) PrintFigures(data, flags.figures);
-  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews, flags.robot.Packages());
+  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews, packages);
   WriteFile(flags.out, ReportPage(data, views));
   for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   std::cout << "report: " << flags.out << "\n";

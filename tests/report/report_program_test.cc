@@ -117,6 +117,8 @@ TEST_F(ReportProgramTest, BadInputEndsWithOneLine) {
   expect_refused({Path("example"), "--out", Path("no/such/folder/page.html")},
                  "page.html: No such file or directory");
   expect_refused({Path("example"), "--csv", Path("empty/results.sqlite")}, "results.sqlite");
+  expect_refused({Path("example"), "--csv", Path("csv"), "--package-path", "hands"}, "NAME=DIR");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "csv")) << "written before all flags were read";
 }
 
 TEST_F(ReportProgramTest, ASessionIsNotComparedWithItself) {
