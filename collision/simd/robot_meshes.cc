@@ -28,10 +28,7 @@ constexpr double kLongestEdge = 0.1;
 constexpr double kShortestCut = 0.02;
 /// A ball around more than one triangle is no larger, m.
 constexpr double kLargestBall = 0.15;
-/// What is in several of a link's balls is put in one if that is no larger, m: many small ones take
-/// more tests than they spare.
-constexpr double kMergedBall = 0.07;
-/// Of a link, at most. Of one that needs more (a crane, or millimetres taken for metres) the four
+/// Of a link, at most. Of one that needs more (a crane, or millimetres taken for metres) the three
 /// lengths above are longer: the verdict is the same, at more cost.
 constexpr std::size_t kMostCuts = 1 << 16;
 /// Of a link, at most: the largest. Hulls tell more than ever smaller balls.
@@ -116,17 +113,6 @@ std::vector<Vector3d> CornersOf(std::span<const Piece> pieces) {
   return corners;
 }
 
-std::size_t NumTriangles(std::span<const Piece> pieces) {
-  std::vector<std::size_t> triangles;
-  for (const Piece& piece : pieces) triangles.push_back(piece.triangle);
-  std::sort(triangles.begin(), triangles.end());
-  return static_cast<std::size_t>(std::unique(triangles.begin(), triangles.end()) -
-                                  triangles.begin());
-}
-
-constexpr auto kGroup = static_cast<std::size_t>(kernels::kWide);
-constexpr std::size_t kMost = kGroup * kGroup;  ///< Triangles of a patch.
-
 /// Makes patches of the triangles of a link, whole ones by index.
 class PatchMaker {
  public:
@@ -151,12 +137,23 @@ class PatchMaker {
   }
 
  private:
+  static constexpr auto kGroup = static_cast<std::size_t>(kernels::kWide);
+  static constexpr std::size_t kMost = kGroup * kGroup;  ///< Triangles of a patch.
+
   /// What a patch has of one triangle.
   struct Part {
     std::size_t triangle;
     std::vector<Vector3d> corners;
     Vector3d middle;
   };
+
+  static std::size_t NumTriangles(std::span<const Piece> pieces) {
+    std::vector<std::size_t> triangles;
+    for (const Piece& piece : pieces) triangles.push_back(piece.triangle);
+    std::sort(triangles.begin(), triangles.end());
+    return static_cast<std::size_t>(std::unique(triangles.begin(), triangles.end()) -
+                                    triangles.begin());
+  }
 
   void AddPatch(std::span<Piece> pieces) {
     std::stable_sort(pieces.begin(), pieces.end(),
@@ -276,33 +273,6 @@ Pieces CutTriangles(const std::vector<Corners>& triangles, const std::vector<Bal
   return pieces;
 }
 
-/// A ball and the pieces that it encloses.
-struct Filled {
-  Ball ball;
-  std::vector<Piece> pieces;
-};
-
-/// Joins neighbours while what they enclose makes one patch within a ball of that radius, m.
-void Merge(std::span<Filled> parts, double largest, std::vector<Filled>* merged) {
-  if (parts.size() == 1) {
-    merged->push_back(std::move(parts.front()));
-    return;
-  }
-  Filled whole;
-  for (const Filled& part : parts) {
-    whole.pieces.insert(whole.pieces.end(), part.pieces.begin(), part.pieces.end());
-  }
-  whole.ball = BallAround(CornersOf(whole.pieces));
-  if (whole.ball.radius <= largest && NumTriangles(whole.pieces) <= kMost) {
-    merged->push_back(std::move(whole));
-    return;
-  }
-  const std::size_t half = parts.size() / 2;
-  Split(parts, half, [](const Filled& part) { return part.ball.center; });
-  Merge(parts.first(half), largest, merged);
-  Merge(parts.subspan(half), largest, merged);
-}
-
 /// Trees of patches of a link's triangles under balls about the middles, or one tree without any.
 void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& middles, int link,
               std::vector<RobotMeshes::Patch>* patches, std::vector<BallTree>* trees) {
@@ -310,26 +280,18 @@ void AddTrees(const std::vector<Corners>& triangles, const std::vector<Ball>& mi
   while (pieces.num_cuts == kMostCuts) {
     pieces = CutTriangles(triangles, middles, 2 * pieces.coarseness);
   }
+  std::vector<std::vector<Piece>>& parts = pieces.of_middles;
   PatchMaker maker(link, triangles, pieces.coarseness * kLargestBall, patches);
-  if (middles.empty()) {
-    trees->push_back(maker.MakeTree(pieces.of_middles.front()));
-    return;
-  }
-  std::vector<Filled> parts;
-  for (std::size_t m = 0; m < middles.size(); ++m) {
-    std::vector<Piece>& of_middle = pieces.of_middles[m];
-    if (of_middle.empty()) continue;
-    Ball ball{middles[m].center, 0};
-    for (const Piece& piece : of_middle) {
-      ball.radius = std::max(ball.radius, Farthest(piece.corners, ball.center));
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    if (parts[m].empty()) continue;
+    BallTree tree = maker.MakeTree(parts[m]);
+    if (!middles.empty()) {
+      Ball ball{middles[m].center, 0};
+      for (const Piece& piece : parts[m]) {
+        ball.radius = std::max(ball.radius, Farthest(piece.corners, ball.center));
+      }
+      tree.Replace(ball);
     }
-    parts.push_back({ball, std::move(of_middle)});
-  }
-  std::vector<Filled> merged;
-  Merge(parts, pieces.coarseness * kMergedBall, &merged);
-  for (Filled& part : merged) {
-    BallTree tree = maker.MakeTree(part.pieces);
-    tree.Replace(part.ball);
     trees->push_back(std::move(tree));
   }
 }
