@@ -419,18 +419,29 @@ TEST_F(RunExecutorTest, ASceneServerStartedByHandThatDoesNotAnswerEndsTheSession
   is_over = true;
 }
 
-TEST_F(RunExecutorTest, ASceneServerThatFailsAtEveryVerdictIsItselfAtFault) {
-  std::atomic<int> num_failures = 0;
-  ServerPatience patience;
-  patience.failures = [&] { return num_failures.load(); };
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
-  FakeSceneServer server(&bus_);
-  server.OnPathCheck([&](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
-    ++num_failures;
+/// With a scene server whose failures are counted, as those of a child are.
+class FailingVerdictTest : public RunExecutorTest {
+ protected:
+  /// As one that dies of a verdict, and then does not know the scene.
+  PathCheckReplyMessage Fail() {
+    ++num_failures_;
     throw InputError("no such scene");
-  });
+  }
+  ServerPatience CountingPatience() {
+    ServerPatience patience;
+    patience.failures = [this] { return num_failures_.load(); };
+    return patience;
+  }
+
+  std::atomic<int> num_failures_ = 0;
+  RunExecutor counting_{&bus_, &registry_, Conditions(), {}, {}, CountingPatience()};
+  FakeSceneServer server_{&bus_};
+};
+
+TEST_F(FailingVerdictTest, ASceneServerThatFailsAtEveryVerdictIsItselfAtFault) {
+  server_.OnPathCheck([&](const auto&) { return Fail(); });
   const auto execute = [&](int index) {
-    return executor.Execute(Scheduled(index), {&client_}, [] { return false; });
+    return counting_.Execute(Scheduled(index), {&client_}, [] { return false; });
   };
   for (const int index : {1, 2}) EXPECT_FALSE(WasAsked(execute(index).value()));
   try {
@@ -443,41 +454,26 @@ TEST_F(RunExecutorTest, ASceneServerThatFailsAtEveryVerdictIsItselfAtFault) {
   }
 }
 
-TEST_F(RunExecutorTest, ARunWhoseSimplifiedPathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
+TEST_F(FailingVerdictTest, ARunWhoseSimplifiedPathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
   PlanResult result = FakePlanner::SolvedResult();
   result.simplified_path = {{0, 0}, {0.1, 0}, {1, 0.5}};
   AnswerWith(result);
-  std::atomic<int> num_failures = 0;
-  ServerPatience patience;
-  patience.failures = [&] { return num_failures.load(); };
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
-  FakeSceneServer server(&bus_);
-  server.OnPathCheck([&](const PathCheckRequestMessage& request) {
+  server_.OnPathCheck([&](const PathCheckRequestMessage& request) {
     if (request.path.size() == 2) return FakeSceneServer::Verdict(true);
-    ++num_failures;
-    throw InputError("no such scene");
+    return Fail();
   });
   const RunRecordMessage record =
-      executor.Execute(Scheduled(), {&client_}, [] { return false; }).value();
+      counting_.Execute(Scheduled(), {&client_}, [] { return false; }).value();
   EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
   EXPECT_THAT(record.message, HasSubstr("the verdict on run/cans/2/arm/backward/3/simplified"));
   EXPECT_FALSE(WasAsked(record));
 }
 
-TEST_F(RunExecutorTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
-  std::atomic<int> num_failures = 0;
-  ServerPatience patience;
-  patience.failures = [&] { return num_failures.load(); };
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
-  FakeSceneServer server(&bus_);
-  // As one that dies of it does, and then does not know the scene.
-  server.OnPathCheck([&](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
-    ++num_failures;
-    throw InputError("no such scene");
-  });
+TEST_F(FailingVerdictTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
+  server_.OnPathCheck([&](const auto&) { return Fail(); });
   const std::string why = "twice the scene server died or fell silent when it was asked for ";
   const auto execute = [&] {
-    return executor.Execute(Scheduled(), {&client_}, [] { return false; }).value();
+    return counting_.Execute(Scheduled(), {&client_}, [] { return false; }).value();
   };
   const RunRecordMessage unjudged = execute();
   EXPECT_EQ(unjudged.status, PlanStatus::kNoAnswer);
