@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <set>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/read_text.h"
 #include "common/text.h"
 
 namespace planbench {
@@ -140,14 +139,7 @@ int LineOf(std::string_view text, std::size_t offset) {
 
 }  // namespace
 
-YamlNode YamlNode::LoadFile(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be opened");
-  std::ostringstream text;
-  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (file.bad() || !text) throw InputError(path + ": cannot be read");
-  return Parse(text.str(), path);
-}
+YamlNode YamlNode::LoadFile(const std::string& path) { return Parse(ReadText(path), path); }
 
 YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
   if (const auto bad = FindInvalidUtf8(text)) {
@@ -158,7 +150,10 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
   try {
     document = std::make_shared<Document>(text, origin);
   } catch (const YAML::Exception& error) {
-    const std::string line = error.mark.is_null() ? "" : ":" + std::to_string(error.mark.line + 1);
+    // Of what lacks its end, the last line.
+    const int last = LineOf(text, std::min(text.find_last_not_of(" \t\r\n"), text.size()));
+    const std::string line =
+        error.mark.is_null() ? "" : fmt::format(":{}", std::min(error.mark.line + 1, last));
     // Its own text for this is "bad file".
     const bool is_deep = dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr;
     throw InputError(origin + line +
@@ -181,6 +176,10 @@ YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
 void YamlNode::CheckTree(std::vector<const Node*>* ancestors, int* last_position) const {
   constexpr std::size_t kDeepest = 200;
   // What stands before its parent or its elder sibling is an alias: checked at its anchor.
+  if (node_->position <= *last_position &&
+      std::ranges::find(*ancestors, node_) != ancestors->end()) {
+    Fail("contains itself");
+  }
   if (node_->position < *last_position) return;
   *last_position = node_->position;
   if (ancestors->size() > kDeepest) Fail("is nested too deep");
@@ -207,7 +206,7 @@ void YamlNode::CheckTree(std::vector<const Node*>* ancestors, int* last_position
       const std::string path = key->kind == Kind::kScalar ? PathOf(key->text) : path_;
       Child(key, path).CheckTree(ancestors, last_position);
       const YamlNode child = Child(value, path);
-      if (IsMergeKey(*key)) child.CheckMerge(*value, *ancestors);
+      if (IsMergeKey(*key)) child.CheckMerge(*value);
       child.CheckTree(ancestors, last_position);
     }
     ancestors->pop_back();
@@ -217,13 +216,10 @@ void YamlNode::CheckTree(std::vector<const Node*>* ancestors, int* last_position
   }
 }
 
-void YamlNode::CheckMerge(const Node& value, const std::vector<const Node*>& ancestors) const {
+void YamlNode::CheckMerge(const Node& value) const {
   const auto require_map = [&](const Node& map) {
     if (map.kind != Kind::kMap) {
       Fail("'<<' merges a map or a sequence of maps, found " + KindOf(map));
-    }
-    if (std::find(ancestors.begin(), ancestors.end(), &map) != ancestors.end()) {
-      Fail("'<<' merges a map into itself");
     }
   };
   if (value.kind != Kind::kSequence) return require_map(value);
@@ -252,6 +248,7 @@ bool YamlNode::IsBinary() const { return IsScalar() && node_->tag == "!!binary";
 std::string YamlNode::Where() const {
   std::string where = document_->origin;
   if (document_->has_lines && node_->line > 0) where += ":" + std::to_string(node_->line);
+  if (const std::size_t told = document_->num_told; told > 0) return where + path_.substr(told);
   if (!path_.empty()) where += ": " + path_;
   return where;
 }
@@ -305,8 +302,14 @@ std::optional<YamlNode> YamlNode::Find(const std::string& key) const {
 YamlNode YamlNode::At(const std::string& key) const {
   if (!IsMap()) Fail("expected a map with the field '" + key + "', found " + KindOf(*node_));
   std::optional<YamlNode> value = Find(key);
-  if (!value) Fail("the field '" + key + "' is missing");
-  return *std::move(value);
+  if (value) return *std::move(value);
+  if (const auto own = overrides_.find(key); own != overrides_.end()) {
+    own->second->Fail("the field '" + key + "' has no value");
+  }
+  if (const Node* null = FindIn(*node_, key); null != nullptr) {
+    Child(null, PathOf(key)).Fail("the field '" + key + "' has no value");
+  }
+  Fail("the field '" + key + "' is missing");
 }
 
 std::vector<std::pair<const Node*, const Node*>> YamlNode::Entries(const Node& map) const {
@@ -357,7 +360,10 @@ void YamlNode::RequireKeys(
 
 void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
   RequireKeys([&](const std::string& key) -> std::optional<std::string> {
-    if (std::find(known.begin(), known.end(), key) != known.end()) return std::nullopt;
+    const auto accepts = [&](std::string_view name) {
+      return name.ends_with('*') ? key.starts_with(name.substr(0, name.size() - 1)) : key == name;
+    };
+    if (std::any_of(known.begin(), known.end(), accepts)) return std::nullopt;
     const std::string nearest = NearestName(key, {known.begin(), known.end()});
     return fmt::format("unknown key '{}'; {}known are: {}", key,
                        nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
@@ -418,6 +424,14 @@ double YamlNode::Double() const {
 double YamlNode::PositiveDouble() const {
   const double value = Double();
   if (value <= 0) Fail("must be greater than zero, found " + KindOf(*node_));
+  return value;
+}
+
+double YamlNode::DoubleWithin(double least, double most) const {
+  const double value = Double();
+  if (value < least || value > most) {
+    Fail(fmt::format("must be from {} to {}, found {}", least, most, value));
+  }
   return value;
 }
 
@@ -523,7 +537,9 @@ void YamlNode::Override(const std::string& key, const std::string& text,
   const bool is_own =
       overrides_.contains(key) || (!IsNullNode(*node_) && FindIn(*node_, key) != nullptr);
   if (dot == std::string::npos || is_own) {
-    overrides_[key] = Foreign(key, text, origin);
+    const std::shared_ptr<YamlNode> value = Foreign(key, text, origin);
+    value->document_->num_told = value->path_.size();
+    overrides_[key] = value;
     return;
   }
   const std::string outer = key.substr(0, dot);

@@ -42,8 +42,8 @@ class YamlNode {
   /// The value of `key`, nothing if the key is absent or its value null; throws if this is no map
   /// or holds the key twice.
   std::optional<YamlNode> Find(const std::string& key) const;
-  /// Throws for the first key that is not in `known` (unknown settings are errors), or that occurs
-  /// twice.
+  /// Throws for the first key that is not in `known` (unknown settings are errors; "x-*": whatever
+  /// begins with "x-"), or that occurs twice.
   void AllowOnly(std::initializer_list<std::string_view> known) const;
   /// Throws, at the key, for the first one that `accepts` returns a complaint for, or that occurs
   /// twice.
@@ -66,8 +66,9 @@ class YamlNode {
   /// A byte as it is where it stands for a number: one control character, or one byte of !!binary.
   std::optional<int> RawByte() const;
   double Double() const;
-  double PositiveDouble() const;  ///< A finite number greater than zero.
-  long long Int() const;          ///< A decimal integer.
+  double PositiveDouble() const;                         ///< A finite number greater than zero.
+  double DoubleWithin(double least, double most) const;  ///< A number from `least` to `most`.
+  long long Int() const;                                 ///< A decimal integer.
   bool Bool() const;
   std::string String() const;
   template <typename Value>  ///< One of the names of an enum (enum_names.h).
@@ -90,10 +91,10 @@ class YamlNode {
 
   /// Replaces `key` (of a map or null node) by `text` parsed as YAML. A key with dots that the map
   /// does not have leads into maps: `ompl.goal_bias` is `goal_bias` of the map `ompl`, which is
-  /// made if it is missing. Errors about the value will name `origin`, e.g. "--set range" or
-  /// "PLAN_REQUEST_RRTC parameter range"; those about a map that it is put into name where that
-  /// stands, and `origin` if it was made for the value. Copies made before keep the old value.
-  /// Throws for text that is no YAML, and where a map should be and is none.
+  /// made if it is missing. Errors about the value will begin with `origin`, e.g. "--set range" or
+  /// "lineup.yaml:4: contestants.mine.set.range"; those about a map that it is put into with where
+  /// that stands, and with `origin` if it was made for the value. Copies made before keep the old
+  /// value. Throws for text that is no YAML, and where a map should be and is none.
   void Override(const std::string& key, const std::string& text, const std::string& origin);
 
   /// "file:line: field.path".
@@ -110,7 +111,8 @@ class YamlNode {
   struct Document {
     Document(const std::string& text, std::string of) : origin(std::move(of)), tree(text) {}
     std::string origin;
-    bool has_lines = true;  ///< False for a command line or a message: one line, no file.
+    bool has_lines = true;     ///< False for a command line or a message: one line, no file.
+    std::size_t num_told = 0;  ///< Bytes of all paths, at their beginning, that `origin` tells.
     YamlTree tree;
     std::vector<std::string> warnings;
     std::unordered_set<std::string> warned;  ///< The same.
@@ -132,9 +134,9 @@ class YamlNode {
   std::vector<std::pair<const Node*, const Node*>> Entries(const Node& map) const;
   // The value of `key` in `map` or in what it merges, null if it has none.
   const Node* FindIn(const Node& map, const std::string& key) const;
-  // Refuses tags that are not known and merge keys that merge no maps.
+  // Refuses tags that are not known, what contains itself, and merge keys that merge no maps.
   void CheckTree(std::vector<const Node*>* ancestors, int* last_position) const;
-  void CheckMerge(const Node& value, const std::vector<const Node*>& ancestors) const;
+  void CheckMerge(const Node& value) const;
   // Refuses what stands for a list or a text that a dump has left out.
   void RequirePrinted() const;
   // Refuses a scalar whose tag is not among `allowed` (short forms).

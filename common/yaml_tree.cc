@@ -26,7 +26,10 @@ class YamlTree::Builder final : public YAML::EventHandler {
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Add(Make(Kind::kNull, mark, "", anchor));
+    Node* null = Make(Kind::kNull, mark, "", anchor);
+    // The mark of a value that is left out is that of what comes next.
+    if (!open_.empty() && open_.back().key != nullptr) null->line = open_.back().key->line;
+    Add(null);
   }
   void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t anchor) override {
     Add(anchors_.at(anchor));
@@ -101,7 +104,9 @@ class YamlTree::Builder final : public YAML::EventHandler {
 };
 
 YamlTree::YamlTree(const std::string& text) {
-  std::istringstream stream(text);
+  // yaml-cpp 0.7 takes a quote that is not closed, and a key without its colon, where the text ends
+  // after them. Here a comment does.
+  std::istringstream stream(text + (text.ends_with('\n') ? "#" : "\n#"));
   YAML::Parser parser(stream);
   Builder builder(this);
   while (parser.HandleNextDocument(builder)) {

@@ -6,13 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "common/error.h"
+#include "common/read_text.h"
 
 namespace planbench {
 namespace {
@@ -169,12 +169,7 @@ MotionPrimitives LoadMotionPrimitives(const std::string& path, const JointSpace&
   if (extension == ".yaml" || extension == ".yml") {
     return ReadMotionPrimitives(YamlNode::LoadFile(path), space, discretization);
   }
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be opened");
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad() || !text) throw InputError(path + ": cannot be read");
-  return ParseMotionPrimitives(text.str(), path, space.size());
+  return ParseMotionPrimitives(ReadText(path), path, space.size());
 }
 
 }  // namespace planbench

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -68,6 +71,11 @@ TEST(YamlNode, NonFiniteNumbersAreErrors) {
         << text;
   }
   EXPECT_THAT(ErrorOf([] { Parse("0").PositiveDouble(); }), HasSubstr("greater than zero"));
+  EXPECT_EQ(Parse("1e-6").DoubleWithin(1e-6, 1), 1e-6);
+  for (const char* text : {"1e-7", "1e300", "-1"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text).DoubleWithin(1e-6, 1); }),
+                HasSubstr("must be from 1e-06 to 1, found "));
+  }
 }
 
 TEST(YamlNode, ErrorsNameFileLineAndField) {
@@ -107,6 +115,19 @@ TEST(YamlNode, SyntaxErrorsNameTheLine) {
             "file.yaml:2: is nested too deep");
 }
 
+TEST(YamlNode, TextsThatWereCutOffAreRefusedAtTheirLastLine) {
+  for (const char* text : {"a: 1\nb: \"cut here\n", "a: 1\nb: \"cut here", "a: 1\nb: 'cut here\n\n",
+                           "a: 1\nb: &x \"cut \\\"\n", "a: 1\nb: !!str 'cut ''\n  ", "a: 1\n\"b\n",
+                           "a: 1\nb", "a: 1\nb\n", "a: 1\nb  # no colon\n", "a: 1\n'b'\n\n"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text); }), StartsWith("file.yaml:2: no valid YAML: ")) << text;
+  }
+  for (const char* text : {"a: 1\n  b\n", "a:\n  b", "{a}", "? a", "? a\n", "a:", "a", "a: \"b\"",
+                           "a: |\n  b\n", "a: b # c", "# a", "\n"}) {
+    EXPECT_EQ(ErrorOf([&] { Parse(text); }), "no error") << text;
+  }
+  EXPECT_EQ(Parse("a: |+\n  b\n\n").At("a").String(), "b\n\n");
+}
+
 // yaml-cpp would read documents until the memory is full.
 TEST(YamlNode, BracketsThatCloseNothingAreSyntaxErrors) {
   for (const char* text : {"a: 1\n}", "a: 1\n]", "{a: 1}\n}\n"}) {
@@ -121,7 +142,9 @@ TEST(YamlNode, AbsentAndNullAreTheSame) {
   EXPECT_FALSE(node.Find("b"));
   EXPECT_FALSE(node.Find("z"));
   EXPECT_TRUE(node.Find("c"));
-  EXPECT_THAT(ErrorOf([&] { node.At("b"); }), HasSubstr("'b' is missing"));
+  EXPECT_EQ(ErrorOf([&] { node.At("a"); }), "file.yaml:1: a: the field 'a' has no value");
+  EXPECT_EQ(ErrorOf([&] { node.At("b"); }), "file.yaml:2: b: the field 'b' has no value");
+  EXPECT_EQ(ErrorOf([&] { node.At("z"); }), "file.yaml:1: the field 'z' is missing");
   EXPECT_EQ(node.DoubleOr("a", 2), 2);
   EXPECT_EQ(node.DoubleOr("c", 2), 0);
   EXPECT_EQ(node.BoolOr("z", true), true);
@@ -159,6 +182,9 @@ TEST(YamlNode, AllowOnlyNamesTheUnknownKey) {
         node.At("x").AllowOnly({"speed", "rnage"});
       }),
       "file.yaml:2: x.range: unknown key 'range'; did you mean 'rnage'? known are: speed, rnage");
+  EXPECT_NO_THROW(node.AllowOnly({"x*"}));
+  EXPECT_NO_THROW(node.At("x").AllowOnly({"range", "r*"}));
+  EXPECT_THROW(node.At("x").AllowOnly({"range", "x-*"}), InputError);
   EXPECT_THROW(Parse("[1]").AllowOnly({"a"}), InputError);
   EXPECT_NO_THROW(Parse("").AllowOnly({"a"}));
 }
@@ -173,6 +199,7 @@ TEST(YamlNode, OverrideReplacesAndAdds) {
   EXPECT_THAT(node.Keys(), ElementsAre("range", "seed", "name"));
   node.Override("seed", "~", "--set seed");
   EXPECT_FALSE(node.Find("seed"));
+  EXPECT_EQ(ErrorOf([&] { node.At("seed"); }), "--set seed: the field 'seed' has no value");
 }
 
 TEST(YamlNode, OverrideErrorsNameTheirOrigin) {
@@ -180,9 +207,17 @@ TEST(YamlNode, OverrideErrorsNameTheirOrigin) {
   node.Override("range", "far", "--set range");
   node.Override("rnage", "1", "--set rnage");
   EXPECT_EQ(ErrorOf([&] { node.At("range").Double(); }),
-            "--set range: range: expected a number, found 'far'");
+            "--set range: expected a number, found 'far'");
   EXPECT_EQ(ErrorOf([&] { node.AllowOnly({"range"}); }),
-            "--set rnage: rnage: unknown key 'rnage'; did you mean 'range'? known are: range");
+            "--set rnage: unknown key 'rnage'; did you mean 'range'? known are: range");
+  node.Override("range", "[1, far]", "x.yaml:3: set.range");
+  EXPECT_EQ(ErrorOf([&] { node.At("range").Doubles(); }),
+            "x.yaml:3: set.range[1]: expected a number, found 'far'");
+  EXPECT_EQ(ErrorOf([&] {
+              node.Override("ompl", "{goal: x}", "--set ompl");
+              node.At("ompl").At("goal").Double();
+            }),
+            "--set ompl.goal: expected a number, found 'x'");
   EXPECT_THAT(ErrorOf([&] { node.Override("range", "[1", "--set range"); }),
               StartsWith("--set range"));
   YamlNode scalar = Parse("x");
@@ -209,7 +244,7 @@ TEST(YamlNode, OverrideDescendsAtDots) {
   node.Override("ompl.range", "far", "--set ompl.range");
   EXPECT_THAT(node.At("ompl").Keys(), ElementsAre("goal_bias", "range"));
   EXPECT_EQ(ErrorOf([&] { node.At("ompl").At("range").Double(); }),
-            "--set ompl.range: ompl.range: expected a number, found 'far'");
+            "--set ompl.range: expected a number, found 'far'");
 }
 
 TEST(YamlNode, OverrideDescendsIntoMapsOnly) {
@@ -287,8 +322,6 @@ TEST(YamlNode, MergeKeysMergeMapsOnly) {
     EXPECT_THAT(ErrorOf([&] { Parse(text); }), HasSubstr("merges a map or a sequence of maps"))
         << text;
   }
-  EXPECT_THAT(ErrorOf([] { Parse("a: &a\n  b: 1\n  <<: *a\n"); }), HasSubstr("into itself"));
-  EXPECT_THAT(ErrorOf([] { Parse("a: &a {<<: {<<: [*a]}}\n"); }), HasSubstr("into itself"));
   EXPECT_THAT(ErrorOf([] { Parse("<<: {a: 1}\n<<: {b: 1}\n").Keys(); }), HasSubstr("twice"));
 }
 
@@ -301,7 +334,16 @@ TEST(YamlNode, AliasesAreFollowedOnce) {
     text.append(" [*a").append(last).append(", *a").append(last).append("]\n");
   }
   EXPECT_EQ(Parse(text).At("a59").Size(), 2) << "and not 2^60 elements looked at";
-  EXPECT_TRUE(Parse("a: &a {b: *a}\n").At("a").At("b").At("b").IsMap());
+}
+
+TEST(YamlNode, NothingContainsItself) {
+  for (const char* text :
+       {"a: 1\nb: &a [*a]", "a: 1\nb: &a [1, [*a]]", "a: 1\nb: &a {b: *a}",
+        "a: 1\nb: &a {? *a : 1}", "a: 1\nb: &a {<<: *a}", "a: 1\nb: &a {<<: {<<: [*a]}}"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text); }),
+                AllOf(StartsWith("file.yaml:2: b"), HasSubstr(": contains itself")))
+        << text;
+  }
 }
 
 TEST(YamlNode, AliasesAreWhatTheirAnchorWasLast) {
@@ -464,7 +506,8 @@ TEST(YamlNode, WarningsAreKeptWithTheDocument) {
 TEST(YamlNode, LoadFileNamesThePath) {
   EXPECT_EQ(ErrorOf([] { YamlNode::LoadFile("/nonexistent/x.yaml"); }),
             "/nonexistent/x.yaml: cannot be opened");
-  EXPECT_THROW(YamlNode::LoadFile(testing::TempDir()), InputError) << "a folder";
+  EXPECT_THAT(ErrorOf([] { YamlNode::LoadFile(testing::TempDir()); }), HasSubstr(": is a folder"));
+  EXPECT_EQ(ErrorOf([] { YamlNode::LoadFile("/dev/zero"); }), "/dev/zero: is no file");
   const auto path = std::filesystem::path(testing::TempDir()) / "planbench_yaml_test.yaml";
   std::ofstream(path) << "a: 1\nb: x";
   EXPECT_EQ(ErrorOf([&] { YamlNode::LoadFile(path.string()).At("b").Int(); }),
@@ -472,6 +515,18 @@ TEST(YamlNode, LoadFileNamesThePath) {
   std::ofstream(path) << "";
   EXPECT_TRUE(YamlNode::LoadFile(path.string()).IsNull());
   std::filesystem::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_EQ(ErrorOf([&] { YamlNode::LoadFile(path.string()); }), path.string() + ": is no file");
+  std::filesystem::remove(path);
+}
+
+TEST(YamlNode, LoadFileReadsThePipesOfAShell) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  ASSERT_EQ(write(ends[1], "a: 1", 4), 4);
+  close(ends[1]);
+  EXPECT_EQ(YamlNode::LoadFile(fmt::format("/dev/fd/{}", ends[0])).At("a").Int(), 1);
+  close(ends[0]);
 }
 
 }  // namespace
