@@ -217,13 +217,13 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
          "largest motion of any point between samples of an edge, m; default: the robot's; "
          "planners that sample edges by a rule of their own do not heed it, which the "
          "tables say")
-      ->check(Positive());
+      ->check(Within(kFinestEdgeResolution, kCoarsestEdgeResolution));
   AddEnum<EdgeCheck>(
       app, "--edge-check", &request.edge_check,
       "fixed: edges are free at samples; certified: proven free; default: the robot's");
   app->add_option("--referee-step", conditions.referee_step_m,
                   "the same for the referee; default: half the edge resolution")
-      ->check(Positive());
+      ->check(Within(kFinestEdgeResolution, kCoarsestEdgeResolution));
   app->add_flag("--anytime", request.anytime,
                 "let anytime planners improve until the time limit; default: first solution");
   app->add_flag("!--no-simplify", request.simplify, "do not ask for simplified paths");

@@ -45,6 +45,16 @@ CLI::Validator Positive(double most) {
       "");
 }
 
+CLI::Validator Within(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) -> std::string {
+        const double value = std::strtod(text.c_str(), nullptr);  // 0 if it is none
+        if (value >= least && value <= most) return "";
+        return fmt::format("{} is not from {} to {}", text, least, most);
+      },
+      "");
+}
+
 namespace {
 
 int ParseAndWork(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {

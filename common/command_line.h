@@ -29,6 +29,9 @@ CLI::Validator AnySeed();
 /// lets NaN pass, and tells its range to 309 digits.)
 CLI::Validator Positive(double most = std::numeric_limits<double>::max());
 
+/// For a flag that takes a number from `least` to `most`, `least` greater than zero.
+CLI::Validator Within(double least, double most);
+
 /// Parses the flags and calls `work`, which returns the exit code. Flags that CLI11 refuses, text
 /// that is no UTF-8, and InputError end with 2, any other exception with 1, each after one line on
 /// stderr that begins with the app's name; so ends, with 1 instead of 0, what lost something of its

@@ -25,13 +25,7 @@ constexpr double kMostFactor = 1e6;
 
 double ReadPositive(const YamlNode& node) { return node.PositiveDouble(); }
 
-double ReadFactor(const YamlNode& node) {
-  const double factor = node.PositiveDouble();
-  if (factor < kLeastFactor || factor > kMostFactor) {
-    node.Fail(fmt::format("must be from {} to {}, found {}", kLeastFactor, kMostFactor, factor));
-  }
-  return factor;
-}
+double ReadFactor(const YamlNode& node) { return node.DoubleWithin(kLeastFactor, kMostFactor); }
 
 void ApplyByJoint(const YamlNode& node, const std::string& key, double (*read)(const YamlNode&),
                   std::map<std::string, double>* values) {

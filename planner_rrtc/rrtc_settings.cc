@@ -36,12 +36,6 @@ std::optional<double> ReadRange(const YamlNode& node) {
   return node.PositiveDouble();
 }
 
-double ReadFraction(const YamlNode& node) {
-  const double fraction = node.PositiveDouble();
-  if (fraction > 1) node.Fail(fmt::format("must be at most 1, found {}", fraction));
-  return fraction;
-}
-
 }  // namespace
 
 std::string_view RrtcSettings::AlgorithmName() const {
@@ -97,7 +91,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   }
   if (const auto value = node.Find("metric")) settings.metric = value->Enum<Metric>();
   if (const auto value = node.Find(kSegmentFraction)) {
-    settings.longest_valid_segment_fraction = ReadFraction(*value);
+    settings.longest_valid_segment_fraction = value->DoubleWithin(1e-6, 1);
     settings.segment_fraction_origin = value->Where();
   }
   if (const auto value = node.Find("ompl")) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -52,9 +51,9 @@ void RequireValid(const PlanRequest& request, const PlannerDescription& descript
                                  request.time_limit_s));
   }
   if (const auto step_m = request.edge_resolution_m;
-      step_m && (!(*step_m > 0) || !std::isfinite(*step_m))) {
-    throw InputError(
-        fmt::format("{}: edge_resolution_m is {}, must be a positive number", origin, *step_m));
+      step_m && !(*step_m >= kFinestEdgeResolution && *step_m <= kCoarsestEdgeResolution)) {
+    throw InputError(fmt::format("{}: edge_resolution_m is {}, must be from {} to {}", origin,
+                                 *step_m, kFinestEdgeResolution, kCoarsestEdgeResolution));
   }
   const std::vector<CollisionModel>& models = description.collision_models;
   if (std::find(models.begin(), models.end(), request.collision_model) == models.end()) {

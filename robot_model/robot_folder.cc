@@ -427,7 +427,8 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
     }
   }
   if (const auto resolution = root.Find("edge_resolution_m")) {
-    robot.edge_resolution_m = resolution->PositiveDouble();
+    robot.edge_resolution_m =
+        resolution->DoubleWithin(kFinestEdgeResolution, kCoarsestEdgeResolution);
   }
   if (const auto method = root.Find("edge_check")) {
     robot.edge_check = method->Enum<EdgeCheck>();

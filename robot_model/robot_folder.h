@@ -26,7 +26,7 @@ namespace planbench {
 ///                                  #   without any the spheres and voxels models cannot be used
 ///   enclosing_spheres: enclosing.yaml   # optional, likewise: those of the enclosing model, which
 ///                                       #   contain every body of the URDF (make_spheres)
-///   edge_resolution_m: 0.02        # optional, default 0.02
+///   edge_resolution_m: 0.02        # optional, default 0.02; from 1e-6 to 1
 ///   edge_check: certified          # or fixed; optional, default certified
 ///   groups:                        # instead of the SRDF's; needed without one
 ///     - name: arm_with_torso

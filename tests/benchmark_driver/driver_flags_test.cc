@@ -292,7 +292,10 @@ TEST(DriverFlagsTest, RefusesBadValuesByTheFlag) {
     ExpectRefused({"--seed", seed}, {"--seed"});
   }
   ExpectRefused({"--edge-resolution", "-0.1"}, {"--edge-resolution"});
-  ExpectRefused({"--referee-step", "nan"}, {"--referee-step"});
+  for (const char* step : {"nan", "x", "1e300", "1e-320"}) {
+    ExpectRefused({"--edge-resolution", step}, {"--edge-resolution", "is not from 1e-06 to 1"});
+    ExpectRefused({"--referee-step", step}, {"--referee-step"});
+  }
   ExpectRefused({"--discovery-timeout", "0"}, {"--discovery-timeout"});
   ExpectRefused({"--discovery-timeout", "1e16"}, {"--discovery-timeout"});
   ExpectRefused({"--planners", ""}, {"--planners"});

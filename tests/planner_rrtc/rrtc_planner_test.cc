@@ -162,6 +162,8 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   expect_refused("algorithm: RRT\nompl: {range: 2}", {"ompl.range", "the setting 'range'"});
   expect_refused("algorithm: RRT\nlongest_valid_segment_fraction: 2",
                  {"rrtc.yaml:2", "longest_valid_segment_fraction", "2"});
+  expect_refused("algorithm: RRT\nlongest_valid_segment_fraction: 1e-12",
+                 {"rrtc.yaml:2", "longest_valid_segment_fraction", "from 1e-06 to 1"});
 }
 
 TEST_F(RrtcPlannerTest, RefusesWhatTheAlgorithmHasNoUseFor) {

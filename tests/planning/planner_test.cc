@@ -439,6 +439,8 @@ TEST_F(PlannerTest, BadRequestsAreRefusedWithTheReason) {
       {"negative step", [](PlanRequest* r) { r->edge_resolution_m = -0.1; }, "edge_resolution_m"},
       {"step NaN", [](PlanRequest* r) { r->edge_resolution_m = double{kNan}; },
        "edge_resolution_m"},
+      {"coarse step", [](PlanRequest* r) { r->edge_resolution_m = 1.1; }, "from 1e-06 to 1"},
+      {"fine step", [](PlanRequest* r) { r->edge_resolution_m = 1e-320; }, "edge_resolution_m"},
       {"infinite step", [](PlanRequest* r) { r->edge_resolution_m = INFINITY; },
        "edge_resolution_m"},
       {"group", [](PlanRequest* r) { r->group = "leg"; }, "leg"},
