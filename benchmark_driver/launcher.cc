@@ -119,6 +119,9 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
       for (const std::string& setting : entry.settings) {
         arguments.insert(arguments.end(), {"--set", setting});
       }
+      for (const auto& [key, origin] : entry.origins) {
+        arguments.insert(arguments.end(), {"--set-origin", key + "=" + origin});
+      }
     }
     ChildSpec child = Child(planner, std::move(arguments), logs, lcm_url);
     child.processors = options.pinned;

@@ -16,8 +16,6 @@
 namespace planbench {
 namespace {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;  // key, value as YAML
-
 using Values = std::vector<std::pair<std::string, YamlNode>>;
 
 /// The values of settings by their keys, `prefix` before them; those in a map's by MAP.KEY, as
@@ -41,16 +39,24 @@ std::string AsYaml(const YamlNode& value) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+/// Returns the value as YAML in one line.
+std::string AddSetting(const std::string& key, const YamlNode& node, LineUpEntry* entry) {
+  std::string value = AsYaml(node);
+  entry->settings.push_back(key + "=" + value);
+  entry->origins[key] = node.Where();
+  return value;
+}
+
 /// Every choice of one value for each key, the last key varying fastest.
-std::vector<Settings> ReadSweep(const YamlNode& map) {
-  std::vector<Settings> choices = {{}};
+std::vector<Values> ReadSweep(const YamlNode& map) {
+  std::vector<Values> choices = {{}};
   for (const auto& [key, values] : ReadValues(map)) {
     if (values.Size() == 0) values.Fail("no value to sweep over");
-    std::vector<Settings> longer;
-    for (const Settings& choice : choices) {
+    std::vector<Values> longer;
+    for (const Values& choice : choices) {
       for (const YamlNode& value : values.Elements()) {
         longer.push_back(choice);
-        longer.back().emplace_back(key, AsYaml(value));
+        longer.back().emplace_back(key, value);
       }
     }
     choices = std::move(longer);
@@ -94,7 +100,8 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
     contestant.collision_model = model->Enum<CollisionModel>();
   }
   if (const auto step = node.Find("edge_resolution")) {
-    contestant.edge_resolution_m = step->PositiveDouble();
+    contestant.edge_resolution_m =
+        step->DoubleWithin(kFinestEdgeResolution, kCoarsestEdgeResolution);
   }
   if (const auto check = node.Find("edge_check")) contestant.edge_check = check->Enum<EdgeCheck>();
   if (const auto directions = node.Find("directions")) {
@@ -110,18 +117,16 @@ std::vector<LineUpEntry> ReadContestant(const std::string& planner, const YamlNo
   const auto config = node.Find("config");
   if (config && robot_folder) entry.config = FindConfig(*config, file, *robot_folder);
   if (const auto set = node.Find("set")) {
-    for (const auto& [key, value] : ReadValues(*set)) {
-      entry.settings.push_back(key + "=" + AsYaml(value));
-    }
+    for (const auto& [key, value] : ReadValues(*set)) AddSetting(key, value, &entry);
   }
   const auto sweep = node.Find("sweep");
   if (!sweep) return {entry};
 
   std::vector<LineUpEntry> entries;
-  for (const Settings& choice : ReadSweep(*sweep)) {
+  for (const Values& choice : ReadSweep(*sweep)) {
     LineUpEntry one = entry;
-    for (const auto& [key, value] : choice) {
-      one.settings.push_back(key + "=" + value);
+    for (const auto& [key, node] : choice) {
+      const std::string value = AddSetting(key, node, &one);
       one.swept.push_back(key);
       one.contestant.planner += AsNodeName("_" + key + "_" + value);
       if (!one.contestant.name.empty()) one.contestant.name += fmt::format(", {} {}", key, value);
@@ -197,8 +202,7 @@ void AddFirstPlanners(std::vector<LineUpEntry> all, std::vector<LineUpEntry>* en
 }
 
 /// Throws InputError for a setting of which the contestant's name tells another value.
-void RequireNotSwept(const LineUpEntry& entry, const std::string& setting) {
-  const std::string key = setting.substr(0, setting.find('='));
+void RequireNotSwept(const LineUpEntry& entry, const std::string& key) {
   for (const std::string& swept : entry.swept) {
     if (key == swept || key.starts_with(swept + ".") || swept.starts_with(key + ".")) {
       throw InputError(
@@ -252,7 +256,7 @@ void ResolveFirstPaths(std::vector<LineUpEntry>* entries) {
 std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
                                     const std::optional<std::filesystem::path>& robot_folder) {
   const YamlNode document = YamlNode::LoadFile(file.string());
-  document.AllowOnly({"contestants"});
+  document.AllowOnly({"contestants", "x-*"});
   const YamlNode contestants = document.At("contestants");
   std::vector<LineUpEntry> entries;
   for (const std::string& planner : contestants.Keys()) {
@@ -292,8 +296,10 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
         throw InputError("--set: '" + planner +
                          "' is started by its own command; give settings there");
       }
-      RequireNotSwept(*entry, setting);
+      const std::string key = setting.substr(0, setting.find('='));
+      RequireNotSwept(*entry, key);
       entry->settings.push_back(setting);
+      entry->origins[key] = fmt::format("--set {}.{}", planner, key);
     }
   }
   return entries;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@ struct LineUpEntry {
   std::string program;                          ///< planner_PROGRAM, unless it has a command.
   std::optional<std::filesystem::path> config;  ///< Its settings file; none: the robot folder's.
   std::vector<std::string> settings;            ///< "KEY=VALUE", over those of the file.
+  std::map<std::string, std::string> origins;   ///< By their keys, where their values stand.
   std::vector<std::string> swept;               ///< Keys of those that its name tells.
   std::optional<Directions> directions;         ///< None: the session's.
   bool finds_first_paths_only = false;          ///< Is no contestant.

@@ -175,7 +175,10 @@ void Supervisor::Reap(Child* child) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
     child->bad_input = true;
-    child->hopeless = LastLine(child->spec.log, child->log_begin);
+    // Several contestants may have one program, which names itself.
+    const bool is_named = child->spec.arguments.front().ends_with(child->spec.name);
+    child->hopeless = fmt::format("{}{}", is_named ? "" : child->spec.name + ": ",
+                                  LastLine(child->spec.log, child->log_begin));
     return;
   }
   const std::string last_words =

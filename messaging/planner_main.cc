@@ -16,6 +16,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   std::string name = planner;
   std::string config;
   std::vector<std::string> overrides;
+  std::vector<std::string> origins;
   robot_flags.AddTo(&program.app()).front()->required();
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
   program.app().add_option("--config", config, "settings file; default: the robot folder's");
@@ -23,6 +24,10 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
       .add_option("--set", overrides,
                   "KEY=VALUE: overrides a setting, dots in KEY lead into maps; repeatable")
       ->allow_extra_args(false);
+  program.app()
+      .add_option("--set-origin", origins, "KEY=ORIGIN: where the value of --set KEY was written")
+      ->allow_extra_args(false)
+      ->group("");  // The driver's, and not shown.
   for (const SettingFlag& flag : setting_flags) {
     program.app().add_option_function<std::string>(
         flag.flag,
@@ -34,7 +39,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   return program.Run(argc, argv, [&] {
     const Robot robot = robot_flags.Load();
     std::unique_ptr<Planner> solver =
-        factory(robot, LoadPlannerSettings(robot, planner, config, overrides));
+        factory(robot, LoadPlannerSettings(robot, planner, config, overrides, origins));
     Bus bus(program.lcm_url());
     PlannerNode node(&bus, name, std::move(solver));
     bus.Start();

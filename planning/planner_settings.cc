@@ -1,5 +1,7 @@
 #include "planning/planner_settings.h"
 
+#include <map>
+
 #include "common/name_value.h"
 
 namespace planbench {
@@ -15,11 +17,16 @@ YamlNode SettingsFile(const Robot& robot, const std::string& planner, const std:
 }  // namespace
 
 YamlNode LoadPlannerSettings(const Robot& robot, const std::string& planner,
-                             const std::string& config, const std::vector<std::string>& overrides) {
+                             const std::string& config, const std::vector<std::string>& overrides,
+                             const std::vector<std::string>& origins) {
+  std::map<std::string, std::string> origin_of;
+  for (const std::string& origin : origins) {
+    origin_of.insert(SplitNameValue(origin, "--set-origin", "KEY=ORIGIN"));
+  }
   YamlNode settings = SettingsFile(robot, planner, config);
   for (const std::string& argument : overrides) {
     const auto [key, value] = SplitNameValue(argument, "--set", "KEY=VALUE");
-    settings.Override(key, value, "--set " + key);
+    settings.Override(key, value, origin_of.try_emplace(key, "--set " + key).first->second);
   }
   return settings;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -118,6 +119,33 @@ TEST_F(LineUpTest, SettingsThatAreMapsAndListsAreHandedOnAsTheFlagHasThem) {
   EXPECT_THAT(entries[3].settings, ElementsAre("cells.roll=0.1", "joints=[lift, roll]"));
 }
 
+TEST_F(LineUpTest, SettingsKnowWhereTheyStand) {
+  LineUpFlags flags = Flags(R"(contestants:
+  rrtc:
+    set: {algorithm: RRT, ompl: {range: 2}}
+    sweep: {metric: [l1, l2]}
+)");
+  flags.settings = {{"rrtc", "ompl.delay=1"}, {"rrtc", "algorithm=PRM"}};
+  const std::string at = flags.file->string() + ":";
+  const auto entries = MakeLineUp(flags, robot());
+  EXPECT_EQ(entries[1].origins, (std::map<std::string, std::string>{
+                                    {"algorithm", "--set rrtc.algorithm"},
+                                    {"ompl.range", at + "3: contestants.rrtc.set.ompl.range"},
+                                    {"metric", at + "4: contestants.rrtc.sweep.metric[1]"},
+                                    {"ompl.delay", "--set rrtc.ompl.delay"}}));
+}
+
+TEST_F(LineUpTest, KeysOfTheFileThatBeginWithXAreForAnchors) {
+  const auto entries = Read(R"(x-fine: &fine {edge_check: fixed, edge_resolution: 0.01}
+contestants:
+  ara: {<<: *fine}
+  rrtc: {<<: *fine, edge_resolution: 0.02}
+)");
+  EXPECT_EQ(entries[0].contestant.edge_resolution_m, 0.01);
+  EXPECT_EQ(entries[1].contestant.edge_check, EdgeCheck::kFixed);
+  ExpectRefused("contestants: {ara: {x-fine: 1}}", {"unknown key 'x-fine'"});
+}
+
 TEST_F(LineUpTest, TheNameOfASweepStandsForAllOfIt) {
   LineUpFlags flags = Flags(R"(contestants:
   chomp: {program: trajopt, first_path_of: rrtc_range_2}
@@ -181,7 +209,10 @@ TEST_F(LineUpTest, BadFilesAreRefusedByLineAndField) {
   ExpectRefused("contestants:\n  ara: {colision_model: voxels}", {":2", "colision_model"});
   ExpectRefused("contestants:\n  ara: {collision_model: balls}",
                 {":2", "spheres, voxels, meshes or enclosing"});
-  ExpectRefused("contestants:\n  ara: {edge_resolution: 0}", {":2", "edge_resolution"});
+  for (const std::string step : {"0", "1e300", "1e-320"}) {
+    ExpectRefused("contestants:\n  ara: {edge_resolution: " + step + "}",
+                  {":2", "edge_resolution", "from 1e-06 to 1"});
+  }
   ExpectRefused("contestants:\n  ara: {directions: up}", {":2", "auto, forward, backward or both"});
   ExpectRefused("contestants:\n  ara: {config: none.yaml}", {":2", "config", robot().string()});
   ExpectRefused("contestants:\n  ara: {sweep: {range: []}}", {":2", "range", "no value"});

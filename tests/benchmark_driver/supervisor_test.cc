@@ -334,7 +334,7 @@ TEST_F(SupervisorTest, TheHopelessCanBeSpared) {
   supervisor.Start(Script("good", "exec sleep 1000"));
   ASSERT_TRUE(WaitUntil([&] { return Hopeless(supervisor); }));
   supervisor.ThrowIfHopeless({"bad"});
-  EXPECT_EQ(supervisor.Hopeless(), (std::map<std::string, std::string>{{"bad", "no robot"}}));
+  EXPECT_EQ(supervisor.Hopeless(), (std::map<std::string, std::string>{{"bad", "bad: no robot"}}));
   EXPECT_THROW(supervisor.ThrowIfHopeless({"good"}), InputError);
 }
 

@@ -62,8 +62,23 @@ TEST_F(BadUse, MissingOrBrokenRobot) {
   ExpectBadInput(Start({Program("planner_ara"), "--robot", "/nowhere"}), "/nowhere");
   ExpectBadInput(StartPlanner("rrtc", {"--set", "rang=1"}), "--set rang");
   ExpectBadInput(StartPlanner("rrtc", {"--algorithm", "RRTConect"}),
-                 "--set algorithm: algorithm: unknown algorithm");
+                 "--set algorithm: unknown algorithm");
   ExpectBadInput(StartPlanner("ara", {"--config", "/nowhere.yaml"}), "/nowhere.yaml");
+}
+
+TEST_F(BadUse, SettingsOfALineUp) {
+  const std::string line_up = folder() / "lineup.yaml";
+  std::ofstream(folder() / "near.yaml") << "\nrange: far";
+  std::ofstream(line_up) << "contestants:\n  ara: {}\n"
+                            "  third: {program: rrtc, set: {range: zwei}}\n"
+                            "  fourth: {program: rrtc, config: near.yaml}\n";
+  const auto start = [&](const std::string& planner, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--lineup", line_up, "--planners", planner});
+    return StartLaunchedDriver(folder() / "s", more);
+  };
+  ExpectBadInput(start("third"), line_up + ":3: contestants.third.set.range: expected a number");
+  ExpectBadInput(start("third", {"--set", "third.range=two"}), "--set third.range: expected a");
+  ExpectBadInput(start("fourth"), "fourth: planner_rrtc: " + (folder() / "near.yaml:2").string());
 }
 
 TEST_F(BadUse, PlannerWithAnotherRobot) {
