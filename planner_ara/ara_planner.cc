@@ -46,13 +46,9 @@ class AraPlanner : public Planner {
     settings_.Validate(origin_);
     RequireKnownJoints(node);
     const PlanningGroup& group = robot.Group("");
+    if (!settings_.primitives.empty()) HashPrimitives(node.At("primitives"));
     options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
     OwnEdgeSampling(group, EdgeCheck::kFixed, 1);  // throws now rather than at the first request
-    if (!settings_.primitives.empty()) {
-      ContentHash hash;
-      hash.Add(ReadText(robot.folder / settings_.primitives));
-      primitives_id_ = hash.HexDigest();
-    }
     if (!settings_.experience.empty()) experience_.emplace(robot, settings_.experience);
   }
 
@@ -201,6 +197,17 @@ class AraPlanner : public Planner {
   }
 
  private:
+  // Of the file that `primitives` names.
+  void HashPrimitives(const YamlNode& primitives) {
+    ContentHash hash;
+    try {
+      hash.Add(ReadText(robot().folder / settings_.primitives));
+    } catch (const InputError& error) {
+      primitives.Fail(error.what());
+    }
+    primitives_id_ = hash.HexDigest();
+  }
+
   void RequireKnownJoints(const YamlNode& settings) const {
     for (const char* key : {"discretization", "joint_weights", "edge_weights"}) {
       const std::optional<YamlNode> by_joint = settings.Find(key);

@@ -71,7 +71,7 @@ TEST_F(AraPlannerTest, RefusesSettingsItCannotUse) {
             "primitives: nowhere.mprim\n"
             "discretization: {shoulder: 0.2, elbow: 0.2, wrist: 0.2}\n");
       },
-      {robot_.folder.string(), "nowhere.mprim", "cannot be opened"});
+      {"ara.yaml:1: primitives: " + robot_.folder.string() + "/nowhere.mprim: cannot be opened"});
   ExpectInputError(
       [&] {
         Make("primitives: " PLANBENCH_SOURCE_DIR
