@@ -228,6 +228,7 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
   std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
+  std::set<std::string> told;  // Sets and what is said of their problems, without the file.
   const auto interrupted = [&] {
     watch();  // throws, if so
     return false;
@@ -247,8 +248,9 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
     } else if (!answer.ok) {
       bad.emplace(set, index);
       left_out_[LeftOutName(set, index)] = answer.message;
-    } else if (!answer.message.empty()) {
-      warnings.push_back(answer.message);
+    } else if (const std::string& warning = answer.message; !warning.empty()) {
+      const std::size_t file_end = std::min(warning.find(": "), warning.size());
+      if (told.insert(set + warning.substr(file_end)).second) warnings.push_back(warning);
     }
   }
   constexpr std::size_t kMostWarnings = 5;
@@ -256,8 +258,7 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
     spdlog::warn("{}", warnings[i]);
   }
   if (warnings.size() > kMostWarnings) {
-    spdlog::warn("{} more problems have warnings; see the scene server's log",
-                 warnings.size() - kMostWarnings);
+    spdlog::warn("{} more warnings; see the scene server's log", warnings.size() - kMostWarnings);
   }
   for (const auto& [problem, reason] : left_out_) spdlog::error("{}: {}", problem, reason);
   if (!bad.empty() && !options_.skip_bad_problems) {

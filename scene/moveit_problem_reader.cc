@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "common/text.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_messages.h"
@@ -206,6 +207,32 @@ void RequireNamesOfOne(const YamlNode& matrix, const Robot& robot, const Scene& 
   for (const AttachedObject& attached : scene.attached) require(attached.object.id);
 }
 
+// Names of what is not there are common. One nearly that of a link that the matrix does not name is
+// a slip.
+void WarnOfMisspelledLinks(const YamlNode& matrix, const RobotModel& model, const Scene& scene) {
+  std::vector<YamlNode> names = OptionalElements(matrix, "entry_names");
+  for (const YamlNode& name : OptionalElements(matrix, "default_entry_names")) {
+    names.push_back(name);
+  }
+  std::set<std::string> known;
+  for (const SceneObject& object : scene.objects) known.insert(object.id);
+  for (const AttachedObject& attached : scene.attached) known.insert(attached.object.id);
+  std::set<std::string> named;
+  for (const YamlNode& name : names) named.insert(name.String());
+  std::vector<std::string_view> unnamed_links;
+  for (const Link& link : model.links()) {
+    known.insert(link.name);
+    if (!named.contains(link.name)) unnamed_links.push_back(link.name);
+  }
+  for (const YamlNode& name : names) {
+    if (known.contains(name.String())) continue;
+    const std::string nearest = NearestName(name.String(), unnamed_links);
+    if (nearest.empty()) continue;
+    name.Warn(fmt::format("'{}' is no link and no object; did you mean the link '{}'?",
+                          name.String(), nearest));
+  }
+}
+
 // Adds a frame, if it is known, no link and not yet `added`, where it is in the base frame.
 void AddFixedFrame(const std::string& name, const FrameTree& frames, const RobotModel& model,
                    std::set<std::string>* added, std::vector<FrameTransform>* fixed) {
@@ -283,6 +310,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   if (const auto matrix = planning_scene.Find("allowed_collision_matrix")) {
     scene.allowed_collisions = ReadAllowedCollisions(*matrix, robot.model);
     RequireNamesOfOne(*matrix, robot, scene);
+    WarnOfMisspelledLinks(*matrix, robot.model, scene);
   }
 
   problem.goal = ReadFor(

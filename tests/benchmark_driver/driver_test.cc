@@ -1,5 +1,6 @@
 #include "benchmark_driver/driver.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,26 @@
 
 namespace planbench {
 namespace {
+
+TEST_F(DriverTest, WhatIsSaidOfSeveralProblemsOfASetIsSaidOnce) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  server.AlterProblems([](ProblemMessage* problem) {
+    problem->message = fmt::format("scene{}.yaml:{}: matrix: is odd", problem->problem_index,
+                                   problem->problem_index + 7);
+    if (problem->problem_index == 3) problem->message += " (and 2 more)";
+  });
+  const FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.problem_indices = {1, 2, 3};
+  Driver driver(&bus_, options, LineUp({"arm"}), {});
+  testing::internal::CaptureStdout();  // Where messages go.
+  MakeAll(&driver);
+  const std::string output = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(output, testing::HasSubstr("scene1.yaml:8: matrix: is odd\n"));
+  EXPECT_THAT(output, testing::HasSubstr("scene3.yaml:10: matrix: is odd (and 2 more)\n"));
+  EXPECT_THAT(output, testing::Not(testing::HasSubstr("scene2.yaml")));
+}
 
 TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   FakePlanner planner(&bus_);

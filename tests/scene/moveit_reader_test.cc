@@ -235,6 +235,27 @@ TEST(MoveItReader, AnEntryHasLinksCheckedThatAJointConnects) {
   EXPECT_EQ(some.Entry("gripper_link", "mast"), std::optional(true));
 }
 
+TEST(MoveItReader, NamesOfTheMatrixThatAreNearlyLinksAreToldOf) {
+  const auto warnings = [](const std::string& matrix) {
+    return ParseProblem(
+               "world: {collision_objects: [{id: gripper_lnik, pose: {orientation: {w: 1}}, "
+               "primitives: [{type: "
+               "sphere, dimensions: [0.1]}]}]}\nallowed_collision_matrix: " +
+               matrix)
+        .warnings;
+  };
+  EXPECT_THAT(warnings("{entry_names: [base_lnik, gripper_lnik, panda_hand],\n  entry_values: "
+                       "[[false, true, true], [true, false, true], [true, true, false]]}"),
+              ElementsAre("scene.yaml:2: allowed_collision_matrix.entry_names[0]: 'base_lnik' is "
+                          "no link and no object; did you mean the link 'base_link'?"));
+  EXPECT_THAT(warnings("{default_entry_names: [r_fingers, x], default_entry_values: [true, true]}"),
+              ElementsAre(testing::HasSubstr("default_entry_names[0]: 'r_fingers' is no link")));
+  EXPECT_THAT(warnings("{default_entry_names: [m_finger, l_finger, r_finger], "
+                       "default_entry_values: [true, true, true]}"),
+              ElementsAre())
+      << "a link of another robot: the near ones are named themselves";
+}
+
 TEST(MoveItReader, PosesOfShapesMayBeLeftOutBesideAnObjectPose) {
   const Scene scene = ParseScene(
       "world: {collision_objects: [{id: ball, pose: {position: [1, 2, 3], "
