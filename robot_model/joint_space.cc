@@ -91,7 +91,7 @@ double JointSpace::WithoutTurns(int j, double position) const {
 
 std::optional<std::string> JointSpace::FindTurnsDoubt(int j, double position) const {
   if (!joint(j).continuous || std::abs(position) <= 2 * kPi) return std::nullopt;
-  return fmt::format("is at {} rad, {:.1f} turns; degrees?", position, position / (2 * kPi));
+  return fmt::format("is at {} rad, {:.3g} turns; degrees?", position, position / (2 * kPi));
 }
 
 void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) const {

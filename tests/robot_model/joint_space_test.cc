@@ -155,6 +155,7 @@ TEST(JointSpace, WholeTurnsOfContinuousJointsAreTakenOut) {
 TEST(JointSpace, AContinuousJointTurnedMoreThanOnceIsInDoubt) {
   EXPECT_FALSE(Space().FindTurnsDoubt(2, -6.28));
   EXPECT_EQ(Space().FindTurnsDoubt(2, 90), "is at 90 rad, 14.3 turns; degrees?");
+  EXPECT_EQ(Space().FindTurnsDoubt(2, 1e300), "is at 1e+300 rad, 1.59e+299 turns; degrees?");
   EXPECT_FALSE(Space().FindTurnsDoubt(1, 90));
 }
 
