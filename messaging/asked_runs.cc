@@ -45,6 +45,10 @@ std::string RunRecordAckId(const RunRecordMessage& run) {
   return repeats == 0 ? run.request_id : fmt::format("{}#{}", run.request_id, repeats);
 }
 
+std::string SessionAckId(const SessionMessage& session) {
+  return fmt::format("{}@{:.6f}", session.run_id, session.total_time_s);
+}
+
 bool Replaces(const RunStanding& record, const RunStanding& known) {
   if (!known.was_asked) return record.was_asked || record.start_utime > known.start_utime;
   return record.was_asked && known.disturbed && record.repeats > known.repeats;

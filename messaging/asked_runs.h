@@ -35,6 +35,9 @@ bool OwesRepeat(const RunStanding& attempt);
 
 /// What a record's acknowledgement names it by: one of a disturbed attempt is none of its repeat.
 std::string RunRecordAckId(const RunRecordMessage& run);
+/// Likewise of a session: one of its beginning is none of its end. RUN_ID@SECONDS, the time when it
+/// stood so.
+std::string SessionAckId(const SessionMessage& session);
 
 /// A run has one record. Of two that differ the first stands, but for this: whether `record` stands
 /// in the place of `known`, which tells of no request, since it tells of one or, of none either, of

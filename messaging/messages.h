@@ -279,12 +279,6 @@ inline auto SessionOrder(const SessionMessage& session) {
   return std::make_tuple(session.start_utime, session.total_time_s, session.finished);
 }
 
-/// What a session's acknowledgement names it by: one of its beginning is none of its finished end.
-/// An unfinished one has no name of its own.
-inline std::string SessionAckId(const SessionMessage& session) {
-  return session.run_id + (session.finished ? "/finished" : "");
-}
-
 struct RunRecordMessage {
   std::string run_id;
   std::string request_id;

@@ -172,10 +172,11 @@ TEST_F(RecorderTest, AcknowledgementOfTheBeginningIsNoneOfTheEnd) {
   recorder_.Record(Session());
   logger.num_to_ignore = 1;
   SessionMessage end = Session();
-  end.finished = true;
-  bus_.Publish(channel::kSessionAck, AckMessage{"run", "logger", true, ""});  // late
+  end.total_time_s = 1;  // interrupted: it is not finished
+  bus_.Publish(channel::kSessionAck, AckMessage{SessionAckId(Session()), "logger", true, ""});
   recorder_.Record(end);
-  EXPECT_GE(logger.sessions().Count([](const SessionMessage& s) { return s.finished; }), 2u);
+  EXPECT_GE(logger.sessions().Count([](const SessionMessage& s) { return s.total_time_s == 1; }),
+            2u);
 }
 
 TEST_F(RecorderTest, AcknowledgementOfADisturbedAttemptIsNoneOfItsRepeat) {

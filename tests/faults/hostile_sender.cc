@@ -8,6 +8,7 @@
 #include <chrono>
 #include <iterator>
 
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/multicast_receiver.h"
 #include "messaging/node_announcer.h"
@@ -108,11 +109,11 @@ void HostileSender::OnMessage(const ReceivedMessage& heard) {
   } else if (is(channel::kSession)) {
     auto session = Decode<SessionMessage>(heard.bytes, heard.channel);
     if (session.host == "forged") return;
+    Forge(channel::kSessionAck, AckMessage{SessionAckId(session), "logger", true, ""});
     session.host = "forged";
     session.finished = true;
     session.total_time_s = 1e6;
     Forge(heard.channel, session);
-    Forge(channel::kSessionAck, AckMessage{session.run_id, "logger", true, ""});
   }
 }
 

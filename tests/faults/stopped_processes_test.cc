@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -119,13 +118,6 @@ class StoppedProcessesTest : public PipelineTest {
   long long NumFinished() const {
     return Query(Session(), "SELECT count(*) FROM sessions WHERE finished");
   }
-  /// A session that ends unfinished does not wait until its logger has that (SessionAckId); one
-  /// that resumes it takes up what is stored. `least_s`: it took longer than until its first run.
-  void AwaitStoredEnd(double least_s) const {
-    const std::string ended =
-        fmt::format("SELECT count(*) FROM sessions WHERE total_time > {}", least_s);
-    EXPECT_TRUE(WaitUntil([&] { return Query(Session(), ended) == 1; }));
-  }
   static void Watch() {}
   static bool Never() { return false; }
 
@@ -182,7 +174,6 @@ TEST_F(StoppedProcessesTest, APlannerStartedByHandThatIsStoppedIsGivenUpAndTheOt
     }
   }
   EXPECT_EQ(NumFinished(), 0);
-  AwaitStoredEnd(3);  // the patience with the planner
 
   for (const pid_t pid : stopped_) kill(pid, SIGCONT);
   ASSERT_TRUE(registry_.WaitUntil(
@@ -261,7 +252,6 @@ TEST_F(FailingServerTest, ARunAtWhoseVerdictItFallsSilentEachTimeIsMadeWhenTheSe
   EXPECT_THAT(reasons[0], testing::StartsWith("no verdict on its path: " + why));
   EXPECT_THAT(reasons[1], testing::StartsWith("no problem: " + why));
 
-  AwaitStoredEnd(6);  // one silence
   std::filesystem::remove(folder() / "fails_at");
   const auto resumed = MakeDriver(options, ReadEarlierSession(Session()));
   resumed->Discover(true, Watch, Patience());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
 #include "messaging/event_log_reader.h"
 #include "results/bus_json.h"
@@ -61,7 +62,7 @@ TEST_F(SessionRecorderTest, StoresAndAcknowledges) {
   recorder->Record(Received(channel::kRunRecord, SampleRecord()));
   ASSERT_EQ(acks_.size(), 2);
   EXPECT_EQ(acks_[0].channel, channel::kSessionAck);
-  EXPECT_EQ(acks_[0].ack.id, "session-1");
+  EXPECT_EQ(acks_[0].ack.id, SessionAckId(SampleSession()));
   EXPECT_EQ(acks_[0].ack.sender, "scribe");
   EXPECT_TRUE(acks_[0].ack.ok);
   EXPECT_EQ(acks_[1].channel, channel::kRunRecordAck);
