@@ -13,6 +13,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
 
+/// The first `num` numbers of a vector, the others 0. Where a vector has two, a masked load reads
+/// both, and takes them for aligned.
+template <typename D>
+HWY_INLINE hn::Vec<D> LoadFirst(D d, const double* from, int num) {
+  if constexpr (hn::MaxLanes(D()) > 2) {
+    return hn::MaskedLoad(hn::FirstN(d, static_cast<std::size_t>(num)), d, from);
+  } else {
+    alignas(16) const double both[2] = {from[0], num > 1 ? from[1] : 0};
+    return hn::Load(d, both);
+  }
+}
+
 /// See PlaceRows.
 LaneMask RowsToLanes(const Joints& joints, const double* rows, int num_rows, float* q) {
   const hn::CappedTag<double, 8> d;
@@ -24,16 +36,15 @@ LaneMask RowsToLanes(const Joints& joints, const double* rows, int num_rows, flo
   const int num_joints = joints.size();
   for (int first = 0; first < num_joints; first += width) {
     const int num = std::min(width, num_joints - first);
-    const auto some = hn::FirstN(d, static_cast<std::size_t>(num));
-    const auto lower = hn::MaskedLoad(some, d, joints.lower.data() + first);
-    const auto upper = hn::MaskedLoad(some, d, joints.upper.data() + first);
+    const auto lower = LoadFirst(d, joints.lower.data() + first, num);
+    const auto upper = LoadFirst(d, joints.upper.data() + first, num);
     alignas(64) double turning[8];
     for (int j = 0; j < width; ++j) {
       turning[j] = j < num && joints.slides[static_cast<std::size_t>(first + j)] == 0 ? 1 : 0;
     }
     const auto turns_scale = per_period * hn::Load(d, turning);
     for (int row = 0; row < num_rows; ++row) {
-      auto value = hn::MaskedLoad(some, d, rows + row * num_joints + first);
+      auto value = LoadFirst(d, rows + row * num_joints + first, num);
       const auto inside = hn::And(hn::Ge(value, lower), hn::Le(value, upper));
       outside |= static_cast<LaneMask>(!hn::AllTrue(d, inside)) << row;
       value = hn::NegMulAdd(hn::Round(value * turns_scale), period, value);

@@ -55,6 +55,29 @@ TEST(KernelsTest, SinesAndCosines) {
   });
 }
 
+TEST(KernelsTest, RowsOfAnyLengthArePlaced) {
+  OnEveryInstructionSet([] {
+    for (int n = 1; n <= 9; ++n) {
+      const auto num_joints = static_cast<std::size_t>(n);
+      const kernels::Joints joints{std::vector<std::uint8_t>(num_joints, 1),
+                                   std::vector<double>(num_joints, -1),
+                                   std::vector<double>(num_joints, 1)};
+      // A row after another, so that with an odd number every other one is not aligned.
+      std::vector<double> rows;
+      for (int i = 0; i < kBlock * n; ++i) rows.push_back(i / 256.0 - 0.25);
+      rows.back() = 1.5;
+      std::vector<float> q(num_joints * kBlock);
+      EXPECT_EQ(kernels::PlaceRows(joints, rows.data(), kBlock, q.data()), 1u << (kBlock - 1));
+      for (int row = 0; row < kBlock; ++row) {
+        for (int j = 0; j < n; ++j) {
+          EXPECT_EQ(q[static_cast<std::size_t>(j * kBlock + row)],
+                    rows[static_cast<std::size_t>(row * n + j)]);
+        }
+      }
+    }
+  });
+}
+
 TEST(KernelsTest, InstructionSetsAgree) {
   const Robot arm = MakeTestArm();
   const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
