@@ -27,13 +27,20 @@ std::string FirstLine(const std::filesystem::path& file) {
 
 std::string CpuName(const std::filesystem::path& proc) {
   std::ifstream info(proc / "cpuinfo");
+  // ARM's processors have numbers in the place of a name, and may be of several kinds.
+  std::string implementer;
+  std::set<std::string> parts;
   for (std::string line; std::getline(info, line);) {
     const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-      return line.substr(colon + 2);
+    if (colon == std::string::npos) continue;
+    const std::string value = line.substr(colon + 2);
+    if (line.starts_with("model name")) return value;
+    if (line.starts_with("CPU implementer")) implementer = value;
+    if (line.starts_with("CPU part")) {
+      parts.insert(fmt::format("ARM implementer {} part {}", implementer, value));
     }
   }
-  return "unknown";
+  return parts.empty() ? "unknown" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace

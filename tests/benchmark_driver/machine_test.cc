@@ -39,6 +39,16 @@ TEST_F(MachineTest, IsDescribedAsFarAsItTells) {
   EXPECT_FALSE(silent.contains("governor"));
 }
 
+TEST_F(MachineTest, ProcessorsWithoutANameHaveNumbers) {
+  std::string cores;
+  for (const char* part : {"0xd40", "0xd05", "0xd40"}) {
+    cores += fmt::format("processor\t: 0\nCPU implementer\t: 0x41\nCPU part\t: {}\n\n", part);
+  }
+  folder_.Write("proc/cpuinfo", cores);
+  EXPECT_EQ(DescribeMachine(Kernel()).at("cpu"),
+            "ARM implementer 0x41 part 0xd05, ARM implementer 0x41 part 0xd40");
+}
+
 TEST_F(MachineTest, AMeterTellsWhatHappenedSinceItBegan) {
   folder_.Write("proc/loadavg", "0.50 1.00 2.00 1/99 7\n");
   Write(1'000'000'000, 2'000'000'000, 300);
