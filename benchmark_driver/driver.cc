@@ -75,7 +75,7 @@ std::string Driver::Missing(bool need_logger) const {
 }
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch,
-                      ServerPatience patience) {
+                      std::optional<SupervisedServer> server, ServerPatience patience) {
   AwaitNodes(
       &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
@@ -104,7 +104,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   patience.until_passed_over = std::max(patience.until_passed_over, to_come);
   absence_patience_ = patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
-                                            first_planners_, std::move(patience));
+                                            first_planners_, std::move(server), patience);
   CheckProblems(met, watch);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes

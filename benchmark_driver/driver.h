@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,11 +37,12 @@ class Driver {
   /// Waits for scene server, planners and (with `need_logger`) a logger, checks that they fit
   /// together and to the session that is resumed, makes the schedule, and asks for all problems of
   /// it, so that bad ones, at which the scene server fails included, are known before the first
-  /// run. `watch` is called while waiting and may throw. `patience`: with a scene server, and
-  /// without a planner; a process that has gone is given as long to come back as it had to come.
-  /// Throws InputError naming what is missing or does not fit, std::runtime_error when the scene
-  /// server is given up.
-  void Discover(bool need_logger, const std::function<void()>& watch, ServerPatience patience = {});
+  /// run. `watch` is called while waiting and may throw. `server`: RunExecutor's. `patience`: also
+  /// without a live planner; a process that has gone is given as long to come back as it had to
+  /// come. Throws InputError naming what is missing or does not fit, std::runtime_error when the
+  /// scene server is given up.
+  void Discover(bool need_logger, const std::function<void()>& watch,
+                std::optional<SupervisedServer> server = {}, ServerPatience patience = {});
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded; a session that was to make others before it was resumed, or to repeat them, in which
   /// one was not asked (num_not_asked), or which awaits shards, is not finished by that.

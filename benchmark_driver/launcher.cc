@@ -142,6 +142,11 @@ void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path
   supervisor->Start(Child(kSceneServer, std::move(server), logs, lcm_url));
 }
 
+SupervisedServer SceneServerOf(Supervisor* supervisor) {
+  return {[supervisor] { return supervisor->NumFailuresAtWork(kSceneServer); },
+          [supervisor] { supervisor->StartAgain(kSceneServer); }};
+}
+
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor) {

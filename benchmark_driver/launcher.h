@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "benchmark_driver/driver_options.h"
+#include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/supervisor.h"
 #include "messaging/bus.h"
 
@@ -32,6 +33,9 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
 /// The same for the scene server.
 void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
                        const std::string& lcm_url, Supervisor* supervisor);
+
+/// What was launched by that, while `supervisor` lasts.
+SupervisedServer SceneServerOf(Supervisor* supervisor);
 
 /// The same for scene server, planners and logger, with their output in <session>/logs/, which
 /// exists.

@@ -112,12 +112,13 @@ void TellLength(const PathVerdict& verdict, bool anytime, PlanResult* result) {
 
 RunExecutor::RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
                          KernelFolders kernel, std::vector<Contestant> first_planners,
-                         ServerPatience patience)
+                         std::optional<SupervisedServer> server, ServerPatience patience)
     : registry_(registry),
       conditions_(std::move(conditions)),
       first_planners_(std::move(first_planners)),
       kernel_(std::move(kernel)),
-      patience_(std::move(patience)),
+      server_(std::move(server)),
+      patience_(patience),
       problems_{{bus, channel::kProblemRequest, channel::kProblem,
                  ServersOnly(registry, channel::kProblem)},
                 {}},
@@ -138,7 +139,7 @@ std::optional<RunExecutor::Turn> RunExecutor::TakeTurn(const ProblemKey& problem
 }
 
 int RunExecutor::FailuresIn(Turn* turn) const {
-  if (patience_.failures) return patience_.failures() - turn->failures_before;
+  if (server_) return server_->failures() - turn->failures_before;
   for (const NodeStatusMessage& server : registry_->Live(NodeKind::kSceneServer)) {
     const std::string before = std::exchange(turn->server, server.instance);
     turn->num_new_servers += !before.empty() && before != server.instance;
@@ -162,13 +163,13 @@ std::optional<Reply> RunExecutor::AskServer(Service<Request, Reply>* service,
     } else if (why.empty() && waited >= patience_.until_passed_over) {
       why = fmt::format("the scene server did not answer within {:g} s when it was asked for {}",
                         std::chrono::duration<double>(waited).count(), what);
-      if (!patience_.start_again) {
+      if (!server_) {
         throw std::runtime_error(
             why +
             ", and whatever else it is asked for waits behind that: start it again, and if "
             "it comes to that once more, leave the problem out (--problems-range)");
       }
-      patience_.start_again();
+      server_->start_again();
       PassOver(*turn, why, &service->failed_at);
     }
     if (!why.empty()) {

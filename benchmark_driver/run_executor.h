@@ -20,7 +20,7 @@ namespace planbench {
 /// Counter of a run whose planner improves another's path: how long that took to be handed over, s.
 inline constexpr char kFirstPathTime[] = "first_path_time";
 
-/// With a scene server that does not answer.
+/// How long a scene server that does not answer is waited for.
 struct ServerPatience {
   /// Until it is said what is waited for, again and again.
   std::chrono::milliseconds until_told = std::chrono::seconds(10);
@@ -28,12 +28,14 @@ struct ServerPatience {
   std::chrono::milliseconds until_given_up = std::chrono::seconds(60);
   /// For one answer in all, until its problem is passed over: large scenes take long.
   std::chrono::milliseconds until_passed_over = std::chrono::minutes(10);
-  /// How often its process has failed at its work so far (died, fell silent): a problem at which it
-  /// does twice is passed over. Without, each that comes in the place of another tells of one.
-  std::function<int()> failures = nullptr;
-  /// Has its process started again, which may be at that answer for ever. Without, that ends the
-  /// session: whatever else it is asked for waits behind that.
-  std::function<void()> start_again = nullptr;
+};
+
+/// A scene server whose process is this one's to start.
+struct SupervisedServer {
+  /// How often it has failed at its work so far (died, fell silent).
+  std::function<int()> failures;
+  /// Whatever it is at.
+  std::function<void()> start_again;
 };
 
 /// In what a problem is another than an earlier answer, or a request made of one, says: "scene",
@@ -53,12 +55,13 @@ class RunExecutor {
   /// `conditions`: complete, the referee's step and the contestants' included; `first_planners`
   /// likewise, who are no contestants and find paths that these improve. Answers of others than the
   /// scene server that `registry` knows are none. It is asked for one thing at a time, and for
-  /// nothing of a problem that was passed over. What asks it throws std::runtime_error when it is
-  /// given up, or three problems in succession were passed over, or one whose answer does not come
-  /// holds up the others.
+  /// nothing of a problem that was passed over, as one is at which it fails twice: of one that is
+  /// not supervised, each that comes in the place of another tells of a failure. What asks it
+  /// throws std::runtime_error when it is given up, or three problems in succession were passed
+  /// over, or one whose answer does not come holds up the others, since nobody can start it again.
   RunExecutor(Bus* bus, NodeRegistry* registry, SessionConditions conditions,
               KernelFolders kernel = {}, std::vector<Contestant> first_planners = {},
-              ServerPatience patience = {});
+              std::optional<SupervisedServer> server = {}, ServerPatience patience = {});
 
   /// The scene server's answer on whether it has such a problem, with ok or without; nothing if
   /// `interrupted`. The server also hands out the scene. That of a server which was started again
@@ -141,6 +144,7 @@ class RunExecutor {
   SessionConditions conditions_;
   std::vector<Contestant> first_planners_;
   KernelFolders kernel_;
+  std::optional<SupervisedServer> server_;
   ServerPatience patience_;
   Service<ProblemRequestMessage, ProblemMessage> problems_;
   Service<PathCheckRequestMessage, PathCheckReplyMessage> path_checks_;

@@ -196,14 +196,13 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   std::set<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
   Subscription children;
-  ServerPatience patience;
+  std::optional<SupervisedServer> server;
   if (supervisor) {
     children = WatchChildren(&bus, line_up, supervisor.get());
-    patience.failures = [&] { return supervisor->NumFailuresAtWork(kSceneServer); };
-    patience.start_again = [&] { supervisor->StartAgain(kSceneServer); };
+    server = SceneServerOf(supervisor.get());
   }
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  driver.Discover(options.launch, watch, std::move(patience));
+  driver.Discover(options.launch, watch, std::move(server));
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

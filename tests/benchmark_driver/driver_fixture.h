@@ -36,11 +36,9 @@ inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners)
   return MakeLineUp(flags, std::nullopt);
 }
 
-/// With a scene server whose failures the test counts.
-inline ServerPatience CountedBy(const std::atomic<int>& num_failures) {
-  ServerPatience patience;
-  patience.failures = [&num_failures] { return num_failures.load(); };
-  return patience;
+/// A scene server whose failures the test counts.
+inline SupervisedServer CountedBy(const std::atomic<int>& num_failures) {
+  return {[&num_failures] { return num_failures.load(); }, [] {}};
 }
 
 /// Problem 2 is solved backward only, others in any direction.

@@ -355,7 +355,7 @@ TEST_F(RunExecutorTest, TellsWhichProblemItWaitsForUntilTheSceneServerIsGone) {
   ServerPatience patience;
   patience.until_told = std::chrono::milliseconds(1);
   patience.until_given_up = std::chrono::milliseconds(5);
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, {}, patience);
   testing::internal::CaptureStdout();
   try {
     executor.AskForProblem("cans", 2, [] { return false; });
@@ -382,8 +382,8 @@ TEST_F(RunExecutorTest, AProblemThatTheSceneServerIsTooLongAtIsPassedOver) {
   patience.until_told = std::chrono::milliseconds(1);
   patience.until_passed_over = std::chrono::milliseconds(20);
   int num_new_starts = 0;
-  patience.start_again = [&] { ++num_new_starts; };
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  const SupervisedServer supervised{[] { return 0; }, [&] { ++num_new_starts; }};
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, supervised, patience);
   std::atomic<bool> is_over = false;
   FakeSceneServer server(&bus_);
   server.BeforeAnswers([&](const auto&) { WaitUntil([&] { return is_over.load(); }); });
@@ -404,7 +404,7 @@ TEST_F(RunExecutorTest, ASceneServerStartedByHandThatDoesNotAnswerEndsTheSession
   ServerPatience patience;
   patience.until_told = std::chrono::milliseconds(1);
   patience.until_passed_over = std::chrono::milliseconds(20);
-  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, patience);
+  RunExecutor executor(&bus_, &registry_, Conditions(), {}, {}, {}, patience);
   std::atomic<bool> is_over = false;
   FakeSceneServer server(&bus_);
   server.BeforeAnswers([&](const auto&) { WaitUntil([&] { return is_over.load(); }); });
@@ -427,14 +427,10 @@ class FailingVerdictTest : public RunExecutorTest {
     ++num_failures_;
     throw InputError("no such scene");
   }
-  ServerPatience CountingPatience() {
-    ServerPatience patience;
-    patience.failures = [this] { return num_failures_.load(); };
-    return patience;
-  }
 
   std::atomic<int> num_failures_ = 0;
-  RunExecutor counting_{&bus_, &registry_, Conditions(), {}, {}, CountingPatience()};
+  const SupervisedServer supervised_{[this] { return num_failures_.load(); }, [] {}};
+  RunExecutor counting_{&bus_, &registry_, Conditions(), {}, {}, supervised_};
   FakeSceneServer server_{&bus_};
 };
 

@@ -83,12 +83,6 @@ class StoppedProcessesTest : public PipelineTest {
     return {{"LD_PRELOAD", PLANBENCH_FAILING_SERVER},
             {"PLANBENCH_FAILS_AT", (folder() / "fails_at").string()}};
   }
-  ServerPatience Patience() {
-    ServerPatience patience;
-    patience.failures = [this] { return supervisor_.NumFailuresAtWork(kSceneServer); };
-    patience.start_again = [this] { supervisor_.StartAgain(kSceneServer); };
-    return patience;
-  }
 
   void AwaitLive(std::size_t number) {
     ASSERT_TRUE(
@@ -133,7 +127,7 @@ class StoppedProcessesTest : public PipelineTest {
 TEST_F(StoppedProcessesTest, WhatIsStoppedBetweenRunsIsStartedAgain) {
   LaunchAll();
   const auto driver = MakeDriver(Options(kManyTrials));
-  driver->Discover(true, Watch, Patience());
+  driver->Discover(true, Watch, SceneServerOf(&supervisor_));
   const Subscription stops =
       StopAtFirstRecord({{"rrtc", NodeKind::kPlanner}, {"logger", NodeKind::kLogger}});
   EXPECT_TRUE(driver->Run(Never, Watch));
@@ -157,7 +151,7 @@ TEST_F(StoppedProcessesTest, APlannerStartedByHandThatIsStoppedIsGivenUpAndTheOt
   ServerPatience patience;
   patience.until_given_up = std::chrono::seconds(3);
   const auto driver = MakeDriver(options);
-  driver->Discover(true, Watch, patience);
+  driver->Discover(true, Watch, {}, patience);
   {
     const Subscription stops = StopAtFirstRecord({{"rrtc", NodeKind::kPlanner}});
     EXPECT_TRUE(driver->Run(Never, Watch));
@@ -179,7 +173,7 @@ TEST_F(StoppedProcessesTest, APlannerStartedByHandThatIsStoppedIsGivenUpAndTheOt
   ASSERT_TRUE(registry_.WaitUntil(
       [&] { return registry_.Find("rrtc", NodeKind::kPlanner).has_value(); }, kTestPatience));
   const auto resumed = MakeDriver(options, ReadEarlierSession(Session()));
-  resumed->Discover(true, Watch, patience);
+  resumed->Discover(true, Watch, {}, patience);
   EXPECT_TRUE(resumed->Run(Never, Watch));
   EXPECT_EQ(resumed->runs().size(), 2u * 3 * kManyTrials);
   EXPECT_EQ(resumed->num_not_asked(), 0);
@@ -199,7 +193,7 @@ class FailingServerTest : public StoppedProcessesTest {
 TEST_F(FailingServerTest, AProblemAtWhichItFallsSilentEachTimeIsLeftOut) {
   LaunchAll(FailingAt("shelf_demo/2@"));
   const auto driver = MakeDriver(Options());
-  driver->Discover(true, Watch, Patience());
+  driver->Discover(true, Watch, SceneServerOf(&supervisor_));
   EXPECT_EQ(driver->left_out(),
             (std::map<std::string, std::string>{
                 {"shelf_demo 2",
@@ -217,11 +211,11 @@ TEST_F(FailingServerTest, AProblemThatItDoesNotAnswerThoughLiveIsLeftOut) {
   AwaitLive(4);
   DriverOptions options = Options();
   options.discovery_timeout_s = 3;
-  ServerPatience patience = Patience();
+  ServerPatience patience;
   patience.until_told = std::chrono::seconds(1);
   patience.until_passed_over = std::chrono::seconds(6);
   const auto driver = MakeDriver(options);
-  driver->Discover(true, Watch, patience);
+  driver->Discover(true, Watch, SceneServerOf(&supervisor_), patience);
   ASSERT_EQ(driver->left_out().size(), 1u);
   EXPECT_EQ(driver->left_out().at("shelf_demo 2"),
             "the scene server did not answer within 6 s when it was asked for the problem "
@@ -234,7 +228,7 @@ TEST_F(FailingServerTest, ARunAtWhoseVerdictItFallsSilentEachTimeIsMadeWhenTheSe
   LaunchAll(FailingAt("shelf_demo/2/rrtc"));
   const DriverOptions options = Options(2);
   const auto driver = MakeDriver(options);
-  driver->Discover(true, Watch, Patience());
+  driver->Discover(true, Watch, SceneServerOf(&supervisor_));
   EXPECT_TRUE(driver->Run(Never, Watch));
   using Runs = std::map<std::pair<int, int>, bool>;
   EXPECT_EQ(Asked(*driver), (Runs{{{1, 1}, true},
@@ -254,7 +248,7 @@ TEST_F(FailingServerTest, ARunAtWhoseVerdictItFallsSilentEachTimeIsMadeWhenTheSe
 
   std::filesystem::remove(folder() / "fails_at");
   const auto resumed = MakeDriver(options, ReadEarlierSession(Session()));
-  resumed->Discover(true, Watch, Patience());
+  resumed->Discover(true, Watch, SceneServerOf(&supervisor_));
   EXPECT_TRUE(resumed->Run(Never, Watch));
   EXPECT_EQ(resumed->runs().size(), 6u);
   for (const RunRow& run : resumed->runs().rows()) EXPECT_TRUE(run.confirmed()) << *run.message;
