@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/enum_names.h"
+#include "common/error.h"
 #include "common/yaml_tree.h"
 
 namespace planbench {
@@ -148,5 +149,15 @@ class YamlNode {
   // Beside the tree and not in it, because copies share that.
   std::map<std::string, std::shared_ptr<const YamlNode>> overrides_;
 };
+
+/// What `read` returns; its InputErrors, which do not know the field at fault, say where it stands.
+template <typename Read>
+auto AtField(const YamlNode& field, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    field.Fail(error.what());
+  }
+}
 
 }  // namespace planbench

@@ -14,8 +14,8 @@
 
 #include "common/content_hash.h"
 #include "common/error.h"
+#include "common/named_file.h"
 #include "common/numbers.h"
-#include "common/read_text.h"
 #include "planner_ara/ara_settings.h"
 #include "planner_ara/manipulation_graph.h"
 #include "planner_ara/two_way_search.h"
@@ -46,10 +46,15 @@ class AraPlanner : public Planner {
     settings_.Validate(origin_);
     RequireKnownJoints(node);
     const PlanningGroup& group = robot.Group("");
-    if (!settings_.primitives.empty()) HashPrimitives(node.At("primitives"));
+    if (!settings_.primitives.empty()) {
+      // The file may change while its name stays.
+      ContentHash hash;
+      hash.Add(ReadNamedFile(node.At("primitives"), robot.folder).text);
+      primitives_id_ = hash.HexDigest();
+    }
     options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
     OwnEdgeSampling(group, EdgeCheck::kFixed, 1);  // throws now rather than at the first request
-    if (!settings_.experience.empty()) experience_.emplace(robot, settings_.experience);
+    if (!settings_.experience.empty()) experience_.emplace(robot, node.At("experience"));
   }
 
   PlannerDescription Describe() const override {
@@ -61,7 +66,6 @@ class AraPlanner : public Planner {
     description.deterministic = true;
     description.collision_models = EnumValues<CollisionModel>();
     description.settings = settings_.AsText();
-    // The file may change while its name stays.
     if (!primitives_id_.empty()) description.settings["primitives_id"] = primitives_id_;
     if (experience_) experience_->Describe(&description.settings);
     return description;
@@ -197,17 +201,6 @@ class AraPlanner : public Planner {
   }
 
  private:
-  // Of the file that `primitives` names.
-  void HashPrimitives(const YamlNode& primitives) {
-    ContentHash hash;
-    try {
-      hash.Add(ReadText(robot().folder / settings_.primitives));
-    } catch (const InputError& error) {
-      primitives.Fail(error.what());
-    }
-    primitives_id_ = hash.HexDigest();
-  }
-
   void RequireKnownJoints(const YamlNode& settings) const {
     for (const char* key : {"discretization", "joint_weights", "edge_weights"}) {
       const std::optional<YamlNode> by_joint = settings.Find(key);
@@ -232,6 +225,8 @@ class AraPlanner : public Planner {
     }
     AraSettings settings = settings_;
     settings.Apply(request);
+    const std::optional<YamlNode> primitives = request.Find("primitives");
+    if (primitives && !settings.primitives.empty()) ReadNamedFile(*primitives, robot().folder);
     // A parameter without a value is a mistake, not a wish for the default.
     for (const std::string& key : request.Keys()) request.At(key);
     RequireKnownJoints(request);

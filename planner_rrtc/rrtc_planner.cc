@@ -14,9 +14,10 @@ namespace {
 
 class RrtConnectPlanner final : public Planner {
  public:
-  RrtConnectPlanner(const Robot& robot, RrtcSettings settings)
+  /// `node`: what `settings` were read from.
+  RrtConnectPlanner(const Robot& robot, RrtcSettings settings, const YamlNode& node)
       : Planner(robot), settings_(std::move(settings)) {
-    if (!settings_.experience.empty()) experience_.emplace(robot, settings_.experience);
+    if (!settings_.experience.empty()) experience_.emplace(robot, node.At("experience"));
     for (const PlanningGroup& group : robot.groups) {
       searches_.try_emplace(&group.space, group.space);
     }
@@ -54,7 +55,7 @@ std::unique_ptr<Planner> MakeRrtcPlanner(const Robot& robot, const YamlNode& nod
   if (settings.ompl_algorithm != nullptr) {
     return std::make_unique<OmplPlanner>(robot, std::move(settings), node.Where());
   }
-  return std::make_unique<RrtConnectPlanner>(robot, std::move(settings));
+  return std::make_unique<RrtConnectPlanner>(robot, std::move(settings), node);
 }
 
 }  // namespace planbench

@@ -4,25 +4,24 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
 #include <set>
 
 #include "common/content_hash.h"
-#include "common/read_text.h"
+#include "common/named_file.h"
 
 namespace planbench {
 
-Experience::Experience(const Robot& robot, const std::string& file) {
-  const std::filesystem::path path = robot.folder / file;
-  library_ = ReadPathLibrary(path, robot.groups);
+Experience::Experience(const Robot& robot, const YamlNode& setting) {
+  const NamedFile file = ReadNamedFile(setting, robot.folder);
+  library_ = ReadPathLibrary(YamlNode::Parse(file.text, file.path.string()), robot.groups);
   ContentHash hash;
-  hash.Add(ReadText(path));
+  hash.Add(file.text);
   id_ = hash.HexDigest();
   if (library_.scenes.empty()) {
     spdlog::warn(
         "{}: scenes: is missing, so that tables know by the names of problem sets alone what it "
         "has learned from; make the file anew with learn_paths",
-        path.string());
+        file.path.string());
   }
 }
 

@@ -12,8 +12,9 @@ namespace planbench {
 /// The paths that a planner's setting `experience` names.
 class Experience {
  public:
-  /// Reads `file`, absolute or from the robot folder. Throws InputError as ReadPathLibrary.
-  Experience(const Robot& robot, const std::string& file);
+  /// `setting`: the file, from the robot folder (ReadNamedFile). Throws InputError as
+  /// ReadPathLibrary does.
+  Experience(const Robot& robot, const YamlNode& setting);
 
   /// The paths, null if they are of other joints.
   const PathLibrary* For(const JointSpace& space) const {

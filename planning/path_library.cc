@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "common/numbers.h"
-#include "common/yaml.h"
 #include "common/yaml_text.h"
 
 namespace planbench {
@@ -90,20 +89,18 @@ std::vector<Path> PathLibrary::Recall(const JointSpace& space, std::span<const d
   return recalled;
 }
 
-PathLibrary ReadPathLibrary(const std::filesystem::path& file,
-                            std::span<const PlanningGroup> groups) {
-  const YamlNode node = YamlNode::LoadFile(file.string());
-  node.AllowOnly({"joints", "learned_from", "scenes", kNumPaths, "paths"});
+PathLibrary ReadPathLibrary(const YamlNode& file, std::span<const PlanningGroup> groups) {
+  file.AllowOnly({"joints", "learned_from", "scenes", kNumPaths, "paths"});
   PathLibrary library;
-  const YamlNode joints = node.At("joints");
+  const YamlNode joints = file.At("joints");
   library.joints = joints.Strings();
   if (library.joints.empty()) joints.Fail("is empty");
   const auto group = std::find_if(groups.begin(), groups.end(),
                                   [&](const PlanningGroup& g) { return library.Fits(g.space); });
   if (group == groups.end()) joints.Fail("are not the joints of a group of the robot, in order");
-  library.learned_from = node.At("learned_from").Strings();
-  if (const auto scenes = node.Find("scenes")) library.scenes = scenes->Strings();
-  const YamlNode paths = node.At("paths");
+  library.learned_from = file.At("learned_from").Strings();
+  if (const auto scenes = file.Find("scenes")) library.scenes = scenes->Strings();
+  const YamlNode paths = file.At("paths");
   for (const YamlNode& waypoints : paths.Elements()) {
     Path path;
     for (const YamlNode& q : waypoints.Elements()) path.push_back(Waypoint(q, group->space));
@@ -111,7 +108,7 @@ PathLibrary ReadPathLibrary(const std::filesystem::path& file,
     library.paths.push_back(std::move(path));
   }
   if (library.paths.empty()) paths.Fail("is empty");
-  const auto num_paths = node.Find(kNumPaths);  // Libraries of before do not say.
+  const auto num_paths = file.Find(kNumPaths);  // Libraries of before do not say.
   if (num_paths && num_paths->Int() != static_cast<long long>(library.paths.size())) {
     num_paths->Fail(fmt::format("is {}, but there are {} paths: the file is not whole",
                                 num_paths->Int(), library.paths.size()));

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "common/yaml.h"
 #include "planning/plan_result.h"
 #include "robot_model/joint_space.h"
 #include "robot_model/robot_model.h"
@@ -41,8 +41,7 @@ struct PathLibrary {
 /// Throws InputError with file and line for what is no path library, one without paths or with
 /// another number of them than it says, joints that are those of none of `groups`, and waypoints
 /// outside their limits.
-PathLibrary ReadPathLibrary(const std::filesystem::path& file,
-                            std::span<const PlanningGroup> groups);
+PathLibrary ReadPathLibrary(const YamlNode& file, std::span<const PlanningGroup> groups);
 
 /// What ReadPathLibrary reads.
 std::string ToYaml(const PathLibrary& library);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "common/name_value.h"
+#include "common/named_file.h"
 
 namespace planbench {
 namespace {
@@ -10,7 +11,10 @@ namespace {
 YamlNode SettingsFile(const Robot& robot, const std::string& planner, const std::string& config) {
   if (!config.empty()) return YamlNode::LoadFile(config);
   const auto named = robot.planner_settings.find(planner);
-  if (named != robot.planner_settings.end()) return YamlNode::LoadFile(named->second.string());
+  if (named != robot.planner_settings.end()) {
+    const NamedFile file = ReadNamedFile(named->second, robot.folder);
+    return YamlNode::Parse(file.text, file.path.string());
+  }
   return YamlNode::Parse("", "settings of planner " + planner);  // its own defaults
 }
 

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/error.h"
-#include "common/file_kind.h"
+#include "common/named_file.h"
 #include "common/yaml.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_object_reader.h"
@@ -270,12 +269,8 @@ Setup ReadSetup(const YamlNode& node, const Robot& robot, ProblemSpec* spec) {
     name.Fail(fmt::format("made for the robot '{}', given is '{}'", name.String(), robot.name));
   }
   const YamlNode group_node = node.At("group");
-  const PlanningGroup* group = nullptr;
-  try {
-    group = &robot.Group(group_node.String());
-  } catch (const InputError& error) {
-    group_node.Fail(error.what());
-  }
+  const std::string group_name = group_node.String();
+  const PlanningGroup* group = AtField(group_node, [&] { return &robot.Group(group_name); });
   spec->group = group->name;
 
   std::vector<double> rest = model.DefaultPositions();
@@ -404,12 +399,8 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
       {"setup", "clearance", "object_gap", "min_joint_distance", "effort", "objects", "queries"});
   ProblemSpec spec;
   spec.name = file.stem().string();
-  const YamlNode setup_file = root.At("setup");
-  const std::filesystem::path setup_path = file.parent_path() / setup_file.String();
-  if (!IsFile(setup_path)) {
-    setup_file.Fail("there is no file " + setup_path.string());
-  }
-  const Setup setup = ReadSetup(YamlNode::LoadFile(setup_path.string()), robot, &spec);
+  const NamedFile named = ReadNamedFile(root.At("setup"), file.parent_path());
+  const Setup setup = ReadSetup(YamlNode::Parse(named.text, named.path.string()), robot, &spec);
   spec.clearance_m = NonNegative(root.At("clearance"));
   spec.object_gap_m = NonNegative(root.At("object_gap"));
   spec.min_joint_distance = NonNegative(root.At("min_joint_distance"));

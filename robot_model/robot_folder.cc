@@ -11,6 +11,7 @@
 #include "common/content_hash.h"
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/named_file.h"
 #include "common/read_text.h"
 #include "common/yaml.h"
 #include "robot_model/group_kinematics.h"
@@ -24,23 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using LinkPairs = std::vector<std::pair<int, int>>;
-
-// The file a field of robot.yaml names, relative to the folder.
-fs::path NamedFile(const fs::path& folder, const YamlNode& field) {
-  fs::path path = folder / field.String();
-  if (!IsFile(path)) field.Fail("no file " + path.string());
-  return path;
-}
-
-// Runs `parse`, whose errors do not know the field at fault, and says where it stands.
-template <typename Parse>
-auto AtField(const YamlNode& field, Parse parse) {
-  try {
-    return parse();
-  } catch (const InputError& error) {
-    field.Fail(error.what());
-  }
-}
 
 // A tip elsewhere in the tree could be brought nowhere.
 void RequireMovedTips(const YamlNode& node, const RobotModel& model, const PlanningGroup& group) {
@@ -161,10 +145,9 @@ LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* rob
   LinkPairs checked_by_srdf;
   LinkPairs enabled;
   if (const auto file = root.Find("srdf")) {
-    const fs::path path = NamedFile(folder, *file);
-    const std::string text = ReadText(path);
-    hash->Add(text);
-    Srdf srdf = ParseSrdf(text, path.string(), robot->model);
+    const NamedFile named = ReadNamedFile(*file, folder);
+    hash->Add(named.text);
+    Srdf srdf = ParseSrdf(named.text, named.path.string(), robot->model);
     robot->allowed_pairs = std::move(srdf.disabled_pairs);
     checked_by_srdf = std::move(srdf.checked_pairs);
     enabled = std::move(srdf.enabled_pairs);
@@ -172,7 +155,7 @@ LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* rob
     robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
     robot->virtual_joints = std::move(srdf.virtual_joints);
     if (!groups) {
-      if (srdf.groups.empty()) file->Fail(NoGroupFault(srdf, path.string()));
+      if (srdf.groups.empty()) file->Fail(NoGroupFault(srdf, named.path.string()));
       robot->warnings.insert(robot->warnings.end(), srdf.group_warnings.begin(),
                              srdf.group_warnings.end());
       robot->why_no_group = std::move(srdf.why_no_group);
@@ -396,30 +379,28 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
 
   robot.name = root.At("name").String();
   if (robot.name.empty()) root.At("name").Fail("must not be empty");
-  const fs::path urdf_file = NamedFile(folder, root.At("urdf"));
-  const std::string urdf_text = ReadText(urdf_file);
-  hash.Add(urdf_text);
-  robot.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &robot.warnings);
+  const NamedFile urdf = ReadNamedFile(root.At("urdf"), folder);
+  hash.Add(urdf.text);
+  robot.model = RobotModel::FromUrdf(urdf.text, urdf.path.string(), &robot.warnings);
   const LinkPairs left = ReadSemantics(root, folder, &robot, &hash);
-  const auto read_spheres = [&](const fs::path& file) {
-    const std::string text = ReadText(file);
-    hash.Add(text);
-    return ReadLinkSpheres(file, text, robot.model);
+  const auto read_spheres = [&](const NamedFile& file) {
+    hash.Add(file.text);
+    return ReadLinkSpheres(file.path, file.text, robot.model);
   };
   if (!spheres.empty()) {
-    robot.spheres = read_spheres(spheres);
+    robot.spheres = read_spheres({spheres, ReadText(spheres)});
     robot.spheres_file = fs::absolute(spheres);
     if (robot.spheres.empty()) throw InputError(spheres.string() + ": no spheres");
     WarnOfUncheckedLinks(root, spheres.string(), &robot);
   } else if (const auto named = root.Find("spheres")) {
-    robot.spheres = read_spheres(NamedFile(folder, *named));
+    robot.spheres = read_spheres(ReadNamedFile(*named, folder));
     WarnOfUncheckedLinks(root, named->Where(), &robot);
   } else if (const auto srdf = root.Find("srdf")) {
     WarnOfUncheckedLinks(root, srdf->Where(), &robot);
   }
   if (const auto srdf = root.Find("srdf")) WarnOfCheckedPairs(*srdf, left, &robot);
   if (const auto named = root.Find("enclosing_spheres")) {
-    robot.enclosing_spheres = read_spheres(NamedFile(folder, *named));
+    robot.enclosing_spheres = read_spheres(ReadNamedFile(*named, folder));
     const auto bare = LinksWithout(robot.enclosing_spheres, {}, robot.model);
     if (!bare.empty()) {
       named->Fail(fmt::format("the spheres enclose nothing of {}, which have bodies in the URDF",
@@ -437,7 +418,9 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   if (const auto planners = root.Find("planners")) {
     for (const std::string& planner : planners->Keys()) {
       // Planners read their own settings when they start: other programs must not need the files.
-      robot.planner_settings[planner] = robot.folder / planners->At(planner).String();
+      const YamlNode file = planners->At(planner);
+      file.String();
+      robot.planner_settings.emplace(planner, file);
     }
   }
   robot.content_id = hash.HexDigest();

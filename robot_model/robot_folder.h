@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/yaml.h"
 #include "geometry/mesh_loader.h"
 #include "robot_model/edge_check.h"
 #include "robot_model/robot_model.h"
@@ -66,7 +67,8 @@ struct Robot {
   double edge_resolution_m = 0.02;
   EdgeCheck edge_check = EdgeCheck::kCertified;
   std::optional<VoxelSettings> voxels;
-  std::map<std::string, std::filesystem::path> planner_settings;  ///< By planner name, absolute.
+  /// By planner name, the field that names a file of its settings, from the folder.
+  std::map<std::string, YamlNode> planner_settings;
   ResourceResolver resources;  ///< For the collision meshes the URDF names.
   /// What was taken otherwise than written, or is missing, one line each; whoever loads a robot for
   /// a user says it.

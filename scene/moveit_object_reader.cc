@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "common/error.h"
 #include "common/file_state.h"
 #include "common/text.h"
 #include "geometry/meshes_in_use.h"
@@ -54,11 +53,8 @@ Mesh LoadMeshResource(const YamlNode& uri, const Eigen::Vector3d& scale,
   Mesh mesh;
   mesh.resource = uri.String();
   mesh.scale = scale;
-  try {
-    mesh.triangles = LoadMeshOnce(resources.Resolve(mesh.resource), scale);
-  } catch (const InputError& error) {
-    uri.Fail(error.what());
-  }
+  mesh.triangles =
+      AtField(uri, [&] { return LoadMeshOnce(resources.Resolve(mesh.resource), scale); });
   return mesh;
 }
 

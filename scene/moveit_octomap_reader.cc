@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.h"
 #include "geometry/octomap.h"
 #include "scene/moveit_fields.h"
 #include "scene/pose.h"
@@ -76,11 +75,7 @@ void AddOctomap(const YamlNode& world, const FrameTree& frames, Scene* scene) {
   const std::string id = octomap->At("id").String();
   const bool binary = ReadFlag(octomap->At("binary"));
   const double resolution = octomap->At("resolution").PositiveDouble();
-  try {
-    object.shapes = OctomapBoxes(bytes, binary, id, resolution);
-  } catch (const InputError& error) {
-    data->Fail(error.what());
-  }
+  object.shapes = AtField(*data, [&] { return OctomapBoxes(bytes, binary, id, resolution); });
   if (!object.shapes.empty()) scene->objects.push_back(std::move(object));
 }
 

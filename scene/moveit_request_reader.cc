@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "common/error.h"
 #include "robot_model/full_positions.h"
 #include "scene/moveit_fields.h"
 #include "scene/moveit_messages.h"
@@ -271,11 +270,8 @@ RequestGroup ReadGroup(const YamlNode& motion_plan_request, const Robot& robot) 
         .Warn(fmt::format("{}, of the groups {}", chosen.why, fmt::join(names, ", ")));
     return chosen;
   }
-  try {
-    return {.group = &robot.Group(is_named ? name->String() : "")};
-  } catch (const InputError& error) {
-    name.value_or(motion_plan_request).Fail(error.what());
-  }
+  return {.group = AtField(name.value_or(motion_plan_request),
+                           [&] { return &robot.Group(is_named ? name->String() : ""); })};
 }
 
 std::vector<JointGoal> ReadGoal(const YamlNode& motion_plan_request, const RobotModel& model,

@@ -141,6 +141,9 @@ TEST_F(AraPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
   EXPECT_EQ(description.settings.at("learned_from"), "posts, walls");
   EXPECT_FALSE(description.settings.at("experience_id").empty());
 
+  ExpectInputError(
+      [&] { Make("experience: nowhere.yaml"); },
+      {"ara.yaml:1: experience: " + robot_.folder.string() + "/nowhere.yaml: cannot be opened"});
   PathLibrary other = same;
   other.joints.front() = "other";
   ExpectInputError([&] { Make(with("other.yaml", other)); }, {"other.yaml:1", "joints", "group"});
@@ -173,6 +176,7 @@ TEST_F(AraPlannerTest, BadParametersOfARequestAreNamed) {
         Case{"discretization", "{elbow: 1e-9}", "cells"},
         Case{"memory_limit_mb", "[1]", "memory_limit_mb"},
         Case{"experience", "paths.yaml", "experience"}, Case{"recall", "0", "recall"},
+        Case{"primitives", "nowhere.mprim", "request parameter primitives: /"},
         Case{"edge_weights", "{shoulder: 1, elbow: 1, wrist: 1}", "cannot change"},
         Case{"joint_weights", "{knee: 2}", "joint_weights.knee: the robot has no joint"},
         Case{"discretization", "{knee: 0.1}", "discretization.knee: the robot has no joint"},

@@ -93,6 +93,9 @@ TEST_F(RrtcPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {
             "01234567 fedcba98");
   EXPECT_FALSE(description.settings.at("experience_id").empty());
 
+  ExpectInputError(
+      [&] { Solve("experience: nowhere.yaml"); },
+      {"rrtc.yaml:1: experience: " + robot_.folder.string() + "/nowhere.yaml: cannot be opened"});
   library.joints.front() = "other";
   ExpectInputError([&] { Solve(with("other.yaml")); }, {"other.yaml:1", "joints", "group"});
   ExpectInputError([&] { Solve("recall: 0"); }, {"rrtc.yaml:1", "recall"});

@@ -8,7 +8,6 @@
 #include "common/numbers.h"
 #include "common/random.h"
 #include "tests/support/expect_input_error.h"
-#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -34,11 +33,11 @@ TEST(PathLibrary, FitsTheGroupWithItsJointsInItsOrder) {
 }
 
 TEST(PathLibrary, IsReadAsItWasWritten) {
-  const TemporaryFolder folder;
   PathLibrary library = Library({{{0.1, -1.0 / 3}, {3, 2}, {-3, 0}}, {{0, 0}, {1, 1}}});
   library.learned_from = {"a: set", "b"};
   library.scenes = {"01234567", "1e5"};
-  const PathLibrary read = ReadPathLibrary(folder.Write("paths.yaml", ToYaml(library)), Groups());
+  const PathLibrary read =
+      ReadPathLibrary(YamlNode::Parse(ToYaml(library), "paths.yaml"), Groups());
   EXPECT_EQ(read.joints, library.joints);
   EXPECT_EQ(read.learned_from, library.learned_from);
   EXPECT_EQ(read.scenes, library.scenes);
@@ -89,10 +88,9 @@ TEST(PathLibrary, RecallsTheNearestOfAll) {
 }
 
 TEST(PathLibrary, WhatIsNoneIsRefusedByFileAndLine) {
-  const TemporaryFolder folder;
   const auto expect_refused = [&](const std::string& text, const std::vector<std::string>& parts) {
     SCOPED_TRACE(text);
-    const auto file = folder.Write("paths.yaml", text);
+    const YamlNode file = YamlNode::Parse(text, "paths.yaml");
     ExpectInputError([&] { ReadPathLibrary(file, Groups()); }, parts);
   };
   const std::string head = "joints: [turn, bend]\nlearned_from: []\n";
@@ -107,19 +105,17 @@ TEST(PathLibrary, WhatIsNoneIsRefusedByFileAndLine) {
   expect_refused(head + "paths: []\n", {"paths.yaml:3: paths:", "empty"});
   expect_refused(head + "paths:\n- [[1, 0],\n   [1, 99]]\n",
                  {"paths.yaml:5: paths[0][1][1]:", "bend", "99", "[-2, 2]"});
-  ExpectInputError([&] { ReadPathLibrary(folder.path() / "none", Groups()); }, {"none"});
 }
 
 TEST(PathLibrary, OneThatWasCutBetweenTwoPathsIsRefused) {
-  const TemporaryFolder folder;
   const std::string whole = ToYaml(Library({{{0, 0}, {1, 1}}, {{1, 1}, {0, 0}}}));
   const std::string cut = whole.substr(0, whole.rfind("  - "));
-  ExpectInputError([&] { ReadPathLibrary(folder.Write("cut.yaml", cut), Groups()); },
+  ExpectInputError([&] { ReadPathLibrary(YamlNode::Parse(cut, "cut.yaml"), Groups()); },
                    {"cut.yaml:3: num_paths:", "is 2", "1 paths", "not whole"});
   const std::string line = "num_paths: 2\n";
   std::string of_before = whole;
   of_before.erase(of_before.find(line), line.size());
-  EXPECT_EQ(ReadPathLibrary(folder.Write("before.yaml", of_before), Groups()).paths.size(), 2u);
+  EXPECT_EQ(ReadPathLibrary(YamlNode::Parse(of_before, "before.yaml"), Groups()).paths.size(), 2u);
 }
 
 }  // namespace

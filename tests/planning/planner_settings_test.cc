@@ -17,5 +17,14 @@ TEST(PlannerSettings, MessagesSayWhereAnOverrideWasWritten) {
   ExpectInputError([&] { settings.At("step").Double(); }, {"--set step: expected a number"});
 }
 
+TEST(PlannerSettings, AFileThatCannotBeReadIsToldWithTheLineThatNamesIt) {
+  Robot robot = LoadPlanarRobot();
+  const YamlNode planners = YamlNode::Parse("\nara: nowhere.yaml", "robot.yaml");
+  robot.planner_settings.emplace("ara", planners.At("ara"));
+  ExpectInputError(
+      [&] { LoadPlannerSettings(robot, "ara", "", {}); },
+      {"robot.yaml:2: ara: " + robot.folder.string() + "/nowhere.yaml: cannot be opened"});
+}
+
 }  // namespace
 }  // namespace planbench

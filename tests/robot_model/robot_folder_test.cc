@@ -376,7 +376,7 @@ TEST(LoadRobot, EnclosingSpheresAreASecondSet) {
   const std::string yaml = std::string(kSmallRobot) + "enclosing_spheres: enclosing.yaml\n";
   folder.Write("small/robot.yaml", yaml);
   const auto load = [&] { return LoadRobot(folder / "small"); };
-  ExpectInputError(load, {"robot.yaml:6", "enclosing_spheres", "no file", "enclosing.yaml"});
+  ExpectInputError(load, {"robot.yaml:6", "enclosing_spheres", "enclosing.yaml: cannot be opened"});
   folder.Write("small/enclosing.yaml",
                "links:\n  arm:\n    - {center: [0, 0, 0.5], radius: 0.25}\n");
   const Robot robot = load();
