@@ -27,8 +27,15 @@ class YamlTree::Builder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node* null = Make(Kind::kNull, mark, "", anchor);
-    // The mark of a value that is left out is that of what comes next.
-    if (!open_.empty() && open_.back().key != nullptr) null->line = open_.back().key->line;
+    if (!open_.empty() && open_.back().key != nullptr) {
+      // yaml-cpp 0.7 takes for a key what stands without a colon at the end of a document, and its
+      // place for the value's. That of a key behind a question mark, which needs none, is the mark.
+      if (open_.back().is_block && open_.back().key->position == mark.pos) {
+        throw YAML::ParserException(mark, "a key without its colon");
+      }
+      // The mark of a value that is left out is that of what comes next.
+      null->line = open_.back().key->line;
+    }
     Add(null);
   }
   void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t anchor) override {
@@ -46,8 +53,9 @@ class YamlTree::Builder final : public YAML::EventHandler {
   }
   void OnSequenceEnd() override { open_.pop_back(); }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value /*style*/) override {
+                  YAML::EmitterStyle::value style) override {
     Open(Make(Kind::kMap, mark, tag, anchor));
+    open_.back().is_block = style == YAML::EmitterStyle::Block;
   }
   void OnMapEnd() override { open_.pop_back(); }
 
@@ -56,6 +64,7 @@ class YamlTree::Builder final : public YAML::EventHandler {
   struct Collection {
     Node* node;
     const Node* key = nullptr;  // Of a map, one that lacks its value.
+    bool is_block = false;      // A map without braces.
   };
 
   Node* Make(Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
@@ -104,9 +113,9 @@ class YamlTree::Builder final : public YAML::EventHandler {
 };
 
 YamlTree::YamlTree(const std::string& text) {
-  // yaml-cpp 0.7 takes a quote that is not closed, and a key without its colon, where the text ends
-  // after them. Here a comment does.
-  std::istringstream stream(text + (text.ends_with('\n') ? "#" : "\n#"));
+  // yaml-cpp 0.7 takes a quote that is not closed where the text ends, but not where a document
+  // does.
+  std::istringstream stream(text + (text.ends_with('\n') ? "..." : "\n..."));
   YAML::Parser parser(stream);
   Builder builder(this);
   while (parser.HandleNextDocument(builder)) {

@@ -121,8 +121,13 @@ TEST(YamlNode, TextsThatWereCutOffAreRefusedAtTheirLastLine) {
                            "a: 1\nb", "a: 1\nb\n", "a: 1\nb  # no colon\n", "a: 1\n'b'\n\n"}) {
     EXPECT_THAT(ErrorOf([&] { Parse(text); }), StartsWith("file.yaml:2: no valid YAML: ")) << text;
   }
-  for (const char* text : {"a: 1\n  b\n", "a:\n  b", "{a}", "? a", "? a\n", "a:", "a", "a: \"b\"",
-                           "a: |\n  b\n", "a: b # c", "# a", "\n"}) {
+  for (const char* text : {"a: 1\nb", "a: 1\nb\n---\n", "a: 1\nb\n...\n", "a: 1\n&x b\n---\nc: 2\n",
+                           "- a: 1\n  b\n---\n", "x: {}\nb\n%YAML 1.2\n---\n"}) {
+    EXPECT_EQ(ErrorOf([&] { Parse(text); }), "file.yaml:2: no valid YAML: a key without its colon")
+        << text;
+  }
+  for (const char* text : {"a: 1\n  b\n", "a:\n  b", "{a}", "? a", "? a\n", "? a\n---\n", "a:", "a",
+                           "a: \"b\"", "a: |\n  b\n", "a: b # c", "# a", "\n"}) {
     EXPECT_EQ(ErrorOf([&] { Parse(text); }), "no error") << text;
   }
   EXPECT_EQ(Parse("a: |+\n  b\n\n").At("a").String(), "b\n\n");
