@@ -201,13 +201,14 @@ std::string ProblemLibrary::ContentId(const ProblemSet& set) {
   for (const ProblemFiles& files : set.problems) {
     hash.Add(files.index);
     try {
-      bool names_files = false;
+      bool has_meshes = false;
       for (const fs::path& file : {files.scene, files.request}) {
         const std::string text = TextOf(file);
         hash.Add(text);
-        names_files |= text.find("resource") != std::string::npos;
+        has_meshes |= text.find("mesh") != std::string::npos;
       }
-      if (names_files) hash.Add(Read(set, files).message.scene_id);
+      // They may be in other files.
+      if (has_meshes) hash.Add(Read(set, files).message.scene_id);
     } catch (const InputError& error) {
       // Whoever asks for this problem is told; the others can be served. Once it has been mended it
       // is another than the id stands for.

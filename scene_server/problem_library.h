@@ -38,7 +38,7 @@ class ProblemLibrary {
   /// By name.
   const std::map<std::string, ProblemSet>& sets() const { return sets_; }
 
-  /// Content hash of a set: of its files, and of the scenes that name meshes in other files.
+  /// Content hash of a set: of its files, and of the scenes whose meshes may be in others.
   std::string ContentId(const ProblemSet& set);
 
   /// Throws InputError: no such set or index (with what there is), a file that cannot be read or

@@ -299,6 +299,24 @@ TEST(ProblemSets, HaveTheIdOfWhatTheirFilesSay) {
   EXPECT_NE(id(TinyProblem()), one_problem);
 }
 
+TEST(ProblemSets, HaveTheIdOfMeshesThatAreNamedByTheirFilesAlone) {
+  const TemporaryFolder folder;
+  const auto set = folder.path() / "problems" / "cans";
+  const auto id = [&](const std::string& mesh, const std::string& corner) {
+    WriteTinyProblem(TinyProblem(), set, 1);
+    folder.Write("problems/cans/scene0001.yaml",
+                 "world: {collision_objects: [{id: rock, " + mesh + "}]}\n");
+    folder.Write("problems/cans/rock.obj", corner +
+                                               "\nv 6 5 5\nv 5 6 5\nv 5 5 6\nf 1 3 2\nf 1 2 4\n"
+                                               "f 2 3 4\nf 3 1 4\n");
+    SceneService service(LoadRobot(WriteTinyRobot(folder)), std::nullopt, {set});
+    return service.ProblemSets("server").sets.at(0).content_id;
+  };
+  for (const char* mesh : {"mesh: rock.obj", "meshes: [rock.obj]"}) {
+    EXPECT_NE(id(mesh, "v 5 5 5"), id(mesh, "v 4 5 5")) << mesh;
+  }
+}
+
 TEST(ProblemSets, FolderOfSetsServesEach) {
   const TemporaryFolder folder;
   for (const char* name : {"b", "a"}) {
