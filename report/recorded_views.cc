@@ -26,8 +26,9 @@ RecordedViews::RecordedViews(const StoredSession& session,
   RecordedSession recorded = ReadRecords(log_);
   SessionMessage told = LastTold(recorded, session.run_id);
   if (told.settings.empty()) told.settings = session.flags;  // The log has lost it.
-  robot_ = ShownRobot(LoadSessionRobot(told, robot_folder, packages));
-  scenes_ = ReadScenes(log_, &passed_over_);
+  robot_ =
+      ShownRobot(LoadSessionRobot(told, robot_folder, packages), told.conditions.mesh_robot_id);
+  for (auto& [id, scene] : ReadScenes(log_, &passed_over_)) scenes_.emplace(id, std::move(scene));
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
   for (RunRecordMessage& record : recorded.runs) {
     if (record.run_id == session.run_id) records_.emplace(record.request_id, std::move(record));

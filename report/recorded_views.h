@@ -31,7 +31,7 @@ class RecordedViews {
   ShownRobot robot_;
   std::vector<std::string> passed_over_;
   std::map<std::string, RunRecordMessage> records_;  ///< By request.
-  std::map<std::string, Scene> scenes_;              ///< By content id.
+  std::map<std::string, ShownScene> scenes_;         ///< By content id.
 };
 
 /// Views of as many runs as fit into `most_bytes`, those of first trials first.

@@ -46,12 +46,14 @@ const PathVerdict* Hit(const PathCheckReplyMessage& check) {
 /// A robot in a scene, moved by one group.
 class View {
  public:
-  View(const ShownRobot& shown, const Scene& scene, const std::string& group_name,
+  View(const ShownRobot& shown, const ShownScene& shown_scene, const std::string& group_name,
        const JointState& start, const std::vector<JointGoal>& goal, CollisionModel model)
       : robot_(shown.robot()),
         group_(robot_.Group(group_name)),
         query_(ResolveQuery(robot_, group_, start, goal, "the problem")),
-        kinematics_(robot_.model, group_, query_.base_positions) {
+        kinematics_(robot_.model, group_, query_.base_positions),
+        notes_(shown_scene.remarks()) {
+    const Scene& scene = shown_scene.scene();
     json_["meshes"] = Json::object();
     ChooseGeometry(shown, model);
     json_["solids"] = Json::array();
@@ -161,7 +163,7 @@ class View {
       spheres_ = {};
       bodies_ = bodies.shapes;
       json_["meshes"] = bodies.meshes;
-      if (!bodies.coarser.empty()) notes_.push_back(bodies.coarser);
+      notes_.insert(notes_.end(), bodies.remarks.begin(), bodies.remarks.end());
       if (model != CollisionModel::kMeshes) {
         notes_.push_back(
             fmt::format("The robot has no spheres for the collision model '{}'; shown: the "
@@ -253,7 +255,7 @@ class View {
 };
 
 /// The view of a request, without goals and paths.
-View ViewOfRequest(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run) {
+View ViewOfRequest(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run) {
   const Robot& robot = shown.robot();
   const PlanRequest& request = run.request;
   if (!request.robot_id.empty() && request.robot_id != robot.content_id) {
@@ -288,7 +290,7 @@ Json ProblemView(const ShownRobot& shown, const Problem& problem, CollisionModel
       {fmt::format("Robot {}, group {}.", robot.name, robot.Group(problem.group).name)});
 }
 
-Json RunView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run,
+Json RunView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run,
              int num_frames) {
   View view = ViewOfRequest(shown, scene, run);
   const PlanResult& result = run.result.result;
@@ -305,7 +307,7 @@ Json RunView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage
   return view.Take(TitleOf(run), std::move(facts));
 }
 
-Json RequestView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run) {
+Json RequestView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run) {
   View view = ViewOfRequest(shown, scene, run);
   view.AddGoals({}, {});
   return view.Take(TitleOf(run), {fmt::format("{}: {}.", AttemptOf(run), run.message)});

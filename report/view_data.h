@@ -6,6 +6,7 @@
 #include "collision/collision_model.h"
 #include "messaging/messages.h"
 #include "report/shown_robot.h"
+#include "report/shown_scene.h"
 #include "report/table.h"
 #include "scene/problem.h"
 
@@ -31,11 +32,11 @@ Json ProblemView(const ShownRobot& shown, const Problem& problem,
 
 /// The same of a run, by the model of its request, with its raw and simplified paths, each in about
 /// `num_frames` frames, every waypoint among them; the referee's finding is the collision.
-Json RunView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run,
+Json RunView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run,
              int num_frames);
 
 /// The same of a request that is being planned: `run` is what is known of it. It has neither paths
 /// nor a status; a set or a contestant that is not known is empty.
-Json RequestView(const ShownRobot& shown, const Scene& scene, const RunRecordMessage& run);
+Json RequestView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run);
 
 }  // namespace planbench

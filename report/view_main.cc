@@ -70,7 +70,8 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));
   }
   const SessionMessage session = LastTold(recorded, run.run_id);
-  const ShownRobot shown(LoadSessionRobot(session, flags.robot.folder, flags.robot.Packages()));
+  const ShownRobot shown(LoadSessionRobot(session, flags.robot.folder, flags.robot.Packages()),
+                         session.conditions.mesh_robot_id);
   return RunView(shown, scene->second, run, kFrames);
 }
 

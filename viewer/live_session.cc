@@ -214,7 +214,8 @@ const ShownRobot& LiveSession::LoadedRobot() const {
   if (robot_) return *robot_;
   SessionMessage session = session_.value_or(SessionMessage());
   if (scene_server_) session.nodes.push_back(*scene_server_);
-  robot_ = std::make_unique<const ShownRobot>(LoadSessionRobot(session, robot_folder_, packages_));
+  robot_ = std::make_unique<const ShownRobot>(LoadSessionRobot(session, robot_folder_, packages_),
+                                              session.conditions.mesh_robot_id);
   return *robot_;
 }
 

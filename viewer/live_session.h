@@ -16,6 +16,7 @@
 #include "messaging/messages.h"
 #include "planning/improvement_rule.h"
 #include "report/shown_robot.h"
+#include "report/shown_scene.h"
 #include "report/table.h"
 
 namespace planbench {
@@ -70,7 +71,7 @@ class LiveSession {
     TimePoint heard;
   };
   std::map<std::pair<NodeKind, std::string>, Node> nodes_;
-  std::map<std::string, Scene> scenes_;  ///< By content id.
+  std::map<std::string, ShownScene> scenes_;  ///< By content id.
   /// The last request and what is known of it.
   std::optional<RunRecordMessage> shown_;
   bool is_answered_ = false;  ///< The last request, by its planner or by a record.

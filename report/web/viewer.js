@@ -49,6 +49,9 @@ function makeViewer(container, data, previous = null) {
     return null;
   }
 
+  // Found once for a mesh, too, wherever it stands.
+  const outline = body => body.userData.outline || (body.userData.outline = new THREE.EdgesGeometry(body, 30));
+
   function solid(shape, material) {
     if (shape.type !== "capsule") return new THREE.Mesh(geometry(shape), material);
     const group = new THREE.Group();
@@ -124,7 +127,7 @@ function makeViewer(container, data, previous = null) {
       place(body, one.pose);
       scene.add(body);
       if (one.shape.type === "box" || one.shape.type === "mesh") {
-        const edges = new THREE.LineSegments(new THREE.EdgesGeometry(geometry(one.shape), 30),
+        const edges = new THREE.LineSegments(outline(geometry(one.shape)),
                                              new THREE.LineBasicMaterial({color: colour("--text"), transparent: true, opacity: 0.6}));
         place(edges, one.pose);
         scene.add(edges);

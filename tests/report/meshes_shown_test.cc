@@ -8,6 +8,7 @@
 #include "geometry/polyhedra.h"
 #include "logger/results_database.h"
 #include "messaging/event_log.h"
+#include "robot_model/mesh_robot_id.h"
 #include "tests/report/browser.h"
 #include "tests/support/child_process.h"
 #include "tests/support/mesh_arm.h"
@@ -36,6 +37,7 @@ class MeshesShownTest : public testing::Test {
     PlanarSession made;
     made.session.settings["robot"] = arm_;
     made.session.settings["package-path"] = packages;
+    made.session.conditions.mesh_robot_id = mesh_robot_id_;
     made.record.request.collision_model = CollisionModel::kMeshes;
     std::filesystem::create_directories(folder_ / name);
     EventLog log(folder_ / name / "session.lcmlog", EventLog::Mode::kNew);
@@ -72,6 +74,7 @@ class MeshesShownTest : public testing::Test {
   const TemporaryFolder folder_;
   const std::filesystem::path page_ = folder_ / "page.html";
   std::string arm_, mesh_id_, hands_;
+  std::string mesh_robot_id_;  // Of the session; "": it does not tell.
   const std::string fallback_ =
       "The collision model is 'meshes'; shown: the robot's spheres, because ";
 };
@@ -93,6 +96,16 @@ TEST_F(MeshesShownTest, OfARunTheyAreFoundWhereTheDriverOrTheViewIsTold) {
   const std::string log = lost + "/session.lcmlog";
   EXPECT_THAT(Page("view", {"--log", log}), HasSubstr(fallback_));
   EXPECT_THAT(Page("view", {"--log", log, "--package-path", hands_}), HasSubstr(NamesMesh()));
+}
+
+TEST_F(MeshesShownTest, ThoseThatAreNotTheSessionsAreToldAsSuch) {
+  mesh_robot_id_ = MeshRobotId(LoadRobot(arm_, {{"hands", folder_ / "elsewhere"}}));
+  const std::string session = Record("session", hands_);
+  const std::string others = "The robot's meshes are not those of the session";
+  EXPECT_THAT(Page("view", {"--session", session, "--run", "1"}), Not(HasSubstr(others)));
+  folder_.Write("elsewhere/hand.obj", ObjText(BoxMesh({0.2, 0.1, 0.1})));
+  EXPECT_THAT(Page("view", {"--session", session, "--run", "1"}), HasSubstr(others));
+  EXPECT_THAT(Page("view", {"--log", session + "/session.lcmlog"}), HasSubstr(others));
 }
 
 TEST_F(MeshesShownTest, OfAProblemTheCollisionModelIsChosen) {

@@ -181,7 +181,7 @@ TEST_F(ViewDataTest, WhatStandsForAnotherGeometryIsToldAsSuch) {
 
 TEST_F(ViewDataTest, MoreTrianglesThanAPageCanHoldAreMadeFewer) {
   run_.request.collision_model = CollisionModel::kMeshes;
-  const Json view = RunView(ShownRobot(MeshArm(), 1000), scene_, run_, 10);
+  const Json view = RunView(ShownRobot(MeshArm(), "", 1000), scene_, run_, 10);
   ASSERT_EQ(view["meshes"].size(), 1u);
   const std::size_t num_triangles = NumTriangles(view["meshes"].front());
   EXPECT_GT(num_triangles, 400u);
@@ -191,11 +191,11 @@ TEST_F(ViewDataTest, MoreTrianglesThanAPageCanHoldAreMadeFewer) {
                         "of 3996, corners up to 3.46 mm from their places.",
                         num_triangles));
   // However few there may be, a hand stays one.
-  const Json coarsest = RunView(ShownRobot(MeshArm(), 1), scene_, run_, 10);
+  const Json coarsest = RunView(ShownRobot(MeshArm(), "", 1), scene_, run_, 10);
   EXPECT_GT(NumTriangles(coarsest["meshes"].front()), 30u);
 }
 
-TEST_F(ViewDataTest, AMeshInTwoPlacesCountsOnceAsItIsHeldOnce) {
+TEST_F(ViewDataTest, AMeshInTwoPlacesIsHeldOnceAndCountsTwiceAsItIsDrawn) {
   MeshArm();
   const auto file = folder_ / "arm/planar3.urdf";
   std::string urdf = ReadText(file);
@@ -204,11 +204,33 @@ TEST_F(ViewDataTest, AMeshInTwoPlacesCountsOnceAsItIsHeldOnce) {
   urdf.replace(next, urdf.find("/>", next) + 2 - next, mesh);
   folder_.Write("arm/planar3.urdf", urdf);
   run_.request.collision_model = CollisionModel::kMeshes;
-  const Json view = RunView(ShownRobot(LoadRobot(folder_ / "arm"), 5000), scene_, run_, 10);
+  const Json view = RunView(ShownRobot(LoadRobot(folder_ / "arm"), "", 5000), scene_, run_, 10);
   const Json& hand = view["links"][3]["shapes"];
   EXPECT_EQ(hand[0]["shape"], hand[1]["shape"]);
-  EXPECT_EQ(NumTriangles(view["meshes"].front()), 3996u);
-  EXPECT_EQ(view["facts"].size(), 2u) << view["facts"];
+  ASSERT_EQ(view["meshes"].size(), 1u);
+  const std::size_t num_triangles = NumTriangles(view["meshes"].front());
+  EXPECT_LE(num_triangles, 2500u);
+  EXPECT_THAT(
+      view["facts"].back().get<std::string>(),
+      testing::HasSubstr(fmt::format(
+          "coarser than they are: {} triangles instead of 7992, corners ", 2 * num_triangles)));
+}
+
+TEST_F(ViewDataTest, AMeshAtManyPlacesOfASceneIsMadeCoarser) {
+  const Mesh can{"", Eigen::Vector3d::Ones(), PrismMesh(0.05, 0.2, 1000)};  // Of 3996 triangles.
+  std::vector<PlacedShape>& cans = scene_.objects.front().shapes;
+  cans.assign(49, {can, Eigen::Isometry3d::Identity()});
+  scene_.attached.front().object.shapes = {{can, Eigen::Isometry3d::Identity()}};
+  EXPECT_EQ(RunView(robot_, scene_, run_, 10)["facts"].size(), 2u) << "199,800 triangles";
+  cans.push_back(cans.front());
+  const Json view = RunView(robot_, scene_, run_, 10);
+  ASSERT_EQ(view["meshes"].size(), 1u);
+  const std::size_t num_triangles = NumTriangles(view["meshes"].front());
+  EXPECT_LE(51 * num_triangles, 200'000u);
+  EXPECT_THAT(view["facts"].back().get<std::string>(),
+              testing::StartsWith(fmt::format("The scene's meshes are shown coarser than they are: "
+                                              "{} triangles instead of 203796, corners ",
+                                              51 * num_triangles)));
 }
 
 TEST_F(ViewDataTest, WithoutSpheresTheBodiesAreShown) {

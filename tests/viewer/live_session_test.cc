@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/polyhedra.h"
+#include "robot_model/mesh_robot_id.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/mesh_arm.h"
+#include "tests/support/obj_text.h"
 #include "tests/support/planar_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -270,6 +274,27 @@ TEST_F(LiveSessionTest, AGivenRobotHasTheSpheresOfEachSession) {
   const std::string one = "links: {hand: [{center: [0.05, 0, 0], radius: 0.06}]}";
   EXPECT_EQ(spheres_of("second", folder.Write("spheres.yaml", one).string()), 1u);
   EXPECT_EQ(spheres_of("third", "/not/here.yaml"), own);
+}
+
+TEST_F(LiveSessionTest, SaysIfTheRobotsMeshesAreNotThoseOfTheSession) {
+  const TemporaryFolder folder;
+  folder.Write("arm/hand.obj", ObjText(BoxMesh({0.2, 0.1, 0.1})));
+  const std::filesystem::path arm = WriteMeshArm(folder, "hand.obj");
+  bus_.session.settings["robot"] = arm.string();
+  bus_.request.collision_model = CollisionModel::kMeshes;
+  Hear(channel::kScene, bus_.scene);
+  Hear("PLAN_REQUEST_ARA", bus_.request);
+  const auto facts_of = [&](const std::string& run_id, const std::string& mesh_robot_id) {
+    bus_.session.run_id = run_id;
+    bus_.session.conditions.mesh_robot_id = mesh_robot_id;
+    Hear(channel::kSession, bus_.session);
+    return live_.View()->at("facts");
+  };
+  EXPECT_EQ(facts_of("first", MeshRobotId(LoadRobot(arm))).size(), 1u);
+  const Json facts = facts_of("second", std::string(32, 'a'));
+  ASSERT_EQ(facts.size(), 2u);
+  EXPECT_THAT(facts[1].get<std::string>(),
+              testing::HasSubstr("meshes are not those of the session"));
 }
 
 }  // namespace
