@@ -137,7 +137,12 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
     return link;
   };
   group.tip_link = find_tip(tip_link);
-  for (const std::string& tip : more_tips) group.more_tips.push_back(find_tip(tip));
+  for (const std::string& tip : more_tips) {
+    const int link = find_tip(tip);
+    // What is summed over the tips would count it twice.
+    if (std::ranges::count(group.tips(), link) > 0) fail(fmt::format("tip '{}' is repeated", tip));
+    group.more_tips.push_back(link);
+  }
 
   std::set<std::string> seen;
   std::vector<JointSpace::Joint> space;

@@ -332,8 +332,10 @@ class SrdfReader {
   // Tips of a group of these joints, which has chains with these tips.
   std::vector<int> TipsOf(const std::set<int>& joints, const std::vector<int>& chain_tips) const {
     std::vector<int> tips;
-    std::copy_if(chain_tips.begin(), chain_tips.end(), std::back_inserter(tips),
-                 [&](int tip) { return IsMoved(tip, joints); });
+    for (const int tip : chain_tips) {
+      const auto is_rigid = [&](int other) { return model_.Rigid(tip, other); };
+      if (IsMoved(tip, joints) && std::ranges::none_of(tips, is_rigid)) tips.push_back(tip);
+    }
     for (const int link : OutermostLinks(joints)) {
       const bool has_tip = std::any_of(tips.begin(), tips.end(), [&](int tip) {
         return IsBeyond(tip, link) || (IsBeyond(link, tip) && !ArmLeadsOn(tip, link, joints));

@@ -24,8 +24,8 @@ struct Srdf {
   /// joints between two links; where neither carries the other, it has two branches, two tips, and,
   /// as MoveIt takes it, the joint beneath where they meet. Tips are those of the chains, but for
   /// those that an arm leads on from (three joints or more, none of an end effector), and the
-  /// outermost links of branches without one. States are complete: joints that the file does not
-  /// name are at their default position.
+  /// outermost links of branches without one; no two are rigid to each other. States are complete:
+  /// joints that the file does not name are at their default position.
   std::vector<PlanningGroup> groups;
   std::vector<EndEffector> end_effectors;
   std::vector<VirtualJoint> virtual_joints;

@@ -163,7 +163,8 @@ TEST(ParseSrdf, AChainIsAllBetweenTwoLinks) {
   EXPECT_THAT(Tips(srdf.groups[2]), ElementsAre("l1"));
 }
 
-// A trunk of one joint with a left and a right arm of three, a head of one, and a hand on the left.
+// A trunk of one joint with a left and a right arm of three, a head of one, a hand on the left and
+// a tool on the right.
 RobotModel Human() {
   std::string urdf = "<robot name='human'><link name='base'/>";
   const auto add = [&](const std::string& joint, const std::string& parent) {
@@ -179,6 +180,9 @@ RobotModel Human() {
   }
   add("nod", "trunk_link");
   add("thumb", "l3_link");
+  urdf +=
+      "<link name='tool'/><joint name='grasp' type='fixed'><parent link='r3_link'/>"
+      "<child link='tool'/></joint>";
   return RobotModel::FromUrdf(urdf + "</robot>", "human.urdf");
 }
 
@@ -231,6 +235,14 @@ INSTANTIATE_TEST_SUITE_P(
                   "<end_effector name='claw' group='right' parent_link='trunk_link'/>"
                   "<group name='all'><group name='trunk'/><group name='right'/></group>",
                   {"trunk_link"}},
+        GroupTips{"a_chain_twice",
+                  "<group name='all'><group name='left'/><chain base_link='base'"
+                  " tip_link='l3_link'/></group>",
+                  {"l3_link"}},
+        GroupTips{"chains_to_the_arms_end_and_to_a_tool_fixed_to_it",
+                  "<group name='all'><chain base_link='trunk_link' tip_link='r3_link'/>"
+                  "<chain base_link='trunk_link' tip_link='tool'/></group>",
+                  {"r3_link"}},
         GroupTips{"a_chain_that_moves_nothing",
                   "<group name='all'><chain base_link='base' tip_link='base'/><joint name='nod'/>"
                   "</group>",
