@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <utility>
 #include <variant>
 
 #include "common/error.h"
@@ -61,16 +63,23 @@ std::vector<LinkSphere> ReadUrdf(const std::string& text, const std::string& ori
 }  // namespace
 
 std::vector<LinkSphere> ReadLinkSpheres(const std::filesystem::path& file, const std::string& text,
-                                        const RobotModel& model) {
+                                        const RobotModel& model,
+                                        std::vector<std::string>* warnings) {
   const std::string origin = file.string();
   const std::string extension = file.extension().string();
   std::vector<LinkSphere> spheres;
   if (extension == ".urdf") {
     spheres = ReadUrdf(text, origin, model);
   } else if (extension == ".srdf") {
-    spheres = ParseSrdf(text, origin, model).spheres;
-    if (spheres.empty()) {
-      throw InputError(origin + ": has no <link_sphere_approximation>");
+    Srdf srdf = ParseSrdf(text, origin, model);
+    if (srdf.spheres.empty()) {
+      throw InputError(srdf.sphere_warnings.empty()
+                           ? origin + ": has no <link_sphere_approximation>"
+                           : srdf.sphere_warnings.front());
+    }
+    spheres = std::move(srdf.spheres);
+    if (warnings != nullptr) {
+      std::ranges::move(srdf.sphere_warnings, std::back_inserter(*warnings));
     }
   } else {
     spheres = ReadYaml(YamlNode::Parse(text, origin), model);

@@ -10,7 +10,7 @@ namespace planbench {
 
 /// Reads a sphere model for a robot, of one of three kinds, told apart by the file's name; `text`
 /// is what it holds. Sorted by link. Throws InputError with file and line, also for links that the
-/// robot does not have.
+/// robot does not have; those of an SRDF do not count, which `warnings`, if given, says.
 ///
 /// *.yaml:
 ///   links:
@@ -20,6 +20,7 @@ namespace planbench {
 ///   none; other geometry is refused.
 /// *.srdf: its <link_sphere_approximation>.
 std::vector<LinkSphere> ReadLinkSpheres(const std::filesystem::path& file, const std::string& text,
-                                        const RobotModel& model);
+                                        const RobotModel& model,
+                                        std::vector<std::string>* warnings = nullptr);
 
 }  // namespace planbench

@@ -136,6 +136,10 @@ void AddCheckedPairs(const LinkPairs& of_srdf, Robot* robot, ContentHash* hash) 
   }
 }
 
+void AddWarnings(const std::vector<std::string>& warnings, Robot* robot) {
+  robot->warnings.insert(robot->warnings.end(), warnings.begin(), warnings.end());
+}
+
 // Groups, pairs, virtual joints and spheres: those of the SRDF, if there is one, and what
 // robot.yaml says itself. The result are the pairs that are checked only because the SRDF does not
 // disable them.
@@ -152,12 +156,12 @@ LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* rob
     checked_by_srdf = std::move(srdf.checked_pairs);
     enabled = std::move(srdf.enabled_pairs);
     robot->spheres = std::move(srdf.spheres);
-    robot->warnings.insert(robot->warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
+    AddWarnings(srdf.warnings, robot);
+    if (!root.Find("spheres")) AddWarnings(srdf.sphere_warnings, robot);
     robot->virtual_joints = std::move(srdf.virtual_joints);
     if (!groups) {
       if (srdf.groups.empty()) file->Fail(NoGroupFault(srdf, named.path.string()));
-      robot->warnings.insert(robot->warnings.end(), srdf.group_warnings.begin(),
-                             srdf.group_warnings.end());
+      AddWarnings(srdf.group_warnings, robot);
       robot->why_no_group = std::move(srdf.why_no_group);
     }
     robot->groups = std::move(srdf.groups);
@@ -385,7 +389,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   const LinkPairs left = ReadSemantics(root, folder, &robot, &hash);
   const auto read_spheres = [&](const NamedFile& file) {
     hash.Add(file.text);
-    return ReadLinkSpheres(file.path, file.text, robot.model);
+    return ReadLinkSpheres(file.path, file.text, robot.model, &robot.warnings);
   };
   if (!spheres.empty()) {
     robot.spheres = read_spheres({spheres, ReadText(spheres)});

@@ -52,7 +52,10 @@ class SrdfReader {
     for (const Element* e : Children(*root_, "end_effector")) ReadEndEffector(*e);
     for (const Element* e : Children(*root_, "group_state")) ReadState(*e);
     ReadPairs();
-    for (const Element* e : Children(*root_, "link_sphere_approximation")) ReadSpheres(*e);
+    auto* const told = &srdf_.sphere_warnings;
+    for (const auto& [element, links] : LinksOfAll("link_sphere_approximation", {"link"}, told)) {
+      ReadSpheres(*element, links[0]);
+    }
     std::stable_sort(srdf_.spheres.begin(), srdf_.spheres.end(),
                      [](const LinkSphere& a, const LinkSphere& b) { return a.link < b.link; });
     return std::move(srdf_);
@@ -90,11 +93,19 @@ class SrdfReader {
   }
   std::string None(const char* kind, const std::string& name,
                    const std::vector<std::string_view>& known) const {
-    const std::string nearest = NearestName(name, known);
     return fmt::format(
         "the URDF of robot '{}' has no {} '{}'{}{}", model_.name(), kind, name,
-        nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest),
+        Nearest(name, known),
         robot_name_ == model_.name() ? "" : fmt::format("; this is the SRDF of '{}'", robot_name_));
+  }
+  std::string NoGroup(const std::string& name) const {
+    std::vector<std::string_view> known;
+    for (const auto& [group, element] : groups_) known.push_back(group);
+    return fmt::format("there is no group '{}'{}", name, Nearest(name, known));
+  }
+  static std::string Nearest(const std::string& name, const std::vector<std::string_view>& known) {
+    const std::string nearest = NearestName(name, known);
+    return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
   }
 
   static std::vector<const Element*> Children(const Element& parent, const char* name) {
@@ -283,9 +294,7 @@ class SrdfReader {
     for (const Element* e : Children(group, "chain")) AddChain(*e, &members);
     for (const Element* e : Children(group, "group")) {
       const auto part = groups_.find(Attribute(*e, "name"));
-      if (part == groups_.end()) {
-        Fail(*e, fmt::format("there is no group '{}'", Attribute(*e, "name")));
-      }
+      if (part == groups_.end()) Fail(*e, NoGroup(Attribute(*e, "name")));
       Members others = MembersOf(*part->second, path);
       members.joints.merge(others.joints);
       for (const int tip : others.tips) AddNew(tip, &members.tips);
@@ -394,21 +403,32 @@ class SrdfReader {
   void ReadEndEffector(const Element& element) {
     const char* parent_group = element.Attribute("parent_group");
     Srdf::EndEffector effector{Attribute(element, "name"), Attribute(element, "group"),
-                               LinkName(LinkAt(element, "parent_link")),
+                               Attribute(element, "parent_link"),
                                parent_group == nullptr ? "" : parent_group};
-    for (const std::string& group : {effector.group, effector.parent_group}) {
-      if (!group.empty() && !groups_.contains(group)) {
-        Fail(element, fmt::format("there is no group '{}'", group));
-      }
+    // Without its joints a hand might be taken for an arm, and a finger for the tip.
+    if (!groups_.contains(effector.group)) Fail(element, NoGroup(effector.group));
+    std::string lack;
+    if (model_.FindLink(effector.parent_link) < 0) {
+      lack = NoLink(effector.parent_link);
+    } else if (!effector.parent_group.empty() && !groups_.contains(effector.parent_group)) {
+      lack = NoGroup(effector.parent_group);
     }
-    srdf_.end_effectors.push_back(std::move(effector));
+    if (lack.empty()) {
+      srdf_.end_effectors.push_back(std::move(effector));
+    } else {
+      srdf_.group_warnings.push_back(
+          fmt::format("{}: end effector '{}' is left out, though its group counts as a hand: {}",
+                      Where(element), effector.name, lack));
+    }
   }
 
   void ReadState(const Element& element) {
     const std::string name = Attribute(element, "name");
     const std::string group_name = Attribute(element, "group");
     if (!groups_.contains(group_name)) {
-      Fail(element, fmt::format("there is no group '{}'", group_name));
+      srdf_.group_warnings.push_back(
+          fmt::format("{}: state '{}' is left out: {}", Where(element), name, NoGroup(group_name)));
+      return;
     }
     if (!states_.insert({group_name, name}).second) {
       Fail(element, fmt::format("the state '{}' of group '{}' occurs twice", name, group_name));
@@ -455,7 +475,8 @@ class SrdfReader {
 
   // The links that each element of a kind names, of those elements that name no other than the
   // robot has; says how many do.
-  std::vector<LinkNames> LinksOfAll(const char* kind, const std::vector<const char*>& attributes) {
+  std::vector<LinkNames> LinksOfAll(const char* kind, const std::vector<const char*>& attributes,
+                                    std::vector<std::string>* warnings) {
     std::vector<LinkNames> all;
     std::set<std::string> unknown;
     const std::vector<const Element*> elements = Children(*root_, kind);
@@ -475,7 +496,7 @@ class SrdfReader {
       }
     }
     if (first_unknown != nullptr) {
-      srdf_.warnings.push_back(
+      warnings->push_back(
           fmt::format("{}: {} of {} <{}> do not count: the URDF of robot '{}' has no link {}",
                       Where(*first_unknown), elements.size() - all.size(), elements.size(), kind,
                       model_.name(), fmt::join(unknown, ", ")));
@@ -484,14 +505,15 @@ class SrdfReader {
   }
 
   void ReadPairs() {
+    auto* const told = &srdf_.warnings;
     std::set<std::pair<int, int>> disabled;
-    for (const auto& [element, links] : LinksOfAll("disable_default_collisions", {"link"})) {
+    for (const auto& [element, links] : LinksOfAll("disable_default_collisions", {"link"}, told)) {
       for (int b = 0; b < model_.num_links(); ++b) {
         if (b != links[0]) disabled.insert(std::minmax(links[0], b));
       }
     }
     std::set<std::pair<int, int>> enabled;
-    for (const auto& [element, links] : LinksOfAll("enable_collisions", {"link1", "link2"})) {
+    for (const auto& [element, links] : LinksOfAll("enable_collisions", {"link1", "link2"}, told)) {
       if (model_.Rigid(links[0], links[1])) {
         srdf_.warnings.push_back(
             fmt::format("{}: {} and {} are rigid to each other, and are never "
@@ -502,7 +524,8 @@ class SrdfReader {
       enabled.insert(std::minmax(links[0], links[1]));
       disabled.erase(std::minmax(links[0], links[1]));
     }
-    for (const auto& [element, links] : LinksOfAll("disable_collisions", {"link1", "link2"})) {
+    for (const auto& [element, links] :
+         LinksOfAll("disable_collisions", {"link1", "link2"}, told)) {
       if (links[0] == links[1]) continue;
       disabled.insert(std::minmax(links[0], links[1]));
       if (enabled.erase(std::minmax(links[0], links[1])) == 0) continue;
@@ -522,8 +545,7 @@ class SrdfReader {
     srdf_.enabled_pairs.assign(enabled.begin(), enabled.end());
   }
 
-  void ReadSpheres(const Element& element) {
-    const int link = LinkAt(element, "link");
+  void ReadSpheres(const Element& element, int link) {
     const std::vector<const Element*> spheres = Children(element, "sphere");
     if (spheres.empty()) Fail(element, "has no <sphere>");
     for (const Element* e : spheres) {

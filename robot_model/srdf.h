@@ -44,8 +44,10 @@ struct Srdf {
   std::vector<std::string> warnings;
   /// What of the groups does not count although it was meant to, one line each: groups that name
   /// nothing or cannot be planned with, planar and floating joints of groups; joints that states do
-  /// not give; and those of states, and passive ones, that neither the robot nor the file has.
+  /// not give; those of states, and passive ones, that neither the robot nor the file has; states
+  /// of no group, and end effectors on a link or of a parent group that there is not.
   std::vector<std::string> group_warnings;
+  std::vector<std::string> sphere_warnings;  ///< Spheres of links that the robot does not have.
   /// Groups, joints of groups and states that planning has no use for, one line each.
   std::vector<std::string> left_out;
   /// Why a group of the file is not in `groups`, by its name: its line in one of the two above.
@@ -56,8 +58,8 @@ struct Srdf {
 std::string NoGroupFault(const Srdf& srdf, const std::string& origin);
 
 /// Reads SRDF text; `origin` names it. Throws InputError with file and line: for text that is no
-/// SRDF, for groups, end effectors and spheres that name what the robot or the file does not have,
-/// for states of no group, and for names that occur twice.
+/// SRDF, for groups and virtual joints that name what the robot or the file does not have, for end
+/// effectors of no group, and for names that occur twice.
 Srdf ParseSrdf(const std::string& srdf_text, const std::string& origin, const RobotModel& model);
 
 }  // namespace planbench

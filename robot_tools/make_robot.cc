@@ -98,6 +98,9 @@ class RobotMaker {
     say_(fmt::format(format, std::forward<Values>(values)...));
   }
   void Say(const std::string& line) { say_(line); }
+  void SayAll(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) Say(line);
+  }
 
   void RequireFolder() const {
     std::error_code error;
@@ -122,7 +125,7 @@ class RobotMaker {
       throw InputError(fmt::format(
           "the robot's name '{}' cannot name a file; give another with --name", robot().name));
     }
-    for (const std::string& warning : warnings) Say(warning);
+    SayAll(warnings);
     robot().resources = {fs::absolute(flags_.urdf).parent_path(), {}};
     for (const std::string& argument : flags_.package_paths) {
       robot().resources.packages.insert(ParsePackagePath(argument));
@@ -143,7 +146,7 @@ class RobotMaker {
     if (flags_.srdf.empty()) return;
     srdf_ = ParseSrdf(ReadText(flags_.srdf), flags_.srdf.string(), robot().model);
     if (srdf_->groups.empty()) throw InputError(NoGroupFault(*srdf_, flags_.srdf.string()));
-    for (const std::string& warning : srdf_->warnings) Say(warning);
+    SayAll(srdf_->warnings);
   }
 
   void MakeGroups() {
@@ -198,12 +201,18 @@ class RobotMaker {
       return;
     }
     if (!flags_.spheres.empty()) {
-      TakeSpheres(ReadLinkSpheres(flags_.spheres, ReadText(flags_.spheres), robot().model),
-                  "from " + flags_.spheres.filename().string());
-    } else if (srdf_ && !srdf_->spheres.empty()) {
-      TakeSpheres(srdf_->spheres, "the SRDF's approximations");
+      std::vector<std::string> warnings;
+      std::vector<LinkSphere> spheres =
+          ReadLinkSpheres(flags_.spheres, ReadText(flags_.spheres), robot().model, &warnings);
+      SayAll(warnings);
+      TakeSpheres(std::move(spheres), "from " + flags_.spheres.filename().string());
     } else {
-      EncloseUrdf();
+      if (srdf_) SayAll(srdf_->sphere_warnings);
+      if (srdf_ && !srdf_->spheres.empty()) {
+        TakeSpheres(srdf_->spheres, "the SRDF's approximations");
+      } else {
+        EncloseUrdf();
+      }
     }
     if (robot().spheres.empty()) {
       throw InputError(

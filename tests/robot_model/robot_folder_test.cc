@@ -158,6 +158,8 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
     <group_state name="back" group="turning"><joint name="turn" value="3"/></group_state>
     <disable_collisions link1="base" link2="arm"/><disable_collisions link1="base" link2="leg"/>
     <link_sphere_approximation link="arm"><sphere center="1 0 0" radius="0.5"/>
+    </link_sphere_approximation>
+    <link_sphere_approximation link="foot"><sphere center="1 0 0" radius="0.5"/>
     </link_sphere_approximation></robot>)";
   TemporaryFolder folder;
   folder.Write("small.urdf", kSmallUrdf);
@@ -170,8 +172,8 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
   EXPECT_EQ(robot.allowed_pairs.size(), 1u);
   ASSERT_EQ(robot.spheres.size(), 1u);
   EXPECT_EQ(robot.spheres[0].radius, 0.5);
-  ASSERT_EQ(robot.warnings.size(), 1u);
-  EXPECT_THAT(robot.warnings[0], testing::HasSubstr("leg"));
+  EXPECT_THAT(robot.warnings,
+              testing::ElementsAre(testing::HasSubstr("leg"), testing::HasSubstr("foot")));
 
   folder.Write("small.srdf", std::string(kSrdf) + "\n");
   EXPECT_NE(LoadRobot(folder.path()).content_id, robot.content_id);
@@ -188,6 +190,7 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
   EXPECT_EQ(own.groups[0].more_tips, std::vector<int>{own.model.FindLink("hand")});
   EXPECT_EQ(own.spheres[0].radius, 2);
   EXPECT_EQ(own.allowed_pairs.size(), 1u);
+  EXPECT_THAT(own.warnings, testing::ElementsAre(testing::HasSubstr("leg")));
 
   folder.Write("small.srdf", "<robot name='small'/>");
   folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");

@@ -292,6 +292,24 @@ TEST(ParseSrdf, UnknownJointsOfStatesAndPassiveOnesAreNamedAndDoNotCount) {
                           AllOf(HasSubstr("twin.srdf:8: state 'up'"), HasSubstr("'gripper'"))));
 }
 
+TEST(ParseSrdf, StatesOfNoGroupAndEffectorsOnNothingAreNamedAndLeftOut) {
+  const Srdf srdf = Parse(R"(
+    <group name="left"><chain base_link="base" tip_link="l2"/></group>
+    <group name="hand"><link name="f1"/></group>
+    <group_state name="open" group="hnad"><joint name="fj1" value="0"/></group_state>
+    <end_effector name="tool" group="hand" parent_link="plam" parent_group="left"/>
+    <end_effector name="claw" group="hand" parent_link="palm" parent_group="right"/>)");
+  EXPECT_THAT(srdf.end_effectors, IsEmpty());
+  EXPECT_THAT(
+      srdf.group_warnings,
+      ElementsAre(AllOf(HasSubstr("twin.srdf:6: end effector 'tool' is left out"),
+                        HasSubstr("no link 'plam'; did you mean 'palm'?")),
+                  AllOf(HasSubstr("twin.srdf:7: end effector 'claw' is left out"),
+                        HasSubstr("there is no group 'right'")),
+                  "twin.srdf:5: state 'open' is left out: there is no group 'hnad'; did you mean "
+                  "'hand'?"));
+}
+
 TEST(ParseSrdf, AFixedVirtualJointMayHaveTheNameOfAFixedOne) {
   const Srdf srdf = Parse(
       "<virtual_joint name='mount' type='fixed' parent_frame='world' child_link='base'/>"
@@ -421,6 +439,22 @@ TEST(ParseSrdf, SphereApproximations) {
   EXPECT_EQ(srdf.spheres[1].link, Twin().FindLink("l1"));
   EXPECT_EQ(srdf.spheres[1].p_LS, Eigen::Vector3d(0, 2, 0));
   EXPECT_EQ(srdf.spheres[1].radius, 0.1);
+  EXPECT_THAT(srdf.sphere_warnings, IsEmpty());
+}
+
+TEST(ParseSrdf, SpheresOfUnknownLinksAreNamedOnce) {
+  const Srdf srdf = Parse(R"(
+    <link_sphere_approximation link="toe"><sphere center="0 1 0" radius="0.2"/>
+    </link_sphere_approximation>
+    <link_sphere_approximation link="l1"><sphere center="0 2 0" radius="0.1"/>
+    </link_sphere_approximation>
+    <link_sphere_approximation link="heel"/>)");
+  ASSERT_EQ(srdf.spheres.size(), 1u);
+  EXPECT_EQ(srdf.spheres[0].link, Twin().FindLink("l1"));
+  EXPECT_THAT(srdf.warnings, IsEmpty());
+  EXPECT_THAT(srdf.sphere_warnings,
+              ElementsAre("twin.srdf:3: 2 of 3 <link_sphere_approximation> do not count: the URDF "
+                          "of robot 'twin' has no link heel, toe"));
 }
 
 TEST(ParseSrdf, ThePandasFileSaysWhatItSays) {
@@ -474,13 +508,15 @@ INSTANTIATE_TEST_SUITE_P(
             "parts_of_each_other",
             "<group name='a'><group name='b'/></group><group name='b'><group name='a'/></group>",
             {":2", "a, b, a"}},
-        MalformedSrdf{
-            "state_of_no_group", "<group_state name='s' group='g'/>", {":2", "no group 'g'"}},
         MalformedSrdf{"effector_of_no_group",
                       "<end_effector name='e' group='g' parent_link='l1'/>",
                       {":2", "no group 'g'"}},
-        MalformedSrdf{"effector_on_no_link",
-                      "<end_effector name='e' group='g' parent_link='toe'/>",
+        MalformedSrdf{"effector_of_a_misspelt_group",
+                      "<group name='hand'><joint name='lift'/></group>\n"
+                      "<end_effector name='e' group='hnad' parent_link='l1'/>",
+                      {":3", "no group 'hnad'; did you mean 'hand'?"}},
+        MalformedSrdf{"virtual_joint_of_no_link",
+                      "<virtual_joint name='v' type='fixed' parent_frame='w' child_link='toe'/>",
                       {":2", "no link 'toe'"}},
         MalformedSrdf{"virtual_type",
                       "<virtual_joint name='v' type='hinge' parent_frame='w' child_link='base'/>",
@@ -514,10 +550,6 @@ INSTANTIATE_TEST_SUITE_P(
         MalformedSrdf{"fixed_joint_that_the_urdf_moves",
                       "<virtual_joint name='lj1' type='fixed' parent_frame='w' child_link='base'/>",
                       {":2", "'lj1'", "joint of the URDF"}},
-        MalformedSrdf{"sphere_of_no_link",
-                      "<link_sphere_approximation link='toe'><sphere center='0 0 0' radius='1'/>"
-                      "</link_sphere_approximation>",
-                      {":2", "no link 'toe'"}},
         MalformedSrdf{"sphere_centre",
                       "<link_sphere_approximation link='l1'><sphere center='0 0' radius='1'/>"
                       "</link_sphere_approximation>",

@@ -167,6 +167,32 @@ TEST_F(MakeRobotTest, LinksThatAJointConnectsAreCheckedUnlessTheSrdfDisablesThem
   EXPECT_TRUE(LoadRobot(flags_.out).checked_pairs.empty());
 }
 
+TEST_F(MakeRobotTest, WhatAnSrdfSaysOfLinksAndGroupsThatThereAreNotEndsNothing) {
+  const std::string spheres =
+      "<link_sphere_approximation link='wheel'><sphere center='0 0 0' radius='1'/>"
+      "</link_sphere_approximation>";
+  const std::string others =
+      "<robot name='crane'><group name='jib'><joint name='luff'/></group>"
+      "<end_effector name='claw' group='jib' parent_link='wheel'/>\n"
+      "<group_state name='up' group='wheels'/>\n";
+  Srdf(others + spheres + "</robot>");
+  EXPECT_THAT(Make(),
+              AllOf(HasSubstr("crane.srdf:1: end effector 'claw' is left out"),
+                    HasSubstr("crane.srdf:2: state 'up' is left out: there is no group 'wheels'"),
+                    HasSubstr("crane.srdf:3: 1 of 1 <link_sphere_approximation> do not count: the "
+                              "URDF of robot 'crane' has no link wheel"),
+                    HasSubstr("the URDF's collision geometry")));
+  // As a sphere model of its own it would leave the robot without a body.
+  flags_.spheres = flags_.srdf;
+  flags_.out = folder_.path() / "other";
+  ExpectRefused({"crane.srdf:3", "no link wheel"});
+  Srdf(others + spheres +
+       "<link_sphere_approximation link='hook'><sphere center='0 0 0' radius='0.1'/>"
+       "</link_sphere_approximation></robot>");
+  EXPECT_THAT(Make(), AllOf(HasSubstr("crane.srdf:3: 1 of 2 <link_sphere_approximation>"),
+                            HasSubstr("spheres: 1 on 1 link, from crane.srdf")));
+}
+
 TEST_F(MakeRobotTest, NoPairThatTheSrdfEnablesIsExempt) {
   const std::string group = "<robot name='crane'><group name='jib'><joint name='luff'/></group>";
   Srdf(group + "<enable_collisions link1='boom' link2='base'/></robot>");
