@@ -18,7 +18,7 @@ class JointSpace {
     bool prismatic = false;
     double lower = 0;         ///< -pi for a continuous joint.
     double upper = 0;         ///< +pi for a continuous joint.
-    double max_velocity = 0;  ///< rad/s or m/s
+    double max_velocity = 0;  ///< rad/s or m/s; 0: none is given
   };
 
   /// Bounds of limits are inclusive; a position may exceed them by this much (rad or m), the

@@ -38,11 +38,11 @@ struct Joint {
   /// Unit vector; used by revolute, continuous and prismatic joints. Of a fixed one the axis that
   /// its description still names, zero without.
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();
-  /// rad or m; infinite for continuous joints. A soft limit (safety_controller) counts; a joint
+  /// rad or m; infinite for continuous joints. Soft limits (safety_controller) count; a joint
   /// that others follow keeps them within theirs, and theirs are here what is left of them.
   double lower = 0;
   double upper = 0;
-  double max_velocity = 0;  ///< rad/s or m/s
+  double max_velocity = 0;  ///< rad/s or m/s; 0: none is given that a joint could have.
   /// Index of its first position in full position vectors; -1 if it has none (fixed joints). A
   /// joint that follows (mimics) another has none of its own: this is the leader's.
   int position_index = -1;

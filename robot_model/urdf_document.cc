@@ -87,6 +87,11 @@ class ElementFinder {
       if (tag.element == "axis") {
         document_.joint_axes.try_emplace(joints_.back().name, tag.Attribute("xyz").value_or(""));
       }
+      if (tag.element == "safety_controller") {
+        const std::string& joint = joints_.back().name;
+        if (tag.Attribute("soft_lower_limit")) document_.with_soft_lower.insert(joint);
+        if (tag.Attribute("soft_upper_limit")) document_.with_soft_upper.insert(joint);
+      }
     }
     const std::optional<std::string> name = tag.Attribute("name");
     if (!name || open_.size() != 1) return;

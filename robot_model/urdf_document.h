@@ -18,6 +18,9 @@ struct UrdfDocument {
   std::map<std::string, int> joint_order;  ///< Rank of each joint in the text.
   /// xyz of each joint's <axis>, as written: urdfdom reads none of fixed joints.
   std::map<std::string, std::string> joint_axes;
+  /// Joints whose <safety_controller> gives that limit; the model has 0 where it is not given.
+  std::set<std::string> with_soft_lower;
+  std::set<std::string> with_soft_upper;
   /// Per link which of its collision bodies, from 0, are capsules; the model has cylinders there.
   std::map<std::string, std::set<int>> capsules;
 };

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "common/error.h"
@@ -21,6 +23,9 @@ using Eigen::Vector3d;
 constexpr double kLimitRounding = 1e-9;
 // Beyond, rad or m, limits are none.
 constexpr double kWidestLimit = 1e4;
+// No joint is slower or faster, rad/s or m/s: its limit stands for none.
+constexpr double kSlowestJoint = 1e-4;
+constexpr double kFastestJoint = 1e4;
 // What turns further from zero, rad, is rare: limits in degrees are likelier.
 constexpr double kFurthestTurn = 4 * 2 * std::numbers::pi;
 // No part of a robot is larger, or further from the next, m.
@@ -140,7 +145,14 @@ class UrdfConverter {
     return mimic;
   }
 
-  const std::vector<std::string>& soft_limits() const { return soft_limits_; }
+  /// What was decided of joints, a line for all that it was decided of.
+  std::vector<std::string> Notes() const {
+    std::vector<std::string> notes;
+    for (const auto& [decision, joints] : decided_) {
+      notes.push_back(fmt::format("{}: {}: {}", origin_, decision, fmt::join(joints, ", ")));
+    }
+    return notes;
+  }
 
  private:
   // What it turned about or moved along before it was fixed; zero if its description does not tell.
@@ -194,6 +206,13 @@ class UrdfConverter {
       if (!std::isfinite(result->max_velocity) || result->max_velocity < 0) {
         FailJoint(joint.name, "limit velocity: must be finite and not negative");
       }
+      if (result->max_velocity < kSlowestJoint || result->max_velocity > kFastestJoint) {
+        Decide(fmt::format("limits of velocity outside [{:g}, {:g}] count as none given, that is "
+                           "as 1 rad/s or m/s",
+                           kSlowestJoint, kFastestJoint),
+               fmt::format("{} ({:g})", joint.name, result->max_velocity));
+        result->max_velocity = 0;
+      }
     }
     if (bounded) {
       result->lower = joint.limits->lower;
@@ -213,22 +232,43 @@ class UrdfConverter {
   }
 
   void ApplySoftLimits(const urdf::JointSafety& safety, Joint* joint) {
-    const double lower = safety.soft_lower_limit;
-    const double upper = safety.soft_upper_limit;
-    if (lower == 0 && upper == 0) return;  // What they are if none is given.
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const bool has_lower = document_.with_soft_lower.contains(joint->name);
+    const bool has_upper = document_.with_soft_upper.contains(joint->name);
+    const double lower = has_lower ? safety.soft_lower_limit : -kInfinity;
+    const double upper = has_upper ? safety.soft_upper_limit : kInfinity;
+    if (lower == 0 && upper == 0) return;  // So exporters write that there are none.
+    if (joint->type == JointType::kContinuous && has_lower != has_upper) {
+      Decide(
+          "a soft limit (safety_controller) on one side bounds no continuous joint, and does "
+          "not count",
+          joint->name);
+      return;
+    }
     if (!(lower <= upper)) {
       FailJoint(joint->name, fmt::format("safety_controller: soft lower limit {} is above the "
                                          "upper {}",
                                          lower, upper));
     }
+    if (lower > joint->upper || upper < joint->lower) {
+      FailJoint(joint->name, fmt::format("safety_controller: the soft limits [{:g}, {:g}] lie "
+                                         "outside the limits [{:g}, {:g}]",
+                                         lower, upper, joint->lower, joint->upper));
+    }
+    if ((has_lower && lower < joint->lower - kLimitRounding) ||
+        (has_upper && upper > joint->upper + kLimitRounding)) {
+      Decide("soft limits (safety_controller) beyond the limits do not count", joint->name);
+    }
     if (lower <= joint->lower + kLimitRounding && upper >= joint->upper - kLimitRounding) return;
     joint->lower = std::max(joint->lower, lower);
     joint->upper = std::min(joint->upper, upper);
-    if (joint->lower > joint->upper) {
-      FailJoint(joint->name, "safety_controller: the soft limits lie outside the limits");
-    }
     if (joint->type == JointType::kContinuous) joint->type = JointType::kRevolute;
-    soft_limits_.push_back(joint->name);
+    Decide("soft limits (safety_controller) narrow",
+           fmt::format("{} to [{:g}, {:g}]", joint->name, joint->lower, joint->upper));
+  }
+
+  void Decide(const std::string& decision, const std::string& joint) {
+    decided_[decision].push_back(joint);
   }
 
   void CheckLength(const std::string& link, const char* field, double value) const {
@@ -286,7 +326,7 @@ class UrdfConverter {
 
   const UrdfDocument& document_;
   const std::string& origin_;
-  std::vector<std::string> soft_limits_;  // Joints that they narrow.
+  std::map<std::string, std::vector<std::string>> decided_;  // Of which joints, by what.
 };
 
 std::vector<std::string> PositionNames(const Joint& joint) {
@@ -405,8 +445,8 @@ std::string KeepWithinLimits(Joint* follower, Joint* leader) {
   if (!StandsStill(*follower, *leader) && std::isfinite(follower->lower)) {
     const double a = (follower->lower - follower->offset) / m;
     const double b = (follower->upper - follower->offset) / m;
-    const double lower = std::max(leader->lower, std::min(a, b));
-    const double upper = std::min(leader->upper, std::max(a, b));
+    const double lower = std::max({leader->lower, std::min(a, b), -kWidestLimit});
+    const double upper = std::min({leader->upper, std::max(a, b), kWidestLimit});
     if (upper - lower <= kLimitRounding) {
       note = fmt::format(
           "the limits of joint '{}', which follows it, contradict its own; they do "
@@ -487,10 +527,7 @@ RobotModel RobotModel::FromUrdf(const std::string& urdf_text, const std::string&
   }
 
   std::vector<std::string> notes = RemarkUnheeded(urdf_text, origin);
-  if (!converter.soft_limits().empty()) {
-    notes.push_back(fmt::format("{}: soft limits (safety_controller) narrow {}", origin,
-                                fmt::join(converter.soft_limits(), ", ")));
-  }
+  std::ranges::move(converter.Notes(), std::back_inserter(notes));
   for (std::size_t j = 0; j < model.joints_.size(); ++j) {
     if (converter.MimicOf(model.joints_[j]) == nullptr) continue;
     FollowLeaders(converter, model, j, &model.joints_[j]);

@@ -178,7 +178,11 @@ const MalformedUrdf kMalformed[] = {
      WithJoint("revolute", std::string(kLimit) +
                                "<safety_controller soft_lower_limit='2' soft_upper_limit='3' "
                                "k_velocity='1'/>"),
-     {":2:", "joint 'j'", "safety_controller", "outside"}},
+     {":2:", "joint 'j'", "safety_controller", "[2, 3] lie outside the limits [0, 1]"}},
+    {"SoftLimitOfOneSideOutside",
+     WithJoint("revolute",
+               std::string(kLimit) + "<safety_controller soft_upper_limit='-1' k_velocity='1'/>"),
+     {":2:", "joint 'j'", "safety_controller", "[-inf, -1] lie outside the limits [0, 1]"}},
     {"SoftLowerAboveUpper",
      WithJoint("revolute", std::string(kLimit) +
                                "<safety_controller soft_lower_limit='0.5' soft_upper_limit='0.2' "

@@ -263,6 +263,18 @@ TEST(Mimic, AContinuousLeaderNeedsFollowersThatAreTheSameATurnLater) {
                    {"'j' is continuous", "'k'", "a turn later"});
 }
 
+TEST(Mimic, AContinuousLeaderHasNoEndlessRange) {
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>"
+      "<joint name='k' type='prismatic'><parent link='b'/><child link='c'/>"
+      "<limit lower='-1' upper='1' velocity='1' effort='1'/>"
+      "<mimic joint='j' multiplier='1e-300'/></joint></robot>",
+      "r.urdf");
+  EXPECT_EQ(model.joints()[0].lower, -1e4);
+  EXPECT_EQ(model.joints()[0].upper, 1e4);
+}
+
 TEST(Mimic, WhatItsLeaderLeavesItTellsWhetherAFollowerTurnsForEver) {
   const auto follower = [](const char* j, const char* k) {
     const RobotModel model = RobotModel::FromUrdf(
@@ -309,38 +321,6 @@ TEST(MultiDof, PlanarAndFloatingJointsHoldAPose) {
   EXPECT_TRUE(X_BL[3].translation().isApprox(Eigen::Vector3d(-2, 2, 0)));
   ExpectInputError([&] { model.MakeGroup("g", {"p"}, "d"); }, {"'p' is planar"});
   ExpectInputError([&] { model.MakeGroup("g", {"f"}, "d"); }, {"'f' is floating"});
-}
-
-TEST(SoftLimits, NarrowTheLimits) {
-  const auto model = [](const char* type, const std::string& safety,
-                        std::vector<std::string>* warnings) {
-    return RobotModel::FromUrdf(
-        "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='" +
-            std::string(type) +
-            "'><parent link='a'/><child link='b'/>"
-            "<limit lower='-1' upper='2' velocity='1' effort='1'/>"
-            "<safety_controller k_velocity='1' " +
-            safety + "/></joint></robot>",
-        "r.urdf", warnings);
-  };
-  std::vector<std::string> warnings;
-  Joint joint = model("revolute", "", &warnings).joints()[0];
-  EXPECT_EQ(joint.lower, -1);
-  EXPECT_EQ(joint.upper, 2);
-  joint = model("revolute", "soft_lower_limit='-3' soft_upper_limit='2'", &warnings).joints()[0];
-  EXPECT_EQ(joint.lower, -1);
-  EXPECT_EQ(joint.upper, 2);
-  EXPECT_TRUE(warnings.empty());
-
-  joint = model("revolute", "soft_lower_limit='-0.5' soft_upper_limit='5'", &warnings).joints()[0];
-  EXPECT_EQ(joint.lower, -0.5);
-  EXPECT_EQ(joint.upper, 2);
-  EXPECT_THAT(warnings, ElementsAre("r.urdf: soft limits (safety_controller) narrow j"));
-
-  joint = model("continuous", "soft_lower_limit='-2' soft_upper_limit='2'", nullptr).joints()[0];
-  EXPECT_EQ(joint.type, JointType::kRevolute);
-  EXPECT_EQ(joint.lower, -2);
-  EXPECT_EQ(joint.upper, 2);
 }
 
 }  // namespace
