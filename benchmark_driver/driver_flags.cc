@@ -11,6 +11,7 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/file_kind.h"
 #include "common/name_value.h"
 #include "results/recorded_flags.h"
 #include "results/session_plan.h"
@@ -108,8 +109,10 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
       throw CLI::RequiresError("--launch", "--problems");
     }
   });
-  with_launch(app->add_option("--referee-robot", options->referee_robot,
-                              "folder of a mesh robot that judges paths too"));
+  with_launch(
+      app->add_option("--referee-robot", options->referee_robot,
+                      "robot folder, the name of a robot that ships, or a folder with one .urdf "
+                      "file, whose meshes judge every path too"));
   with_launch(app->add_flag("--allow-standing-contacts", options->allow_standing_contacts,
                             "links of the referee's robot that touch in every configuration may; "
                             "default: they end the session before it begins"));
@@ -138,7 +141,8 @@ std::string Recorded(const std::string& flag, const std::string& value) {
   if (!is_named && !kPaths.contains(flag)) return value;
   const std::size_t begin = is_named ? value.find('=') + 1 : 0;
   const std::filesystem::path path = value.substr(begin);
-  const bool is_shipped_robot = flag == "robot" && !IsRobotFolder(path);
+  const bool is_shipped_robot =
+      (flag == "robot" && !IsRobotFolder(path)) || (flag == "referee-robot" && !IsFolder(path));
   if (path.empty() || is_shipped_robot) return value;
   return value.substr(0, begin) + std::filesystem::absolute(path).lexically_normal().string();
 }

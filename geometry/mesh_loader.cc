@@ -269,8 +269,11 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
     throw InputError(fmt::format("resource '{}': only package:// and file:// are known", uri));
   }
   // No URI, but written by tools that encode all names alike. An absolute path replaces the base.
-  if (const auto file = FirstFile(base_folder, {uri, DecodePercent(uri)})) return *file;
-  FailNoFile(uri, base_folder / uri);
+  const fs::path& own = own_folder.empty() ? base_folder : own_folder;
+  for (const fs::path& folder : {own, base_folder}) {
+    if (const auto file = FirstFile(folder, {uri, DecodePercent(uri)})) return *file;
+  }
+  FailNoFile(uri, own / uri);
 }
 
 std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {

@@ -11,11 +11,13 @@ namespace planbench {
 /// Finds the files that URIs name. package://NAME/rest resolves through the packages given by name
 /// (`--package-path NAME=DIR`), else through a folder called NAME: in base_folder, base_folder
 /// itself or beside it, or so for the two folders above it. file:// and file:/ URIs (of no host, or
-/// localhost) and absolute paths are taken as they are, relative paths from base_folder. URIs write
+/// localhost) and absolute paths are taken as they are, relative paths from own_folder, which is
+/// that of the file that names them, or, where it has no such file, from base_folder. URIs write
 /// characters as %20; other names may, where no file has the name as it is.
 struct ResourceResolver {
   std::filesystem::path base_folder;
   std::map<std::string, std::filesystem::path> packages;
+  std::filesystem::path own_folder = {};  ///< Empty: base_folder.
 
   /// Path of an existing file; throws InputError naming the URI and what was tried.
   std::filesystem::path Resolve(const std::string& uri) const;

@@ -275,24 +275,28 @@ PlanningGroup MatchGroup(const PlanningGroup& group, const Robot& planning_robot
   }
 }
 
-fs::path OnlyUrdf(const fs::path& folder) {
+std::vector<fs::path> UrdfsIn(const fs::path& folder) {
   std::vector<fs::path> found;
+  if (!IsFolder(folder)) return found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && entry.path().extension() == ".urdf") {
       found.push_back(entry.path());
     }
   }
+  return found;
+}
+
+// ROS packages have theirs in a folder `urdf`.
+fs::path OnlyUrdf(const fs::path& folder) {
+  std::vector<fs::path> found = UrdfsIn(folder);
+  if (found.empty()) found = UrdfsIn(folder / "urdf");
   if (found.size() != 1) {
     throw InputError(
-        fmt::format("{}: expected a robot.yaml or exactly one .urdf file, found {} "
-                    ".urdf files",
+        fmt::format("{}: expected a robot.yaml or exactly one .urdf file, there or in its folder "
+                    "urdf, found {} .urdf files",
                     folder.string(), found.size()));
   }
   return found.front();
-}
-
-void NeedFolder(const fs::path& folder) {
-  if (!IsFolder(folder)) throw InputError(folder.string() + ": no such folder");
 }
 
 bool MovesWithAGroup(const Robot& robot, int link) {
@@ -373,6 +377,9 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   robot.resources = {robot.folder, packages};
 
   const fs::path robot_file = folder / "robot.yaml";
+  if (!IsRobotFolder(folder)) {
+    throw InputError(robot_file.string() + ": no such file; make_robot writes it from a URDF");
+  }
   const std::string robot_text = ReadText(robot_file);
   const YamlNode root = YamlNode::Parse(robot_text, robot_file.string());
   root.AllowOnly({"name", "urdf", "srdf", "spheres", "enclosing_spheres", "edge_resolution_m",
@@ -385,6 +392,7 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   if (robot.name.empty()) root.At("name").Fail("must not be empty");
   const NamedFile urdf = ReadNamedFile(root.At("urdf"), folder);
   hash.Add(urdf.text);
+  robot.resources.own_folder = fs::absolute(urdf.path).parent_path();
   robot.model = RobotModel::FromUrdf(urdf.text, urdf.path.string(), &robot.warnings);
   const LinkPairs left = ReadSemantics(root, folder, &robot, &hash);
   const auto read_spheres = [&](const NamedFile& file) {
@@ -431,10 +439,11 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   return robot;
 }
 
-Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
+Robot LoadRefereeRobot(const fs::path& folder_or_name, const Robot& planning_robot,
                        const std::map<std::string, fs::path>& packages) {
-  NeedFolder(folder);
-  if (IsFile(folder / "robot.yaml")) {
+  const fs::path folder =
+      IsFolder(folder_or_name) ? folder_or_name : FindRobotFolder(folder_or_name);
+  if (IsRobotFolder(folder)) {
     Robot referee = LoadRobot(folder, packages);
     AddPlanningGroups(planning_robot, &referee);
     RequireCommonBase(planning_robot, referee);
@@ -445,7 +454,7 @@ Robot LoadRefereeRobot(const fs::path& folder, const Robot& planning_robot,
   const std::string urdf_text = ReadText(urdf_file);
   Robot referee;
   referee.folder = fs::absolute(folder);
-  referee.resources = {referee.folder, packages};
+  referee.resources = {referee.folder, packages, fs::absolute(urdf_file).parent_path()};
   referee.model = RobotModel::FromUrdf(urdf_text, urdf_file.string(), &referee.warnings);
   referee.name = referee.model.name();
   referee.edge_resolution_m = planning_robot.edge_resolution_m;

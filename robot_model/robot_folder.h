@@ -88,18 +88,20 @@ struct Robot {
   bool ChecksLinks(int link_a, int link_b) const;
 };
 
-/// Loads a robot folder; throws InputError naming file, line and field. `spheres`: a file whose
-/// spheres take the place of the folder's `spheres`, unless empty.
-Robot LoadRobot(const std::filesystem::path& folder,
+/// Loads a robot folder, or one that ships by its name (FindRobotFolder); throws InputError naming
+/// file, line and field. `spheres`: a file whose spheres take the place of the folder's `spheres`,
+/// unless empty.
+Robot LoadRobot(const std::filesystem::path& folder_or_name,
                 const std::map<std::string, std::filesystem::path>& packages = {},
                 const std::filesystem::path& spheres = {});
 
-/// The robot whose meshes judge paths: `folder` holds a robot.yaml, or exactly one .urdf file whose
-/// groups are then those of `planning_robot` (matched by joint and link names). `folder` also
-/// serves package:// URIs. Throws InputError if the folder has neither, or lacks a joint or link of
-/// the planning groups, or if neither robot has the other's root link, held by joints outside the
-/// groups: scenes are in the planning robot's base frame.
-Robot LoadRefereeRobot(const std::filesystem::path& folder, const Robot& planning_robot,
+/// The robot whose meshes judge paths: the folder holds a robot.yaml, or, itself or else in its
+/// folder `urdf`, exactly one .urdf file, whose groups are then those of `planning_robot` (matched
+/// by joint and link names); if there is no such folder it is the robot of that name that ships.
+/// The folder also serves package:// URIs. Throws InputError if it has neither, or lacks a joint or
+/// link of the planning groups, or if neither robot has the other's root link, held by joints
+/// outside the groups: scenes are in the planning robot's base frame.
+Robot LoadRefereeRobot(const std::filesystem::path& folder_or_name, const Robot& planning_robot,
                        const std::map<std::string, std::filesystem::path>& packages = {});
 
 }  // namespace planbench

@@ -28,9 +28,10 @@ int main(int argc, char** argv) {
                   "problem set, or folder of problem sets (may be repeated)")
       ->required()
       ->allow_extra_args(false);
-  program.app().add_option("--referee-robot", referee_folder,
-                           "robot folder, or folder with one .urdf file, whose meshes judge every "
-                           "path too");
+  program.app().add_option(
+      "--referee-robot", referee_folder,
+      "robot folder, the name of a robot that ships, or a folder with one .urdf "
+      "file, whose meshes judge every path too");
   bool allow_standing_contacts = false;
   program.app().add_flag("--allow-standing-contacts", allow_standing_contacts,
                          "links of the referee's robot that touch in every configuration may");
@@ -40,8 +41,10 @@ int main(int argc, char** argv) {
     Robot robot = robot_flags.Load();
     for (const std::string& warning : robot.warnings) spdlog::warn("{}", warning);
     std::optional<Robot> referee;
-    if (!referee_folder.empty())
+    if (!referee_folder.empty()) {
       referee = LoadRefereeRobot(referee_folder, robot, robot_flags.Packages());
+      for (const std::string& warning : referee->warnings) spdlog::warn("{}", warning);
+    }
     // Those of whoever asks for less lose messages as it is.
     const int receive_buffer_bytes = std::max(
         MulticastAddress::Parse(program.lcm_url()).receive_buffer_bytes, kReceiveBufferBytes);

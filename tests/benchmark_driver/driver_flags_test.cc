@@ -257,7 +257,7 @@ TEST(DriverFlagsTest, FilesAndFoldersAreRecordedSoThatTheyHoldFromElsewhere) {
   EXPECT_EQ(flags.at("robot"), "r") << "the name of one that ships, for all that is known here";
   EXPECT_EQ(SplitFlagValues(flags.at("problems")),
             (std::vector<std::string>{from_here("p"), from_here("q,1")}));
-  EXPECT_EQ(flags.at("referee-robot"), from_here("m"));
+  EXPECT_EQ(flags.at("referee-robot"), "m") << "likewise";
   EXPECT_EQ(flags.at("spheres"), from_here("s.yaml"));
   EXPECT_EQ(flags.at("package-path"), "f=" + (here.parent_path() / "a").string());
   EXPECT_EQ(flags.at("lineup"), from_here("l.yaml"));
@@ -267,9 +267,12 @@ TEST(DriverFlagsTest, FilesAndFoldersAreRecordedSoThatTheyHoldFromElsewhere) {
   EXPECT_EQ(flags.at("planner-command"), "y=./y");
   EXPECT_EQ(flags.at("planners"), "x,y");
 
-  const DriverOptions options = ParseFlags(
-      {"--launch", "--robot", robot.string(), "--problems", "/p", "--resume", "../s"}, &flags);
+  const std::string meshes = robot.parent_path().string();
+  const DriverOptions options = ParseFlags({"--launch", "--robot", robot.string(), "--problems",
+                                            "/p", "--resume", "../s", "--referee-robot", meshes},
+                                           &flags);
   EXPECT_EQ(flags.at("robot"), (folder / "robots/mine").string());
+  EXPECT_EQ(flags.at("referee-robot"), (folder / "robots").string()) << "one without a robot.yaml";
   EXPECT_EQ(flags.at("problems"), "/p");
   EXPECT_EQ(flags.at("resume"), (here.parent_path() / "s").string());
   EXPECT_EQ(options.robot.folder, robot) << "what is done does not depend on what is recorded";

@@ -62,6 +62,15 @@ TEST_F(ResourceResolverTest, TakesFileUrisAbsoluteAndRelativePaths) {
   EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), own);
 }
 
+TEST_F(ResourceResolverTest, RelativePathsBeginInTheFolderOfTheFileThatNamesThem) {
+  folder_.Write("robot/urdf/meshes/near.stl", "");
+  resolver_.own_folder = folder_.path() / "robot/urdf";
+  EXPECT_EQ(resolver_.Resolve("meshes/near.stl"), resolver_.own_folder / "meshes/near.stl");
+  EXPECT_EQ(resolver_.Resolve("../meshes/own.stl"), resolver_.own_folder / "../meshes/own.stl");
+  EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), resolver_.base_folder / "meshes/own.stl");
+  ExpectInputError([&] { resolver_.Resolve("none.stl"); }, {"robot/urdf/none.stl"});
+}
+
 TEST_F(ResourceResolverTest, UrisMayWriteCharactersInPercent) {
   const fs::path spaced = folder_.Write("robot/meshes/sp\xc3\xa4t er.stl", "own");
   const fs::path literal = folder_.Write("robot/meshes/100%25.stl", "own");

@@ -212,7 +212,7 @@ TEST(MalformedFolder, TheUnchangedFilesAreFine) {
 TEST(MalformedFolder, FoldersAndFilesThatAreMissingAreNamed) {
   TemporaryFolder folder;
   ExpectInputError([&] { LoadRobot(folder.path() / "nowhere"); }, {"nowhere", "no such folder"});
-  ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml", "cannot be opened"});
+  ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml", "no such file", "make_robot"});
 }
 
 }  // namespace

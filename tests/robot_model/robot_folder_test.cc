@@ -13,6 +13,7 @@
 #include "common/yaml.h"
 #include "robot_model/mesh_robot_id.h"
 #include "robot_model/shipped_robots.h"
+#include "tests/robot_model/small_robot.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
@@ -21,24 +22,6 @@ namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path FetchFolder() { return fs::path(PLANBENCH_SOURCE_DIR) / "robots/fetch"; }
-
-constexpr char kSmallUrdf[] = R"(<robot name="small">
-  <link name="base"/><link name="hand"/>
-  <joint name="weld" type="fixed"><parent link="arm"/><child link="hand"/></joint>
-  <link name="arm"><collision><geometry>
-    <mesh filename="package://small_description/meshes/arm.stl"/></geometry></collision></link>
-  <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
-</robot>)";
-constexpr char kSmallRobot[] =
-    "name: small\nurdf: small.urdf\ngroups:\n  - {name: all, joints: [turn], tip_link: arm}\n"
-    "allowed_pairs: [[base, arm]]\n";
-
-void WriteSmallRobot(const TemporaryFolder& folder, const std::string& name) {
-  folder.Write(name + "/small.urdf", kSmallUrdf);
-  folder.Write(name + "/robot.yaml", kSmallRobot);
-}
 
 TEST(LoadRobot, LoadsTheFetch) {
   const Robot fetch = LoadRobot(FetchFolder());
@@ -300,6 +283,19 @@ TEST(LoadRobot, ContentIdFollowsTheContentNotThePlace) {
   EXPECT_NE(LoadRobot(folder.path() / "there/again").content_id, spheres_id);
 }
 
+TEST(LoadRobot, RelativeMeshesBeginWhereTheUrdfIs) {
+  const TemporaryFolder folder;
+  folder.Write("small/urdf/small.urdf", kSmallUrdf);
+  std::string yaml = kSmallRobot;
+  folder.Write("small/robot.yaml", yaml.replace(yaml.find("small.urdf"), 0, "urdf/"));
+  folder.Write("small/meshes/arm.stl", "");
+  const Robot robot = LoadRobot(folder / "small");
+  EXPECT_TRUE(fs::equivalent(robot.resources.Resolve("../meshes/arm.stl"),
+                             folder / "small/meshes/arm.stl"));
+  EXPECT_EQ(robot.resources.Resolve("package://small/meshes/arm.stl"),
+            folder / "small/meshes/arm.stl");
+}
+
 TEST(MeshRobotId, FollowsDescriptionAndMeshes) {
   TemporaryFolder folder;
   WriteSmallRobot(folder, "small");
@@ -467,115 +463,6 @@ TEST(Robot, FindsGroupsByName) {
   EXPECT_EQ(fetch.Group("").name, "arm_with_torso");
   EXPECT_EQ(fetch.Group("arm_with_torso").name, "arm_with_torso");
   ExpectInputError([&] { fetch.Group("leg"); }, {"fetch", "'leg'", "arm_with_torso"});
-}
-
-TEST(LoadRefereeRobot, TakesAFolderWithOneUrdf) {
-  TemporaryFolder folder;
-  WriteSmallRobot(folder, "small");
-  folder.Write("small_description/other_name.urdf", kSmallUrdf);
-  folder.Write("small_description/meshes/arm.stl", "");
-  const Robot planning = LoadRobot(folder.path() / "small");
-  const Robot referee = LoadRefereeRobot(folder.path() / "small_description", planning);
-  ASSERT_EQ(referee.groups.size(), 1u);
-  EXPECT_EQ(referee.groups[0].name, "all");
-  EXPECT_EQ(referee.groups[0].space.joint(0).name, "turn");
-  EXPECT_EQ(referee.allowed_pairs, planning.allowed_pairs);
-  EXPECT_EQ(referee.resources.Resolve("package://small_description/meshes/arm.stl"),
-            folder.path() / "small_description/meshes/arm.stl");
-  EXPECT_EQ(referee.content_id.size(), 32u);
-  EXPECT_NE(referee.content_id, planning.content_id);
-}
-
-TEST(LoadRefereeRobot, TakesARobotFolderToo) {
-  TemporaryFolder folder;
-  WriteSmallRobot(folder, "small");
-  WriteSmallRobot(folder, "exact");
-  folder.Write("exact/robot.yaml",
-               "name: exact\nurdf: small.urdf\n"
-               "groups: [{name: own, joints: [turn], tip_link: arm}]\n");
-  const Robot planning = LoadRobot(folder.path() / "small");
-  const Robot referee = LoadRefereeRobot(folder.path() / "exact", planning);
-  EXPECT_EQ(referee.name, "exact");
-  EXPECT_EQ(referee.Group("").name, "own");
-  EXPECT_EQ(referee.Group("all").space.joint(0).name, "turn");  // To judge the planner's paths by.
-}
-
-TEST(LoadRefereeRobot, RefusesRobotsThatDoNotFit) {
-  TemporaryFolder folder;
-  WriteSmallRobot(folder, "small");
-  const Robot planning = LoadRobot(folder.path() / "small");
-  const auto load = [&](const char* name) {
-    return [&planning, path = folder.path() / name] { LoadRefereeRobot(path, planning); };
-  };
-  ExpectInputError(load("nowhere"), {"nowhere", "no such folder"});
-
-  folder.Write("none/readme", "");
-  ExpectInputError(load("none"), {"none", "exactly one .urdf", "found 0"});
-  folder.Write("two/a.urdf", kSmallUrdf);
-  folder.Write("two/b.urdf", kSmallUrdf);
-  ExpectInputError(load("two"), {"two", "exactly one .urdf", "found 2"});
-
-  folder.Write("joint/a.urdf", R"(<robot name="r"><link name="base"/><link name="arm"/>
-    <joint name="spin" type="continuous"><parent link="base"/><child link="arm"/></joint>
-    </robot>)");
-  ExpectInputError(load("joint"), {"joint/a.urdf", "small", "'turn' is unknown"});
-  folder.Write("link/a.urdf", R"(<robot name="r"><link name="base"/><link name="limb"/>
-    <joint name="turn" type="continuous"><parent link="base"/><child link="limb"/></joint>
-    </robot>)");
-  ExpectInputError(load("link"), {"link/a.urdf", "small", "'arm' is unknown"});
-
-  folder.Write("group/a.urdf", R"(<robot name="r"><link name="base"/><link name="arm"/>
-    <joint name="turn" type="continuous"><parent link="base"/><child link="arm"/></joint>
-    <link name="hand"/>
-    <joint name="grip" type="continuous"><parent link="arm"/><child link="hand"/></joint>
-    </robot>)");
-  folder.Write("group/robot.yaml",
-               "name: group\nurdf: a.urdf\n"
-               "groups: [{name: all, joints: [grip], tip_link: hand}]\n");
-  ExpectInputError(load("group"), {"group/robot.yaml", "group 'all'", "other joints"});
-}
-
-TEST(LoadRefereeRobot, MustHaveAPlaceRelativeToThePlanningRobot) {
-  TemporaryFolder folder;
-  WriteSmallRobot(folder, "small");
-  const Robot planning = LoadRobot(folder.path() / "small");
-  const auto load = [&](const std::string& name, const std::string& links) {
-    folder.Write(name + "/a.urdf", "<robot name='r'>" + links +
-                                       "<link name='arm'/><joint name='turn' type='continuous'>"
-                                       "<parent link='trunk'/><child link='arm'/></joint></robot>");
-    return LoadRefereeRobot(folder.path() / name, planning);
-  };
-  const std::string fixed = "' type='fixed'><parent link='";
-  EXPECT_NO_THROW(load("below",
-                       "<link name='world'/><link name='base'/><link name='trunk'/>"
-                       "<joint name='a" +
-                           fixed +
-                           "world'/><child link='base'/></joint>"
-                           "<joint name='b" +
-                           fixed + "base'/><child link='trunk'/></joint>"));
-  ExpectInputError([&] { load("none", "<link name='trunk'/>"); },
-                   {"none: cannot be placed where the robot 'small' is", "'trunk'", "'base'"});
-  ExpectInputError(
-      [&] {
-        load("moves", "<link name='trunk'/><link name='base'/><joint name='b" + fixed +
-                          "arm'/><child link='base'/></joint>");
-      },
-      {"moves: cannot be placed"});
-}
-
-TEST(LoadRefereeRobot, JudgesTheFetchByTheManufacturersDescription) {
-  PLANBENCH_NEED_SHARED_DATA("fetch_description");
-  const Robot fetch = LoadRobot(FetchFolder());
-  const Robot referee = LoadRefereeRobot(SharedData("fetch_description"), fetch);
-  EXPECT_EQ(referee.Group("").name, "arm_with_torso");
-  int meshes = 0;
-  for (const Link& link : referee.model.links()) {
-    for (const PlacedShape& placed : link.collision) {
-      EXPECT_NO_THROW(referee.resources.Resolve(std::get<Mesh>(placed.shape).resource));
-      ++meshes;
-    }
-  }
-  EXPECT_EQ(meshes, 21);
 }
 
 }  // namespace
