@@ -276,17 +276,24 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
   FailNoFile(uri, own / uri);
 }
 
-std::pair<std::string, fs::path> ParsePackagePath(const std::string& argument) {
-  const auto [name, folder_name] = SplitNameValue(argument, "--package-path", "NAME=DIR");
-  if (name.find('/') != std::string::npos) {
-    throw InputError(fmt::format("--package-path '{}': a package name has no '/'", argument));
+std::map<std::string, fs::path> ParsePackagePaths(const std::vector<std::string>& arguments) {
+  std::map<std::string, fs::path> packages;
+  for (const std::string& argument : arguments) {
+    const auto [name, folder] = SplitNameValue(argument, "--package-path", "NAME=DIR");
+    if (name.find('/') != std::string::npos) {
+      throw InputError(fmt::format("--package-path '{}': a package name has no '/'", argument));
+    }
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
+      throw InputError(fmt::format("--package-path '{}': no folder {}", argument, folder));
+    }
+    const auto [known, is_new] = packages.emplace(name, folder);
+    if (!is_new && !fs::equivalent(known->second, folder, error)) {
+      throw InputError(fmt::format("--package-path '{}': {} is given as {} before", argument, name,
+                                   known->second.string()));
+    }
   }
-  const fs::path folder = folder_name;
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw InputError(fmt::format("--package-path '{}': no folder {}", argument, folder.string()));
-  }
-  return {name, folder};
+  return packages;
 }
 
 TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "geometry/shapes.h"
 
@@ -23,8 +24,10 @@ struct ResourceResolver {
   std::filesystem::path Resolve(const std::string& uri) const;
 };
 
-/// Parses "NAME=DIR" as given to --package-path; throws InputError.
-std::pair<std::string, std::filesystem::path> ParsePackagePath(const std::string& argument);
+/// Parses what is given to --package-path, each "NAME=DIR"; throws InputError, also for a NAME with
+/// two folders.
+std::map<std::string, std::filesystem::path> ParsePackagePaths(
+    const std::vector<std::string>& arguments);
 
 /// Reads an STL (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
 /// transforms and the file's unit applied, vertices scaled per axis. What other formats assimp

@@ -19,9 +19,7 @@ CLI::Option* RobotFlags::AddPackagePaths(CLI::App* app) {
 }
 
 std::map<std::string, std::filesystem::path> RobotFlags::Packages() const {
-  std::map<std::string, std::filesystem::path> packages;
-  for (const std::string& argument : package_paths) packages.insert(ParsePackagePath(argument));
-  return packages;
+  return ParsePackagePaths(package_paths);
 }
 
 std::vector<std::string> RobotFlags::Arguments() const {

@@ -21,7 +21,7 @@ struct RobotFlags {
   /// --package-path alone.
   CLI::Option* AddPackagePaths(CLI::App* app);
   std::map<std::string, std::filesystem::path> Packages() const;
-  /// Throws InputError as LoadRobot and ParsePackagePath do.
+  /// Throws InputError as LoadRobot and ParsePackagePaths do.
   Robot Load() const { return LoadRobot(folder, Packages(), spheres); }
   /// The same, as arguments of another process.
   std::vector<std::string> Arguments() const;

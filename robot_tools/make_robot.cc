@@ -126,10 +126,8 @@ class RobotMaker {
           "the robot's name '{}' cannot name a file; give another with --name", robot().name));
     }
     SayAll(warnings);
-    robot().resources = {fs::absolute(flags_.urdf).parent_path(), {}};
-    for (const std::string& argument : flags_.package_paths) {
-      robot().resources.packages.insert(ParsePackagePath(argument));
-    }
+    robot().resources = {fs::absolute(flags_.urdf).parent_path(),
+                         ParsePackagePaths(flags_.package_paths)};
     std::size_t moving = 0;
     std::vector<std::string> followers;
     for (const Joint& joint : robot().model.joints()) {

@@ -111,10 +111,8 @@ void MakeSpheres(const MakeSpheresFlags& flags, const SayLine& say) {
   std::vector<std::string> warnings;
   const RobotModel model = RobotModel::FromUrdf(urdf_text, flags.urdf.string(), &warnings);
   for (const std::string& warning : warnings) say(warning);
-  ResourceResolver resources{fs::absolute(flags.urdf).parent_path(), {}};
-  for (const std::string& argument : flags.package_paths) {
-    resources.packages.insert(ParsePackagePath(argument));
-  }
+  const ResourceResolver resources{fs::absolute(flags.urdf).parent_path(),
+                                   ParsePackagePaths(flags.package_paths)};
   const LinkBodies links = ReadLinkBodies(model, resources, say);
   if (links.links.empty()) {
     throw InputError(flags.urdf.string() + ": no link has collision geometry");

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "geometry/mesh_loader.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -114,15 +119,20 @@ TEST_F(ResourceResolverTest, SaysWhatItTriedAndHowToMendIt) {
 
 TEST_F(ResourceResolverTest, ParsesPackagePaths) {
   const std::string folder = (folder_.path() / "other").string();
-  const auto [name, path] = ParsePackagePath("my_package=" + folder);
-  EXPECT_EQ(name, "my_package");
-  EXPECT_EQ(path, folder);
+  const std::map<std::string, fs::path> my_package = {{"my_package", folder}};
+  EXPECT_EQ(ParsePackagePaths({"my_package=" + folder, "my_package=" + folder + "/"}), my_package);
   const std::vector<std::string> malformed = {"my_package", "=" + folder, "my_package=", folder};
   for (const std::string& bad : malformed) {
-    ExpectInputError([&] { ParsePackagePath(bad); }, {"--package-path", bad, "NAME=DIR"});
+    ExpectInputError([&] { ParsePackagePaths({bad}); }, {"--package-path", bad, "NAME=DIR"});
   }
-  ExpectInputError([&] { ParsePackagePath("a=" + folder + "/nowhere"); }, {"no folder", "nowhere"});
-  ExpectInputError([&] { ParsePackagePath("a/b=" + folder); }, {"a/b", "no '/'"});
+  ExpectInputError([&] { ParsePackagePaths({"a=" + folder + "/nowhere"}); },
+                   {"no folder", "nowhere"});
+  ExpectInputError([&] { ParsePackagePaths({"a/b=" + folder}); }, {"a/b", "no '/'"});
+  ExpectInputError(
+      [&] {
+        ParsePackagePaths({"a=" + folder, "a=" + folder + "/meshes"});
+      },
+      {"--package-path 'a=" + folder + "/meshes'", "a is given as " + folder});
 }
 
 }  // namespace
