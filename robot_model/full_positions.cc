@@ -175,8 +175,7 @@ std::vector<double> FullPositionsWherePossible(const RobotModel& model,
 }
 
 std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
-                                  const std::vector<double>& positions, const std::string& origin,
-                                  std::vector<std::string>* warnings) {
+                                  const std::vector<double>& positions, const std::string& origin) {
   if (names.size() != positions.size()) {
     throw InputError(
         fmt::format("{}: {} joint names but {} positions", origin, names.size(), positions.size()));
@@ -190,8 +189,15 @@ std::vector<double> FullPositions(const RobotModel& model, const std::vector<std
       throw InputError(fmt::format("{}: joint '{}' occurs twice", origin, names[i]));
     }
   }
-  std::vector<double> full = FullPositionsWherePossible(model, names, positions);
-  for (std::size_t i = 0; warnings != nullptr && i < names.size(); ++i) {
+  return FullPositionsWherePossible(model, names, positions);
+}
+
+std::vector<std::string> FindContradictions(const RobotModel& model,
+                                            const std::vector<std::string>& names,
+                                            const std::vector<double>& positions) {
+  const std::vector<double> full = FullPositionsWherePossible(model, names, positions);
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const int index = model.FindJoint(names[i]);
     if (index < 0) continue;
     const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
@@ -204,12 +210,12 @@ std::vector<double> FullPositions(const RobotModel& model, const std::vector<std
                   joint.offset;
     if (std::abs(at - positions[i]) <= kAgreement) continue;
     const std::string puts = FollowerThatPuts(model, joint.leader, names);
-    warnings->push_back(fmt::format(
-        "{}: joint '{}' is given at {}, but follows joint '{}', which {}puts it at {:g}", origin,
-        joint.name, positions[i], leader.name,
-        puts.empty() ? "" : fmt::format("is where '{}' has it, and ", puts), at));
+    lines.push_back(
+        fmt::format("joint '{}' is given at {}, but follows joint '{}', which {}puts it at {:g}",
+                    joint.name, positions[i], leader.name,
+                    puts.empty() ? "" : fmt::format("is where '{}' has it, and ", puts), at));
   }
-  return full;
+  return lines;
 }
 
 }  // namespace planbench

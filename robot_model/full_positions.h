@@ -40,16 +40,21 @@ std::optional<std::string> FindPoseFault(JointType type, const Eigen::Isometry3d
 /// that follows another is where that one puts it; if only the follower is named, the leader is
 /// where it puts the follower. Throws InputError for names at fault (see FindPositionFault), sizes
 /// that differ, repeated names; `origin` names the source. Positions of followers that contradict
-/// their leaders' do not count, and go to `warnings`, if given.
+/// their leaders' do not count (FindContradictions).
 std::vector<double> FullPositions(const RobotModel& model, const std::vector<std::string>& names,
-                                  const std::vector<double>& positions, const std::string& origin,
-                                  std::vector<std::string>* warnings = nullptr);
+                                  const std::vector<double>& positions, const std::string& origin);
 
 /// The same for a robot that lacks some of the joints, or has them fixed elsewhere: what it cannot
 /// follow does not count.
 std::vector<double> FullPositionsWherePossible(const RobotModel& model,
                                                const std::vector<std::string>& names,
                                                const std::vector<double>& positions);
+
+/// Positions of followers that contradict their leaders' (by more than 1e-3, rad or m) and do not
+/// count, one line each ("joint 'b' is given at 0.3, but follows joint 'a', which puts it at 0.1").
+std::vector<std::string> FindContradictions(const RobotModel& model,
+                                            const std::vector<std::string>& names,
+                                            const std::vector<double>& positions);
 
 /// The one of `names` that, named without its leader, puts the joint of that index where it is; ""
 /// if none does.

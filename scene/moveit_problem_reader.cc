@@ -105,16 +105,26 @@ void RequireStartOfGroup(const YamlNode& request, const PlanningGroup& group,
   }
 }
 
+// Warns of followers that contradict their leaders: in the scene's own state, or else at the start.
+void WarnOfContradictions(const YamlNode& planning_scene, const YamlNode& request,
+                          const RobotModel& model, const JointState& scene_state,
+                          const JointState& start) {
+  const auto of_scene = FindContradictions(model, scene_state.names, scene_state.positions);
+  for (const std::string& what : of_scene) planning_scene.At("robot_state").Warn(what);
+  for (const std::string& what : FindContradictions(model, start.names, start.positions)) {
+    if (std::find(of_scene.begin(), of_scene.end(), what) != of_scene.end()) continue;
+    request.Find("start_state").value_or(request).Warn(what);
+  }
+}
+
 // The start: its joints, with followers where they are and without the whole turns of the group's,
 // go to `joints`.
 Stance ReadStart(const YamlNode& request, const RobotModel& model, const PlanningGroup& group,
                  const RobotStateFields& start, JointState* joints) {
   RequireStartOfGroup(request, group, start.joints);
   const YamlNode node = request.Find("start_state").value_or(request);
-  std::vector<std::string> warnings;
   std::vector<double> full =
-      FullPositions(model, start.joints.names, start.joints.positions, "start", &warnings);
-  for (const std::string& warning : warnings) node.Warn(warning);
+      FullPositions(model, start.joints.names, start.joints.positions, "start");
   *joints = start.joints;
   for (std::size_t i = 0; i < joints->names.size(); ++i) {
     const int j = group.space.Find(joints->names[i]);
@@ -269,6 +279,7 @@ Problem ParseProblem(const YamlNode& scene_file, const YamlNode& request_file, c
   const RobotStateFields scene_state = OptionalState(planning_scene, "robot_state", robot, group);
   const RobotStateFields start_state = OptionalState(request, "start_state", robot, group);
   const RobotStateFields start = Overlaid(scene_state, start_state);
+  WarnOfContradictions(planning_scene, request, robot.model, scene_state.joints, start.joints);
   const Stance at_start = ReadFor(
       chosen, [&] { return ReadStart(request, robot.model, group, start, &problem.start); });
   // Where a scene's things are is said with the robot in the scene's own state. What that leaves

@@ -39,12 +39,12 @@ constexpr char kUrdf[] = R"(<robot name="r">
 class FullPositionsTest : public testing::Test {
  protected:
   Positions Full(const std::vector<std::string>& names, const Positions& positions) {
-    warnings_.clear();
-    return FullPositions(model_, names, positions, "start", &warnings_);
+    contradictions_ = FindContradictions(model_, names, positions);
+    return FullPositions(model_, names, positions, "start");
   }
 
   const RobotModel model_ = RobotModel::FromUrdf(kUrdf, "r.urdf");
-  std::vector<std::string> warnings_;
+  std::vector<std::string> contradictions_;
 };
 
 TEST_F(FullPositionsTest, OnePositionForEachJointThatNeedsOne) {
@@ -129,9 +129,9 @@ TEST(FullPositions, APlanarJointStaysInItsPlane) {
 
 TEST_F(FullPositionsTest, FollowersFollow) {
   EXPECT_EQ(Full({"grip_b", "grip_a", "far"}, {-0.1, 0.4, 0.8}).back(), 0.4);
-  EXPECT_TRUE(warnings_.empty());
+  EXPECT_TRUE(contradictions_.empty());
   EXPECT_EQ(Full({"grip_a", "echo"}, {0.4, 0.3}).back(), 0.4);
-  EXPECT_TRUE(warnings_.empty());
+  EXPECT_TRUE(contradictions_.empty());
 }
 
 TEST_F(FullPositionsTest, AFollowerThatContradictsItsLeaderDoesNotCount) {
@@ -139,26 +139,27 @@ TEST_F(FullPositionsTest, AFollowerThatContradictsItsLeaderDoesNotCount) {
     EXPECT_EQ(leader_first ? Full({"grip_a", "grip_b"}, {0.4, 0.3}).back()
                            : Full({"grip_b", "grip_a"}, {0.3, 0.4}).back(),
               0.4);
-    ASSERT_EQ(warnings_.size(), 1u);
-    EXPECT_EQ(warnings_[0],
-              "start: joint 'grip_b' is given at 0.3, but follows joint 'grip_a', which puts it at "
+    ASSERT_EQ(contradictions_.size(), 1u);
+    EXPECT_EQ(contradictions_[0],
+              "joint 'grip_b' is given at 0.3, but follows joint 'grip_a', which puts it at "
               "-0.1");
   }
   Full({"echo"}, {0});
-  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("joint 'still', which puts it at 0.3")));
+  EXPECT_THAT(contradictions_, ElementsAre(HasSubstr("joint 'still', which puts it at 0.3")));
   // 0.1 - 0.3 / 2 is not quite -0.05.
   Full({"grip_b", "grip_a"}, {0, 0.3});
-  EXPECT_THAT(warnings_, ElementsAre(testing::EndsWith("puts it at -0.05")));
+  EXPECT_THAT(contradictions_, ElementsAre(testing::EndsWith("puts it at -0.05")));
   // Where only followers are named, the last one tells.
   EXPECT_NEAR(Full({"grip_b", "far"}, {0.1, 0.6}).back(), 0.6, 1e-12);
-  EXPECT_THAT(warnings_, ElementsAre("start: joint 'grip_b' is given at 0.1, but follows joint "
-                                     "'grip_a', which is where 'far' has it, and puts it at -0.2"));
+  EXPECT_THAT(contradictions_,
+              ElementsAre("joint 'grip_b' is given at 0.1, but follows joint "
+                          "'grip_a', which is where 'far' has it, and puts it at -0.2"));
 }
 
 TEST_F(FullPositionsTest, AFollowerAloneTellsWhereItsLeaderIs) {
   EXPECT_NEAR(Full({"grip_b"}, {-0.2}).back(), 0.6, 1e-12);
   EXPECT_NEAR(Full({"far"}, {0.6}).back(), 0.6, 1e-12);
-  EXPECT_TRUE(warnings_.empty());
+  EXPECT_TRUE(contradictions_.empty());
 }
 
 TEST_F(FullPositionsTest, RefusesWhatTheRobotDoesNotHave) {

@@ -76,6 +76,28 @@ TEST(StartState, PutsFollowersWhereTheyAre) {
   EXPECT_THAT(problem.warnings, IsEmpty());
 }
 
+TEST(StartState, AContradictionIsNamedOnceWhereItIsGiven) {
+  const auto warnings = [](const std::string& of_scene, const std::string& of_start) {
+    const Problem problem =
+        Parse("joint_state: {name: [f1, f2, wrist], position: [" + of_scene + ", 0]}",
+              "joint_state: {name: [" + of_start + "]}");
+    EXPECT_EQ(problem.start.positions[1], problem.start.positions[0]);
+    return problem.warnings;
+  };
+  const std::string f2 = "joint 'f2' is given at 0.03, but follows joint 'f1', which puts it at ";
+  const std::string in_scene = "scene.yaml:2: robot_state: " + f2;
+  EXPECT_THAT(warnings("0.01, 0.0105", "wrist], position: [0"), IsEmpty()) << "measured";
+  EXPECT_THAT(warnings("0.01, 0.03", "wrist], position: [0"), ElementsAre(in_scene + "0.01"));
+  EXPECT_THAT(warnings("0.01, 0.03", "f1, f2], position: [0.01, 0.03"),
+              ElementsAre(in_scene + "0.01"))
+      << "both files say it";
+  EXPECT_THAT(warnings("0.01, 0.03", "f1, f2], position: [0.02, 0.02"),
+              ElementsAre(in_scene + "0.01"))
+      << "where the scene's things are is said so";
+  EXPECT_THAT(warnings("0.01, 0.01", "f1, f2], position: [0.02, 0.03"),
+              ElementsAre("request.yaml:2: start_state: " + f2 + "0.02"));
+}
+
 TEST(StartState, PlanarAndFloatingJointsHoldTheirPose) {
   const std::string pose =
       "multi_dof_joint_state: {joint_names: [drive], transforms: [{translation: {x: 1, y: 2, z: "
