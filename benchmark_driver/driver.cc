@@ -21,6 +21,7 @@
 #include "common/utime.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
+#include "results/reason_count.h"
 #include "results/training.h"
 
 namespace planbench {
@@ -228,7 +229,7 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
   for (const ScheduledRun& run : schedule_) problems.emplace(run.problem_set, run.problem_index);
   std::set<ProblemKey> bad;
   std::vector<std::string> warnings;
-  std::set<std::string> told;  // Sets and what is said of their problems, without the file.
+  std::set<std::string> told;  // Sets and what is said of their problems, but for file and figures.
   const auto interrupted = [&] {
     watch();  // throws, if so
     return false;
@@ -250,7 +251,8 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
       left_out_[LeftOutName(set, index)] = answer.message;
     } else if (const std::string& warning = answer.message; !warning.empty()) {
       const std::size_t file_end = std::min(warning.find(": "), warning.size());
-      if (told.insert(set + warning.substr(file_end)).second) warnings.push_back(warning);
+      const std::string said = WithoutFigures(warning.substr(file_end));
+      if (told.insert(set + said).second) warnings.push_back(warning);
     }
   }
   constexpr std::size_t kMostWarnings = 5;

@@ -18,8 +18,8 @@ TEST_F(DriverTest, WhatIsSaidOfSeveralProblemsOfASetIsSaidOnce) {
   const FakePlanner planner(&bus_);
   FakeSceneServer server(&bus_);
   server.AlterProblems([](ProblemMessage* problem) {
-    problem->message = fmt::format("scene{}.yaml:{}: matrix: is odd", problem->problem_index,
-                                   problem->problem_index + 7);
+    problem->message =
+        fmt::format("scene{0}.yaml:{0}: matrix: is odd by 0.{0},", problem->problem_index);
     if (problem->problem_index == 3) problem->message += " (and 2 more)";
   });
   const FakeLogger logger(&bus_);
@@ -29,8 +29,8 @@ TEST_F(DriverTest, WhatIsSaidOfSeveralProblemsOfASetIsSaidOnce) {
   testing::internal::CaptureStdout();  // Where messages go.
   MakeAll(&driver);
   const std::string output = testing::internal::GetCapturedStdout();
-  EXPECT_THAT(output, testing::HasSubstr("scene1.yaml:8: matrix: is odd\n"));
-  EXPECT_THAT(output, testing::HasSubstr("scene3.yaml:10: matrix: is odd (and 2 more)\n"));
+  EXPECT_THAT(output, testing::HasSubstr("scene1.yaml:1: matrix: is odd by 0.1,\n"));
+  EXPECT_THAT(output, testing::HasSubstr("scene3.yaml:3: matrix: is odd by 0.3, (and 2 more)\n"));
   EXPECT_THAT(output, testing::Not(testing::HasSubstr("scene2.yaml")));
 }
 
