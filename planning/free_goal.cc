@@ -51,12 +51,8 @@ GoalBox ReachablePart(const JointSpace& space, GoalBox goal) {
 
 std::string FindFault(EdgeChecker* edges, const Configuration& q, const std::string& what) {
   if (edges->IsValidState(q)) return "";
-  const JointSpace& space = edges->space();
-  const int j = space.FirstOutsideLimits(q);
-  if (j >= 0) {
-    const JointSpace::Joint& joint = space.joint(j);
-    return fmt::format("{}: joint '{}' at {} is outside its limits {}", what, joint.name,
-                       q[static_cast<std::size_t>(j)], space.DescribeLimits(j));
+  if (const auto fault = edges->space().FindLimitFault(q)) {
+    return fmt::format("{}: {}", what, *fault);
   }
   const std::optional<Contact> contact = edges->checker().FindContact(q);
   if (!contact) return fmt::format("{} is in collision", what);

@@ -30,9 +30,8 @@ Nearest NearestWaypoint(const JointSpace& space, const Path& path, std::span<con
 
 Configuration Waypoint(const YamlNode& node, const JointSpace& space) {
   Configuration q = node.Doubles(space.size());
-  if (const int j = space.FirstOutsideLimits(q); j >= 0) {
-    node.At(j).Fail(fmt::format("joint '{}' at {} is outside its limits {}", space.joint(j).name,
-                                q[static_cast<std::size_t>(j)], space.DescribeLimits(j)));
+  if (const auto fault = space.FindLimitFault(q)) {
+    node.At(space.FirstOutsideLimits(q)).Fail(*fault);
   }
   return q;
 }

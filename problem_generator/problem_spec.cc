@@ -376,6 +376,12 @@ EndSpec ReadEnd(const YamlNode& query, const std::string& key, const Setup& setu
           fmt::format("neither the setup nor the robot's group has a configuration '{}'",
                       configuration->String()));
     }
+    if (const auto fault = setup.group->space.FindLimitFault(found->second)) {
+      configuration->Fail(fmt::format(
+          "the robot's state '{}' of group '{}' cannot be used: {}; mend it, or give the setup a "
+          "configuration of that name",
+          configuration->String(), setup.group->name, *fault));
+    }
     end.configuration = found->second;
   } else {
     end.gripper = ReadGripper(*gripper, setup, objects);

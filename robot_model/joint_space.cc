@@ -129,6 +129,13 @@ int JointSpace::FirstOutsideLimits(std::span<const double> q) const {
   return -1;
 }
 
+std::optional<std::string> JointSpace::FindLimitFault(std::span<const double> q) const {
+  const int j = FirstOutsideLimits(q);
+  if (j < 0) return std::nullopt;
+  return fmt::format("joint '{}' at {} is outside its limits {}", joint(j).name,
+                     q[static_cast<std::size_t>(j)], DescribeLimits(j));
+}
+
 bool JointSpace::WithinLimits(std::span<const double> q) const {
   bool within = true;
   for (std::size_t i = 0; i < lowest_.size(); ++i) {

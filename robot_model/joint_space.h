@@ -63,6 +63,8 @@ class JointSpace {
   /// Index of the first joint outside its limits (by more than kLimitTolerance) or not finite, -1
   /// if none.
   int FirstOutsideLimits(std::span<const double> q) const;
+  /// The same in words ("joint 'elbow' at 3 is outside its limits [-1.5, 2]"), nothing if none.
+  std::optional<std::string> FindLimitFault(std::span<const double> q) const;
   bool WithinLimits(std::span<const double> q) const;
 
  private:

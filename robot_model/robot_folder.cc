@@ -36,7 +36,8 @@ void RequireMovedTips(const YamlNode& node, const RobotModel& model, const Plann
   }
 }
 
-PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
+PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model,
+                        std::vector<std::string>* warnings) {
   node.AllowOnly({"name", "joints", "tip_link", "states"});
   const std::string name = node.At("name").String();
   if (name.empty()) node.At("name").Fail("must not be empty");
@@ -50,18 +51,23 @@ PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model) {
   });
   RequireMovedTips(tip, model, group);
   if (const auto states = node.Find("states")) {
-    for (const std::string& state : states->Keys()) {
-      group.states[state] = states->At(state).Doubles(group.space.size());
+    for (const std::string& key : states->Keys()) {
+      const YamlNode state = states->At(key);
+      group.states[key] = state.Doubles(group.space.size());
+      if (const auto fault = group.space.FindLimitFault(group.states[key])) {
+        warnings->push_back(fmt::format("{}: {}", state.Where(), *fault));
+      }
     }
   }
   return group;
 }
 
-std::vector<PlanningGroup> ReadGroups(const YamlNode& node, const RobotModel& model) {
+std::vector<PlanningGroup> ReadGroups(const YamlNode& node, const RobotModel& model,
+                                      std::vector<std::string>* warnings) {
   std::vector<PlanningGroup> groups;
   std::set<std::string> names;
   for (const YamlNode& element : node.Elements()) {
-    groups.push_back(ReadGroup(element, model));
+    groups.push_back(ReadGroup(element, model, warnings));
     if (!names.insert(groups.back().name).second) {
       element.At("name").Fail(fmt::format("the group '{}' occurs twice", groups.back().name));
     }
@@ -169,7 +175,9 @@ LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* rob
   if (const auto joints = root.Find("virtual_joints")) {
     robot->virtual_joints = ReadVirtualJoints(*joints, robot->model);
   }
-  if (groups || robot->groups.empty()) robot->groups = ReadGroups(root.At("groups"), robot->model);
+  if (groups || robot->groups.empty()) {
+    robot->groups = ReadGroups(root.At("groups"), robot->model, &robot->warnings);
+  }
   if (const auto pairs = root.Find("allowed_pairs")) {
     for (const YamlNode& pair : pairs->Elements()) {
       robot->allowed_pairs.push_back(ReadPair(pair, robot->model));

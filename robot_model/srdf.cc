@@ -13,6 +13,7 @@
 
 #include "common/error.h"
 #include "common/text.h"
+#include "robot_model/full_positions.h"
 #include "robot_model/srdf_vocabulary.h"
 #include "robot_model/xml_text.h"
 
@@ -422,6 +423,14 @@ class SrdfReader {
     }
   }
 
+  // Whether a joint is one of the group's, or follows one.
+  bool IsMovedBy(const PlanningGroup& group, const std::string& name) const {
+    const int index = model_.FindJoint(name);
+    if (index < 0) return false;  // A virtual joint.
+    const int leader = JointAt(index).leader;
+    return std::ranges::find(group.joints, leader < 0 ? index : leader) != group.joints.end();
+  }
+
   void ReadState(const Element& element) {
     const std::string name = Attribute(element, "name");
     const std::string group_name = Attribute(element, "group");
@@ -443,30 +452,40 @@ class SrdfReader {
     const auto group = std::find_if(srdf_.groups.begin(), srdf_.groups.end(),
                                     [&](const PlanningGroup& g) { return g.name == group_name; });
     if (group == srdf_.groups.end()) return;  // It was left out.
-    const std::vector<double> defaults = model_.DefaultPositions();
+    std::vector<std::string> names;           // Of what the group moves.
+    std::vector<double> positions;
+    std::vector<std::string> ignored;
+    for (const auto& [joint, e] : values) {
+      if (!IsMovedBy(*group, joint)) {
+        ignored.push_back(joint);
+        continue;
+      }
+      names.push_back(joint);
+      positions.push_back(Numbers(*e, "value", 1).front());
+    }
+    const std::vector<double> full = FullPositionsWherePossible(model_, names, positions);
     std::vector<double> q;
     std::vector<std::string> filled;
     for (const int index : group->joints) {
       const Joint& joint = JointAt(index);
-      const auto value = values.find(joint.name);
-      if (value != values.end()) {
-        q.push_back(Numbers(*value->second, "value", 1).front());
-        values.erase(value);
-      } else {
-        q.push_back(defaults[static_cast<std::size_t>(joint.position_index)]);
-        filled.push_back(fmt::format("{} at {}", joint.name, q.back()));
-      }
+      q.push_back(full[static_cast<std::size_t>(joint.position_index)]);
+      if (values.contains(joint.name) || !FollowerThatPuts(model_, index, names).empty()) continue;
+      filled.push_back(fmt::format("{} at {}", joint.name, q.back()));
     }
     const std::string state = fmt::format("{}: state '{}'", Where(element), name);
+    for (const std::string& contradiction : FindContradictions(model_, names, positions)) {
+      srdf_.group_warnings.push_back(fmt::format("{}: {}", state, contradiction));
+    }
+    if (const auto fault = group->space.FindLimitFault(q)) {
+      srdf_.group_warnings.push_back(fmt::format("{}: {}", state, *fault));
+    }
     if (!filled.empty()) {
       srdf_.group_warnings.push_back(
           fmt::format("{}: joints of the group '{}' that it does not name are at their defaults: "
                       "{}",
                       state, group_name, fmt::join(filled, ", ")));
     }
-    if (!values.empty()) {
-      std::vector<std::string> ignored;
-      for (const auto& [joint, value] : values) ignored.push_back(joint);
+    if (!ignored.empty()) {
       srdf_.left_out.push_back(fmt::format("{}: the group '{}' is not planned with {}", state,
                                            group_name, fmt::join(ignored, ", ")));
     }

@@ -25,7 +25,8 @@ struct Srdf {
   /// as MoveIt takes it, the joint beneath where they meet. Tips are those of the chains, but for
   /// those that an arm leads on from (three joints or more, none of an end effector), and the
   /// outermost links of branches without one; no two are rigid to each other. States are complete:
-  /// joints that the file does not name are at their default position.
+  /// joints that the file does not name are where a follower that it names puts them, or at their
+  /// default position.
   std::vector<PlanningGroup> groups;
   std::vector<EndEffector> end_effectors;
   std::vector<VirtualJoint> virtual_joints;
@@ -44,8 +45,9 @@ struct Srdf {
   std::vector<std::string> warnings;
   /// What of the groups does not count although it was meant to, one line each: groups that name
   /// nothing or cannot be planned with, planar and floating joints of groups; joints that states do
-  /// not give; those of states, and passive ones, that neither the robot nor the file has; states
-  /// of no group, and end effectors on a link or of a parent group that there is not.
+  /// not give, give outside their limits, or elsewhere than where those put them that they follow;
+  /// those of states, and passive ones, that neither the robot nor the file has; states of no
+  /// group, and end effectors on a link or of a parent group that there is not.
   std::vector<std::string> group_warnings;
   std::vector<std::string> sphere_warnings;  ///< Spheres of links that the robot does not have.
   /// Groups, joints of groups and states that planning has no use for, one line each.

@@ -446,11 +446,6 @@ class RobotMaker {
         for (std::size_t j = 0; j < group.joints.size(); ++j) {
           const Joint& joint = robot().model.joints()[static_cast<std::size_t>(group.joints[j])];
           full[static_cast<std::size_t>(joint.position_index)] = q[j];
-          if (q[j] < joint.lower - JointSpace::kLimitTolerance ||
-              q[j] > joint.upper + JointSpace::kLimitTolerance) {
-            Say("  state '{}' of {} is out of the limits: {} at {}", name, group.name, joint.name,
-                q[j]);
-          }
         }
         if (robot().spheres.empty()) continue;
         LinkPairs touching = PairsInContact(robot(), full);

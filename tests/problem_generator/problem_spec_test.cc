@@ -279,6 +279,21 @@ TEST(ProblemSpec, RefusesTheNameOfALinkThatTheSetupAllowsCollisions) {
   EXPECT_EQ(load("laser_link").objects.size(), 1);
 }
 
+TEST(ProblemSpec, RefusesAStateOfTheRobotThatIsOutsideItsLimits) {
+  Robot fetch = LoadFetch();
+  const SpecFolder folder;
+  std::vector<double>& bent = fetch.groups.front().states["bent"];
+  bent = *folder.Load(kCanOnTable, fetch).queries[0].start.configuration;
+  const std::string spec = CanOnTableWith("configuration: tuck", "configuration: bent");
+  EXPECT_EQ(folder.Load(spec, fetch).queries[0].start.configuration, bent);
+  bent[0] = 0.5;
+  ExpectInputError([&] { folder.Load(spec, fetch); },
+                   {"spec.yaml:18: queries[0].start.configuration: the robot's state 'bent' of "
+                    "group 'arm_with_torso' cannot be used: joint 'torso_lift_joint' at 0.5 is "
+                    "outside its limits [0, 0.38615]"});
+  EXPECT_NO_THROW(folder.Load(kCanOnTable, fetch)) << "nobody asks for it";
+}
+
 TEST(ProblemSpec, OfSeveralTipsOneIsNamed) {
   const Robot robot = MakeTwoArmRobot(/*with_torso=*/true);
   const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 #include "robot_model/joint_space.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -163,6 +164,9 @@ TEST(JointSpace, TellsTheLimitsThatHold) {
   const JointSpace space = Space();
   EXPECT_EQ(space.DescribeLimits(0), "[0, 0.4]");
   EXPECT_EQ(space.DescribeLimits(2), "[-1000000, 1000000]");
+  const std::vector<double> outside = {0.5, 0, 0};
+  EXPECT_EQ(space.FindLimitFault(outside),
+            fmt::format("joint '{}' at 0.5 is outside its limits [0, 0.4]", space.joint(0).name));
   EXPECT_TRUE(space.WithinLimits(std::vector<double>{0, 0, 999999.0}));
   EXPECT_FALSE(space.WithinLimits(std::vector<double>{0, 0, 1000001.0}));
 }
@@ -170,7 +174,9 @@ TEST(JointSpace, TellsTheLimitsThatHold) {
 TEST(JointSpace, LimitsAreInclusiveWithATolerance) {
   const JointSpace space = Space();
   const auto first_outside = [&space](std::vector<double> q) {
-    return space.FirstOutsideLimits(q);
+    const int j = space.FirstOutsideLimits(q);
+    EXPECT_EQ(space.FindLimitFault(q).has_value(), j >= 0);
+    return j;
   };
   EXPECT_EQ(first_outside({0, -2, 0}), -1);
   EXPECT_EQ(first_outside({0.4, 2, kPi}), -1);

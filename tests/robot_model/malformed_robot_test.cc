@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -207,6 +208,30 @@ TEST(MalformedFolder, TheUnchangedFilesAreFine) {
   EXPECT_EQ(robot.voxels->lower, Eigen::Vector3d(-1, -1, 0));
   EXPECT_EQ(robot.voxels->upper, Eigen::Vector3d(1, 1, 2));
   EXPECT_TRUE(robot.voxels->walls);
+}
+
+TEST(MalformedFolder, NamesStatesOutsideTheLimitsThatAreLeft) {
+  const TemporaryFolder folder;
+  folder.Write("arm.urdf",
+               "<robot name='arm'><link name='base'/><link name='tip'/>"
+               "<joint name='turn' type='revolute'><parent link='base'/><child link='tip'/>"
+               "<limit lower='-3' upper='3' velocity='1' effort='1'/><safety_controller "
+               "soft_lower_limit='-1' soft_upper_limit='1' k_velocity='1'/></joint></robot>");
+  folder.Write("robot.yaml",
+               "name: arm\nurdf: arm.urdf\ngroups:\n  - name: all\n    joints: [turn]\n"
+               "    tip_link: tip\n    states:\n      ready: [1]\n      bent: [1.5]\n");
+  EXPECT_THAT(LoadRobot(folder.path()).warnings,
+              testing::ElementsAre(
+                  testing::HasSubstr("soft limits (safety_controller) narrow turn"),
+                  testing::EndsWith("robot.yaml:9: groups[0].states.bent: joint 'turn' at 1.5 is "
+                                    "outside its limits [-1, 1]")));
+  folder.Write("arm.srdf",
+               "<robot name='arm'>\n<group name='all'><joint name='turn'/></group>\n<group_state "
+               "name='bent' group='all'><joint name='turn' value='-2'/></group_state></robot>");
+  folder.Write("robot.yaml", "name: arm\nurdf: arm.urdf\nsrdf: arm.srdf\n");
+  EXPECT_THAT(LoadRobot(folder.path()).warnings,
+              testing::Contains(testing::EndsWith("arm.srdf:3: state 'bent': joint 'turn' at -2 is "
+                                                  "outside its limits [-1, 1]")));
 }
 
 TEST(MalformedFolder, FoldersAndFilesThatAreMissingAreNamed) {

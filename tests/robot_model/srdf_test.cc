@@ -272,6 +272,24 @@ TEST(ParseSrdf, StatesEffectorsAndVirtualJoints) {
   EXPECT_EQ(srdf.virtual_joints[0].type, JointType::kFloating);
 }
 
+TEST(ParseSrdf, StatesOutsideTheLimitsOrWithAFollowerElsewhereAreNamed) {
+  const Srdf srdf = Parse(R"(
+    <group name="hand"><joint name="fj1"/></group>
+    <group_state name="open" group="hand"><joint name="fj1" value="0.04"/><joint name="fj2" value="0.0405"/></group_state>
+    <group_state name="torn" group="hand"><joint name="fj1" value="0.04"/><joint name="fj2" value="0.01"/></group_state>
+    <group_state name="half" group="hand"><joint name="fj2" value="0.02"/></group_state>
+    <group_state name="wide" group="hand"><joint name="fj1" value="0.05"/></group_state>)");
+  EXPECT_THAT(srdf.groups.at(0).states,
+              ElementsAre(Pair("half", ElementsAre(0.02)), Pair("open", ElementsAre(0.04)),
+                          Pair("torn", ElementsAre(0.04)), Pair("wide", ElementsAre(0.05))));
+  EXPECT_THAT(srdf.group_warnings,
+              ElementsAre("twin.srdf:5: state 'torn': joint 'fj2' is given at 0.01, but follows "
+                          "joint 'fj1', which puts it at 0.04",
+                          "twin.srdf:7: state 'wide': joint 'fj1' at 0.05 is outside its limits "
+                          "[0, 0.04]"));
+  EXPECT_THAT(srdf.left_out, IsEmpty());
+}
+
 TEST(ParseSrdf, UnknownJointsOfStatesAndPassiveOnesAreNamedAndDoNotCount) {
   const Srdf srdf = Parse(R"(
     <group name="left"><chain base_link="base" tip_link="l2"/></group>

@@ -112,7 +112,7 @@ TEST_F(MakeRobotTest, AnSrdfSaysGroupsStatesAndPairs) {
   EXPECT_TRUE(robot.checked_pairs.empty());
   EXPECT_THAT(report, HasSubstr("crane.srdf:10: 1 of 5 <disable_collisions>"));
   EXPECT_THAT(report, HasSubstr("wheel"));
-  EXPECT_THAT(report, HasSubstr("'bent' of jib is out of the limits: luff at 3"));
+  EXPECT_THAT(report, HasSubstr("state 'bent': joint 'luff' at 3 is outside its limits"));
   EXPECT_THAT(report, HasSubstr("base stands at world by the fixed joint 'yard'"));
   ASSERT_EQ(robot.virtual_joints.size(), 1u);
   EXPECT_EQ(robot.virtual_joints[0].name, "yard");
