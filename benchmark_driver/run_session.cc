@@ -57,8 +57,12 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
         entry.contestant.collision_model.value_or(options.conditions.request.collision_model);
     if (!checked.insert(model).second) continue;
     try {
-      if (model == CollisionModel::kMeshes) Warn(OddSizes(robot));
-      MakeCollisionChecker(robot, robot.Group(""), model);
+      if (model == CollisionModel::kMeshes) {
+        Warn(OddSizes(robot));
+        LoadSolidGeometry(robot);  // Without what a checker of it takes.
+      } else {
+        MakeCollisionChecker(robot, robot.Group(""), model);
+      }
     } catch (const InputError& error) {
       throw InputError(fmt::format("--collision-model {} (of '{}'): {}", EnumName(model),
                                    entry.contestant.planner, error.what()));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "collision/at.h"
+#include "collision/shape_check.h"
 #include "common/error.h"
 #include "robot_model/odd_size.h"
 
@@ -28,6 +29,19 @@ std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot) {
       }
     }
     links.push_back(std::move(geometry));
+  }
+  return links;
+}
+
+std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot) {
+  std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+  if (links.empty()) {
+    throw InputError(fmt::format(
+        "robot '{}' has no collision geometry, which the meshes model needs", robot.name));
+  }
+  for (const LinkGeometry& geometry : links) {
+    const std::string& name = At(robot.model.links(), geometry.link).name;
+    for (const PlacedShape& placed : geometry.shapes) RequireSolid(placed.shape, name);
   }
   return links;
 }

@@ -18,6 +18,10 @@ struct LinkGeometry {
 /// read.
 std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot);
 
+/// The same as the model `meshes` needs it: also throws InputError if there is none, or a shape
+/// that is not solid (RequireSolid).
+std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot);
+
 /// What is odd about the sizes of it (OddSize), a line each: what else reads the meshes says
 /// nothing of it. Throws as LoadLinkGeometry does.
 std::vector<std::string> OddSizes(const Robot& robot);

@@ -44,26 +44,13 @@ double BoxDistance(const Eigen::Vector3d& point, const Eigen::Vector3d& box_cent
   return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
-std::string_view GeometryOf(CollisionModel model) {
-  switch (model) {
-    case CollisionModel::kMeshes:
-      return "collision geometry";
-    case CollisionModel::kEnclosing:
-      return "enclosing_spheres (see make_spheres)";
-    case CollisionModel::kSpheres:
-    case CollisionModel::kVoxels:
-      break;
-  }
-  return "collision spheres";
-}
-
 }  // namespace
 
 FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, CollisionModel model)
     : CollisionChecker(robot, group, model) {
   std::vector<LinkSphere> balls;  // that cover the geometry
   if (model == CollisionModel::kMeshes) {
-    const std::vector<LinkGeometry> links = LoadLinkGeometry(robot);
+    const std::vector<LinkGeometry> links = LoadSolidGeometry(robot);
     for (const auto& [link, shapes] : links) {
       LinkShapes& geometry = links_.emplace_back(LinkShapes{link, SphereTree(), {}});
       const std::string& name = At(robot.model.links(), link).name;
@@ -81,10 +68,13 @@ FclChecker::FclChecker(const Robot& robot, const PlanningGroup& group, Collision
       }
       if (!spheres.empty()) links_.push_back({link, SphereTree(std::move(spheres)), {}});
     }
-  }
-  if (links_.empty()) {
-    throw InputError(fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
-                                 GeometryOf(model), EnumName(model)));
+    if (links_.empty()) {
+      throw InputError(fmt::format("robot '{}' has no {}, which the {} model needs", robot.name,
+                                   model == CollisionModel::kEnclosing
+                                       ? "enclosing_spheres (see make_spheres)"
+                                       : "collision spheres",
+                                   EnumName(model)));
+    }
   }
   geometry_bound_.emplace(robot.model, group, std::move(balls));
 }
