@@ -222,7 +222,7 @@ TEST(MalformedFolder, NamesStatesOutsideTheLimitsThatAreLeft) {
                "    tip_link: tip\n    states:\n      ready: [1]\n      bent: [1.5]\n");
   EXPECT_THAT(LoadRobot(folder.path()).warnings,
               testing::ElementsAre(
-                  testing::HasSubstr("soft limits (safety_controller) narrow turn"),
+                  testing::HasSubstr("soft limits (safety_controller) narrow: turn"),
                   testing::EndsWith("robot.yaml:9: groups[0].states.bent: joint 'turn' at 1.5 is "
                                     "outside its limits [-1, 1]")));
   folder.Write("arm.srdf",
