@@ -49,8 +49,7 @@ std::span<const PathMeasure> PathMeasures() {
        .unit = "s",
        .meaning =
            "shortest time to follow the path exactly, each joint reaching its limit of "
-           "velocity in 0.5 s at least; a limit outside [0.0001, 10000], or none, counts as 1 "
-           "rad/s or m/s",
+           "velocity in 0.5 s at least; a limit below 0.0001, or none, counts as 1 rad/s or m/s",
        .take = [](P& p) { return MotionTime(p.space(), p.path()); }},
       {.name = "clearance",
        .unit = "m",

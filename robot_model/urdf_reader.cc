@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double kLimitRounding = 1e-9;
 // Beyond, rad or m, limits are none.
 constexpr double kWidestLimit = 1e4;
-// No joint is slower or faster, rad/s or m/s: its limit stands for none.
+// No joint is slower, rad/s or m/s: a smaller limit stands for none. Nor is one faster.
 constexpr double kSlowestJoint = 1e-4;
 constexpr double kFastestJoint = 1e4;
 // What turns further from zero, rad, is rare: limits in degrees are likelier.
@@ -206,10 +206,11 @@ class UrdfConverter {
       if (!std::isfinite(result->max_velocity) || result->max_velocity < 0) {
         FailJoint(joint.name, "limit velocity: must be finite and not negative");
       }
-      if (result->max_velocity < kSlowestJoint || result->max_velocity > kFastestJoint) {
-        Decide(fmt::format("limits of velocity outside [{:g}, {:g}] count as none given, that is "
-                           "as 1 rad/s or m/s",
-                           kSlowestJoint, kFastestJoint),
+      result->max_velocity = std::min(result->max_velocity, kFastestJoint);
+      if (result->max_velocity > 0 && result->max_velocity < kSlowestJoint) {
+        Decide(fmt::format("limits of velocity below {:g} count as none given, that is as 1 rad/s "
+                           "or m/s",
+                           kSlowestJoint),
                fmt::format("{} ({:g})", joint.name, result->max_velocity));
         result->max_velocity = 0;
       }
