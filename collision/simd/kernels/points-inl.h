@@ -42,6 +42,10 @@ HWY_INLINE V Squared(V v) { return v * v; }
 
 /// A point (or vector) a lane, m.
 struct Points {
+  // Declared, for what GCC declares by itself is of no instruction set, and NEON's vectors have
+  // constructors that are to be inlined into functions of theirs.
+  Points() = default;
+  HWY_INLINE Points(V x_in, V y_in, V z_in) : x(x_in), y(y_in), z(z_in) {}
   V x, y, z;
 };
 

@@ -130,6 +130,7 @@ HWY_INLINE V SquaredBetweenEdges(const InFrame& t, const Points& a, const Points
 
 /// Corners of triangles in a frame A.
 struct Triangles {
+  Triangles() = default;  // see Points
   Points corner[3];
 };
 

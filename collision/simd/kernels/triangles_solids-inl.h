@@ -89,11 +89,9 @@ HWY_INLINE M MeetsCylinder(const Triangles& t, float radius, float half_length) 
     return hn::MulAdd(x, x, y * y);
   };
   M meets = hn::FirstN(Lanes(), 0);
-  struct Cut {
-    V x, y;
-    M there;
-  };
-  Cut cuts[2][3];
+  // Where the edges cross its ends.
+  V x[2][3], y[2][3];
+  M there[2][3];
   for (int k = 0; k < 3; ++k) {
     const Points& a = c[k];
     const Points v = c[(k + 1) % 3] - a;
@@ -105,20 +103,21 @@ HWY_INLINE M MeetsCylinder(const Triangles& t, float radius, float half_length) 
     meets = hn::Or(meets,
                    hn::And(hn::Le(from, to), hn::Le(squared(a.x, a.y, v.x, v.y, from, to), reach)));
     const V rounding = Fill(1e-5f);
-    const auto cut = [&](V s) {
-      const V within = hn::Min(Positive(s), one);
-      return Cut{hn::MulAdd(within, v.x, a.x), hn::MulAdd(within, v.y, a.y),
-                 hn::Le(hn::Abs(s - within), rounding)};
-    };
-    cuts[0][k] = cut(at_low);
-    cuts[1][k] = cut(at_high);
+    const V crossings[2] = {at_low, at_high};
+    for (int end = 0; end < 2; ++end) {
+      const V within = hn::Min(Positive(crossings[end]), one);
+      x[end][k] = hn::MulAdd(within, v.x, a.x);
+      y[end][k] = hn::MulAdd(within, v.y, a.y);
+      there[end][k] = hn::Le(hn::Abs(crossings[end] - within), rounding);
+    }
   }
-  for (const auto& end : cuts) {
+  for (int end = 0; end < 2; ++end) {
     for (int k = 0; k < 3; ++k) {
-      const Cut& a = end[k];
-      const Cut& b = end[(k + 1) % 3];
-      const V distance = squared(a.x, a.y, b.x - a.x, b.y - a.y, zero, one);
-      meets = hn::Or(meets, hn::And(hn::And(a.there, b.there), hn::Le(distance, reach)));
+      const int next = (k + 1) % 3;
+      const V distance = squared(x[end][k], y[end][k], x[end][next] - x[end][k],
+                                 y[end][next] - y[end][k], zero, one);
+      const M both = hn::And(there[end][k], there[end][next]);
+      meets = hn::Or(meets, hn::And(both, hn::Le(distance, reach)));
     }
   }
   // Where the axis goes through the triangle.
