@@ -21,13 +21,13 @@ NodeStatusMessage Describe(const LoggerOptions& options) {
 
 LoggerNode::LoggerNode(Bus* bus, const LoggerOptions& options)
     : bus_(bus),
-      registry_(bus),
       status_(Describe(options)),
       queue_(options.queue_bytes),
       recorder_(
           options.out, options.resume, options.name,
           [bus](const std::string& channel, const AckMessage& ack) { bus->Publish(channel, ack); },
-          &bus->contradictions(), options.split_bytes) {
+          &bus->contradictions(), options.split_bytes),
+      registry_(bus) {
   constexpr int kUnbounded = 0;
   everything_ = bus->SubscribeToAll([this](const ReceivedMessage& message) { OnMessage(message); },
                                     kUnbounded);

@@ -62,11 +62,13 @@ class LoggerNode {
   void Stop();
 
   Bus* bus_;
-  NodeRegistry registry_;
   std::mutex status_mutex_;
   NodeStatusMessage status_;
   MessageQueue queue_;
   SessionRecorder recorder_;
+  // After what takes long: what is kept from those who have subscribed to some channels alone, and
+  // then to all, looks lost.
+  NodeRegistry registry_;
   std::chrono::steady_clock::time_point last_complaint_;  // for handlers only
   std::exception_ptr failure_;                            // the writer's; to be read after the join
   std::thread writer_;

@@ -124,7 +124,7 @@ struct Bus::Impl {
                    packets.counters().malformed);
     }
     if (inbox.num_failed() > 1) {
-      spdlog::warn("{} messages on the bus were dropped by those who were to handle them",
+      spdlog::warn("{} messages on the bus could not be used (the first of each kind was told)",
                    inbox.num_failed());
     }
   }

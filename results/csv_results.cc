@@ -108,7 +108,7 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
   StoredRun run;
   run.problem_set = row.Text("problem_set");
   run.problem_index = row.Has("query_index") ? row.Int("query_index", 0, kMostProblems) + 1
-                                             : row.Int("problem_index", 0, kMostProblems);
+                                             : row.Int("problem_index", 1, kMostProblems);
   run.claimed = row.Int("solved", 0, 1) == 1;
   run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
   run.time_s = row.Number("time_s", 0, kLongest);

@@ -86,6 +86,7 @@ TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   ExpectRefused(header + "box,1,1,nan\n", {"r.csv:2", "time_s", "'nan'"});
   ExpectRefused(header + "box,1,2,1\n", {"r.csv:2", "solved", "'2'"});
   ExpectRefused(header + "box,1.5,1,1\n", {"r.csv:2", "problem_index", "whole"});
+  ExpectRefused(header + "box,0,1,1\n", {"r.csv:2", "problem_index", "from 1 to"});
   ExpectInputError([&] { ImportResults("/none/r.csv", "x", 1, &warnings_); }, {"/none/r.csv"});
 }
 
