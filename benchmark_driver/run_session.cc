@@ -58,8 +58,8 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
     if (!checked.insert(model).second) continue;
     try {
       if (model == CollisionModel::kMeshes) {
-        Warn(OddSizes(robot));
-        LoadSolidGeometry(robot);  // Without what a checker of it takes.
+        // Without the time and the memory that a checker of it takes.
+        Warn(OddSizes(robot, LoadSolidGeometry(robot)));
       } else {
         MakeCollisionChecker(robot, robot.Group(""), model);
       }
@@ -71,7 +71,7 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   if (!options.referee_robot) return;
   const Robot referee = LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages());
   Warn(referee.warnings);
-  Warn(OddSizes(referee));
+  Warn(OddSizes(referee, LoadLinkGeometry(referee)));
 }
 
 std::vector<StoredSession> ReadReferences(const DriverOptions& options) {

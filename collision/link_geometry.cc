@@ -46,9 +46,9 @@ std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot) {
   return links;
 }
 
-std::vector<std::string> OddSizes(const Robot& robot) {
+std::vector<std::string> OddSizes(const Robot& robot, const std::vector<LinkGeometry>& links) {
   std::vector<std::string> odd;
-  for (const auto& [link, shapes] : LoadLinkGeometry(robot)) {
+  for (const auto& [link, shapes] : links) {
     for (const PlacedShape& placed : shapes) {
       auto line = OddSize(At(robot.model.links(), link).name, placed.shape);
       if (line) odd.push_back(*std::move(line));

@@ -23,8 +23,8 @@ std::vector<LinkGeometry> LoadLinkGeometry(const Robot& robot);
 std::vector<LinkGeometry> LoadSolidGeometry(const Robot& robot);
 
 /// What is odd about the sizes of it (OddSize), a line each: what else reads the meshes says
-/// nothing of it. Throws as LoadLinkGeometry does.
-std::vector<std::string> OddSizes(const Robot& robot);
+/// nothing of it.
+std::vector<std::string> OddSizes(const Robot& robot, const std::vector<LinkGeometry>& links);
 
 /// Balls that cover it, as bounds on its motion take them: vertices, bounding spheres.
 std::vector<LinkSphere> CoverOf(const std::vector<LinkGeometry>& links);

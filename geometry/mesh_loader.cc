@@ -273,7 +273,9 @@ fs::path ResourceResolver::Resolve(const std::string& uri) const {
   for (const fs::path& folder : {own, base_folder}) {
     if (const auto file = FirstFile(folder, {uri, DecodePercent(uri)})) return *file;
   }
-  FailNoFile(uri, own / uri);
+  if (own / uri == base_folder / uri) FailNoFile(uri, own / uri);
+  throw InputError(fmt::format("resource '{}': no file {}, nor {}", uri, (own / uri).string(),
+                               (base_folder / uri).string()));
 }
 
 std::map<std::string, fs::path> ParsePackagePaths(const std::vector<std::string>& arguments) {

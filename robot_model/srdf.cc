@@ -14,6 +14,7 @@
 #include "common/error.h"
 #include "common/text.h"
 #include "robot_model/full_positions.h"
+#include "robot_model/group_tips.h"
 #include "robot_model/srdf_vocabulary.h"
 #include "robot_model/xml_text.h"
 
@@ -21,8 +22,6 @@ namespace planbench {
 namespace {
 
 using Element = tinyxml2::XMLElement;
-
-constexpr int kLeastJointsOfAnArm = 3;
 
 class SrdfReader {
  public:
@@ -259,7 +258,9 @@ class SrdfReader {
     std::vector<std::string> joint_names;
     for (const int joint : joints) joint_names.push_back(JointAt(joint).name);
     std::vector<std::string> tips;
-    for (const int tip : TipsOf(joints, chain_tips)) tips.push_back(LinkName(tip));
+    for (const int tip : GroupTips(model_, joints, chain_tips, hand_joints_)) {
+      tips.push_back(LinkName(tip));
+    }
     try {
       srdf_.groups.push_back(
           model_.MakeGroup(name, joint_names, tips.front(), {tips.begin() + 1, tips.end()}));
@@ -309,8 +310,8 @@ class SrdfReader {
   void AddChain(const Element& element, Members* members) const {
     const int base = LinkAt(element, "base_link");
     const int tip = LinkAt(element, "tip_link");
-    std::vector<int> from_tip = JointsToRoot(tip);
-    std::vector<int> from_base = JointsToRoot(base);
+    std::vector<int> from_tip = JointsToRoot(model_, tip);
+    std::vector<int> from_base = JointsToRoot(model_, base);
     int beneath = -1;  // The joint where they meet, -1 at the root.
     while (!from_tip.empty() && !from_base.empty() && from_tip.back() == from_base.back()) {
       beneath = from_tip.back();
@@ -326,79 +327,9 @@ class SrdfReader {
     AddNew(base, &members->tips);
   }
 
-  std::vector<int> JointsToRoot(int link) const {
-    std::vector<int> joints;
-    for (; ParentJoint(link) >= 0; link = JointAt(joints.back()).parent_link) {
-      joints.push_back(ParentJoint(link));
-    }
-    return joints;
-  }
-
   template <typename Value>
   static void AddNew(const Value& value, std::vector<Value>* values) {
     if (std::find(values->begin(), values->end(), value) == values->end()) values->push_back(value);
-  }
-
-  // Tips of a group of these joints, which has chains with these tips.
-  std::vector<int> TipsOf(const std::set<int>& joints, const std::vector<int>& chain_tips) const {
-    std::vector<int> tips;
-    for (const int tip : chain_tips) {
-      const auto is_rigid = [&](int other) { return model_.Rigid(tip, other); };
-      if (IsMoved(tip, joints) && std::ranges::none_of(tips, is_rigid)) tips.push_back(tip);
-    }
-    for (const int link : OutermostLinks(joints)) {
-      const bool has_tip = std::any_of(tips.begin(), tips.end(), [&](int tip) {
-        return IsBeyond(tip, link) || (IsBeyond(link, tip) && !ArmLeadsOn(tip, link, joints));
-      });
-      if (!has_tip) tips.push_back(link);
-    }
-    const std::vector<int> all = tips;
-    std::erase_if(tips, [&](int tip) {
-      return std::any_of(all.begin(), all.end(),
-                         [&](int other) { return ArmLeadsOn(tip, other, joints); });
-    });
-    return tips;
-  }
-
-  bool IsMoved(int link, const std::set<int>& joints) const {
-    const std::vector<int> path = JointsToRoot(link);
-    return std::any_of(path.begin(), path.end(), [&](int joint) {
-      return joints.contains(joint) || joints.contains(JointAt(joint).leader);
-    });
-  }
-
-  // Whether `link` is `inner`, or carried by it.
-  bool IsBeyond(int link, int inner) const {
-    const std::vector<int> path = JointsToRoot(link);
-    return link == inner || std::any_of(path.begin(), path.end(), [&](int joint) {
-             return JointAt(joint).parent_link == inner;
-           });
-  }
-
-  // Whether the joints between two links, of which one carries the other, are an arm's and not
-  // those of a hand.
-  bool ArmLeadsOn(int from, int to, const std::set<int>& joints) const {
-    if (!IsBeyond(to, from)) return false;
-    int count = 0;
-    for (int link = to; link != from; link = JointAt(ParentJoint(link)).parent_link) {
-      if (!joints.contains(ParentJoint(link))) continue;
-      if (hand_joints_.contains(ParentJoint(link))) return false;
-      ++count;
-    }
-    return count >= kLeastJointsOfAnArm;
-  }
-
-  // Child links of joints below which there is no other joint of the set.
-  std::vector<int> OutermostLinks(const std::set<int>& joints) const {
-    std::set<int> has_more_below;
-    for (const int joint : joints) {
-      for (const int inner : JointsToRoot(JointAt(joint).parent_link)) has_more_below.insert(inner);
-    }
-    std::vector<int> links;
-    for (const int joint : joints) {
-      if (!has_more_below.contains(joint)) links.push_back(JointAt(joint).child_link);
-    }
-    return links;
   }
 
   void ReadEndEffector(const Element& element) {

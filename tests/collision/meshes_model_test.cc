@@ -141,9 +141,10 @@ TEST(MeshesModelTest, MillimetresTakenForMetresAreJudgedWithoutMuchMemoryAndTold
     EXPECT_TRUE(checker->IsFree(Slide(0.2)));
     EXPECT_FALSE(checker->IsFree(Slide(0.3)));
   }
-  EXPECT_THAT(OddSizes(robot), testing::ElementsAre("link 'tool', meshes/box.obj: is 200 m large: "
-                                                    "check its unit, and scale= in the URDF"));
-  EXPECT_THAT(OddSizes(RailRobotWith(kBoxGeometry)), testing::IsEmpty());
+  const auto odd_sizes = [](const Robot& of) { return OddSizes(of, LoadLinkGeometry(of)); };
+  EXPECT_THAT(odd_sizes(robot), testing::ElementsAre("link 'tool', meshes/box.obj: is 200 m large: "
+                                                     "check its unit, and scale= in the URDF"));
+  EXPECT_THAT(odd_sizes(RailRobotWith(kBoxGeometry)), testing::IsEmpty());
 }
 
 TEST(MeshesModelTest, RefusesRobotsWithoutTheirGeometry) {

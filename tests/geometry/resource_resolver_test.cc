@@ -73,7 +73,8 @@ TEST_F(ResourceResolverTest, RelativePathsBeginInTheFolderOfTheFileThatNamesThem
   EXPECT_EQ(resolver_.Resolve("meshes/near.stl"), resolver_.own_folder / "meshes/near.stl");
   EXPECT_EQ(resolver_.Resolve("../meshes/own.stl"), resolver_.own_folder / "../meshes/own.stl");
   EXPECT_EQ(resolver_.Resolve("meshes/own.stl"), resolver_.base_folder / "meshes/own.stl");
-  ExpectInputError([&] { resolver_.Resolve("none.stl"); }, {"robot/urdf/none.stl"});
+  ExpectInputError([&] { resolver_.Resolve("none.stl"); },
+                   {"robot/urdf/none.stl, nor ", "robot/none.stl"});
 }
 
 TEST_F(ResourceResolverTest, UrisMayWriteCharactersInPercent) {
