@@ -302,7 +302,7 @@ void Driver::AddContestant(const LineUpEntry& entry) {
         "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
         name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
   }
-  if (!contestant.collision_model) contestant.collision_model = request.collision_model;
+  contestant.collision_model = options_.ModelOf(entry);
   if (!contestant.edge_resolution_m) contestant.edge_resolution_m = request.edge_resolution_m;
   if (!contestant.edge_check) contestant.edge_check = request.edge_check;
   const std::string model(EnumName(*contestant.collision_model));

@@ -25,6 +25,10 @@ struct DriverOptions {
   int trials = 1;
   Shard shard;
   SessionConditions conditions;  ///< As far as they are not left to what is on the bus.
+  /// By which the planner is asked to check for collisions: the contestant's, or the session's.
+  CollisionModel ModelOf(const LineUpEntry& entry) const {
+    return entry.contestant.collision_model.value_or(conditions.request.collision_model);
+  }
   /// Children may take their time to load meshes, and one that fails is heard of at once.
   std::optional<double> discovery_timeout_s;
   double DiscoveryTimeout() const { return discovery_timeout_s.value_or(launch ? 60 : 5); }

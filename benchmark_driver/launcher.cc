@@ -115,6 +115,10 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
     } else {
       arguments = WithRobot(std::string(kPlannerPrefix) + entry.program, options.robot);
       arguments.insert(arguments.end(), {"--name", planner});
+      if (!options.replay) {  // the requests of a log have models of their own
+        arguments.insert(arguments.end(),
+                         {"--collision-models", std::string(EnumName(options.ModelOf(entry)))});
+      }
       if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
       for (const std::string& setting : entry.settings) {
         arguments.insert(arguments.end(), {"--set", setting});

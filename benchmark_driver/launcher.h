@@ -25,7 +25,8 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
 void RequireEmptyBus(Bus* bus);
 
 /// Starts the planners as children on the bus `lcm_url`, with their output in <logs>/NAME.log; the
-/// folder exists. The programs are those beside this one.
+/// folder exists. The programs are those beside this one; but for a replay each prepares the
+/// collision model of its contestant alone.
 void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                     const std::filesystem::path& logs, const std::string& lcm_url,
                     Supervisor* supervisor);

@@ -53,8 +53,7 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
   Warn(robot.warnings);
   std::set<CollisionModel> checked;
   for (const LineUpEntry& entry : line_up) {
-    const CollisionModel model =
-        entry.contestant.collision_model.value_or(options.conditions.request.collision_model);
+    const CollisionModel model = options.ModelOf(entry);
     if (!checked.insert(model).second) continue;
     try {
       if (model == CollisionModel::kMeshes) {

@@ -52,7 +52,7 @@ struct NodeStatusMessage {
   bool bidirectional = false;
   bool deterministic = false;
   std::vector<std::string> collision_models;
-  std::map<std::string, std::string> unusable_models;  ///< Why these are not for this robot.
+  std::map<std::string, std::string> unusable_models;  ///< Why these are not offered.
   std::map<std::string, std::string> settings;
   bool operator==(const NodeStatusMessage&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/command_line.h"
 #include "messaging/planner_node.h"
 #include "messaging/program.h"
 #include "messaging/robot_flags.h"
@@ -17,6 +18,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
   std::string config;
   std::vector<std::string> overrides;
   std::vector<std::string> origins;
+  std::vector<CollisionModel> models = EnumValues<CollisionModel>();
   robot_flags.AddTo(&program.app()).front()->required();
   program.app().add_option("--name", name, "name on the bus")->capture_default_str();
   program.app().add_option("--config", config, "settings file; default: the robot folder's");
@@ -28,6 +30,12 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
       .add_option("--set-origin", origins, "KEY=ORIGIN: where the value of --set KEY was written")
       ->allow_extra_args(false)
       ->group("");  // The driver's, and not shown.
+  program.app()
+      .add_option("--collision-models", models,
+                  "those to prepare and to offer, comma-separated; default: all that can be used")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->transform(OneOf<CollisionModel>());
   for (const SettingFlag& flag : setting_flags) {
     program.app().add_option_function<std::string>(
         flag.flag,
@@ -41,7 +49,7 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
     std::unique_ptr<Planner> solver =
         factory(robot, LoadPlannerSettings(robot, planner, config, overrides, origins));
     Bus bus(program.lcm_url());
-    PlannerNode node(&bus, name, std::move(solver));
+    PlannerNode node(&bus, name, std::move(solver), models);
     bus.Start();
     spdlog::info("planner '{}' is live on {}", name, bus.url());
     node.Run(AwaitStopSignals());

@@ -22,10 +22,10 @@ struct SettingFlag {
   std::string help;
 };
 
-/// The main() of a planner process: --robot, --name, --config, --set, --package-path and what every
-/// program has. The settings come from --config, else from the file that the robot folder names for
-/// `planner`, else they are the planner's defaults; --set overrides single keys, and so
-/// do `setting_flags`.
+/// The main() of a planner process: --robot, --name, --collision-models, --config, --set,
+/// --package-path and what every program has. The settings come from --config, else from the file
+/// that the robot folder names for `planner`, else they are the planner's defaults; --set overrides
+/// single keys, and so do `setting_flags`.
 int PlannerMain(int argc, char** argv, const std::string& planner, const std::string& description,
                 const PlannerFactory& factory, const std::vector<SettingFlag>& setting_flags = {});
 

@@ -16,13 +16,14 @@ constexpr std::chrono::milliseconds kSceneRequestPeriod{250};
 
 }  // namespace
 
-PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner)
+PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
+                         const std::vector<CollisionModel>& models)
     : bus_(bus),
       name_(name),
       channels_(name),
       planner_(std::move(planner)),
       description_(planner_->Describe()),
-      unusable_models_(planner_->WarmUp()),
+      unusable_models_(planner_->WarmUp(models)),
       status_(MakeNodeStatus(name, NodeKind::kPlanner)) {
   std::erase_if(description_.collision_models,
                 [this](CollisionModel model) { return unusable_models_.contains(model); });

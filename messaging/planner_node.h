@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "messaging/answer_memory.h"
 #include "messaging/bus.h"
@@ -33,8 +34,10 @@ class PlannerNode {
   /// How long a scene is asked for before the request fails.
   static constexpr std::chrono::seconds kSceneTimeout{10};
 
-  /// Goes live. `name` must be free on the bus.
-  PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner);
+  /// Goes live when the planner has prepared the collision models that it is to offer, those of
+  /// `models` that it can. `name` must be free on the bus.
+  PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Planner> planner,
+              const std::vector<CollisionModel>& models = EnumValues<CollisionModel>());
   /// Leaves. What is being solved is stopped, and gets no result; one that is ready is sent.
   ~PlannerNode();
 

@@ -157,12 +157,16 @@ void Planner::Compile(const PlanningGroup& group, CollisionModel model, const Sc
   if (!is_compiled) ++num_compilations_;
 }
 
-std::map<CollisionModel, std::string> Planner::WarmUp() {
+std::map<CollisionModel, std::string> Planner::WarmUp(const std::vector<CollisionModel>& models) {
   std::map<CollisionModel, std::string> unusable;
   Scene empty;
   empty.world_frame = robot_->model.links().front().name;
   const std::vector<double> positions = robot_->model.DefaultPositions();
   for (const CollisionModel model : Describe().collision_models) {
+    if (std::find(models.begin(), models.end(), model) == models.end()) {
+      unusable[model] = "not among --collision-models";
+      continue;
+    }
     try {
       for (const PlanningGroup& group : robot_->groups) Compile(group, model, empty, positions);
     } catch (const InputError& error) {

@@ -32,12 +32,14 @@ class PlannerNodeTest : public testing::Test {
   explicit PlannerNodeTest(const std::string& url = "memq://") : bus_(url) { bus_.Start(); }
   ~PlannerNodeTest() override { StopNode(); }
 
-  void StartNode(PlannerDescription description = ScriptedPlanner::Able()) {
+  void StartNode(PlannerDescription description = ScriptedPlanner::Able(),
+                 const std::vector<CollisionModel>& models = EnumValues<CollisionModel>()) {
     node_ = std::make_unique<PlannerNode>(
         &bus_, "arm",
         std::make_unique<ScriptedPlanner>(
             PlanarRobot(), [this](SearchQuery& query) { return Search(query); },
-            std::move(description)));
+            std::move(description)),
+        models);
     runner_ = std::thread([this] { node_->Run([this] { return stop_.load(); }); });
   }
   void StopNode() {
@@ -156,6 +158,25 @@ TEST_F(PlannerNodeTest, AnnouncesWhatItIsAndCan) {
   EXPECT_THAT(heard[0].unusable_models.at("enclosing"), HasSubstr("enclosing_spheres"));
   EXPECT_EQ(heard[0].settings, (std::map<std::string, std::string>{{"key", "value"}}));
   EXPECT_FALSE(heard[0].busy);
+}
+
+TEST_F(PlannerNodeTest, OffersTheModelsThatItWasStartedForAlone) {
+  MessageCollector<NodeStatusMessage> statuses(&bus_, channel::kNodeStatus);
+  PlannerDescription able = ScriptedPlanner::Able();
+  able.collision_models.push_back(CollisionModel::kVoxels);
+  StartNode(able, {CollisionModel::kVoxels});
+  StartSceneServer();
+  const auto heard = statuses.WaitFor(1);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_EQ(heard[0].collision_models, std::vector<std::string>{"voxels"});
+  PlanRequest request = Request("a");
+  const PlanAckMessage ack = SendForAck(request);
+  EXPECT_EQ(ack.verdict, Verdict::kRefused);
+  EXPECT_THAT(ack.message, HasSubstr("'spheres' is not offered here: not among"));
+  request.request_id = "b";
+  request.collision_model = CollisionModel::kVoxels;
+  EXPECT_EQ(SendForAck(request).verdict, Verdict::kWorking);
+  ResultOf("b");
 }
 
 TEST_F(PlannerNodeTest, AcceptsSolvesAndSendsTheResult) {

@@ -64,6 +64,7 @@ TEST_F(BadUse, MissingOrBrokenRobot) {
   ExpectBadInput(StartPlanner("rrtc", {"--algorithm", "RRTConect"}),
                  "--set algorithm: unknown algorithm");
   ExpectBadInput(StartPlanner("ara", {"--config", "/nowhere.yaml"}), "/nowhere.yaml");
+  ExpectBadInput(StartPlanner("ara", {"--collision-models", "spheres,balls"}), "balls");
 }
 
 TEST_F(BadUse, SettingsOfALineUp) {

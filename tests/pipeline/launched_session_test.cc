@@ -113,6 +113,16 @@ TEST_F(LaunchedSession, ALineUpsContestantsRunUnderTheirOwnConditions) {
             1);
   const std::string output = driver->Output();
   EXPECT_NE(output.find("RRT-Connect (balanced) [swept_range_0_5]"), std::string::npos) << output;
+
+  // Its planner has prepared the model of each, and no other.
+  int num_planners = 0;
+  for (const auto& node : ReadRecords(session / "session.lcmlog").sessions.back().nodes) {
+    if (node.kind != NodeKind::kPlanner) continue;
+    ++num_planners;
+    const std::string model = node.name == "coarse" ? "spheres" : "voxels";
+    EXPECT_EQ(node.collision_models, std::vector<std::string>{model}) << node.name;
+  }
+  EXPECT_EQ(num_planners, 3);
 }
 
 TEST_F(LaunchedSession, PlannersWorkAtOnceWithParallel) {

@@ -80,8 +80,9 @@ TEST_F(Replay, OfAPlainLcmLogGivesTheSameRunsAndPaths) {
 
 TEST_F(Replay, PlannersAnswerAsTheyDidOrItIsSaid) {
   const auto session = folder() / "session";
-  ChildProcess* driver = StartLaunchedDriver(
-      session, {"--problems-range", "2-3", "--time", "20", "--planners", "rrtc"});
+  ChildProcess* driver =
+      StartLaunchedDriver(session, {"--problems-range", "2-3", "--time", "20", "--planners", "rrtc",
+                                    "--collision-model", "voxels"});
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   const std::string log = (session / "session.lcmlog").string();
   const auto launched = [&](const std::string& out, const std::vector<std::string>& more) {

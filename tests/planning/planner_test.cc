@@ -335,6 +335,16 @@ TEST_F(PlannerTest, ModelsThatCannotBeUsedAreNamedWithTheReason) {
   EXPECT_THAT(unusable.at(CollisionModel::kSpheres), HasSubstr("spheres"));
 }
 
+TEST_F(PlannerTest, ModelsThatNobodyWillAskForAreNotCompiled) {
+  ScriptedPlanner planner(robot_, StraightLine);
+  planner.description.collision_models = {CollisionModel::kSpheres, CollisionModel::kVoxels};
+  const std::map<CollisionModel, std::string> unusable =
+      planner.WarmUp({CollisionModel::kMeshes, CollisionModel::kVoxels});
+  EXPECT_EQ(planner.num_compilations(), 1);
+  ASSERT_EQ(unusable.size(), 1u);
+  EXPECT_THAT(unusable.at(CollisionModel::kSpheres), HasSubstr("--collision-models"));
+}
+
 TEST_F(PlannerTest, VerdictsOfTheSearchPassThrough) {
   for (const PlanStatus status : {PlanStatus::kTimedOut, PlanStatus::kExhausted,
                                   PlanStatus::kCancelled, PlanStatus::kMemoryLimit}) {
