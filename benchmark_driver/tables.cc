@@ -132,10 +132,10 @@ std::string TimeTable(const SessionResults& results) {
       });
   std::string notes =
       "From request and scene at hand to the first confirmed path, failed attempts before it "
-      "included; simplification and the bus are not. Every solved problem counts once, by the "
-      "median of its trials. [95 %]: between order statistics. 95 %: of the problems are faster. "
-      "penalised mean: over all runs, one without a confirmed path as ten times the longest limit "
-      "that anybody had on its problem (PAR-10).\n";
+      "included; simplification and the bus are not. solved: problems with a confirmed path in one "
+      "trial at least; each counts once, by the median of such trials. [95 %]: between order "
+      "statistics. 95 %: of the problems are faster. penalised mean: over all runs, one without a "
+      "confirmed path as ten times the longest limit that anybody had on its problem (PAR-10).\n";
   if (published) {
     notes += std::string(kPublishedNote) +
              "Its medians are read off a plot and of the attempt that succeeded, as the row above "
@@ -147,9 +147,10 @@ std::string TimeTable(const SessionResults& results) {
 /// Pairs of contestants that tried a problem in common: with the first one, or all. p-values are
 /// adjusted for all of them in either table, as in the report's.
 std::string PairTable(const SessionResults& results, bool all) {
-  TextTable table("Problem by problem",
-                  {"contestant", "against", "problems", "won %", "time ratio [95 %]", "p (Holm)"},
-                  2);
+  TextTable table(
+      "Problem by problem",
+      {"contestant", "against", "problems", "won %", "in ratio", "time ratio [95 %]", "p (Holm)"},
+      2);
   std::vector<PairedComparison> shown;
   for (const SetResults& set : results.sets()) {
     table.AddHeading(set.name);
@@ -172,21 +173,22 @@ std::string PairTable(const SessionResults& results, bool all) {
       const auto format = [](double value) { return fmt::format("{:.3g}", value); };
       table.Add(
           {contestants[pairs[i].second].label(), contestants[pairs[i].first].label(),
-           Count(pair.num_problems), Number(100 * pair.wins.Share(), 1),
+           Count(pair.num_problems), Number(100 * pair.wins.Share(), 1), Count(pair.num_in_ratio()),
            pair.ratio ? WithInterval(format(pair.ratio->mean), pair.ratio->interval, format) : "-",
            adjusted[i] < 1e-4 ? "< 0.0001" : Number(adjusted[i], 4)});
     }
   }
   if (shown.empty()) return "";
-  return table.Format(
-             "won: share of the problems that the first solved faster, or alone; a tie is half. "
-             "time ratio: geometric mean of first / second over the problems that both solved, "
-             "with Student's interval of the logarithms' mean, of six at least; below 1 the first "
-             "is faster. p: of Wilcoxon's signed-rank test that neither is faster, two-sided, "
-             "problems that only one solved included, adjusted for all pairs of the set (Holm), "
-             "those that only tables.txt shows too." +
-             ZeroTimesNote(shown) + "\n") +
-         "\n";
+  const std::string notes = fmt::format(
+      "{}problems: that both tried. won: share of them that the first solved faster in the median, "
+      "or alone; a tie is half. in ratio: those that both solved in the median. time ratio: "
+      "geometric mean of first / second over the problems in ratio, with Student's interval of the "
+      "logarithms' mean, of six at least; below 1 the first is faster. p: of Wilcoxon's "
+      "signed-rank test that neither is faster, two-sided, problems that only one solved in the "
+      "median included, adjusted for all pairs of the set (Holm), those that only tables.txt shows "
+      "too.{}\n",
+      kProblemTimeNote, ZeroTimesNote(shown));
+  return table.Format(notes) + "\n";
 }
 
 /// Planning times of the attempts themselves, by direction.

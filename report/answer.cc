@@ -156,8 +156,9 @@ std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next
   text += " solved " + SolvedShare(compared.pooled_common().at(next.second));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
-    text += fmt::format(" and took {} times as long on the {} that both solved (geometric mean",
-                        FormatNumber(1 / ratio->mean), Count(ratio->num_pairs, "problem"));
+    text += fmt::format(
+        " and took {} times as long on the {} that both solved in the median (geometric mean",
+        FormatNumber(1 / ratio->mean), Count(ratio->num_pairs, "problem"));
     if (const auto& interval = ratio->interval) {
       text += fmt::format(", 95 % interval {} to {})", FormatNumber(1 / interval->upper),
                           FormatNumber(1 / interval->lower));

@@ -137,10 +137,10 @@ Table ChangeTable(const ComparedSessions& compared) {
       "changes",
       "What changed from session to session",
       "Contestants of one name, on the problems that both sessions have, against the session that "
-      "was begun first. Time ratio: geometric mean of after / before over the problems solved in "
-      "both, with Student's 95 % interval. p: signed-rank test of problem by problem, adjusted for "
-      "all rows (Holm). Faster or slower: beyond chance at the 5 % level; too few problems: that "
-      "could not be shown of so few.",
+      "was begun first. In ratio: problems solved in the median in both. Time ratio: of these, "
+      "geometric mean of after / before, with Student's 95 % interval. p: signed-rank test of "
+      "problem by problem, adjusted for all rows (Holm). Faster or slower: beyond chance at the "
+      "5 % level; too few problems: that could not be shown of so few.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"before", "before"},
@@ -149,6 +149,7 @@ Table ChangeTable(const ComparedSessions& compared) {
        {"problems", "problems", Style::kCount},
        {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
        {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
+       {"problems_in_ratio", "in ratio", Style::kCount},
        {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
        {"p_holm", "p (Holm)", Style::kPValue}},
       {}};
@@ -186,7 +187,7 @@ Table ChangeTable(const ComparedSessions& compared) {
       table.rows.push_back(
           {set, after.own_name, compared.session_names()[before->session],
            compared.session_names()[after.session], std::string(), result.num_problems,
-           confirmed(old_outcomes), confirmed(new_outcomes),
+           confirmed(old_outcomes), confirmed(new_outcomes), result.num_in_ratio(),
            result.ratio ? Cell(Estimate{result.ratio->mean, result.ratio->interval}) : Cell()});
       results.push_back(result);
     }
@@ -202,7 +203,7 @@ Table ChangeTable(const ComparedSessions& compared) {
     table.rows[i][kChange] = std::string(change);
     table.rows[i].emplace_back(adjusted[i]);
   }
-  table.note += ZeroTimesNote(results);
+  table.note = fmt::format("{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(results));
   return table;
 }
 

@@ -256,10 +256,11 @@ Table TimeTable(const ComparedSessions& compared) {
       "times",
       "Planning time, ms",
       "From request and scene at hand to the first confirmed path, failed attempts before it "
-      "included. Every solved problem counts once, by the median of its trials; the median's 95 % "
-      "interval lies between order statistics. Penalised mean (PAR-10): over all runs, one without "
-      "a confirmed path as ten times the longest limit that anybody had on its problem. It has no "
-      "interval: it hangs on a few failures, on the tail of what any resampling would go by.",
+      "included. Solved is a problem with a confirmed path in one trial at least; it counts once, "
+      "by the median of such trials. The median's 95 % interval lies between order statistics. "
+      "Penalised mean (PAR-10): over all runs, one without a confirmed path as ten times the "
+      "longest limit that anybody had on its problem. It has no interval: it hangs on a few "
+      "failures, on the tail of what any resampling would go by.",
       {{"set", "set"},
        {"contestant", "contestant"},
        {"problems_solved", "problems solved", Style::kCount},
@@ -336,11 +337,11 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
   Table table{
       "pairs",
       "Problem by problem",
-      "A problem's time is the median of its trials, those that failed being longer than any. "
-      "Faster, slower: problems that the first solved faster, or alone, and the other way round. "
-      "Time ratio: geometric mean of first / second over the problems that both solved, with "
-      "Student's 95 % interval of the logarithms' mean (six problems at least). p: Wilcoxon's "
-      "signed-rank test of the logarithms, two-sided, problems that only one solved included and "
+      "Problems: that both tried. Faster, slower: those that the first solved faster in the "
+      "median, or alone, and the other way round. In ratio: those that both solved in the median. "
+      "Time ratio: geometric mean of first / second over the problems in ratio, with Student's "
+      "95 % interval of the logarithms' mean (six problems at least). p: Wilcoxon's signed-rank "
+      "test of the logarithms, two-sided, problems that only one solved in the median included and "
       "ties left out; beside it adjusted for all pairs of the set (Holm). Effect: rank-biserial "
       "correlation, -1 if the first is always faster, 1 if always slower; here ties count, with "
       "the lowest ranks and no side.",
@@ -351,6 +352,7 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
        {"faster", "faster", Style::kCount},
        {"slower", "slower", Style::kCount},
        {"tied", "tied", Style::kCount},
+       {"problems_in_ratio", "in ratio", Style::kCount},
        {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
        {"p", "p", Style::kPValue},
        {"p_holm", "p (Holm)", Style::kPValue},
@@ -361,11 +363,11 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
     const PairedComparison& r = pair.result;
     rows.push_back(r);
     table.rows.push_back({pair.set, pair.first, pair.second, r.num_problems, r.wins.won,
-                          r.wins.lost, r.wins.tied,
+                          r.wins.lost, r.wins.tied, r.num_in_ratio(),
                           r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
                           r.test.p_value, pair.adjusted_p, r.test.rank_biserial});
   }
-  table.note += ZeroTimesNote(rows);
+  table.note = fmt::format("{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(rows));
   return table;
 }
 
@@ -374,7 +376,7 @@ Table QualityTable(const ComparedSessions& compared) {
               "Path quality",
               "Measures are the referee's, of confirmed runs; a problem counts once, by the median "
               "of its runs. Ratio: to the reference, which is the contestant of highest rank that "
-              "has such values on the set; geometric mean over the common problems, those that "
+              "has such values on the set; geometric mean over the problems in ratio, those that "
               "both have values of, with Student's 95 % interval. Problems at which either's is "
               "0, as the smoothness of a straight path, have no ratio and are none of them. "
               "Medians over different problems do not compare. Rejected: confirmed runs whose "
@@ -389,7 +391,7 @@ Table QualityTable(const ComparedSessions& compared) {
                {"median", "median", Style::kNumber},
                {"upper_quartile", "75 %", Style::kNumber},
                {"reference", "reference"},
-               {"common_problems", "common problems", Style::kCount},
+               {"problems_in_ratio", "in ratio", Style::kCount},
                {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true},
                {"simplified_rejected", "rejected", Style::kCount}},
               {}};
@@ -409,10 +411,10 @@ Table QualityTable(const ComparedSessions& compared) {
               (rejected == 0 || MeasuredByProblem(contestant, set, measure.name, true).empty())) {
             continue;
           }
-          Cell common_problems, ratio;
+          Cell in_ratio, ratio;
           if (reference != nullptr) {
             const auto estimate = CompareByProblem(values, all.at(*reference));
-            common_problems = estimate ? estimate->num_pairs : 0;
+            in_ratio = estimate ? estimate->num_pairs : 0;
             if (estimate) ratio = Estimate{estimate->mean, estimate->interval};
           } else if (s.count > 0) {
             reference = &contestant.name;
@@ -420,8 +422,8 @@ Table QualityTable(const ComparedSessions& compared) {
           table.rows.push_back({set, contestant.name, std::string(measure.name),
                                 std::string(measure.unit), std::string(raw ? "raw" : "simplified"),
                                 s.count, s.lower_quartile, s.median, s.upper_quartile,
-                                reference == nullptr ? std::string() : *reference, common_problems,
-                                ratio, raw ? Cell() : Cell(rejected)});
+                                reference == nullptr ? std::string() : *reference, in_ratio, ratio,
+                                raw ? Cell() : Cell(rejected)});
         }
       }
     }

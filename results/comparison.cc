@@ -131,7 +131,8 @@ std::string ZeroTimesNote(const std::vector<PairedComparison>& rows) {
   }
   if (num_zero == 0) return "";
   return fmt::format(
-      " Left out of the ratios of {} row{}, since a time is 0: {} problem{} that both solved.",
+      " Left out of the ratios of {} row{}, since a time is 0: {} problem{} that both solved "
+      "in the median.",
       num_rows, num_rows == 1 ? "" : "s", num_zero, num_zero == 1 ? "" : "s");
 }
 

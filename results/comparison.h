@@ -25,8 +25,8 @@ struct SuccessSummary {
 };
 SuccessSummary SummarizeSuccess(const Outcomes& outcomes);
 
-/// How long a contestant took on a set. Each problem counts once, by the median of the trials that
-/// solved it; problems that no trial solved are left out but for the penalised mean.
+/// How long a contestant took on a set. A problem is solved if a trial of it is, and counts once,
+/// by the median of the trials that solved it; others are left out but for the penalised mean.
 struct TimeSummary {
   Summary solved_s;  ///< Over problems.
   std::optional<Interval> median_interval_s;
@@ -43,23 +43,32 @@ std::optional<double> TrialSpread(const Outcomes& outcomes);
 
 /// A problem's time: the median over its trials, those without a confirmed path being longer than
 /// any; positive, or infinite. 1 ns is what stands for a time of 0, as of a clock that read the
-/// same twice: shorter than any other, and no time to divide by.
+/// same twice: shorter than any other, and no time to divide by. It is finite if more than half of
+/// the trials are confirmed: then the problem is solved in the median.
 double ProblemTime(const std::vector<Outcome>& trials);
 /// Whether it stands for a time of 0: such problems have no ratio.
 bool TookNoTime(const std::vector<Outcome>& trials);
 
-/// Two contestants on the problems of a set that both tried.
+/// Two contestants on the problems of a set that both tried, by each problem's time: what is solved
+/// here is so in the median.
 struct PairedComparison {
   int num_problems = 0;
   Wins wins;                           ///< Of the first.
-  std::optional<RatioEstimate> ratio;  ///< First / second, of problems with both times finite.
-  int num_zero = 0;     ///< Problems that both solved, left out of the ratio: a time is 0.
+  std::optional<RatioEstimate> ratio;  ///< First / second, of problems that both so solved.
+  int num_zero = 0;     ///< Others that both solved, left out of the ratio: a time is 0.
   SignedRankTest test;  ///< Of the logarithms' differences.
+
+  int num_in_ratio() const { return ratio ? ratio->num_pairs : 0; }  ///< Problems.
 };
 PairedComparison Compare(const Outcomes& first, const Outcomes& second);
 
 /// The comparisons' p-values adjusted for all of them (AdjustPValues), in their order.
 std::vector<double> AdjustedPValues(const std::vector<PairedComparison>& family);
+
+/// What stands below every table of such comparisons: what they go by.
+inline constexpr char kProblemTimeNote[] =
+    "A problem is solved in the median if more than half of its trials have a confirmed path; its "
+    "time is the median of all trials, those without being longer than any. ";
 
 /// What stands below a table of ratios of which some problems are left out since a time is 0, a
 /// blank before it; "" if none are.

@@ -226,7 +226,7 @@ const report = (() => {
     update();
     made.append(figure, element("figure", {class: "beside"}, chart, element("figcaption", {},
         "A point is a problem, at the medians of its trials; below the diagonal the second is faster. In the strips " +
-        "on the right and at the top one or both did not solve it. A point opens its problem.")), ...limitsNote());
+        "on the right and at the top one or both did not solve it in the median. A point opens its problem.")), ...limitsNote());
     made.append(tableBlock("pairs", false));
     made.append(element("h3", {}, "Performance profiles"),
       note("Share of the problems on which a contestant is within a ratio of the fastest of all (Dolan and Moré 2002), over the " +
@@ -258,7 +258,7 @@ const report = (() => {
     function update() {
       meaning.textContent = `${data.measures[kind].name.replace(/_/g, " ")}: ${data.measures[kind].meaning}. Filled: the path ` +
         "as planned; hollow: after the simplification that all share. Median and quartiles over the problems that each " +
-        "solved, of medians over its runs: the problems are not the same for all; the table has ratios on common ones.";
+        "solved, of medians over its runs: the problems are not the same for all; the table has ratios over those that two have.";
       shown.forEach(chart => { if (chart.view) pictures.render(chart); });
     }
     made.append(element("div", {class: "controls"}, select("measure", kinds.map(i => data.measures[i].name.replace(/_/g, " ")), 0,

@@ -61,7 +61,30 @@ TEST(TablesTest, PairsAreComparedProblemByProblem) {
   const std::string text = Brief(FourProblems());
   // RRT-Connect comes first in the line-up. ARA* takes 0.1 s against 0.0051234 s, and is alone in
   // solving the second.
-  EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "2 50.0 19.5 1.0000");
+  EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "2 50.0 1 19.5 1.0000");
+}
+
+TEST(TablesTest, ARatioTellsOnHowManyProblemsItRests) {
+  // ARA* solves both problems by one of two trials and by two of two.
+  std::vector<RunRecordMessage> records;
+  for (const int problem : {1, 2}) {
+    records.push_back(OfProblem(problem, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 1))));
+    for (const int trial : {1, 2}) {
+      const bool fails = problem == 1 && trial == 1;
+      records.push_back(
+          OfProblem(problem, AttemptOf(fails ? PlanStatus::kTimedOut : PlanStatus::kSolved, 4)));
+      records.back().trial = trial;
+    }
+  }
+  std::string text = Brief(records);
+  EXPECT_EQ(Table(text, kPairs).at(0),
+            "contestant against problems won % in ratio time ratio [95 %] p (Holm)");
+  EXPECT_THAT(Row(text, kTimes, "ARA*"), StartsWith("2 "));
+  EXPECT_THAT(Row(text, kPairs, "ARA* RRT-Connect"), StartsWith("2 0.0 1 4 "));
+  text = std::regex_replace(text, std::regex("\\s+"), " ");  // lines are broken
+  EXPECT_THAT(text, HasSubstr("solved: problems with a confirmed path in one trial at least;"));
+  EXPECT_THAT(text, HasSubstr("A problem is solved in the median if more than half of its trials"));
+  EXPECT_THAT(text, HasSubstr("in ratio: those that both solved in the median."));
 }
 
 TEST(TablesTest, PValuesAreAdjustedForAllPairsOfTheSet) {
@@ -75,8 +98,8 @@ TEST(TablesTest, PValuesAreAdjustedForAllPairsOfTheSet) {
   }
   // 2 / 2^8 each, of three pairs, though the brief table shows two.
   for (const std::string& text : {Brief(records), Full(records)}) {
-    EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "8 0.0 2 [2, 2] 0.0234");
-    EXPECT_EQ(Row(text, kPairs, "third RRT-Connect"), "8 0.0 3 [3, 3] 0.0234");
+    EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "8 0.0 8 2 [2, 2] 0.0234");
+    EXPECT_EQ(Row(text, kPairs, "third RRT-Connect"), "8 0.0 8 3 [3, 3] 0.0234");
   }
 }
 

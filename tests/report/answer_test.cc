@@ -149,7 +149,7 @@ TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
                         kTagName));
   EXPECT_TRUE(
       answer[1].starts_with(fmt::format("The next, {}, solved 83.3 % of the", kScriptName)));
-  EXPECT_THAT(answer[1], testing::HasSubstr("on the 15 problems that both solved"));
+  EXPECT_THAT(answer[1], testing::HasSubstr("on the 15 problems that both solved in the median"));
   EXPECT_NE(answer[2].find("ranks first in 2 of the 2 sets; the referee rejected 1 of 46 paths"),
             std::string::npos)
       << answer[2];

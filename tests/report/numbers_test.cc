@@ -345,6 +345,7 @@ TEST_F(NumbersTest, Pairs) {
     EXPECT_EQ(Value(table, row, "faster"), faster) << what;
     EXPECT_EQ(Value(table, row, "slower"), slower) << what;
     EXPECT_EQ(Value(table, row, "tied"), static_cast<int>(first.size()) - faster - slower) << what;
+    EXPECT_EQ(Value(table, row, "problems_in_ratio"), logs.size()) << what;
     ExpectNear(std::exp(MeanOf(logs)), Value(table, row, "time_ratio"), what);
     const auto interval = IntervalOf(table, row, "time_ratio");
     ASSERT_EQ(interval.has_value(), logs.size() >= 6) << what;
@@ -412,7 +413,7 @@ TEST_F(NumbersTest, Quality) {
       if (!std::isnan(log)) logs.push_back(log);
     }
     EXPECT_EQ(Text(table, row, "reference"), leader);
-    EXPECT_EQ(Value(table, row, "common_problems"), logs.size());
+    EXPECT_EQ(Value(table, row, "problems_in_ratio"), logs.size());
     ExpectNear(std::exp(MeanOf(logs)), Value(table, row, "ratio_to_reference"), name);
     const Interval expected = StudentInterval(logs);
     const Interval interval = IntervalOf(table, row, "ratio_to_reference").value();

@@ -50,9 +50,10 @@ TEST_F(ReportTest, Pairs) {
   EXPECT_EQ(shelf[3], "12");
   EXPECT_EQ(shelf[4], "12");
   EXPECT_EQ(shelf[5], "0");
-  EXPECT_EQ(shelf[7], "0.500 [0.500, 0.500]");  // always half
-  EXPECT_EQ(shelf[8], "0.0005");                // 2 / 2^12
-  EXPECT_EQ(shelf[10], "-1.00");
+  EXPECT_EQ(shelf[7], "10");                    // the other fails in two
+  EXPECT_EQ(shelf[8], "0.500 [0.500, 0.500]");  // always half
+  EXPECT_EQ(shelf[9], "0.0005");                // 2 / 2^12
+  EXPECT_EQ(shelf[11], "-1.00");
   // Both sets: ten ratios of a half, and of 1.1 to 1.5 s to 4 s.
   const double log_sum =
       10 * std::log(0.5) + std::log(1.1 * 1.2 * 1.3 * 1.4 * 1.5 / std::pow(4, 5));
@@ -334,6 +335,25 @@ TEST_F(ReportTest, TimesOfNothingAreCountedBesideTheRatio) {
   EXPECT_EQ(PairTable(pairs_).note.find("time is 0"), std::string::npos);
 }
 
+TEST_F(ReportTest, ARatioTellsOnHowManyProblemsItRests) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .trial = 1, .status = PlanStatus::kTimedOut},
+            {.contestant = "A", .trial = 2},
+            {.contestant = "A", .problem = 2},
+            {.contestant = "B", .time_s = 20},
+            {.contestant = "B", .problem = 2, .time_s = 20}});
+  const std::vector<ComparedPair> pairs = ComparePairs(compared);
+  const Table times = TimeTable(compared), table = PairTable(pairs);
+  EXPECT_EQ(times.rows.size(), 2u);
+  for (std::size_t i = 0; i < times.rows.size(); ++i) EXPECT_EQ(Texts(times, i)[2], "2");
+  ASSERT_EQ(table.columns[7].name, "problems_in_ratio");
+  EXPECT_EQ(Texts(table, 0)[7], "1") << "half of A's trials at the first problem are no median";
+  EXPECT_THAT(times.note, testing::HasSubstr("in one trial at least"));
+  EXPECT_THAT(table.note, testing::HasSubstr("in the median if more than half of its trials"));
+  EXPECT_THAT(Answer(compared, pairs).at(1),
+              testing::HasSubstr("on the 1 problem that both solved in the median"));
+}
+
 TEST_F(ReportTest, FiguresNameTrialsAsTheyAre) {
   const ComparedSessions compared =
       Read({{.contestant = "A", .trial = 3}, {.contestant = "A", .problem = 2, .trial = 2}});
@@ -455,8 +475,9 @@ TEST_F(ReportTest, ChangesBetweenSessionsAreToldWithTheirUncertainty) {
   EXPECT_EQ(slower[2], "old");
   EXPECT_EQ(slower[3], "new");
   EXPECT_EQ(slower[4], "slower") << "in sight, however long names are";
-  EXPECT_EQ(slower[8], "2.00 [2.00, 2.00]");
-  EXPECT_EQ(slower[9], FormatCell(2 * 2 / 256.0, Style::kPValue));  // 2 / 2^8, of two tests
+  EXPECT_EQ(slower[8], "8");
+  EXPECT_EQ(slower[9], "2.00 [2.00, 2.00]");
+  EXPECT_EQ(slower[10], FormatCell(2 * 2 / 256.0, Style::kPValue));  // 2 / 2^8, of two tests
   EXPECT_EQ(Texts(table, 1)[4], "not shown");
   EXPECT_TRUE(ChangeTable(compared_).rows.empty());
 }

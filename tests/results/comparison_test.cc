@@ -105,6 +105,21 @@ TEST(CompareTest, AProblemIsUnsolvedIfMostOfItsTrialsAre) {
   EXPECT_NEAR(pair.ratio->mean, 3.0 / 9, 1e-12);
 }
 
+TEST(CompareTest, TellsHowManyProblemsTheRatioIsOf) {
+  // Solved by some trial, all four; by more than half of them, half being too few, two.
+  const Outcomes first = Of({{Solved(1), Failed()},
+                             {Solved(2), Failed(), Solved(4)},
+                             {Failed(), Solved(1), Failed()},
+                             {Solved(9)}});
+  const Outcomes second = Of({{Solved(1)}, {Solved(1)}, {Solved(1)}, {Solved(1)}});
+  EXPECT_EQ(SummarizeTimes(first).solved_s.count, 4);
+  const PairedComparison pair = Compare(first, second);
+  EXPECT_EQ(pair.num_problems, 4);
+  EXPECT_EQ(pair.num_in_ratio(), 2);
+  EXPECT_NEAR(pair.ratio->mean, std::sqrt(4.0 * 9.0), 1e-12);
+  EXPECT_EQ(Compare(Of({{Failed()}}), Of({{Solved(1)}})).num_in_ratio(), 0);
+}
+
 TEST(CompareTest, TimesOfNothingAreInNoRatio) {
   const Outcomes first = Of({{Solved(0)}, {Solved(2)}, {Solved(0)}, {Solved(0)}});
   const Outcomes second = Of({{Solved(1)}, {Solved(1)}, {Solved(0)}, {Failed()}});
@@ -119,7 +134,8 @@ TEST(CompareTest, TimesOfNothingAreInNoRatio) {
   EXPECT_EQ(pair.wins.tied, 1);
   EXPECT_EQ(pair.test.negative, 2 + 3);
   EXPECT_EQ(ZeroTimesNote({pair, pair}),
-            " Left out of the ratios of 2 rows, since a time is 0: 4 problems that both solved.");
+            " Left out of the ratios of 2 rows, since a time is 0: 4 problems that both solved in "
+            "the median.");
   EXPECT_EQ(ZeroTimesNote({Compare(Of({{Solved(1)}}), Of({{Solved(2)}}))}), "");
 }
 
