@@ -132,9 +132,9 @@ std::string EffortTable(const SessionResults& results) {
   return table.Format(
       "A problem counts once, by the median of its runs; medians over different problems do not "
       "compare. bus: the driver's round trip less the planner's own time. checking: share of "
-      "collision "
-      "checking in the search. length: joint space, L2, rad and m. clearance: least along the raw "
-      "path. -: not told, or not measured.\n\n");
+      "collision checking in the search. length: joint space, L2, rad and m. tip: travel of the "
+      "tip link from sample to sample of the referee, on the raw path. clearance: least at these "
+      "samples. -: not told, or not measured.\n\n");
 }
 
 std::string MeshTable(const SessionResults& results) {

@@ -38,7 +38,9 @@ std::span<const PathMeasure> PathMeasures() {
        .column = {.heading = "length", .heading_simplified = "simplified"}},
       {.name = "tip_travel",
        .unit = "m",
-       .meaning = "travel of the tip link's origin; of several tips, the sum",
+       .meaning =
+           "travel of the tip link's origin, from sample to sample of the referee; of several "
+           "tips, the sum",
        .take = [](P& p) { return p.TipTravel(); },
        .column = {.heading = "tip m"}},
       {.name = "smoothness",
@@ -53,7 +55,9 @@ std::span<const PathMeasure> PathMeasures() {
        .take = [](P& p) { return MotionTime(p.space(), p.path()); }},
       {.name = "clearance",
        .unit = "m",
-       .meaning = "smallest distance to a collision along a valid path, if it was asked for",
+       .meaning =
+           "smallest distance to a collision at the referee's samples of a valid path, if it was "
+           "asked for",
        .take = [](P& p) { return p.clearance().minimum_m; },
        .is_clearance = true,
        .column = {.heading = "clearance mm", .scale = 1e3, .decimals = 1}},

@@ -21,7 +21,8 @@ class PathSurvey {
   const JointSpace& space() const { return edges_->space(); }
   const Path& path() const { return *path_; }
 
-  /// Travel of the tip link's origin, summed over samples, m; of several tips, the sum of theirs.
+  /// Travel of the tip link's origin, straight from sample to sample, m; of several tips, the sum
+  /// of theirs.
   double TipTravel() const;
 
   /// Distance to the nearest collision over samples, m; infinite if there is nothing to collide

@@ -374,13 +374,14 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
 Table QualityTable(const ComparedSessions& compared) {
   Table table{"quality",
               "Path quality",
-              "Measures are the referee's, of confirmed runs; a problem counts once, by the median "
-              "of its runs. Ratio: to the reference, which is the contestant of highest rank that "
-              "has such values on the set; geometric mean over the problems in ratio, those that "
-              "both have values of, with Student's 95 % interval. Problems at which either's is "
-              "0, as the smoothness of a straight path, have no ratio and are none of them. "
-              "Medians over different problems do not compare. Rejected: confirmed runs whose "
-              "simplified path the referee rejected, which are left out.",
+              "Measures are the referee's, of confirmed runs, tip travel and clearance at its "
+              "samples of the path; a problem counts once, by the median of its runs. Ratio: to "
+              "the reference, which is the contestant of highest rank that has such values on the "
+              "set; geometric mean over the problems in ratio, those that both have values of, "
+              "with Student's 95 % interval. Problems at which either's is 0, as the smoothness of "
+              "a straight path, have no ratio and are none of them. Medians over different "
+              "problems do not compare. Rejected: confirmed runs whose simplified path the referee "
+              "rejected, which are left out.",
               {{"set", "set"},
                {"contestant", "contestant"},
                {"measure", "measure"},

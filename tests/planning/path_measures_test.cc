@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -90,6 +91,16 @@ TEST_F(TakeMeasuresTest, OfAPathKnown) {
   EXPECT_NEAR(values.at("clearance"), 1.3 - 1.15 - 0.04, 2e-3);
   EXPECT_GT(values.at("clearance_mean"), values.at("clearance"));
   EXPECT_LT(values.at("clearance_mean"), 1);
+}
+
+TEST_F(TakeMeasuresTest, TravelAndClearanceAreOfTheSamples) {
+  // In a step as long as the motion there are the ends, as far from the wall as a still arm there.
+  const MeasuredValues ends = Take(straight_, Wall(), 10);
+  EXPECT_NEAR(ends.at("tip_travel"), 2 * 1.2 * std::sin(0.6), 1e-9) << "the arc's chord";
+  const double at_rest = std::min(Take({straight_[0]}, Wall()).at("clearance"),
+                                  Take({straight_[1]}, Wall()).at("clearance"));
+  EXPECT_NEAR(ends.at("clearance"), at_rest, 1e-12);
+  EXPECT_GT(at_rest, Take(straight_, Wall()).at("clearance") + 0.1);
 }
 
 TEST_F(TakeMeasuresTest, DoNotDependOnHowAStraightMotionIsCut) {
