@@ -88,14 +88,11 @@ std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
 /// or that would be in no table.
 std::vector<Attempt> AttemptsOf(const DriverOptions& options, std::vector<StoredSession> references,
                                 const SessionConditions& conditions) {
-  for (const StoredSession& reference : references) {
-    if (std::none_of(reference.runs.begin(), reference.runs.end(), [&](const StoredRun& run) {
-          return conditions.problem_sets.contains(run.problem_set);
-        })) {
-      throw InputError("--reference " + reference.file.string() +
-                       ": it has no problem of the session's sets");
-    }
-  }
+  ProblemsBySet problems;  // of which the tables take those that have runs
+  for (const auto& [set, content] : conditions.problem_sets) problems[set];
+  std::vector<std::string> warnings;
+  for (StoredSession& reference : references) KeepProblems(problems, &reference, &warnings);
+  Warn(warnings);
   std::vector<std::string> names;
   for (const auto& [name, file] : options.references) names.push_back(name);
   references = JoinImports(names, std::move(references));

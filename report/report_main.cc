@@ -74,7 +74,7 @@ std::vector<StoredSession> ReadImports(const Flags& flags,
   for (std::size_t i = 0; i < flags.imports.size(); ++i) {
     imported.push_back(
         ImportResults(flags.imports[i], flags.import_names[i], time_limit_s, &warnings));
-    if (!sessions.empty()) KeepProblemsOf(sessions, &imported.back());
+    if (!sessions.empty()) KeepProblems(ProblemsOf(sessions), &imported.back(), &warnings);
   }
   imported = JoinImports(flags.import_names, std::move(imported));
   RequireOtherNames(contestants, imported);

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -49,6 +50,23 @@ void RequireDistinct(const std::vector<std::string>& header, const std::string& 
   }
 }
 
+/// What every row needs. `place`: of the header.
+void RequireColumns(const std::vector<std::string>& header, const std::string& place) {
+  if (header.size() == 1 && header[0].find_first_of(";\t") != std::string::npos) {
+    throw InputError(fmt::format(
+        "{}: columns are separated by {}: write the file with commas between them, and points in "
+        "numbers",
+        place, header[0].find(';') != std::string::npos ? "';'" : "tabs"));
+  }
+  const auto has = [&](const char* name) {
+    return std::find(header.begin(), header.end(), name) != header.end();
+  };
+  for (const char* name : {"problem_set", "problem_index", "solved", "time_s"}) {
+    if (has(name) || (name == std::string_view("problem_index") && has("query_index"))) continue;
+    throw InputError(fmt::format("{}: no column '{}'", place, name));
+  }
+}
+
 /// The cells of one line, by column.
 class Row {
  public:
@@ -62,11 +80,8 @@ class Row {
   }
 
   bool Has(const std::string& column) const { return Find(column) != nullptr; }
-  const std::string& Text(const std::string& column) const {
-    const std::string* cell = Find(column);
-    if (cell == nullptr) throw InputError(fmt::format("{}: no column '{}'", file_, column));
-    return *cell;
-  }
+  /// Of a column that it has.
+  const std::string& Text(const std::string& column) const { return *Find(column); }
   double Number(const std::string& column, double least, double most) const {
     const std::string& text = Text(column);
     double value = 0;
@@ -104,11 +119,24 @@ class Row {
 constexpr int kMostProblems = 1'000'000;
 constexpr double kLongest = 1e9;  // s
 
+/// From 1, whichever of the two columns tells it.
+int ReadProblemIndex(const Row& row) {
+  if (!row.Has("query_index")) return row.Int("problem_index", 1, kMostProblems);
+  const int index = row.Int("query_index", 0, kMostProblems) + 1;
+  if (row.Has("problem_index") && row.Int("problem_index", 1, kMostProblems) != index) {
+    row.Fail("problem_index",
+             fmt::format("{}, which query_index tells, as it counts from 0: remove one of the two "
+                         "columns",
+                         index));
+  }
+  return index;
+}
+
 StoredRun ReadRun(const Row& row, double time_limit_s) {
   StoredRun run;
   run.problem_set = row.Text("problem_set");
-  run.problem_index = row.Has("query_index") ? row.Int("query_index", 0, kMostProblems) + 1
-                                             : row.Int("problem_index", 1, kMostProblems);
+  if (run.problem_set.empty()) row.Fail("problem_set", "the name of a problem set");
+  run.problem_index = ReadProblemIndex(row);
   run.claimed = row.Int("solved", 0, 1) == 1;
   run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
   run.time_s = row.Number("time_s", 0, kLongest);
@@ -161,11 +189,12 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
     if (header.empty()) {
       header = SplitLine(line);
       RequireDistinct(header, file_name, number);
+      RequireColumns(header, fmt::format("{}:{}", file_name, number));
       continue;
     }
     const Row row(file_name, number, header, SplitLine(line));
     StoredRun run = ReadRun(row, time_limit_s);
-    run.id = number;
+    run.id = run.line = number;
     const Key key(run.problem_set, run.problem_index, run.direction);
     if (!row.Has("trial")) run.trial = ++num_rows[key];
     if (!trials.emplace(key, run.trial).second) {

@@ -83,24 +83,43 @@ StoredSession ImportResults(const std::filesystem::path& file, const std::string
   return session;
 }
 
-void KeepProblemsOf(const std::vector<StoredSession>& sessions, StoredSession* imported) {
-  std::set<std::pair<std::string, int>> problems;
-  std::set<std::string> sets, own_sets;
+ProblemsBySet ProblemsOf(const std::vector<StoredSession>& sessions) {
+  ProblemsBySet problems;
   for (const StoredSession& session : sessions) {
-    for (const StoredRun& run : session.runs) {
-      problems.emplace(run.problem_set, run.problem_index);
-      sets.insert(run.problem_set);
-    }
+    for (const StoredRun& run : session.runs) problems[run.problem_set].insert(run.problem_index);
   }
-  for (const StoredRun& run : imported->runs) own_sets.insert(run.problem_set);
-  std::erase_if(imported->runs, [&](const StoredRun& run) {
-    return !problems.contains({run.problem_set, run.problem_index});
-  });
-  imported->num_runs = static_cast<int>(imported->runs.size());
-  if (!imported->runs.empty()) return;
-  throw InputError(fmt::format(
-      "{}: none of its problems is among those of the sessions; sets here: {}; there: {}",
-      imported->file.string(), fmt::join(own_sets, ", "), fmt::join(sets, ", ")));
+  return problems;
+}
+
+void KeepProblems(const ProblemsBySet& problems, StoredSession* imported,
+                  std::vector<std::string>* warnings) {
+  const auto is_other = [&](const StoredRun& run) {
+    const auto set = problems.find(run.problem_set);
+    return set == problems.end() ||
+           (!set->second.empty() && !set->second.contains(run.problem_index));
+  };
+  std::vector<StoredRun>& runs = imported->runs;
+  const auto first = std::find_if(runs.begin(), runs.end(), is_other);
+  if (first == runs.end()) return;
+  const std::string file = imported->file.string();
+  const std::string place = first->line > 0 ? fmt::format("{}:{}", file, first->line) : file;
+  const std::string problem =
+      fmt::format("problem {} of '{}'", first->problem_index, first->problem_set);
+  const std::size_t num_all = runs.size();
+  std::set<std::string> sets, own_sets;
+  for (const auto& [set, indices] : problems) sets.insert(set);
+  for (const StoredRun& run : runs) own_sets.insert(run.problem_set);
+  std::erase_if(runs, is_other);
+  imported->num_runs = static_cast<int>(runs.size());
+  if (runs.empty()) {
+    throw InputError(
+        fmt::format("{}: none of its problems is among the session's; sets here: {}; there: {}",
+                    file, fmt::join(own_sets, ", "), fmt::join(sets, ", ")));
+  }
+  warnings->push_back(
+      fmt::format("{}: {} is none of the session's; {} of {} results are of such problems, and "
+                  "count nowhere",
+                  place, problem, num_all - runs.size(), num_all));
 }
 
 std::vector<StoredSession> JoinImports(const std::vector<std::string>& names,

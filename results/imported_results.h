@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,9 +19,14 @@ namespace planbench {
 StoredSession ImportResults(const std::filesystem::path& file, const std::string& name,
                             double time_limit_s, std::vector<std::string>* warnings);
 
-/// Leaves of imported results the problems that one of the sessions has. Throws InputError if that
-/// leaves nothing.
-void KeepProblemsOf(const std::vector<StoredSession>& sessions, StoredSession* imported);
+/// Indices of problems by set; of a set without any, all that it has.
+using ProblemsBySet = std::map<std::string, std::set<int>>;
+ProblemsBySet ProblemsOf(const std::vector<StoredSession>& sessions);
+
+/// Leaves of imported results those of `problems`, the session's; `warnings` gets a line that
+/// counts the others and names the first. Throws InputError if that leaves nothing.
+void KeepProblems(const ProblemsBySet& problems, StoredSession* imported,
+                  std::vector<std::string>* warnings);
 
 /// One session a name of what was imported under these names: its contestants of one name are one.
 /// Throws InputError naming the file if two files hold the same trial.

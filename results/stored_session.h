@@ -18,6 +18,7 @@ namespace planbench {
 /// A run as a results database holds it (docs/database.md).
 struct StoredRun {
   std::int64_t id = 0;         ///< `runs.id`
+  int line = 0;                ///< Of the CSV file that it was imported from; else 0.
   std::size_t contestant = 0;  ///< Index into those of its session.
   std::string request_id;
   std::string problem_set;

@@ -161,6 +161,7 @@ TEST_F(ReportProgramTest, ResultsFromElsewhereStandBesideTheSessions) {
             kExitOk)
       << errors_;
   // Of the problems, the common one alone.
+  EXPECT_THAT(errors_, HasSubstr("other.csv:3: problem 9 of 'shelf' is none of the session's; "));
   const std::string times = ReadText(folder_ / "csv" / "times.csv");
   EXPECT_THAT(times, HasSubstr("\nshelf,elsewhere,1,4000,"));
   EXPECT_THAT(times, HasSubstr("\nshelf,A,2,1000,"));

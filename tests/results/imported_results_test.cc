@@ -90,6 +90,44 @@ TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   ExpectInputError([&] { ImportResults("/none/r.csv", "x", 1, &warnings_); }, {"/none/r.csv"});
 }
 
+TEST_F(ImportedCsvTest, OtherSeparatorsThanCommasAreNamed) {
+  ExpectRefused("\nproblem_set;problem_index;solved;time_s\nbox;1;1;0,5\n",
+                {"r.csv:2: columns are separated by ';': ", "commas", "points in numbers"});
+  ExpectRefused("problem_set\tproblem_index\tsolved\ttime_s\n", {"r.csv:1:", "by tabs"});
+  ExpectRefused("problem_set,problem_index,solved\n", {"r.csv:1: no column 'time_s'"});
+  EXPECT_EQ(Read("problem_set,problem_index,solved,time_s,a;b\nbox,1,1,2,;\n").size(), 1u);
+}
+
+TEST_F(ImportedCsvTest, TwoColumnsOfIndicesTellTheSame) {
+  const std::string header = "problem_set,problem_index,query_index,solved,time_s\n";
+  EXPECT_EQ(Read(header + "box,4,3,1,2\n").at(0).problem_index, 4);
+  ExpectRefused(header + "box,4,3,1,2\nbox,5,5,1,2\n",
+                {"r.csv:3: problem_index: '5' is not 6, which query_index tells"});
+}
+
+TEST_F(ImportedCsvTest, RowsOfNoProblemAreRefused) {
+  ExpectRefused("problem_set,problem_index,solved,time_s\nbox,1,1,2\n,1,1,2\n",
+                {"r.csv:3: problem_set: '' is not the name"});
+}
+
+TEST_F(ImportedCsvTest, RowsOfOtherProblemsAreCounted) {
+  folder_.Write("r.csv",
+                "problem_set,problem_index,solved,time_s\nbox,1,1,2\nbxo,1,1,2\nbox,3,1,2\n");
+  const auto keep = [&](const ProblemsBySet& problems) {
+    StoredSession session = Import("r.csv", "x");
+    KeepProblems(problems, &session, &warnings_);
+    return session.num_runs;
+  };
+  EXPECT_EQ(keep({{"box", {1, 2}}}), 1);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("r.csv:3: problem 1 of 'bxo' is none of the session's; 2 of 3 "),
+            std::string::npos)
+      << warnings_[0];
+  EXPECT_EQ(keep({{"box", {}}}), 2) << "any problem of the set";
+  EXPECT_EQ(keep({{"box", {1, 3}}, {"bxo", {}}}), 3);
+  EXPECT_EQ(warnings_.size(), 2u) << "all are the session's";
+}
+
 TEST_F(ImportedCsvTest, AColumnThatIsThereTwiceIsRefused) {
   ExpectRefused("\nproblem_set,problem_index,solved,time_s,time_s\nbox,1,1,0.5,50\n",
                 {"r.csv:2: two columns are called 'time_s'"});

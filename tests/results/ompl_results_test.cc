@@ -234,14 +234,20 @@ TEST_F(OmplResultsTest, ALogOfOursComesBackAsItWas) {
     EXPECT_EQ(after.time_limit_s, before.time_limit_s);
   }
   EXPECT_EQ(imported.contestants[0].name, "again: A; \"one\"");
-  KeepProblemsOf(own, &imported);
+  KeepProblems(ProblemsOf(own), &imported, &warnings_);
   EXPECT_EQ(imported.runs.size(), 5u);
+  EXPECT_TRUE(warnings_.empty());
   std::erase_if(own.front().runs, [](const StoredRun& run) { return run.problem_index == 2; });
-  KeepProblemsOf(own, &imported);
+  KeepProblems(ProblemsOf(own), &imported, &warnings_);
   EXPECT_EQ(imported.runs.size(), 3u);
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("own.log: problem 2 of 'shelf' is none of the session's; 2 of 5"),
+            std::string::npos)
+      << warnings_[0];
   own.front().runs[0].problem_set = "other";
   own.front().runs.resize(1);
-  ExpectInputError([&] { KeepProblemsOf(own, &imported); }, {"own.log", "shelf", "other"});
+  ExpectInputError([&] { KeepProblems(ProblemsOf(own), &imported, &warnings_); },
+                   {"own.log", "shelf", "other"});
 }
 
 TEST_F(OmplResultsTest, ALogHasNoTimesThatAreNotTold) {
