@@ -81,8 +81,7 @@ std::vector<int> GroupTips(const RobotModel& model, const std::set<int>& joints,
   const Branches branches(model, joints, hand_joints);
   std::vector<int> tips;
   for (const int tip : chain_tips) {
-    const auto is_rigid = [&](int other) { return model.Rigid(tip, other); };
-    if (branches.Move(tip) && std::ranges::none_of(tips, is_rigid)) tips.push_back(tip);
+    if (branches.Move(tip)) tips.push_back(tip);
   }
   for (const int link : branches.OutermostLinks()) {
     const bool has_tip = std::any_of(tips.begin(), tips.end(), [&](int tip) {

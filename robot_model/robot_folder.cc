@@ -50,6 +50,13 @@ PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model,
     return model.MakeGroup(name, joints, tips.front(), {tips.begin() + 1, tips.end()});
   });
   RequireMovedTips(tip, model, group);
+  const std::vector<int> counting = group.tips();
+  for (const std::string& left_out : tips) {
+    if (std::ranges::count(counting, model.FindLink(left_out)) > 0) continue;
+    warnings->push_back(
+        fmt::format("{}: '{}' does not count: it is rigid to a tip before it; take one of them out",
+                    tip.Where(), left_out));
+  }
   if (const auto states = node.Find("states")) {
     for (const std::string& key : states->Keys()) {
       const YamlNode state = states->At(key);

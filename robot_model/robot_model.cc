@@ -139,9 +139,11 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
   group.tip_link = find_tip(tip_link);
   for (const std::string& tip : more_tips) {
     const int link = find_tip(tip);
+    const std::vector<int> tips = group.tips();
+    if (std::ranges::count(tips, link) > 0) fail(fmt::format("tip '{}' is repeated", tip));
     // What is summed over the tips would count it twice.
-    if (std::ranges::count(group.tips(), link) > 0) fail(fmt::format("tip '{}' is repeated", tip));
-    group.more_tips.push_back(link);
+    const auto is_rigid = [&](int other) { return Rigid(link, other); };
+    if (std::ranges::none_of(tips, is_rigid)) group.more_tips.push_back(link);
   }
 
   std::set<std::string> seen;

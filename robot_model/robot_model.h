@@ -143,9 +143,10 @@ class RobotModel {
   /// joints at the identity.
   std::vector<double> DefaultPositions() const;
 
-  /// A planning group from joint names in order; throws InputError for joints that are unknown, or
-  /// fixed, planar or floating, or follow another, a repeated joint or tip, an unknown tip link, or
-  /// a continuous joint with a follower that is elsewhere a turn later. It has no states.
+  /// A planning group from joint names in order; of tips that are rigid to each other the first
+  /// counts. Throws InputError for joints that are unknown, or fixed, planar or floating, or follow
+  /// another, a repeated joint or tip, an unknown tip link, or a continuous joint with a follower
+  /// that is elsewhere a turn later. It has no states.
   PlanningGroup MakeGroup(const std::string& name, const std::vector<std::string>& joint_names,
                           const std::string& tip_link,
                           const std::vector<std::string>& more_tips = {}) const;

@@ -170,10 +170,13 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
   const Robot own = LoadRobot(folder.path());
   EXPECT_EQ(own.groups[0].name, "own");
   EXPECT_EQ(own.groups[0].states.at("up"), std::vector<double>{1});
-  EXPECT_EQ(own.groups[0].more_tips, std::vector<int>{own.model.FindLink("hand")});
+  EXPECT_THAT(own.groups[0].more_tips, testing::IsEmpty());
   EXPECT_EQ(own.spheres[0].radius, 2);
   EXPECT_EQ(own.allowed_pairs.size(), 1u);
-  EXPECT_THAT(own.warnings, testing::ElementsAre(testing::HasSubstr("leg")));
+  EXPECT_THAT(own.warnings,
+              testing::ElementsAre(testing::HasSubstr("leg"),
+                                   testing::HasSubstr("robot.yaml:6: groups[0].tip_link: 'hand' "
+                                                      "does not count: it is rigid to a tip")));
 
   folder.Write("small.srdf", "<robot name='small'/>");
   folder.Write("robot.yaml", "name: small\nurdf: small.urdf\nsrdf: small.srdf\n");

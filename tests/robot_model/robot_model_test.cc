@@ -217,6 +217,13 @@ TEST_F(RobotModelTest, MakesGroupsInTheOrderGiven) {
   EXPECT_EQ(group.space.joint(1).max_velocity, 0.2);
 }
 
+TEST_F(RobotModelTest, OfTipsThatAreRigidToEachOtherTheFirstCounts) {
+  const PlanningGroup group =
+      model_.MakeGroup("arm", {"alpha", "zulu", "bravo"}, "twig", {"leaf_b", "branch", "leaf_a"});
+  EXPECT_EQ(group.tips(), (std::vector<int>{model_.FindLink("twig"), model_.FindLink("leaf_b"),
+                                            model_.FindLink("leaf_a")}));
+}
+
 TEST_F(RobotModelTest, RefusesGroupsItCannotMake) {
   const auto make = [this](const std::vector<std::string>& joints, const char* tip) {
     return [this, joints, tip] { model_.MakeGroup("arm", joints, tip); };
