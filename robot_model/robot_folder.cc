@@ -154,10 +154,10 @@ void AddWarnings(const std::vector<std::string>& warnings, Robot* robot) {
 }
 
 // Groups, pairs, virtual joints and spheres: those of the SRDF, if there is one, and what
-// robot.yaml says itself. The result are the pairs that are checked only because the SRDF does not
-// disable them.
-LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* robot,
-                        ContentHash* hash) {
+// robot.yaml says itself. `other_spheres`: the SRDF's do not count. The result are the pairs that
+// are checked only because the SRDF does not disable them.
+LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, bool other_spheres,
+                        Robot* robot, ContentHash* hash) {
   const auto groups = root.Find("groups");
   LinkPairs checked_by_srdf;
   LinkPairs enabled;
@@ -170,7 +170,7 @@ LinkPairs ReadSemantics(const YamlNode& root, const fs::path& folder, Robot* rob
     enabled = std::move(srdf.enabled_pairs);
     robot->spheres = std::move(srdf.spheres);
     AddWarnings(srdf.warnings, robot);
-    if (!root.Find("spheres")) AddWarnings(srdf.sphere_warnings, robot);
+    if (!other_spheres) AddWarnings(srdf.sphere_warnings, robot);
     robot->virtual_joints = std::move(srdf.virtual_joints);
     if (!groups) {
       if (srdf.groups.empty()) file->Fail(NoGroupFault(srdf, named.path.string()));
@@ -409,7 +409,9 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
   hash.Add(urdf.text);
   robot.resources.own_folder = fs::absolute(urdf.path).parent_path();
   robot.model = RobotModel::FromUrdf(urdf.text, urdf.path.string(), &robot.warnings);
-  const LinkPairs left = ReadSemantics(root, folder, &robot, &hash);
+  const auto own_spheres = root.Find("spheres");
+  const bool other_spheres = own_spheres || !spheres.empty();
+  const LinkPairs left = ReadSemantics(root, folder, other_spheres, &robot, &hash);
   const auto read_spheres = [&](const NamedFile& file) {
     hash.Add(file.text);
     return ReadLinkSpheres(file.path, file.text, robot.model, &robot.warnings);
@@ -419,9 +421,9 @@ Robot LoadRobot(const fs::path& folder_or_name, const std::map<std::string, fs::
     robot.spheres_file = fs::absolute(spheres);
     if (robot.spheres.empty()) throw InputError(spheres.string() + ": no spheres");
     WarnOfUncheckedLinks(root, spheres.string(), &robot);
-  } else if (const auto named = root.Find("spheres")) {
-    robot.spheres = read_spheres(ReadNamedFile(*named, folder));
-    WarnOfUncheckedLinks(root, named->Where(), &robot);
+  } else if (own_spheres) {
+    robot.spheres = read_spheres(ReadNamedFile(*own_spheres, folder));
+    WarnOfUncheckedLinks(root, own_spheres->Where(), &robot);
   } else if (const auto srdf = root.Find("srdf")) {
     WarnOfUncheckedLinks(root, srdf->Where(), &robot);
   }

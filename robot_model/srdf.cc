@@ -373,12 +373,15 @@ class SrdfReader {
     if (!states_.insert({group_name, name}).second) {
       Fail(element, fmt::format("the state '{}' of group '{}' occurs twice", name, group_name));
     }
-    std::map<std::string, const Element*> values;  // By joint.
+    std::vector<std::pair<std::string, const Element*>> values;  // By joint, as the file has them.
+    std::set<std::string> seen;
     for (const Element* e : Children(element, "joint")) {
       const auto joint = KnownJoint(*e, fmt::format("state '{}': ", name));
-      if (joint && !values.emplace(*joint, e).second) {
+      if (!joint) continue;
+      if (!seen.insert(*joint).second) {
         Fail(*e, fmt::format("the state '{}' names the joint '{}' twice", name, *joint));
       }
+      values.emplace_back(*joint, e);
     }
     const auto group = std::find_if(srdf_.groups.begin(), srdf_.groups.end(),
                                     [&](const PlanningGroup& g) { return g.name == group_name; });
@@ -400,7 +403,7 @@ class SrdfReader {
     for (const int index : group->joints) {
       const Joint& joint = JointAt(index);
       q.push_back(full[static_cast<std::size_t>(joint.position_index)]);
-      if (values.contains(joint.name) || !FollowerThatPuts(model_, index, names).empty()) continue;
+      if (seen.contains(joint.name) || !FollowerThatPuts(model_, index, names).empty()) continue;
       filled.push_back(fmt::format("{} at {}", joint.name, q.back()));
     }
     const std::string state = fmt::format("{}: state '{}'", Where(element), name);

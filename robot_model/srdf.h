@@ -25,8 +25,8 @@ struct Srdf {
   /// as MoveIt takes it, the joint beneath where they meet. Tips are those of the chains, but for
   /// those that an arm leads on from (three joints or more, none of an end effector), and the
   /// outermost links of branches without one; no two are rigid to each other. States are complete:
-  /// joints that the file does not name are where a follower that it names puts them, or at their
-  /// default position.
+  /// joints that the file does not name are where the last follower that it names puts them, or at
+  /// their default position.
   std::vector<PlanningGroup> groups;
   std::vector<EndEffector> end_effectors;
   std::vector<VirtualJoint> virtual_joints;

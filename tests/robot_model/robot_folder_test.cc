@@ -160,13 +160,15 @@ TEST(LoadRobot, TakesGroupsPairsAndSpheresFromAnSrdf) {
 
   folder.Write("small.srdf", std::string(kSrdf) + "\n");
   EXPECT_NE(LoadRobot(folder.path()).content_id, robot.content_id);
+  folder.Write("spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
+  EXPECT_THAT(LoadRobot(folder.path(), {}, folder / "spheres.yaml").warnings,
+              testing::ElementsAre(testing::HasSubstr("leg")));
 
   // What robot.yaml says itself stands before it.
   folder.Write(
       "robot.yaml",
       "name: small\nurdf: small.urdf\nsrdf: small.srdf\nspheres: spheres.yaml\n"
       "groups:\n  - {name: own, joints: [turn], tip_link: [arm, hand], states: {up: [1]}}\n");
-  folder.Write("spheres.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
   const Robot own = LoadRobot(folder.path());
   EXPECT_EQ(own.groups[0].name, "own");
   EXPECT_EQ(own.groups[0].states.at("up"), std::vector<double>{1});

@@ -1,5 +1,6 @@
 #include "robot_model/srdf.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -202,6 +203,28 @@ TEST(ParseSrdf, StatesOutsideTheLimitsOrWithAFollowerElsewhereAreNamed) {
                           "twin.srdf:7: state 'wide': joint 'fj1' at 0.05 is outside its limits "
                           "[0, 0.04]"));
   EXPECT_THAT(srdf.left_out, IsEmpty());
+}
+
+TEST(ParseSrdf, JointsOfAStateComeInTheFilesOrder) {
+  std::string urdf = "<robot name='claw'><link name='base'/>";
+  for (const char* joint : {"lead", "b", "a"}) {
+    urdf += fmt::format(
+        "<link name='{0}_link'/><joint name='{0}' type='continuous'><parent link='base'/>"
+        "<child link='{0}_link'/>{1}</joint>",
+        joint, joint == std::string("lead") ? "" : "<mimic joint='lead'/>");
+  }
+  const RobotModel model = RobotModel::FromUrdf(urdf + "</robot>", "claw.urdf");
+  const auto state = [&](const std::string& joints) {
+    return ParseSrdf(fmt::format("<robot name='claw'><group name='all'><joint name='lead'/></group>"
+                                 "<group_state name='grip' group='all'>{}</group_state></robot>",
+                                 joints),
+                     "claw.srdf", model);
+  };
+  const std::string followers = "<joint name='b' value='0.2'/><joint name='a' value='0.1'/>";
+  EXPECT_THAT(state(followers + "<joint name='lead' value='0'/>").group_warnings,
+              ElementsAre(HasSubstr("joint 'b' is given at 0.2"), HasSubstr("joint 'a' is given")));
+  // As in problem files the last follower puts its leader.
+  EXPECT_THAT(state(followers).groups.at(0).states, ElementsAre(Pair("grip", ElementsAre(0.1))));
 }
 
 TEST(ParseSrdf, UnknownJointsOfStatesAndPassiveOnesAreNamedAndDoNotCount) {
