@@ -129,6 +129,18 @@ std::vector<YamlNode> OneOrMore(const YamlNode& node, const std::string& plural,
   return elements;
 }
 
+// Whether it begins with a list of meshes, or of their poses, that is empty and ends there.
+bool BeginsWithNoMesh(std::string_view text) {
+  for (const std::string_view key : {"meshes:", "mesh_poses:"}) {
+    if (!text.starts_with(key)) continue;
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', key.size())));
+    if (!text.starts_with("[]")) return false;
+    text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', 2)));
+    return text.empty() || std::string_view("\r\n,}").find(text.front()) != std::string_view::npos;
+  }
+  return false;
+}
+
 // How MoveIt tells a pose that is not set. Here it is one: who writes it means it.
 bool MoveItPassesOver(const YamlNode& pose) {
   const std::optional<YamlNode> orientation = pose.Find("orientation");
@@ -387,6 +399,18 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
 }
 
 }  // namespace
+
+bool MayHaveMesh(std::string_view yaml_text) {
+  constexpr auto kNone = std::string_view::npos;
+  // In quotes these may stand for letters, or be within a word.
+  for (const char* escape : {"\\x", "\\u", "\\U", "\\\n", "\\\r"}) {
+    if (yaml_text.find(escape) != kNone) return true;
+  }
+  for (std::size_t at = yaml_text.find("mesh"); at != kNone; at = yaml_text.find("mesh", at + 1)) {
+    if (!BeginsWithNoMesh(yaml_text.substr(at))) return true;
+  }
+  return false;
+}
 
 std::string ReadObjectId(const YamlNode& node, const Robot& robot) {
   const std::string id = ReadName(node);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "common/yaml.h"
 #include "geometry/mesh_loader.h"
@@ -11,6 +12,11 @@
 namespace planbench {
 
 inline constexpr double kLargestShape = 1e9;  ///< What a length of a shape may be, m.
+
+/// Whether a text of YAML may have an object with a mesh, which may be in a file that it names:
+/// whether `mesh` stands in it other than as messages without one write it (`meshes: []`,
+/// `mesh_poses: []`), or may do so escaped. Never false where there is one.
+bool MayHaveMesh(std::string_view yaml_text);
 
 /// Reads the id of an object: one line, and not the name of a link with a body or of the octomap,
 /// since names tell bodies apart in the allowed-collision matrix. Throws InputError.

@@ -12,6 +12,7 @@
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/packet_reader.h"
+#include "scene/moveit_object_reader.h"
 #include "scene/moveit_yaml.h"
 
 namespace planbench {
@@ -205,7 +206,7 @@ std::string ProblemLibrary::ContentId(const ProblemSet& set) {
       for (const fs::path& file : {files.scene, files.request}) {
         const std::string text = TextOf(file);
         hash.Add(text);
-        has_meshes |= text.find("mesh") != std::string::npos;
+        has_meshes |= MayHaveMesh(text);
       }
       // They may be in other files.
       if (has_meshes) hash.Add(Read(set, files).message.scene_id);

@@ -379,6 +379,23 @@ TEST_F(MeshFile, IsReadOnceForObjectsOfTheSameScaleUntilItChanges) {
   EXPECT_NE(mesh_of(ParseScene(text, resources_)), mesh);
 }
 
+TEST_F(MeshFile, IsLookedForUnlessEveryListOfMeshesIsEmpty) {
+  for (const char* text :
+       {"", "id: table", "meshes: []\nmesh_poses:   [] \n", "{meshes: [], mesh_poses: []}",
+        "meshes: []\r\nprimitives: []", "id: \"a\\tb\"\nmeshes: []"}) {
+    EXPECT_FALSE(MayHaveMesh(text)) << text;
+  }
+  for (const char* text :
+       {"mesh: a.obj", "meshes: [a.obj]", "meshes: []\n---\nmesh: a.obj", "meshes:\n  - a.obj",
+        "meshes: &none []", "meshes: [] # of mesh.obj", "\"meshes\": [a.obj]",
+        "? meshes\n: [a.obj]", "{mesh_poses: [], meshes: [a.obj]}", "meshes: [",
+        "\"\\x6desh\": a.obj", "\"me\\u0073hes\": [a.obj]", "\"\\U0000006desh\": a.obj",
+        "\"me\\\n  sh\": a.obj"}) {
+    EXPECT_TRUE(MayHaveMesh(text)) << text;
+  }
+  EXPECT_TRUE(MayHaveMesh(Scene("tri.obj")));
+}
+
 TEST_F(MeshFile, MissingResourceNamesTheLineOfTheScene) {
   try {
     ParseScene(Scene("{resource: 'package://things/meshes/none.obj'}"), resources_);
