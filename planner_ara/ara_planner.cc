@@ -47,12 +47,13 @@ class AraPlanner : public Planner {
     RequireKnownJoints(node);
     const PlanningGroup& group = robot.Group("");
     if (!settings_.primitives.empty()) {
+      primitives_ = ReadNamedFile(node.At("primitives"), robot.folder);
       // The file may change while its name stays.
       ContentHash hash;
-      hash.Add(ReadNamedFile(node.At("primitives"), robot.folder).text);
+      hash.Add(primitives_.text);
       primitives_id_ = hash.HexDigest();
     }
-    options_.emplace(group.name, ResolveOptions(settings_, robot, group, origin_));
+    options_.emplace(group.name, ResolveOptions(settings_, primitives_, robot, group, origin_));
     OwnEdgeSampling(group, EdgeCheck::kFixed, 1);  // throws now rather than at the first request
     if (!settings_.experience.empty()) experience_.emplace(robot, node.At("experience"));
   }
@@ -212,12 +213,17 @@ class AraPlanner : public Planner {
     }
   }
 
-  AraSettings SettingsFor(const SearchQuery& query) const {
-    if (query.parameters().empty()) return settings_;
+  static YamlNode ParametersOf(const SearchQuery& query) {
     YamlNode request = YamlNode::Parse("{}", "request parameters");
     for (const auto& [key, text] : query.parameters()) {
       request.Override(key, text, "request parameter " + key);
     }
+    return request;
+  }
+
+  AraSettings SettingsFor(const SearchQuery& query) const {
+    if (query.parameters().empty()) return settings_;
+    const YamlNode request = ParametersOf(query);
     // Paths have been read by then, and edges are sampled before a search is asked.
     for (const char* key : {"experience", "edge_weights"}) {
       const std::optional<YamlNode> value = request.Find(key);
@@ -225,8 +231,6 @@ class AraPlanner : public Planner {
     }
     AraSettings settings = settings_;
     settings.Apply(request);
-    const std::optional<YamlNode> primitives = request.Find("primitives");
-    if (primitives && !settings.primitives.empty()) ReadNamedFile(*primitives, robot().folder);
     // A parameter without a value is a mistake, not a wish for the default.
     for (const std::string& key : request.Keys()) request.At(key);
     RequireKnownJoints(request);
@@ -249,21 +253,25 @@ class AraPlanner : public Planner {
   /// `settings`: the query's.
   ManipulationGraphOptions OptionsOf(const SearchQuery& query, const AraSettings& settings) {
     const PlanningGroup& group = query.edges().checker().group();
-    return query.parameters().empty()
-               ? OptionsFor(group)
-               : ResolveOptions(settings, robot(), group, "request parameters");
+    if (query.parameters().empty()) return OptionsFor(group);
+    const std::optional<YamlNode> own = ParametersOf(query).Find("primitives");
+    const NamedFile primitives =
+        own && !settings.primitives.empty() ? ReadNamedFile(*own, robot().folder) : primitives_;
+    return ResolveOptions(settings, primitives, robot(), group, "request parameters");
   }
 
   const ManipulationGraphOptions& OptionsFor(const PlanningGroup& group) {
     const auto known = options_.find(group.name);
     if (known != options_.end()) return known->second;
-    return options_.emplace(group.name, ResolveOptions(settings_, robot(), group, origin_))
+    return options_
+        .emplace(group.name, ResolveOptions(settings_, primitives_, robot(), group, origin_))
         .first->second;
   }
 
   std::string origin_;  // of the settings
   AraSettings settings_;
-  std::string primitives_id_;  // content hash of the file of primitives; empty without one
+  NamedFile primitives_;       // that settings_ name; empty without one, as is
+  std::string primitives_id_;  // its content hash
   std::optional<Experience> experience_;
   std::map<std::string, ManipulationGraphOptions> options_;  // by group, of settings_
 };

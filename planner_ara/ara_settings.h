@@ -41,7 +41,7 @@ struct AraSettings {
   bool fit_cells = false;
   /// Weight of a joint in distances, per rad or m, > 0; 1 for joints that are not named.
   std::map<std::string, double> joint_weights;
-  /// The file of motion primitives (LoadMotionPrimitives); relative paths start at the robot
+  /// The file of motion primitives (PrimitivesOfFile); relative paths start at the robot
   /// folder. Absent: DefaultPrimitives.
   std::filesystem::path primitives;
   bool use_long_primitives = true;

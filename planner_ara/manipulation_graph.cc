@@ -43,8 +43,9 @@ void RequireUsable(const MotionPrimitives& primitives, const JointSpace& space,
 
 }  // namespace
 
-ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
-                                        const PlanningGroup& group, const std::string& origin) {
+ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const NamedFile& primitives,
+                                        const Robot& robot, const PlanningGroup& group,
+                                        const std::string& origin) {
   const JointSpace& space = group.space;
   const std::vector<char> major =
       MajorJoints(space, JointReaches(robot, group), ArmsOf(robot.model, group));
@@ -66,8 +67,7 @@ ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot
   options.primitives = settings.primitives.empty()
                            ? DefaultPrimitives(space, options.discretization, major,
                                                JointsOnOneArm(robot.model, group))
-                           : LoadMotionPrimitives((robot.folder / settings.primitives).string(),
-                                                  space, options.discretization);
+                           : PrimitivesOfFile(primitives, space, options.discretization);
   if (!settings.use_long_primitives) options.primitives.long_moves.clear();
   if (!settings.use_short_primitives) options.primitives.short_moves.clear();
   RequireUsable(options.primitives, space, options.discretization, origin);

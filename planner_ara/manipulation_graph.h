@@ -43,13 +43,14 @@ struct ManipulationGraphOptions {
   bool arm_by_arm = false;           ///< See AraSettings::arm_by_arm.
 };
 
-/// Resolves settings against a group. Throws InputError, prefixed by `origin`, for joints of the
-/// group without a discretisation where others have one and those that no lattice can have
-/// (Lattice::WhyNoAxis), unknown crowding joints, settings that leave no primitive or more than
-/// kMostPrimitives, primitives that move a continuous joint half a turn or more, and what
-/// LoadMotionPrimitives refuses.
-ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const Robot& robot,
-                                        const PlanningGroup& group, const std::string& origin);
+/// Resolves settings against a group; `primitives` is the file that they name, if they do. Throws
+/// InputError, prefixed by `origin`, for joints of the group without a discretisation where others
+/// have one and those that no lattice can have (Lattice::WhyNoAxis), unknown crowding joints,
+/// settings that leave no primitive or more than kMostPrimitives, primitives that move a continuous
+/// joint half a turn or more, and what PrimitivesOfFile refuses.
+ManipulationGraphOptions ResolveOptions(const AraSettings& settings, const NamedFile& primitives,
+                                        const Robot& robot, const PlanningGroup& group,
+                                        const std::string& origin);
 
 /// The graph an ARA* search of a manipulation problem runs on (SearchGraph): the points of a
 /// lattice anchored at the start, joined by motion primitives, and the goal as one more state,

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "common/error.h"
-#include "common/read_text.h"
 
 namespace planbench {
 namespace {
@@ -163,13 +161,14 @@ MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& sp
   return primitives;
 }
 
-MotionPrimitives LoadMotionPrimitives(const std::string& path, const JointSpace& space,
-                                      std::span<const double> discretization) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+MotionPrimitives PrimitivesOfFile(const NamedFile& file, const JointSpace& space,
+                                  std::span<const double> discretization) {
+  const std::string extension = file.path.extension().string();
   if (extension == ".yaml" || extension == ".yml") {
-    return ReadMotionPrimitives(YamlNode::LoadFile(path), space, discretization);
+    const YamlNode node = YamlNode::Parse(file.text, file.path.string());
+    return ReadMotionPrimitives(node, space, discretization);
   }
-  return ParseMotionPrimitives(ReadText(path), path, space.size());
+  return ParseMotionPrimitives(file.text, file.path.string(), space.size());
 }
 
 }  // namespace planbench

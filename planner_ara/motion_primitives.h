@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/named_file.h"
 #include "common/yaml.h"
 #include "robot_model/joint_space.h"
 
@@ -46,8 +47,8 @@ MotionPrimitives ParseMotionPrimitives(const std::string& text, const std::strin
 MotionPrimitives ReadMotionPrimitives(const YamlNode& node, const JointSpace& space,
                                       std::span<const double> discretization);
 
-/// Reads a file: the YAML form if its name ends in .yaml or .yml, SMPL's if not.
-MotionPrimitives LoadMotionPrimitives(const std::string& path, const JointSpace& space,
-                                      std::span<const double> discretization);
+/// The moves of a file: the YAML form if its name ends in .yaml or .yml, SMPL's if not.
+MotionPrimitives PrimitivesOfFile(const NamedFile& file, const JointSpace& space,
+                                  std::span<const double> discretization);
 
 }  // namespace planbench

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/read_text.h"
 #include "common/stopwatch.h"
 #include "contract/planner_contract.h"
 #include "contract/random_robots_contract.h"
@@ -114,6 +115,26 @@ TEST_F(AraPlannerTest, TellsWhatTheFileOfPrimitivesHolds) {
   EXPECT_NE(id("2 0 0"), first);
   EXPECT_EQ(id("1 0 0"), first);
   EXPECT_FALSE(Make("")->Describe().settings.contains("primitives_id"));
+}
+
+TEST_F(AraPlannerTest, HasThePrimitivesThatItToldOfWhateverIsWrittenMeanwhile) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.Write(
+      "p.mprim", ReadText(PLANBENCH_SOURCE_DIR "/tests/planner_ara/data/planar3.mprim"));
+  const std::unique_ptr<Planner> planner =
+      Make("primitives: " + file.string() +
+           "\ndiscretization: {shoulder: 0.2, elbow: 0.2, "
+           "wrist: 0.2}\nshort_primitives_within: everywhere\n");
+  PlanRequest request = PastThePost();
+  request.parameters = {{"refine", "true"}};
+  const PlanResult before = planner->Plan(request, PostsScene(), nullptr);
+  ASSERT_EQ(before.status, PlanStatus::kSolved) << before.message;
+  folder.Write("p.mprim", "no primitives");
+  EXPECT_EQ(planner->Plan(request, PostsScene(), nullptr).path, before.path);
+  request.parameters = {{"primitives", file.string()}};
+  const PlanResult refused = planner->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(refused.status, PlanStatus::kInvalidRequest);
+  EXPECT_NE(refused.message.find("p.mprim:1"), std::string::npos) << refused.message;
 }
 
 TEST_F(AraPlannerTest, FollowsWhatItRecallsAsFarAsItIsFree) {

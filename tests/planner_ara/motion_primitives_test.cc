@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
+#include "common/read_text.h"
 #include "planner_ara/arms.h"
 #include "planner_ara/default_primitives.h"
 #include "support/expect_input_error.h"
@@ -20,6 +22,11 @@ using Rows = std::vector<std::vector<int>>;
 
 MotionPrimitives Parse(const std::string& text) {
   return ParseMotionPrimitives(text, "arm.mprim", 2);
+}
+
+MotionPrimitives Load(const std::filesystem::path& file, const JointSpace& space,
+                      const std::vector<double>& cells) {
+  return PrimitivesOfFile({file, ReadText(file)}, space, cells);
 }
 
 TEST(MotionPrimitives, LastRowsAreTheShortOnes) {
@@ -144,14 +151,7 @@ TEST(MotionPrimitives, TheNameOfAFileTellsItsForm) {
       << "{angle_unit: rad, length_unit: m, long: [{flex: 0.2}]}";
   std::ofstream(folder.path() / "arm.mprim") << "Motion_Primitives(degrees): 1 3 0\n0 2 0\n";
   for (const char* name : {"arm.yaml", "arm.mprim"}) {
-    EXPECT_EQ(LoadMotionPrimitives(folder.path() / name, ThreeJoints(), kCells).long_moves,
-              (Rows{{0, 2, 0}}));
-  }
-}
-
-TEST(MotionPrimitives, RefusesAFileThatIsNotThere) {
-  for (const std::string file : {"/nowhere/arm.mprim", "/nowhere/arm.yaml"}) {
-    ExpectInputError([&] { LoadMotionPrimitives(file, ThreeJoints(), kCells); }, {file});
+    EXPECT_EQ(Load(folder / name, ThreeJoints(), kCells).long_moves, (Rows{{0, 2, 0}}));
   }
 }
 
@@ -275,7 +275,7 @@ const std::vector<double> kEightCells(8, 0.1);
 
 TEST(MotionPrimitives, FetchMovesAreThoseOfTheStudy) {
   const MotionPrimitives primitives =
-      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
+      Load(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
   ASSERT_EQ(primitives.long_moves.size(), 5U);
   ASSERT_EQ(primitives.short_moves.size(), 8U);
   for (std::size_t j = 0; j < 8; ++j) {
@@ -291,10 +291,9 @@ TEST(MotionPrimitives, FetchMovesAreThoseOfTheStudy) {
 
 TEST(MotionPrimitives, ReadsThePublishedFile) {
   PLANBENCH_NEED_SHARED_DATA("paper/fetch.mprim");
-  const MotionPrimitives published =
-      LoadMotionPrimitives(SharedData("paper/fetch.mprim").string(), kEight, kEightCells);
+  const MotionPrimitives published = Load(SharedData("paper/fetch.mprim"), kEight, kEightCells);
   const MotionPrimitives own =
-      LoadMotionPrimitives(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
+      Load(PLANBENCH_SOURCE_DIR "/robots/fetch/fetch.mprim", kEight, kEightCells);
   EXPECT_EQ(published.long_moves, own.long_moves);
   EXPECT_EQ(published.short_moves, own.short_moves);
 }

@@ -37,7 +37,7 @@ class AraSeveralGoalsTest : public testing::Test {
     AraSettings ara;
     ara.Apply(YamlNode::Parse(settings, "ara.yaml"));
     const ManipulationGraphOptions options =
-        ResolveOptions(ara, robot_, robot_.groups.front(), "ara.yaml");
+        ResolveOptions(ara, {}, robot_, robot_.groups.front(), "ara.yaml");
     EdgeChecker edges(checker_.get(), robot_.edge_resolution_m, robot_.edge_check);
     double optimum = kInfinity;
     for (const Configuration& goal : goals) {
