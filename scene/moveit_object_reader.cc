@@ -332,6 +332,14 @@ AttachedObject ReadAttachedObject(const YamlNode& node, const AttachedObject* kn
   return attached;
 }
 
+// Only the ids say that what has shapes of its own is the same thing.
+void WarnThatItLeavesTheWorld(const YamlNode& id, const AttachedObject& attached) {
+  id.Warn(fmt::format(
+      "the world's object '{}' is left out: one of that id is attached to the link '{}', with "
+      "shapes of its own",
+      attached.object.id, attached.link));
+}
+
 // Attaches objects one after the other.
 class Attacher {
  public:
@@ -346,7 +354,9 @@ class Attacher {
     }
     AttachedObject* known = FindAttached(id, scene_);
     AttachedObject attached = ReadAttachedObject(node, known, resources_, robot_, *scene_, frames_);
-    std::erase_if(scene_->objects, [&](const SceneObject& other) { return other.id == id; });
+    const auto is_same = [&](const SceneObject& other) { return other.id == id; };
+    const bool left_world = std::erase_if(scene_->objects, is_same) > 0;
+    if (left_world && HasShapes(node.At("object"))) WarnThatItLeavesTheWorld(id_node, attached);
     if (known == nullptr) {
       scene_->attached.push_back(std::move(attached));
     } else {
@@ -391,7 +401,10 @@ void AddWorldObjects(const YamlNode& world, const ResourceResolver& resources, c
     SceneObject object = ReadCollisionObject(node, resources);
     if (!ids.insert(id).second) node.At("id").Fail("the object '" + id + "' is given twice");
     object.X_WO = CanonicalPose(frames->At(ReadFrame(node), FrameNode(node)) * object.X_WO);
-    if (FindAttached(id, scene) != nullptr) continue;  // It has left the world.
+    if (const AttachedObject* attached = FindAttached(id, scene)) {
+      WarnThatItLeavesTheWorld(node.At("id"), *attached);
+      continue;
+    }
     WarnOfPlanesAround(object, node);
     frames->SetObject(id, "", ReadFrames(node, object));
     scene->objects.push_back(std::move(object));

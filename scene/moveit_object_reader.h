@@ -57,10 +57,11 @@ void AddSceneObjects(const YamlNode& planning_scene, const ResourceResolver& res
 /// Adds the attached_collision_objects of a moveit_msgs/RobotState to `scene`, with their poses in
 /// their links. As in MoveIt, an object with shapes takes the place of one that is attached by that
 /// id already, and one without is the world's of that id, where it is; in either case that leaves
-/// the world. Beyond MoveIt, one without shapes may also name an attached object, which is then
-/// attached anew where it is: to another link, with other touch links. Without a frame objects are
-/// in the planning frame, with a warning. `frames` have the robot in that state, which is what
-/// tells where the link is. Throws InputError, also for links that the robot does not have.
+/// the world, with a warning if the two need not be the same. Beyond MoveIt, one without shapes may
+/// also name an attached object, which is then attached anew where it is: to another link, with
+/// other touch links. Without a frame objects are in the planning frame, with a warning. `frames`
+/// have the robot in that state, which is what tells where the link is. Throws InputError, also for
+/// links that the robot does not have.
 void AddAttachedObjects(const YamlNode& robot_state, const ResourceResolver& resources,
                         const Robot& robot, FrameTree* frames, Scene* scene);
 

@@ -123,7 +123,8 @@ INSTANTIATE_TEST_SUITE_P(
              Outcome::kRefused,
              {"robot_state.multi_dof_joint_state.transforms[0]", "'base'"}},
         Case{"08-attach-by-id/a", Outcome::kGoalInvalid, {}},
-        Case{"08-attach-by-id/b", Outcome::kGoalInvalid, {}},
+        Case{
+            "08-attach-by-id/b", Outcome::kGoalInvalid, {"scene0001.yaml:5", "'tool' is left out"}},
         Case{"08-attach-by-id/c", Outcome::kGoalInvalid, {}},
         Case{"09-object-named-as-link/a",
              Outcome::kRefused,

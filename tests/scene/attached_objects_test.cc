@@ -42,6 +42,9 @@ world:
       primitive_poses: [{position: [0, 5, 0], orientation: [0, 0, 0, 1]}]
 )";
 
+// The same without the tool.
+std::string WorldWithoutTool() { return Replaced(kWorld, "id: tool", "id: can"); }
+
 std::string Attaching(const std::string& text, const std::string& object,
                       const std::string& link = "gripper_link") {
   return Replaced(text, "attached_collision_objects: []",
@@ -84,8 +87,24 @@ TEST(AttachedObjects, WithShapesTakeTheIdOutOfTheWorld) {
   }
 }
 
+TEST(AttachedObjects, WithShapesThatTakeTheIdOutOfTheWorldAreNamed) {
+  const auto told = [](const std::string& where) {
+    return ElementsAre(where +
+                       ": the world's object 'tool' is left out: one of that id is "
+                       "attached to the link 'gripper_link', with shapes of its own");
+  };
+  EXPECT_THAT(ParseProblem(Attaching(kWorld, kTool), kToolRequest).warnings,
+              told("scene.yaml:6: world.collision_objects[0].id"));
+  const std::string on_wall = Replaced(kTool, "frame_id: gripper_link", "frame_id: wall");
+  EXPECT_THAT(ParseProblem(Attaching(kWorld, on_wall), kToolRequest).warnings,
+              told("scene.yaml:3: robot_state.attached_collision_objects[0].object.id"));
+  EXPECT_THAT(ParseProblem(kWorld, Attaching(kToolRequest, kTool)).warnings,
+              told("request.yaml:4: start_state.attached_collision_objects[0].object.id"));
+  EXPECT_THAT(ParseProblem(Attaching(kWorld, "id: tool"), kToolRequest).warnings, IsEmpty());
+}
+
 TEST(AttachedObjects, OfTheRequestTakeThePlaceOfTheScenes) {
-  const std::string scene = Attaching(kWorld, kTool);
+  const std::string scene = Attaching(WorldWithoutTool(), kTool);
   const auto attached = [&](const std::string& object) {
     const Problem problem = ParseProblem(scene, Attaching(kToolRequest, object));
     EXPECT_THAT(problem.warnings, IsEmpty());
@@ -117,7 +136,7 @@ TEST(AttachedObjects, ByIdMayBeAttachedAlready) {
 }
 
 TEST(AttachedObjects, OfAWholeStartStateAreAllThereAre) {
-  const std::string scene = Attaching(kWorld, kTool);
+  const std::string scene = Attaching(WorldWithoutTool(), kTool);
   const auto with_flag = [](const std::string& flag, const std::string& request) {
     return Replaced(request, "start_state:", "start_state:\n  is_diff: " + flag);
   };
@@ -143,10 +162,11 @@ TEST(AttachedObjects, OfAWholeStartStateAreAllThereAre) {
 
 TEST(AttachedObjects, GivenTwiceAreWhatTheLastSays) {
   const std::string one = "{link_name: gripper_link, object: {" + std::string(kTool) + "}}";
-  const Problem problem = ParseProblem(Replaced(kWorld, "attached_collision_objects: []",
-                                                "attached_collision_objects: [" + one + ", " +
-                                                    Replaced(one, "[0.2]", "[0.3]") + "]"),
-                                       kToolRequest);
+  const Problem problem =
+      ParseProblem(Replaced(WorldWithoutTool(), "attached_collision_objects: []",
+                            "attached_collision_objects: [" + one + ", " +
+                                Replaced(one, "[0.2]", "[0.3]") + "]"),
+                   kToolRequest);
   ASSERT_EQ(problem.scene.attached.size(), 1u);
   EXPECT_EQ(std::get<Sphere>(problem.scene.attached[0].object.shapes.at(0).shape).radius, 0.3);
   EXPECT_THAT(problem.warnings, ElementsAre(HasSubstr("'tool' is attached twice")));
@@ -308,7 +328,7 @@ TEST(AttachedObjects, HaveASetOfTouchLinks) {
 
 TEST(AttachedObjects, TouchLinksThatAreNoneAreNamed) {
   const auto warnings = [](const std::string& link) {
-    const std::string scene = Replaced(Attaching(kWorld, kTool), "/l_finger", link);
+    const std::string scene = Replaced(Attaching(WorldWithoutTool(), kTool), "/l_finger", link);
     return ParseProblem(scene, kToolRequest).warnings;
   };
   EXPECT_THAT(warnings("mast"), IsEmpty());
