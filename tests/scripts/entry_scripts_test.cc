@@ -65,6 +65,7 @@ class EntryScriptsTest : public testing::Test {
          {"CODE", code},
          {"RESULTS", results}});
     const int ended_with = process.Wait().value_or(-1);
+    output_ = process.Output();
     errors_ = process.Errors();
     notes_ = fs::exists(folder_ / "notes") ? ReadText(folder_ / "notes") : "";
     return ended_with;
@@ -72,7 +73,7 @@ class EntryScriptsTest : public testing::Test {
 
   TemporaryFolder folder_;
   const fs::path checkout_ = fs::canonical(folder_.path()) / "checkout";
-  std::string errors_, notes_;
+  std::string output_, errors_, notes_;
 };
 
 TEST_F(EntryScriptsTest, RobotsThatShipAreHiddenByRobotsAloneAndTheDefaultOneByNothing) {
@@ -95,6 +96,17 @@ TEST_F(EntryScriptsTest, RobotsThatShipAreHiddenByRobotsAloneAndTheDefaultOneByN
   EXPECT_THAT(errors_, HasSubstr("run: --robot nonsuch: there is no such folder"));
   EXPECT_THAT(errors_, HasSubstr("those are: fetch panda\n"));
   EXPECT_EQ(notes_, "");
+}
+
+TEST_F(EntryScriptsTest, TheUsageSaysThatRobotsThatShipAreTakenByName) {
+  EXPECT_EQ(Call("run", {"--help"}), 0) << errors_;
+  for (const char* flag : {"--robot panda", "--referee-robot ROBOT"}) {
+    const std::size_t at = output_.find(fmt::format("  ./run {} ", flag));
+    ASSERT_NE(at, std::string::npos) << flag;
+    EXPECT_THAT(output_.substr(at, output_.find("\n  ./run", at) - at), HasSubstr("that ships by"));
+  }
+  EXPECT_EQ(Call("run", {"--problems", "sets", "--referee-robot", "panda"}), 0) << errors_;
+  EXPECT_THAT(notes_, HasSubstr(" --referee-robot panda\n")) << "the driver finds it";
 }
 
 TEST_F(EntryScriptsTest, WhatTheDriverMadeIsReportedHoweverItEndedAndNothingElse) {
