@@ -93,6 +93,29 @@ bool JudgeEnds(const JointSpace& space, const Path& path, std::span<const double
   return true;
 }
 
+double CountSamples(const EdgeChecker& edges, const Path& path) {
+  double samples = 1;
+  for (std::size_t i = 1; i < path.size(); ++i) samples += edges.NumIntervals(path[i - 1], path[i]);
+  return samples;
+}
+
+/// Of a path of too many samples: that it is too long, or throws since the step is too fine for it.
+void RejectLength(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
+  double motion_m = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    motion_m += edges.checker().motion_bound().Between(edges.space(), path[i - 1], path[i]);
+  }
+  if (motion_m > kMaxPathMotion) {
+    verdict->reason = fmt::format(
+        "the path is too long: points of the robot move by up to {:.3g} m on it", motion_m);
+    return;
+  }
+  throw InputError(fmt::format(
+      "at a step_m of {} m the path has more than {:.0f} samples, which are not judged: "
+      "choose a larger one (--referee-step)",
+      edges.edge_resolution(), kMaxPathSamples));
+}
+
 bool JudgeCollisions(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
   CollisionChecker& checker = edges.checker();
   bool free = true;
@@ -129,8 +152,12 @@ PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<con
   const EdgeChecker edges(checker, step_m, EdgeCheck::kFixed);
   PathVerdict verdict;
   if (!JudgeWaypoints(space, path, &verdict)) return verdict;
-  verdict.valid =
-      JudgeEnds(space, path, start, goals, &verdict) && JudgeCollisions(edges, path, &verdict);
+  const bool fits_ends = JudgeEnds(space, path, start, goals, &verdict);
+  if (CountSamples(edges, path) > kMaxPathSamples) {
+    if (fits_ends) RejectLength(edges, path, &verdict);
+    return verdict;
+  }
+  verdict.valid = fits_ends && JudgeCollisions(edges, path, &verdict);
   const std::vector<double> default_positions = checker->robot().model.DefaultPositions();
   PathSurvey survey(edges, path, base_positions.empty() ? default_positions : base_positions);
   verdict.measures = TakeMeasures(&survey, with_clearance && verdict.valid);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "collision/edge_checker.h"
 #include "common/error.h"
 #include "planning/path_judge.h"
 #include "planning/resolve.h"
@@ -51,21 +50,6 @@ Path InGroupOrder(const Path& path, const std::vector<std::string>& joint_names,
     }
   }
   return ordered;
-}
-
-/// Throws if judging would take for ever.
-void RequireFewSamples(CollisionChecker* checker, const Path& path, double step_m) {
-  const EdgeChecker edges(checker, step_m, EdgeCheck::kFixed);
-  const auto n = static_cast<std::size_t>(edges.space().size());
-  double samples = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (path[i - 1].size() != n || path[i].size() != n) return;  // for the judge to reject
-    samples += edges.NumIntervals(path[i - 1], path[i]);
-  }
-  if (samples > PathReferee::kMaxSamples) {
-    throw InputError(fmt::format("step_m: at {} m the path has more than {:.0f} samples", step_m,
-                                 PathReferee::kMaxSamples));
-  }
 }
 
 }  // namespace
@@ -140,7 +124,6 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
     return reply;
   }
   const Path path = InGroupOrder(request.path, request.joint_names, group.space);
-  RequireFewSamples(&checker, path, request.step_m);
   reply.verdict = JudgePath(&checker, path, query.start, query.goals, request.step_m,
                             request.with_clearance, query.base_positions);
   if (mesh_robot_ != nullptr) {
@@ -150,7 +133,6 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
     CollisionChecker& meshes = mesh_checkers_->Get(
         mesh_robot_->Group(group.name), CollisionModel::kMeshes, request.scene_id,
         InMeshRobotsFrame(request.scene_id, scene, query.base_positions, positions), positions);
-    RequireFewSamples(&meshes, path, request.step_m);
     reply.mesh_verdict = JudgePath(&meshes, path, query.start, query.goals, request.step_m,
                                    /*with_clearance=*/false, positions);
   }

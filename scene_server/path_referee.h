@@ -20,9 +20,6 @@ namespace planbench {
 /// whether the real robot would have collided. Thread-safe (one path at a time).
 class PathReferee {
  public:
-  /// Samples that one path may have; more are refused.
-  static constexpr double kMaxSamples = 1e6;
-
   /// `mesh_robot` may be null; else it has the groups of `robot` and the root link of one is a link
   /// of the other (see LoadRefereeRobot), and its meshes are loaded here (InputError if one is
   /// missing). Holds references to both.
@@ -32,7 +29,7 @@ class PathReferee {
   /// names other joints, or not all, is invalid. A model that has no exact geometry of its own is
   /// judged with spheres: `voxels`, which only rasterises the world that the spheres meet, and any
   /// that this build lacks. Meshes are judged without clearances, which cost too much. Throws
-  /// InputError naming the field for a step that is not positive or gives too many samples, an
+  /// InputError naming the field for a step that is not positive or too fine (JudgePath), an
   /// unknown group, a start or goal that cannot be resolved.
   PathCheckReplyMessage Judge(const PathCheckRequestMessage& request,
                               const std::shared_ptr<const Scene>& scene);

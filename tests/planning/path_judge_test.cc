@@ -152,6 +152,25 @@ TEST_F(PathJudgeTest, HeldJointsCount) {
   EXPECT_FALSE(Judge(straight_, PostsScene()).valid);
 }
 
+TEST_F(PathJudgeTest, OfTooManySamplesAPathIsTooLongOrTheStepTooFine) {
+  // Every edge has few samples; all together have too many.
+  Path long_path = {straight_.front()};
+  for (int i = 0; i < 8000; ++i) long_path.push_back({i % 2 == 0 ? 2.5 : -0.5, 0, 0});
+  long_path.push_back(straight_.back());
+  const PathVerdict verdict = Judge(long_path, EmptyPlanarScene());
+  EXPECT_FALSE(verdict.valid);
+  EXPECT_THAT(verdict.reason, HasSubstr("the path is too long: points of the robot move by up to"));
+  EXPECT_TRUE(verdict.measures.empty());
+
+  ExpectInputError([&] { Judge(straight_, EmptyPlanarScene(), false, 1e-6); },
+                   {"step_m of 1e-06 m", "more than 1000000 samples", "--referee-step"});
+  // What is no matter of samples is said at any step.
+  EXPECT_THAT(Judge({{0.6, 0, 0}, {-0.5, 0, 0}}, EmptyPlanarScene(), false, 1e-6).reason,
+              HasSubstr("goal"));
+  EXPECT_THAT(Judge({{0.6, 0, 0}, {0, 1e9, 0}, {-0.6, 0, 0}}, EmptyPlanarScene()).reason,
+              HasSubstr("waypoint 1: joint 'elbow' at 1e+09 rad is outside"));
+}
+
 TEST_F(PathJudgeTest, RefusesBadSteps) {
   for (const double step_m : {0.0, -0.01, std::nan(""), double{INFINITY}}) {
     ExpectInputError([&] { Judge(straight_, EmptyPlanarScene(), false, step_m); }, {"step_m"});

@@ -128,6 +128,8 @@ TEST_F(PathCheck, RejectsAWaypointOutsideTheLimits) {
   PathCheckRequestMessage request = Request();
   request.path[1][1] = 0.6;
   EXPECT_THAT(Judge(request).reason, AllOf(HasSubstr("waypoint 1"), HasSubstr("'lift'")));
+  request.path[1][1] = 1e9;  // rejected, not refused for its samples
+  EXPECT_THAT(Judge(request).reason, AllOf(HasSubstr("waypoint 1"), HasSubstr("'lift'")));
 }
 
 TEST_F(PathCheck, RejectsAnEmptyPath) {
