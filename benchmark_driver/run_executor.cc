@@ -88,7 +88,7 @@ void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMes
   result.progress.clear();
 }
 
-/// The record of a run of whose paths nobody can judge one: as of one that was not asked for, to be
+/// The record of a run of whose paths one has no verdict: as of one that was not asked for, to be
 /// made again.
 RunRecordMessage Unjudged(RunRecordMessage record, const std::string& why) {
   record.status = PlanStatus::kNoAnswer;
@@ -150,7 +150,7 @@ int RunExecutor::FailuresIn(Turn* turn) const {
 template <typename Request, typename Reply>
 std::optional<Reply> RunExecutor::AskServer(Service<Request, Reply>* service,
                                             const Request& request, Turn* turn,
-                                            const std::string& what,
+                                            const std::string& what, const std::string& advice,
                                             const std::function<bool()>& interrupted) {
   const int failures_before = FailuresIn(turn);
   const auto fails = [&] { return FailuresIn(turn) >= kServerFailures; };
@@ -196,7 +196,7 @@ std::optional<Reply> RunExecutor::AskServer(Service<Request, Reply>* service,
                       std::chrono::duration<double>(without_server).count(), what));
     }
     spdlog::warn("waiting for {} from the scene server ({})", what,
-                 is_live ? "it is live, but silent" : "no scene server is live");
+                 is_live ? "it is live, but silent" + advice : "no scene server is live");
   }
   return std::nullopt;
 }
@@ -235,8 +235,8 @@ std::optional<ProblemMessage> RunExecutor::AskForProblem(Turn* turn,
   request.request_id = UniqueId(fmt::format("{}/{}/{}", conditions_.request.run_id, set, index));
   request.problem_set = set;
   request.problem_index = index;
-  std::optional<ProblemMessage> problem =
-      AskServer(&problems_, request, turn, "the problem " + LeftOutName(set, index), interrupted);
+  std::optional<ProblemMessage> problem = AskServer(
+      &problems_, request, turn, "the problem " + LeftOutName(set, index), "", interrupted);
   if (problem && problem->ok && (problem->problem_set != set || problem->problem_index != index)) {
     problem->ok = false;
     problem->message = fmt::format("the scene server gave problem {} {} where {} {} was asked for",
@@ -287,13 +287,16 @@ std::optional<PathCheckReplyMessage> RunExecutor::Judge(const std::string& check
   request.collision_model = record.request.collision_model;
   request.step_m = conditions_.referee_step_m.value();
   request.with_clearance = conditions_.with_clearance;
+  const std::string advice =
+      fmt::format("; verdicts take less time with a larger --referee-step than {}{}",
+                  request.step_m, request.with_clearance ? ", or with --no-clearance" : "");
   std::optional<Turn> turn = TakeTurn({run.problem_set, run.problem_index}, interrupted);
   if (!turn) return std::nullopt;
   for (bool has_scene = false;; has_scene = true) {
     const int failures_before = FailuresIn(&*turn);
     request.request_id = UniqueId(check_id);
-    std::optional<PathCheckReplyMessage> reply =
-        AskServer(&path_checks_, request, &*turn, "the verdict on " + check_id, interrupted);
+    std::optional<PathCheckReplyMessage> reply = AskServer(
+        &path_checks_, request, &*turn, "the verdict on " + check_id, advice, interrupted);
     const bool failed = FailuresIn(&*turn) > failures_before;
     if (!reply || reply->ok || (has_scene && !failed)) return reply;
     // A scene server that was restarted meanwhile does not know the scene: asking for the problem
@@ -513,19 +516,14 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   const auto check =
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
-  const auto why_none = [&](const PathCheckReplyMessage& reply) {
-    return reply.ok ? "" : WhyPassedOver({run.problem_set, run.problem_index});
-  };
-  if (std::string why = why_none(*check); !why.empty()) return Unjudged(std::move(record), why);
+  // No fault of the planner's: what is, the referee calls an invalid path.
+  if (!check->ok) return Unjudged(std::move(record), check->message);
+  if (!check->verdict) return Unjudged(std::move(record), "the scene server gave none");
   record.path_check = *check;
-  if (is_first_path && check->verdict) {
-    TellLength(*check->verdict, record.request.anytime, &record.result.result);
-  }
-  if (!check->ok || !check->verdict || !check->verdict->valid) {
+  if (is_first_path) TellLength(*check->verdict, record.request.anytime, &record.result.result);
+  if (!check->verdict->valid) {
     record.status = PlanStatus::kInvalidPath;
-    record.message = !check->ok        ? "the referee could not judge: " + check->message
-                     : !check->verdict ? "the referee gave no verdict"
-                                       : check->verdict->reason;
+    record.message = check->verdict->reason;
     spdlog::warn("{}: invalid path: {}", run.request_id, record.message);
   }
   if (!record.result.result.simplified_path.empty()) {
@@ -533,9 +531,10 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
         Judge(run.request_id + "/simplified", record.result.result.simplified_path, record, run,
               interrupted);
     if (!simplified_check) return std::nullopt;
-    if (std::string why = why_none(*simplified_check); !why.empty()) {
-      return Unjudged(std::move(record), why);
-    }
+    // One that is only refused leaves the run what its raw path made it.
+    const std::string why =
+        simplified_check->ok ? "" : WhyPassedOver({run.problem_set, run.problem_index});
+    if (!why.empty()) return Unjudged(std::move(record), why);
     record.simplified_check = *simplified_check;
   }
   return record;

@@ -77,7 +77,8 @@ class RunExecutor {
   /// one's, or, if the limit comes before that has a path, the first one's path; times and counters
   /// are sums (of kToldTime the longest stands). Where the scene server denies the problem, which
   /// it had when the session began, the record says so; where the problem is passed over before
-  /// there is a verdict, it is that of a run that was not asked for (asked_runs.h).
+  /// there is a verdict, or the raw path is refused one, it is that of a run that was not asked for
+  /// (asked_runs.h).
   std::optional<RunRecordMessage> Execute(const ScheduledRun& run,
                                           const std::vector<PlannerClient*>& planners,
                                           const std::function<bool()>& interrupted);
@@ -114,10 +115,11 @@ class RunExecutor {
     RpcClient<Request, Reply> client;
     std::set<std::string> failed_at;  // problems passed over since it answered; whose turn it is
   };
-  /// The reply is without ok if the problem is passed over. `what`: is asked for, in words.
+  /// The reply is without ok if the problem is passed over. `what`: is asked for, in words;
+  /// `advice`: what is told of it behind the word that the server is silent.
   template <typename Request, typename Reply>
   std::optional<Reply> AskServer(Service<Request, Reply>* service, const Request& request,
-                                 Turn* turn, const std::string& what,
+                                 Turn* turn, const std::string& what, const std::string& advice,
                                  const std::function<bool()>& interrupted);
   void PassOver(const Turn& turn, const std::string& why, std::set<std::string>* failed_at);
   /// "" if it is not.

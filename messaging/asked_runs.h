@@ -9,9 +9,9 @@
 namespace planbench {
 
 /// Whether a request of the run was sent. A run that was not (its planner had been given up, or had
-/// come back as another; its problem could not be had), or whose path the scene server failed to
-/// judge, has a record that says why, and counts as missing: no figure counts it, the session is
-/// not finished without, --resume makes it.
+/// come back as another; its problem could not be had), or whose path the scene server gave no
+/// verdict on, has a record that says why, and counts as missing: no figure counts it, the session
+/// is not finished without, --resume makes it.
 bool WasAsked(const RunRecordMessage& run);
 
 /// Whether a backward search that is to be made only if this forward one found no path is not made:

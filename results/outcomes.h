@@ -68,7 +68,7 @@ struct Outcome {
     kBackward,    ///< Solved from goal to start, and not from start to goal.
     kFailure,     ///< Out of time, memory or search space.
     kUnsolvable,  ///< Start or goal found invalid.
-    kRejected,    ///< The referee refused the path.
+    kRejected,    ///< The referee found the path invalid.
     kNoAnswer,    ///< The planner died or fell silent.
     kRefused,     ///< The request was refused, or cancelled before there was an answer.
   };

@@ -330,15 +330,17 @@ TEST_F(RunExecutorTest, RefereeThatHasForgottenTheSceneIsToldAgain) {
   EXPECT_GE(server.problem_requests().messages().size(), 2u);
 }
 
-TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
+TEST_F(RunExecutorTest, ARunWithoutAVerdictIsToBeMadeAgain) {
   FakeSceneServer server(&bus_);
   server.OnPathCheck([](const PathCheckRequestMessage&) -> PathCheckReplyMessage {
-    throw InputError("no engine");
+    throw InputError("too many samples");
   });
   auto record = Execute();
   ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kInvalidPath);
-  EXPECT_THAT(record->message, HasSubstr("no engine"));
+  EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
+  EXPECT_EQ(record->message, "no verdict on its path: too many samples");
+  EXPECT_FALSE(WasAsked(*record)) << "it counts for nothing, and not against the planner";
+  EXPECT_TRUE(record->result.result.path.empty());
 
   server.OnPathCheck([](const PathCheckRequestMessage&) {
     PathCheckReplyMessage reply;
@@ -347,8 +349,48 @@ TEST_F(RunExecutorTest, PathThatCannotBeJudgedIsNoSuccess) {
   });
   record = Execute(Scheduled(1));
   ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kInvalidPath);
-  EXPECT_THAT(record->message, HasSubstr("no verdict"));
+  EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
+  EXPECT_EQ(record->message, "no verdict on its path: the scene server gave none");
+  EXPECT_FALSE(WasAsked(*record));
+}
+
+TEST_F(RunExecutorTest, ASimplifiedPathThatIsNotJudgedLeavesTheRawOne) {
+  PlanResult result = FakePlanner::SolvedResult();
+  result.simplified_path = {{0, 0}, {0.1, 0}, {1, 0.5}};
+  AnswerWith(result);
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([](const PathCheckRequestMessage& request) {
+    if (request.path.size() == 2) return FakeSceneServer::Verdict(true);
+    throw InputError("too many samples");
+  });
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kSolved);
+  EXPECT_EQ(record->simplified_check.message, "too many samples");
+}
+
+TEST_F(RunExecutorTest, WhileItWaitsForAVerdictItTellsWhatMakesThemFaster) {
+  ServerPatience patience;
+  patience.until_told = std::chrono::milliseconds(1);
+  SessionConditions conditions = Conditions();
+  FakeSceneServer server(&bus_);
+  for (const bool with_clearance : {true, false}) {
+    conditions.with_clearance = with_clearance;
+    RunExecutor executor(&bus_, &registry_, conditions, {}, {}, {}, patience);
+    // Asked for again when it has been told.
+    const std::size_t num_before = server.path_checks().messages().size();
+    server.OnPathCheck([&](const PathCheckRequestMessage&) {
+      WaitUntil([&] { return server.path_checks().messages().size() >= num_before + 2; });
+      return FakeSceneServer::Verdict(true);
+    });
+    testing::internal::CaptureStdout();
+    EXPECT_TRUE(executor.Execute(Scheduled(), {&client_}, [] { return false; }));
+    EXPECT_THAT(
+        testing::internal::GetCapturedStdout(),
+        HasSubstr(std::string("it is live, but silent; verdicts take less time with a larger "
+                              "--referee-step than 0.004") +
+                  (with_clearance ? ", or with --no-clearance)" : ")")));
+  }
 }
 
 TEST_F(RunExecutorTest, TellsWhichProblemItWaitsForUntilTheSceneServerIsGone) {
