@@ -285,7 +285,9 @@ void Driver::CompleteConditions() {
   request.robot_id = served_.robot_id;
   if (!request.edge_resolution_m) request.edge_resolution_m = served_.edge_resolution_m;
   if (!request.edge_check) request.edge_check = served_.edge_check;
-  if (!conditions.referee_step_m) conditions.referee_step_m = *request.edge_resolution_m / 2;
+  if (!conditions.referee_step_m) {
+    conditions.referee_step_m = std::max(*request.edge_resolution_m / 2, kFinestDefaultRefereeStep);
+  }
   conditions.referee_robot_id = served_.referee_robot_id;
   for (const LineUpEntry& entry : line_up_) AddContestant(entry);
 }

@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/file_kind.h"
 #include "common/name_value.h"
+#include "planning/path_judge.h"
 #include "results/recorded_flags.h"
 #include "results/session_plan.h"
 #include "robot_model/shipped_robots.h"
@@ -226,7 +227,10 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
       app, "--edge-check", &request.edge_check,
       "fixed: edges are free at samples; certified: proven free; default: the robot's");
   app->add_option("--referee-step", conditions.referee_step_m,
-                  "the same for the referee; default: half the edge resolution")
+                  fmt::format("the same for the referee; default: half the edge resolution, {} m "
+                              "at least; paths of more than {:.0f} samples are not judged, and "
+                              "their runs count as missing",
+                              kFinestDefaultRefereeStep, kMaxPathSamples))
       ->check(Within(kFinestEdgeResolution, kCoarsestEdgeResolution));
   app->add_flag("--anytime", request.anytime,
                 "let anytime planners improve until the time limit; default: first solution");

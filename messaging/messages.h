@@ -244,7 +244,7 @@ struct SessionConditions {
   /// What all requests have in common; ids, problem and direction are left open, the seed is the
   /// session's.
   PlanRequest request;
-  std::optional<double> referee_step_m;  ///< None: half the edge resolution.
+  std::optional<double> referee_step_m;  ///< None: the driver's default.
   bool with_clearance = true;
   bool parallel = false;
   std::string mesh_robot_id;     ///< ProblemSetsMessage's; empty unless meshes are what is checked.

@@ -1,6 +1,7 @@
 #include "benchmark_driver/driver_flags.h"
 
 #include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
@@ -209,6 +210,15 @@ TEST(DriverFlagsTest, ValuesOfFlagsThatTakeSeveralAreToldApart) {
       &flags);
   EXPECT_EQ(SplitFlagValues(flags.at("problems")), (std::vector<std::string>{"/p", "/c,d"}));
   EXPECT_EQ(SplitFlagValues(flags.at("set")), std::vector<std::string>{"x.y=a,b=c"});
+}
+
+TEST(DriverFlagsTest, TheRefereesStepTellsItsDefaultAndTheMostSamples) {
+  CLI::App app;
+  DriverOptions options;
+  AddDriverFlags(&app, &options);
+  const std::string help = app.get_option("--referee-step")->get_description();
+  EXPECT_THAT(help, testing::HasSubstr("half the edge resolution, 0.0002 m at least"));
+  EXPECT_THAT(help, testing::HasSubstr("more than 1000000 samples"));
 }
 
 TEST(DriverFlagsTest, RecordsWhatWasNotGivenToo) {

@@ -150,6 +150,21 @@ TEST_F(DriverTest, ContestantsHaveConditionsOfTheirOwn) {
   EXPECT_EQ(driver.conditions().referee_step_m, 0.01);  // the referee is the session's
 }
 
+TEST_F(DriverTest, WithoutAskingTheRefereesStepIsNotTooFine) {
+  const FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_);
+  DriverOptions options = Options();
+  options.conditions.request.edge_resolution_m = 1e-6;
+  const auto step_m = [&] {
+    Driver driver(&bus_, options, LineUp({"arm"}), {});
+    driver.Discover(false, Idle);
+    return driver.conditions().referee_step_m;
+  };
+  EXPECT_EQ(step_m(), 2e-4);
+  options.conditions.referee_step_m = 1e-6;
+  EXPECT_EQ(step_m(), 1e-6) << "as it was asked for";
+}
+
 TEST_F(DriverTest, PlannersMayWorkAtOnce) {
   const FakePlanner arm(&bus_, "arm");
   const FakePlanner leg(&bus_, "leg");
