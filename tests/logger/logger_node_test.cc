@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <fstream>
+#include <future>
 #include <lcm/lcm-cpp.hpp>
 #include <mutex>
 #include <set>
@@ -130,6 +131,35 @@ TEST(LoggerNode, WorksBetweenTwoConnections) {
                               SqliteConnection::Mode::kReadOnly);
   EXPECT_EQ(connection.QueryValue("SELECT count(*) FROM paths WHERE kind = 'raw'"),
             SqliteValue(std::int64_t{10'000}));
+}
+
+TEST(LoggerNode, NothingCountsAsLostThatIsSentWhileItOpensItsDatabase) {
+  const TemporaryFolder temporary;
+  std::filesystem::create_directories(temporary / "s");
+  SqliteConnection locking(temporary / "s" / "results.sqlite",
+                           SqliteConnection::Mode::kReadWriteCreate);
+  locking.Execute("BEGIN EXCLUSIVE");
+  const std::string url = PrivateUdpUrl();
+  Bus logger_bus(url);
+  auto opening = std::async(std::launch::async, [&] {
+    return std::make_unique<LoggerNode>(&logger_bus,
+                                        LoggerOptions{.out = temporary / "s", .resume = true});
+  });
+  // It has its folder, and waits for the database.
+  ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(temporary / "s" / "logger.lock"); }));
+  Bus sender(url);
+  const NodeStatusMessage status = MakeNodeStatus("driver", NodeKind::kDriver);
+  sender.Publish(channel::kNodeStatus, status);
+  sender.PublishBytes("OTHER", std::vector<std::uint8_t>(1));
+  locking.Execute("ROLLBACK");
+  const std::unique_ptr<LoggerNode> logger = opening.get();
+  MessageCollector<NodeStatusMessage> statuses(&logger_bus, channel::kNodeStatus);
+  logger_bus.Start();
+  ASSERT_TRUE(WaitUntil([&] {
+    sender.Publish(channel::kNodeStatus, status);
+    return statuses.Count([](const auto& heard) { return heard.name == "driver"; }) > 0;
+  }));
+  EXPECT_EQ(logger_bus.counters().lost, 0);
 }
 
 TEST(LoggerNode, AnnouncesItselfWithItsFolder) {
