@@ -103,7 +103,8 @@ class CollisionChecker {
   void FindDistances(std::span<const double> qs, int num, double at_most,
                      std::span<double> distances);
   /// As FindDistances, but lower bounds that take little time, of the distances of what can be
-  /// touched at all: a motion that is shorter, by motion_bound(), ends without contact.
+  /// touched at all: a motion that is shorter, by motion_bound(), ends without contact. (Those of
+  /// the voxels model are of cells, and may be too large by a diagonal of one.)
   void FindClearances(std::span<const double> qs, int num, double at_most,
                       std::span<double> clearances);
   /// Number of configurations or samples that are handled at once; callers that choose how many to

@@ -108,6 +108,8 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       from_(start.size()),
       to_(start.size()),
       target_(start.size()) {
+  // The distances of a field are those between cells: they prove no motion free.
+  if (edges->checker().model() == CollisionModel::kVoxels) options_.burs = false;
   // The turns of a state are known of moves alone.
   if (arms_.num > 1 && options_.wrap_heuristic) {
     first_move_ = static_cast<std::uint16_t>(kArmToGoal + arms_.num);
