@@ -8,8 +8,10 @@ Eigen::Isometry3d DrawTipPose(const GripperSpec& gripper, const Eigen::Isometry3
   const Range position_error{-gripper.position_tolerance_m, gripper.position_tolerance_m};
   const Range turn_error{-gripper.orientation_tolerance_rad, gripper.orientation_tolerance_rad};
   Eigen::Isometry3d X_OT = Eigen::Isometry3d::Identity();
-  X_OT.translation() = random->Draw(gripper.position) +
-                       random->Draw(Range3{position_error, position_error, position_error});
+  // Statements of their own: within one, the compiler would choose what is drawn first.
+  const Eigen::Vector3d error =
+      random->Draw(Range3{position_error, position_error, position_error});
+  X_OT.translation() = random->Draw(gripper.position) + error;
   const Eigen::Matrix3d nominal = RotationFromRpy(random->Draw(gripper.rpy));
   const Eigen::Vector3d turn = random->Draw(Range3{turn_error, turn_error, turn_error});
   X_OT.linear() = nominal;

@@ -275,6 +275,19 @@ TEST(DrawTipPose, TurnsAboutTheObjectBeforeItMovesAndStaysWithinTolerances) {
   EXPECT_GT(most_turned, 0.045);
 }
 
+TEST(DrawTipPose, DrawsTheErrorBeforeThePlace) {
+  GripperSpec gripper;
+  gripper.position = {Range{0, 1}, Range{0, 1}, Range{0, 1}};
+  gripper.position_tolerance_m = 0.01;
+  RandomStream random("set", 1, 1, 0), same("set", 1, 1, 0);
+  same.Draw(gripper.around);
+  const Range tolerance{-0.01, 0.01};
+  const Eigen::Vector3d error = same.Draw(Range3{tolerance, tolerance, tolerance});
+  const Eigen::Vector3d place = same.Draw(gripper.position);
+  const Eigen::Isometry3d X_BT = DrawTipPose(gripper, Eigen::Isometry3d::Identity(), &random);
+  EXPECT_TRUE(X_BT.translation().isApprox(place + error));
+}
+
 class UnsatisfiableTest : public ProblemSetTest {
  protected:
   void ExpectGivesUp(const std::string& text, const std::vector<std::string>& message) {
