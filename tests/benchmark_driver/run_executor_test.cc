@@ -378,9 +378,9 @@ TEST_F(RunExecutorTest, WhileItWaitsForAVerdictItTellsWhatMakesThemFaster) {
     conditions.with_clearance = with_clearance;
     RunExecutor executor(&bus_, &registry_, conditions, {}, {}, {}, patience);
     // Asked for again when it has been told.
-    const std::size_t num_before = server.path_checks().messages().size();
-    server.OnPathCheck([&](const PathCheckRequestMessage&) {
-      WaitUntil([&] { return server.path_checks().messages().size() >= num_before + 2; });
+    server.OnPathCheck([&](const PathCheckRequestMessage& check) {
+      const auto is_same = [&](const auto& other) { return other.request_id == check.request_id; };
+      WaitUntil([&] { return server.path_checks().Count(is_same) >= 2; });
       return FakeSceneServer::Verdict(true);
     });
     testing::internal::CaptureStdout();

@@ -116,7 +116,8 @@ TEST_F(LaunchedSession, ALineUpsContestantsRunUnderTheirOwnConditions) {
 
   // Its planner has prepared the model of each, and no other.
   int num_planners = 0;
-  for (const auto& node : ReadRecords(session / "session.lcmlog").sessions.back().nodes) {
+  const auto records = ReadRecords(session / "session.lcmlog");
+  for (const auto& node : records.sessions.back().nodes) {
     if (node.kind != NodeKind::kPlanner) continue;
     ++num_planners;
     const std::string model = node.name == "coarse" ? "spheres" : "voxels";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/numbers.h"
+#include "common/read_text.h"
 #include "planner_ara/ara_planner.h"
 #include "support/planning_problems.h"
 #include "tests/planner_ara/lattice_optimum.h"
@@ -36,8 +37,8 @@ class AraSeveralGoalsTest : public testing::Test {
                  const std::vector<Configuration>& goals) {
     AraSettings ara;
     ara.Apply(YamlNode::Parse(settings, "ara.yaml"));
-    const ManipulationGraphOptions options =
-        ResolveOptions(ara, {}, robot_, robot_.groups.front(), "ara.yaml");
+    const ManipulationGraphOptions options = ResolveOptions(
+        ara, {ara.primitives, ReadText(ara.primitives)}, robot_, robot_.groups.front(), "ara.yaml");
     EdgeChecker edges(checker_.get(), robot_.edge_resolution_m, robot_.edge_check);
     double optimum = kInfinity;
     for (const Configuration& goal : goals) {
