@@ -73,7 +73,10 @@ SessionMessage Comparable(SessionMessage session, const SessionMessage& other) {
   for (NodeStatusMessage& node : session.nodes) {
     node.utime = node.start_utime = 0;
     node.busy = false;
-    node.unusable_models.clear();  // words; which models there are instead is compared
+    node.unusable_models.clear();  // words
+    const auto is_its = [&](const Contestant& one) { return one.planner == node.name; };
+    // The contestant tells which of them counts.
+    if (std::ranges::any_of(session.conditions.contestants, is_its)) node.collision_models.clear();
     node.request_id = node.host = node.instance = node.trouble = "";
     node.pid = 0;
     if (node.kind == NodeKind::kSceneServer) {

@@ -19,11 +19,12 @@ bool IsSameSetting(const std::string& first, const std::string& second);
 
 /// Runs of two sessions belong together only if nothing differs that can change a result: every
 /// field must be equal, settings as IsSameSetting has it, but for those that tell when and where a
-/// session ran, what it ran, and what tables say beside contestants; sets and planners that only
-/// one of them has do not matter. The first field that differs, if any.
+/// session ran, what it ran, what tables say beside contestants, and which collision models their
+/// planners offer; sets and planners that only one of them has do not matter. The first field that
+/// differs, if any.
 std::optional<ConditionDifference> FindConditionDifference(const SessionMessage& first,
                                                            const SessionMessage& second);
-/// The same of two processes of one name.
+/// The same of two processes of one name; the models that they offer count.
 std::optional<ConditionDifference> FindConditionDifference(const NodeStatusMessage& first,
                                                            const NodeStatusMessage& second);
 

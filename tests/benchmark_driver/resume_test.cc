@@ -166,7 +166,8 @@ TEST(RequireSameConditionsTest, EverythingThatAPlannerOrServerSaysOfItselfCounts
       if (name.empty()) break;
       std::set<std::string> free = {"utime", "start_utime", "state", "request_id", "host", "pid"};
       free.insert({"name", "instance", "trouble", "unusable_model"});
-      if (node == 2) free.insert("setting");
+      // Of a contestant's models the one that counts is a condition of its own.
+      free.insert(node == 2 ? "setting" : "collision_model");
       if (name == "kind") continue;  // another node
       if (free.contains(name)) {
         EXPECT_NO_THROW(RequireSameConditions(Session(), changed)) << name;
@@ -190,6 +191,15 @@ TEST(RequireSameConditionsTest, NamesWhatDiffersBeforeAndNow) {
       },
       {"node[mine].setting[more]", "was nothing", "\"x\""});
   ExpectRefused([](auto& s) { s.version = "2"; }, {"version was \"\"", "\"2\""});
+}
+
+TEST(RequireSameConditionsTest, OfWhoIsNoContestantTheModelsCount) {
+  ExpectRefused(
+      [](auto& s) {
+        s.conditions.contestants.erase(s.conditions.contestants.begin());
+        s.nodes[0].collision_models = {"voxels"};
+      },
+      {"node[ara]", "collision_model"});
 }
 
 TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
