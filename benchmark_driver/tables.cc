@@ -149,8 +149,7 @@ std::string TimeTable(const SessionResults& results) {
 std::string PairTable(const SessionResults& results, bool all) {
   TextTable table(
       "Problem by problem",
-      {"contestant", "against", "problems", "won %", "in ratio", "time ratio [95 %]", "p (Holm)"},
-      2);
+      {"contestant", "against", "problems", "won %", "both", "time ratio [95 %]", "p (Holm)"}, 2);
   std::vector<PairedComparison> shown;
   for (const SetResults& set : results.sets()) {
     table.AddHeading(set.name);
@@ -181,12 +180,11 @@ std::string PairTable(const SessionResults& results, bool all) {
   if (shown.empty()) return "";
   const std::string notes = fmt::format(
       "{}problems: that both tried. won: share of them that the first solved faster in the median, "
-      "or alone; a tie is half. in ratio: those that both solved in the median. time ratio: "
-      "geometric mean of first / second over the problems in ratio, with Student's interval of the "
-      "logarithms' mean, of six at least; below 1 the first is faster. p: of Wilcoxon's "
-      "signed-rank test that neither is faster, two-sided, problems that only one solved in the "
-      "median included, adjusted for all pairs of the set (Holm), those that only tables.txt shows "
-      "too.{}\n",
+      "or alone; a tie is half. both: those that both solved in the median. time ratio: geometric "
+      "mean of first / second over these, with Student's interval of the logarithms' mean, of six "
+      "at least; below 1 the first is faster. p: of Wilcoxon's signed-rank test that neither is "
+      "faster, two-sided, problems that only one solved in the median included, adjusted for all "
+      "pairs of the set (Holm), those that only tables.txt shows too.{}\n",
       kProblemTimeNote, ZeroTimesNote(shown));
   return table.Format(notes) + "\n";
 }

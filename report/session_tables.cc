@@ -137,7 +137,7 @@ Table ChangeTable(const ComparedSessions& compared) {
       "changes",
       "What changed from session to session",
       "Contestants of one name, on the problems that both sessions have, against the session that "
-      "was begun first. In ratio: problems solved in the median in both. Time ratio: of these, "
+      "was begun first. Both: problems solved in the median in both. Time ratio: of these, "
       "geometric mean of after / before, with Student's 95 % interval. p: signed-rank test of "
       "problem by problem, adjusted for all rows (Holm). Faster or slower: beyond chance at the "
       "5 % level; too few problems: that could not be shown of so few.",
@@ -149,7 +149,7 @@ Table ChangeTable(const ComparedSessions& compared) {
        {"problems", "problems", Style::kCount},
        {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
        {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
-       {"problems_in_ratio", "in ratio", Style::kCount},
+       {"problems_in_ratio", "both", Style::kCount},
        {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
        {"p_holm", "p (Holm)", Style::kPValue}},
       {}};

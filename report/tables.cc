@@ -338,13 +338,13 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
       "pairs",
       "Problem by problem",
       "Problems: that both tried. Faster, slower: those that the first solved faster in the "
-      "median, or alone, and the other way round. In ratio: those that both solved in the median. "
-      "Time ratio: geometric mean of first / second over the problems in ratio, with Student's "
-      "95 % interval of the logarithms' mean (six problems at least). p: Wilcoxon's signed-rank "
-      "test of the logarithms, two-sided, problems that only one solved in the median included and "
-      "ties left out; beside it adjusted for all pairs of the set (Holm). Effect: rank-biserial "
-      "correlation, -1 if the first is always faster, 1 if always slower; here ties count, with "
-      "the lowest ranks and no side.",
+      "median, or alone, and the other way round. Both: those that both solved in the median. Time "
+      "ratio: geometric mean of first / second over these, with Student's 95 % interval of the "
+      "logarithms' mean (six problems at least). p: Wilcoxon's signed-rank test of the logarithms, "
+      "two-sided, problems that only one solved in the median included and ties left out; beside "
+      "it adjusted for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the "
+      "first is always faster, 1 if always slower; here ties count, with the lowest ranks and no "
+      "side.",
       {{"set", "set"},
        {"first", "first"},
        {"second", "second"},
@@ -352,7 +352,7 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
        {"faster", "faster", Style::kCount},
        {"slower", "slower", Style::kCount},
        {"tied", "tied", Style::kCount},
-       {"problems_in_ratio", "in ratio", Style::kCount},
+       {"problems_in_ratio", "both", Style::kCount},
        {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
        {"p", "p", Style::kPValue},
        {"p_holm", "p (Holm)", Style::kPValue},
@@ -377,9 +377,9 @@ Table QualityTable(const ComparedSessions& compared) {
               "Measures are the referee's, of confirmed runs, tip travel and clearance at its "
               "samples of the path; a problem counts once, by the median of its runs. Ratio: to "
               "the reference, which is the contestant of highest rank that has such values on the "
-              "set; geometric mean over the problems in ratio, those that both have values of, "
-              "with Student's 95 % interval. Problems at which either's is 0, as the smoothness of "
-              "a straight path, have no ratio and are none of them. Medians over different "
+              "set; geometric mean over the problems that both have values of (both), with "
+              "Student's 95 % interval. Problems at which either's is 0, as the smoothness of a "
+              "straight path, have no ratio and are none of them. Medians over different "
               "problems do not compare. Rejected: confirmed runs whose simplified path the referee "
               "rejected, which are left out.",
               {{"set", "set"},
@@ -392,7 +392,7 @@ Table QualityTable(const ComparedSessions& compared) {
                {"median", "median", Style::kNumber},
                {"upper_quartile", "75 %", Style::kNumber},
                {"reference", "reference"},
-               {"problems_in_ratio", "in ratio", Style::kCount},
+               {"problems_in_ratio", "both", Style::kCount},
                {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true},
                {"simplified_rejected", "rejected", Style::kCount}},
               {}};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -78,13 +79,13 @@ TEST(TablesTest, ARatioTellsOnHowManyProblemsItRests) {
   }
   std::string text = Brief(records);
   EXPECT_EQ(Table(text, kPairs).at(0),
-            "contestant against problems won % in ratio time ratio [95 %] p (Holm)");
+            "contestant against problems won % both time ratio [95 %] p (Holm)");
   EXPECT_THAT(Row(text, kTimes, "ARA*"), StartsWith("2 "));
   EXPECT_THAT(Row(text, kPairs, "ARA* RRT-Connect"), StartsWith("2 0.0 1 4 "));
   text = std::regex_replace(text, std::regex("\\s+"), " ");  // lines are broken
   EXPECT_THAT(text, HasSubstr("solved: problems with a confirmed path in one trial at least;"));
   EXPECT_THAT(text, HasSubstr("A problem is solved in the median if more than half of its trials"));
-  EXPECT_THAT(text, HasSubstr("in ratio: those that both solved in the median."));
+  EXPECT_THAT(text, HasSubstr("both: those that both solved in the median."));
 }
 
 TEST(TablesTest, PValuesAreAdjustedForAllPairsOfTheSet) {
@@ -101,6 +102,20 @@ TEST(TablesTest, PValuesAreAdjustedForAllPairsOfTheSet) {
     EXPECT_EQ(Row(text, kPairs, "ARA* RRT-Connect"), "8 0.0 8 2 [2, 2] 0.0234");
     EXPECT_EQ(Row(text, kPairs, "third RRT-Connect"), "8 0.0 8 3 [3, 3] 0.0234");
   }
+}
+
+TEST(TablesTest, PairsFitOnATerminal) {
+  std::vector<RunRecordMessage> records;
+  for (int problem = 1; problem <= 8; ++problem) {
+    records.push_back(OfProblem(problem, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 1))));
+    const double time_s = 0.00353 * std::pow(19.3, problem % 2 == 0 ? 1 : -1);
+    records.push_back(OfProblem(problem, AttemptOf(PlanStatus::kSolved, time_s)));
+    records.back().contestant = "RRT-Connect (canonical)";  // the longest of the default line-up
+  }
+  std::istringstream lines(Brief(records));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), kTextWidth) << line;
+  EXPECT_THAT(Row(lines.str(), kPairs, "RRT-Connect (canonical) RRT-Connect"),
+              HasSubstr(" 8 0.00353 [0.000"));
 }
 
 TEST(TablesTest, ContestantsWithoutACommonProblemAreNoPair) {
