@@ -41,9 +41,9 @@ class Planner {
   virtual PlannerDescription Describe() const = 0;
   const Robot& robot() const { return *robot_; }
 
-  /// Compiles the announced collision models that are among `models` for every group, so that no
-  /// request has to. Returns those announced that cannot be used, the others included, with the
-  /// reason.
+  /// Compiles those of Describe()'s collision models that are among `models` for every group, so
+  /// that no request has to. Returns the rest of Describe()'s, and those that cannot be used, with
+  /// the reason.
   std::map<CollisionModel, std::string> WarmUp(
       const std::vector<CollisionModel>& models = EnumValues<CollisionModel>());
   /// How often a robot was compiled for a model and a group: at most once at warming up, and again
