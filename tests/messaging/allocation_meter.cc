@@ -13,8 +13,9 @@ std::size_t peak = 0;
 
 }  // namespace
 
-// Replace the global ones; the array forms call these.
-void* operator new(std::size_t size) {
+// Replace the global ones; the array forms call these. Not inlined: on ARM, GCC 12 would see memory
+// of malloc deleted, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* const memory = std::malloc(std::max<std::size_t>(size, 1));
   if (memory == nullptr) throw std::bad_alloc();
   in_use += malloc_usable_size(memory);
