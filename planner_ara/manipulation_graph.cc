@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "common/error.h"
+#include "common/random.h"
 #include "planner_ara/default_primitives.h"
 
 namespace planbench {
@@ -17,6 +19,8 @@ namespace {
 constexpr double kLongestSpine = 0.5;
 // What a move counts at least, m: those of a joint that moves no geometry would have no end.
 constexpr double kLeastMotion = 1e-3;
+// Of the largest move of a joint, its part in a random one at most.
+constexpr double kRandomReach = 1.5;
 
 // Refuses moves that a graph has no room for and those of half a turn, which could be either way.
 void RequireUsable(const MotionPrimitives& primitives, const JointSpace& space,
@@ -192,6 +196,26 @@ bool ManipulationGraph::Refine() {
   options_.short_moves_within = kInfinity;
   moves_depend_on_place_ = options_.long_moves_beyond > 0;
   return true;
+}
+
+void ManipulationGraph::AddRandomMoves(int num, std::uint64_t seed) {
+  std::vector<int> most(from_.size(), 1);  // cells, by joint
+  for (const Move& move : moves_) {
+    for (std::size_t j = 0; j < most.size(); ++j) most[j] = std::max(most[j], move.cells[j]);
+  }
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<int>> rows(static_cast<std::size_t>(num), most);
+  for (std::vector<int>& row : rows) {
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      const auto joint = static_cast<int>(j);
+      double reach = kRandomReach * most[j];
+      if (edges_->space().joint(joint).continuous) {  // less than half a turn
+        reach = std::min<double>(reach, (lattice_.num_cells(joint) - 1) / 2);
+      }
+      row[j] = static_cast<int>(std::lround((2 * UniformFraction(&random) - 1) * reach));
+    }
+  }
+  if (AddMoves(rows, true)) MakeRoomForKnowledge();
 }
 
 // Of one record a state, which is wide enough for all of its edges.

@@ -80,6 +80,10 @@ class ManipulationGraph {
   /// finest. False, and nothing happens, if they are single cells already, there are no numbers
   /// left for more, or it is not allowed.
   bool Refine();
+  /// Gives the states whose edges are asked for from now on `num` further moves and their
+  /// opposites: of all joints at once in random directions, of each by up to 1.5 times its largest
+  /// move. Nothing happens if there are no numbers left for so many.
+  void AddRandomMoves(int num, std::uint64_t seed);
   /// Adds `weight` (rad/m) times the distance of the tip to the guide of the states.
   void GuideByTip(std::unique_ptr<TipDistance> distance, double weight);
   /// By joint a position that the guide does not lead across, but the other way round, if there is

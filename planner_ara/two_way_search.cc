@@ -26,6 +26,10 @@ constexpr std::int64_t kSeekWallsAfter = 500;
 /// The bridge's search goes on for this much work after each turn of another, as long as it has
 /// done less than they in the mean.
 constexpr std::int64_t kBridgeSlice = 1000;
+/// With this bridge the searches get so many random moves.
+constexpr int kRandomMovesWithBridge = 4;
+constexpr int kNumRandomMoves = 32;
+constexpr std::uint64_t kRandomMovesSeed = 1;
 constexpr std::uint64_t kShortcutSeed = 1;
 constexpr int kShortcutRounds = 4;
 /// Clearance beyond which a state is as good as any, m.
@@ -317,6 +321,9 @@ bool TwoWaySearch::WorkOnBridge(double epsilon, const std::function<bool()>& sho
   if (MeanWork() >= bridge_at_) {
     BeginBridge();
     bridge_at_ *= 2;
+    if (++num_bridges_ == kRandomMovesWithBridge) {
+      for (const auto& side : sides_) side->graph.AddRandomMoves(kNumRandomMoves, kRandomMovesSeed);
+    }
   }
   if (!bridge_ || static_cast<double>(bridge_->work) >= MeanWork()) return false;
   TwoWaySearch& search = bridge_->search;

@@ -29,7 +29,9 @@ namespace planbench {
 ///
 /// Where both have long been without success, each stuck before the narrow place in which the other
 /// began, a search for a bridge between the widest states of both takes their place: for half as
-/// much work as they have done together, and again when that has doubled.
+/// much work as they have done together, and again when that has doubled. Where three bridges have
+/// led nowhere, both get random moves besides (ManipulationGraph::AddRandomMoves), for states that
+/// they have not expanded yet.
 class TwoWaySearch {
  public:
   /// What the searches have done, both together.
@@ -129,6 +131,7 @@ class TwoWaySearch {
   bool may_have_walls_;  // that were not sought
   std::unique_ptr<Bridge> bridge_;
   double bridge_at_;      // mean work of the sides when the next bridge is begun
+  int num_bridges_ = 0;   // begun
   Counts bridge_counts_;  // of those given up
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -158,6 +159,50 @@ TEST_F(ManipulationGraphTest, RefinesItsMovesDownToSingleCells) {
   EXPECT_FALSE(graph.Refine());
   options.refine = false;
   EXPECT_FALSE(Graph(PointGoal(kRight), options).Refine());
+}
+
+TEST_F(ManipulationGraphTest, RandomMovesGoSomewhatBeyondTheLargestBothWays) {
+  ManipulationGraphOptions options = Options(0.02);
+  options.primitives = {{{4, 0, 0}, {0, 8, 0}, {0, 0, 6}}, {}};
+  ManipulationGraph graph = Graph(PointGoal(kRight), options);
+  std::map<std::uint16_t, bool> before;
+  for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
+    before[edge.action] = graph.IsValidEdge(ManipulationGraph::kStart, edge.action);
+  }
+  graph.AddRandomMoves(20, 1);
+  Configuration from(3);
+  Configuration to(3);
+  graph.ConfigurationOf(ManipulationGraph::kStart, from);
+  const std::array<int, 3> most = {6, 12, 9};
+  std::set<std::vector<int>> moves;
+  for (const CandidateEdge& edge : EdgesOf(&graph, ManipulationGraph::kStart)) {
+    const auto checked = edges_->counters().edges;
+    const bool valid = graph.IsValidEdge(ManipulationGraph::kStart, edge.action);
+    if (const auto known = before.find(edge.action); known != before.end()) {
+      EXPECT_EQ(valid, known->second);
+      EXPECT_EQ(edges_->counters().edges, checked) << "a verdict was forgotten";
+      continue;
+    }
+    graph.ConfigurationOf(graph.Target(ManipulationGraph::kStart, edge.action), to);
+    EXPECT_NEAR(edge.cost, space_.Distance(from, to), 1e-9);
+    EXPECT_EQ(valid, edges_->IsValidEdge(from, to));
+    std::vector<int> cells;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto joint = static_cast<int>(j);
+      const double motion = space_.Difference(joint, from[j], to[j]);
+      cells.push_back(static_cast<int>(std::lround(motion / graph.lattice().step(joint))));
+      EXPECT_LE(std::abs(cells.back()), most[j]);
+    }
+    moves.insert(std::move(cells));
+  }
+  EXPECT_EQ(moves.size(), 40);
+  for (std::vector<int> move : moves) {
+    for (int& cells : move) cells = -cells;
+    EXPECT_TRUE(moves.contains(move)) << "without its opposite";
+  }
+  int largest = 0;
+  for (const std::vector<int>& move : moves) largest = std::max(largest, move[1]);
+  EXPECT_GT(largest, 8);
 }
 
 TEST_F(ManipulationGraphTest, SpinesOfBursAreFreeUnchecked) {

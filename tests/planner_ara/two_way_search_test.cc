@@ -218,6 +218,22 @@ TEST_F(TwoWaySearchTest, ABridgeJoinsSearchesThatHaveLongFoundNothing) {
   EXPECT_LT(BoundOf(search), kInfinity);
 }
 
+TEST_F(TwoWaySearchTest, RandomMovesLeadOnWhereBridgesDoNot) {
+  // Without the elbow, which no primitive bends, there is no way round the posts.
+  options_.discretization.assign(3, 0.05);
+  options_.primitives = {{{1, 0, 0}, {0, 0, 1}}, {}};
+  options_.refine = false;
+  const auto outcome = [&](double bridge_after) {
+    options_.bridge_after = bridge_after;
+    TwoWaySearch search(edges_.get(), kLeft_, PointGoal(kRight_), options_, true);
+    const ImproveOutcome outcome = search.Improve(50, kGoOn, kSilent);
+    if (outcome == ImproveOutcome::kConverged) ExpectJoins(search.path(), search.cost());
+    return outcome;
+  };
+  EXPECT_EQ(outcome(kInfinity), ImproveOutcome::kExhausted);
+  EXPECT_EQ(outcome(1), ImproveOutcome::kConverged);
+}
+
 TEST_F(TwoWaySearchTest, TheSearchOutOfTheNarrowerPlaceDoesMostOfTheWork) {
   SetSlots(true, false);
   const Configuration narrow = {0, 0, 0};
