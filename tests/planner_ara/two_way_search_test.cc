@@ -111,7 +111,8 @@ TEST_F(TwoWaySearchTest, BoundHoldsForBothLatticesAtEveryEpsilon) {
       last_cost = search.cost();
     }
     EXPECT_LE(search.cost(), std::min(forward, backward) + 1e-9);
-    if (variant.shorten) continue;
+    const bool has_random_moves = variant.bridge_after == 1;
+    if (variant.shorten || has_random_moves) continue;  // beyond the lattices
     EXPECT_NEAR(search.cost(), std::min(forward, backward), 1e-9);
   }
 }
