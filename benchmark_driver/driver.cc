@@ -514,6 +514,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
       recorder_.Record(*record);
       const std::scoped_lock lock(mutex_);
       num_not_asked_ += WasAsked(*record) ? 0 : 1;
+      num_unjudgeable_ += IsUnjudgeable(*record) ? 1 : 0;
       progress_->Add(Keep(*record));
       if (repeats_.contains(run.request_id)) again.push_back(run);
     }

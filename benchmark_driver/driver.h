@@ -70,8 +70,10 @@ class Driver {
   /// In lines.
   const std::vector<std::string>& awaited_shards() const { return awaited_shards_; }
   /// Of this call's runs and repeats those of which no request was sent (messaging/asked_runs.h):
-  /// made when the session is resumed with the same flags. Others of the resumed session are owed.
+  /// made when the session is resumed with the same flags, but for num_unjudgeable of them. Others
+  /// of the resumed session are owed.
   int num_not_asked() const { return num_not_asked_ + num_repeats_not_asked_; }
+  int num_unjudgeable() const { return num_unjudgeable_; }
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Planners that were given up, and why.
@@ -166,6 +168,7 @@ class Driver {
   std::map<std::string, std::string> given_up_;
   RunRows runs_;
   int num_not_asked_ = 0;
+  int num_unjudgeable_ = 0;  // of them
   int num_repeats_not_asked_ = 0;
   /// Of attempts that others depend on, by request id: whether these are not made, since the
   /// planner found a path, by its own word, or could not be asked (asked_runs.h): then nobody knows

@@ -89,12 +89,14 @@ void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMes
 }
 
 /// The record of a run of whose paths one has no verdict: as of one that was not asked for, to be
-/// made again.
-RunRecordMessage Unjudged(RunRecordMessage record, const std::string& why) {
+/// made again. `refusal`: the scene server's own word, unless it failed.
+RunRecordMessage Unjudged(RunRecordMessage record, const std::string& why,
+                          PathCheckReplyMessage refusal = {}) {
   record.status = PlanStatus::kNoAnswer;
   record.message = "no verdict on its path: " + why;
   record.roundtrip_time_s = 0;
   record.result = {};
+  record.path_check = std::move(refusal);
   spdlog::error("{}: {}", record.request_id, record.message);
   return record;
 }
@@ -517,7 +519,11 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
       Judge(run.request_id + "/raw", record.result.result.path, record, run, interrupted);
   if (!check) return std::nullopt;
   // No fault of the planner's: what is, the referee calls an invalid path.
-  if (!check->ok) return Unjudged(std::move(record), check->message);
+  if (!check->ok) {
+    const bool is_failure = !WhyPassedOver({run.problem_set, run.problem_index}).empty();
+    return Unjudged(std::move(record), check->message,
+                    is_failure ? PathCheckReplyMessage() : *check);
+  }
   if (!check->verdict) return Unjudged(std::move(record), "the scene server gave none");
   record.path_check = *check;
   if (is_first_path) TellLength(*check->verdict, record.request.anytime, &record.result.result);

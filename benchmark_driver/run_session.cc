@@ -236,7 +236,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     WriteOut(fmt::format("Session folder: {}\n", session_folder.string()));
   }
   if (interrupted()) WriteOut("Interrupted: what follows is incomplete.\n");
-  if (!complete || driver.num_not_asked() > 0) tell_how_to_go_on();
+  if (!complete || driver.num_not_asked() > driver.num_unjudgeable()) tell_how_to_go_on();
   WriteOut(fmt::format("\n{}", tables.brief));
   std::fflush(stdout);
   for (const std::string& line : driver.Shortcomings()) spdlog::error("{}", line);
@@ -244,9 +244,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     spdlog::error("the planner '{}' was given up: {}", planner, reason);
   }
   if (const int number = driver.num_not_asked(); supervisor && number > 0 && !interrupted()) {
-    spdlog::warn("{} could not be asked for or judged: a session that is resumed makes {}",
+    spdlog::warn("{} could not be asked for or judged: {}",
                  number == 1 ? "1 run" : fmt::format("{} runs", number),
-                 number == 1 ? "it" : "them");
+                 WhatMakesThem(number, driver.num_unjudgeable()));
   }
   std::vector<std::string> owed;
   if (const int number = driver.num_owed(); number > 0) {

@@ -19,6 +19,10 @@ bool WasAsked(const RunRecordMessage& run) {
   return TellsOfRequest(run.roundtrip_time_s, run.status, !run.request.scene_id.empty());
 }
 
+bool IsUnjudgeable(const RunRecordMessage& run) {
+  return !WasAsked(run) && !run.path_check.message.empty();
+}
+
 bool Suffices(const RunRecordMessage& forward) {
   return forward.result.result.Solves() || !WasAsked(forward);
 }

@@ -11,8 +11,11 @@ namespace planbench {
 /// Whether a request of the run was sent. A run that was not (its planner had been given up, or had
 /// come back as another; its problem could not be had), or whose path the scene server gave no
 /// verdict on, has a record that says why, and counts as missing: no figure counts it, the session
-/// is not finished without, --resume makes it.
+/// is not finished without, --resume makes it unless it IsUnjudgeable.
 bool WasAsked(const RunRecordMessage& run);
+/// Of one without a verdict, whether the scene server refused it, as it would in a session that is
+/// resumed: the referee's step, which is a condition, is too fine for its path.
+bool IsUnjudgeable(const RunRecordMessage& run);
 
 /// Whether a backward search that is to be made only if this forward one found no path is not made:
 /// the planner claims one, or could not be asked, so that nobody knows yet whether it is needed.

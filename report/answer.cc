@@ -15,6 +15,7 @@
 #include "common/lookup.h"
 #include "messaging/asked_runs.h"
 #include "results/quality.h"
+#include "results/reproduce.h"
 #include "results/untold_times.h"
 
 namespace planbench {
@@ -482,10 +483,10 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       const std::string reason = session.why_not_asked.Summary();
       cautions.push_back(
           fmt::format("{}: {} could not be asked for or judged{}: counted as missing, not as "
-                      "failed; --resume makes {}.",
+                      "failed; {}.",
                       name, Count(session.num_not_asked, num_runs > 0 ? "more run" : "run"),
                       reason.empty() ? "" : fmt::format(" ({})", reason),
-                      session.num_not_asked == 1 ? "it" : "them"));
+                      WhatMakesThem(session.num_not_asked, session.num_unjudgeable)));
     }
     for (const auto& [contestant, number] : session.strangers) {
       cautions.push_back(fmt::format(

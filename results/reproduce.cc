@@ -1,5 +1,7 @@
 #include "results/reproduce.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -88,6 +90,15 @@ std::string JoinCommands(const std::vector<std::string>& commands) {
     }
   }
   return joined;
+}
+
+std::string WhatMakesThem(int number, int num_unjudgeable) {
+  const std::string them = number == 1 ? "it" : "them";
+  if (num_unjudgeable == 0) return "--resume makes " + them;
+  const std::string new_session = "a new session with a larger --referee-step";
+  if (num_unjudgeable == number) return fmt::format("{} makes {}", new_session, them);
+  return fmt::format("--resume makes {} of them, {} the others", number - num_unjudgeable,
+                     new_session);
 }
 
 }  // namespace planbench

@@ -38,4 +38,8 @@ std::string JoinCommands(const std::vector<std::string>& commands);
 std::string ResumingCommand(const std::map<std::string, std::string>& flags,
                             const std::filesystem::path& session_folder);
 
+/// What makes runs that could not be asked for or judged (messaging/asked_runs.h): "--resume makes
+/// them". Of `number` runs, `num_unjudgeable` have a path that the referee's step is too fine for.
+std::string WhatMakesThem(int number, int num_unjudgeable);
+
 }  // namespace planbench

@@ -123,6 +123,8 @@ std::vector<Field> Fields() {
       Time("guidance_time", &PhaseTimes::guidance_s),
       Time("search_time", &PhaseTimes::search_s),
       Time("simplification_time", &PhaseTimes::simplification_s),
+      {"referee_reason",
+       [](StoredRun* run, const SqliteValue& v) { run->referee_reason = Text(v); }},
       {"mesh_valid",
        [](StoredRun* run, const SqliteValue& v) {
          if (const auto valid = Int(v)) run->mesh_valid = *valid != 0;
@@ -301,6 +303,7 @@ class Reader {
       if (is_new) session.contestants.push_back({select.Text(2), Text(select.Value(3))});
       if (!TellsOfRequest(run.roundtrip_time_s, run.status, !run.scene_id.empty())) {
         ++session.num_not_asked;
+        session.num_unjudgeable += run.referee_reason.empty() ? 0 : 1;
         session.why_not_asked.Add(run.message);
         continue;
       }

@@ -29,6 +29,7 @@ struct StoredRun {
   PlanStatus status = PlanStatus::kNoAnswer;  ///< Final, the referee's word included.
   bool claimed = false;
   std::string message;           ///< Why it is not solved.
+  std::string referee_reason;    ///< Why its path is not valid, or is not judged.
   std::optional<double> time_s;  ///< Planning time; nothing if no answer came.
   OddTimesFound odd_times_s = {};
   double total_time_s = 0;      ///< To the end of the search; planning time where not told.
@@ -97,6 +98,7 @@ struct StoredSession {
   /// Records of runs that were not asked for (planning/asked_request.h): these are missing, and not
   /// among `runs`.
   int num_not_asked = 0;
+  int num_unjudgeable = 0;  ///< Of them those that no resumed session makes (WhatMakesThem).
   ReasonCount why_not_asked;
   /// How many runs are of a contestant that the session does not have, by its name as it stands:
   /// their records are damaged, and they are not among `runs` either.

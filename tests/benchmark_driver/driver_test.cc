@@ -271,6 +271,21 @@ TEST_F(DriverTest, OneThatIsGivenUpLeavesTheOthersTheirRuns) {
   EXPECT_FALSE(logger.sessions().messages().back().finished) << "they are still to be made";
 }
 
+TEST_F(DriverTest, PathsThatTheRefereeRefusesAreToldFromWhatAResumedSessionMakes) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  server.OnPathCheck([](const PathCheckRequestMessage& request) {
+    if (request.scene_id == "scene-2") throw InputError("the step is too fine");
+    return FakeSceneServer::Verdict(true);
+  });
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  MakeAll(&driver);
+  EXPECT_EQ(driver.num_not_asked(), 2);
+  EXPECT_EQ(driver.num_unjudgeable(), 2);
+  EXPECT_FALSE(logger.sessions().messages().back().finished);
+}
+
 TEST_F(DriverTest, OneThatComesBackWithOtherSettingsHasNoMoreRuns) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);

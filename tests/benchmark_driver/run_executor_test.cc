@@ -340,6 +340,7 @@ TEST_F(RunExecutorTest, ARunWithoutAVerdictIsToBeMadeAgain) {
   EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
   EXPECT_EQ(record->message, "no verdict on its path: too many samples");
   EXPECT_FALSE(WasAsked(*record)) << "it counts for nothing, and not against the planner";
+  EXPECT_TRUE(IsUnjudgeable(*record));
   EXPECT_TRUE(record->result.result.path.empty());
 
   server.OnPathCheck([](const PathCheckRequestMessage&) {
@@ -352,6 +353,7 @@ TEST_F(RunExecutorTest, ARunWithoutAVerdictIsToBeMadeAgain) {
   EXPECT_EQ(record->status, PlanStatus::kNoAnswer);
   EXPECT_EQ(record->message, "no verdict on its path: the scene server gave none");
   EXPECT_FALSE(WasAsked(*record));
+  EXPECT_FALSE(IsUnjudgeable(*record)) << "it may give one the next time";
 }
 
 TEST_F(RunExecutorTest, ASimplifiedPathThatIsNotJudgedLeavesTheRawOne) {
@@ -505,6 +507,7 @@ TEST_F(FailingVerdictTest, ARunWhoseSimplifiedPathTheSceneServerFailsToJudgeIsTo
   EXPECT_EQ(record.status, PlanStatus::kNoAnswer);
   EXPECT_THAT(record.message, HasSubstr("the verdict on run/cans/2/arm/backward/3/simplified"));
   EXPECT_FALSE(WasAsked(record));
+  EXPECT_EQ(record.path_check, PathCheckReplyMessage()) << "of a path that is not recorded";
 }
 
 TEST_F(FailingVerdictTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgain) {
@@ -517,6 +520,7 @@ TEST_F(FailingVerdictTest, ARunWhosePathTheSceneServerFailsToJudgeIsToBeMadeAgai
   EXPECT_EQ(unjudged.status, PlanStatus::kNoAnswer);
   EXPECT_THAT(unjudged.message, testing::StartsWith("no verdict on its path: " + why));
   EXPECT_FALSE(WasAsked(unjudged));
+  EXPECT_FALSE(IsUnjudgeable(unjudged));
   EXPECT_TRUE(unjudged.result.result.path.empty());
   const std::size_t num_requests = planner_.requests().messages().size();
   const RunRecordMessage next = execute();

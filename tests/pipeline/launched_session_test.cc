@@ -221,6 +221,18 @@ TEST_F(LaunchedSession, RunsThatAreNotMadeAreAFailure) {
   EXPECT_THAT(driver->Errors(), testing::HasSubstr(" could not be asked for or judged: "));
 }
 
+TEST_F(LaunchedSession, NobodyIsToldToResumeForAPathThatTheStepIsTooFineFor) {
+  const auto session = folder() / "session";
+  ChildProcess* driver =
+      StartLaunchedDriver(session, {"--problems-range", "1", "--time", "30", "--planners", "rrtc",
+                                    "--directions", "forward", "--referee-step", "1e-6"});
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  EXPECT_THAT(driver->Errors(),
+              testing::HasSubstr("1 run could not be asked for or judged: a new session with a "
+                                 "larger --referee-step makes it"));
+  EXPECT_THAT(driver->Output(), testing::Not(testing::HasSubstr("Go on with")));
+}
+
 // As Slurm, systemd and others end a job.
 TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded) {
   const auto session = folder() / "session";

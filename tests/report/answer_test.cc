@@ -317,6 +317,22 @@ TEST_F(ReportTest, RunsThatWereNotAskedForAreMissing) {
               testing::Contains("example: 1 of 5 runs are not recorded."));
 }
 
+TEST_F(ReportTest, RunsThatNoResumedSessionMakesAreTold) {
+  const TemporaryFolder folder;
+  MadeRun too_fine = {.contestant = "A",
+                      .problem = 2,
+                      .status = PlanStatus::kNoAnswer,
+                      .reason = "too fine",
+                      .asked = false,
+                      .unjudgeable = true};
+  WriteSession(folder / "example", {{.contestant = "A"}, too_fine}, ExampleSession());
+  const std::vector<StoredSession> sessions = ReadSessions(folder / "example").sessions;
+  EXPECT_THAT(Cautions(ComparedSessions(sessions)),
+              testing::Contains("example: 1 more run could not be asked for or judged (mostly: too "
+                                "fine): counted as missing, not as failed; a new session with a "
+                                "larger --referee-step makes it."));
+}
+
 TEST_F(ReportTest, RepeatsThatAreOwedAreTold) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();

@@ -70,5 +70,13 @@ TEST(ReproducingCommandTest, QuotesForTheShell) {
   EXPECT_EQ(Command({{"robot", "it's $HOME"}}), "benchmark_driver --robot 'it'\\''s $HOME'");
 }
 
+TEST(WhatMakesThemTest, TellsRunsApartThatNoResumedSessionMakes) {
+  EXPECT_EQ(WhatMakesThem(1, 0), "--resume makes it");
+  EXPECT_EQ(WhatMakesThem(3, 0), "--resume makes them");
+  EXPECT_EQ(WhatMakesThem(2, 2), "a new session with a larger --referee-step makes them");
+  EXPECT_EQ(WhatMakesThem(3, 2),
+            "--resume makes 1 of them, a new session with a larger --referee-step the others");
+}
+
 }  // namespace
 }  // namespace planbench

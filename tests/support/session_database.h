@@ -33,7 +33,8 @@ struct MadeRun {
   std::map<std::string, double> counters = {};
   std::vector<PlanProgress> progress = {};
   std::map<std::string, std::string> settings = {};
-  bool asked = true;  ///< Else there is no round trip, nor an answer.
+  bool asked = true;         ///< Else there is no round trip, nor an answer.
+  bool unjudgeable = false;  ///< Then, for `reason`.
 };
 
 inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id, int number) {
@@ -55,6 +56,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   if (!run.asked) {
     record.roundtrip_time_s = 0;
     record.result = {};
+    if (run.unjudgeable) record.path_check.message = run.reason;
     return record;
   }
   PlanResult& result = record.result.result;
