@@ -99,21 +99,16 @@ double CountSamples(const EdgeChecker& edges, const Path& path) {
   return samples;
 }
 
-/// Of a path of too many samples: that it is too long, or throws since the step is too fine for it.
-void RejectLength(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
+/// False, with the reason, if the path is too long at any step.
+bool JudgeLength(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
   double motion_m = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     motion_m += edges.checker().motion_bound().Between(edges.space(), path[i - 1], path[i]);
   }
-  if (motion_m > kMaxPathMotion) {
-    verdict->reason = fmt::format(
-        "the path is too long: points of the robot move by up to {:.3g} m on it", motion_m);
-    return;
-  }
-  throw InputError(fmt::format(
-      "at a step_m of {} m the path has more than {:.0f} samples, which are not judged: "
-      "choose a larger one (--referee-step)",
-      edges.edge_resolution(), kMaxPathSamples));
+  if (motion_m <= kMaxPathMotion) return true;
+  verdict->reason = fmt::format(
+      "the path is too long: points of the robot move by up to {:.3g} m on it", motion_m);
+  return false;
 }
 
 bool JudgeCollisions(const EdgeChecker& edges, const Path& path, PathVerdict* verdict) {
@@ -153,9 +148,13 @@ PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<con
   PathVerdict verdict;
   if (!JudgeWaypoints(space, path, &verdict)) return verdict;
   const bool fits_ends = JudgeEnds(space, path, start, goals, &verdict);
+  if (fits_ends && !JudgeLength(edges, path, &verdict)) return verdict;
   if (CountSamples(edges, path) > kMaxPathSamples) {
-    if (fits_ends) RejectLength(edges, path, &verdict);
-    return verdict;
+    if (!fits_ends) return verdict;
+    throw InputError(fmt::format(
+        "at a step_m of {} m the path has more than {:.0f} samples, which are not judged: "
+        "choose a larger one (--referee-step)",
+        step_m, kMaxPathSamples));
   }
   verdict.valid = fits_ends && JudgeCollisions(edges, path, &verdict);
   const std::vector<double> default_positions = checker->robot().model.DefaultPositions();

@@ -14,8 +14,8 @@ namespace planbench {
 
 /// Samples of a path that are judged: more would take minutes, with clearances at any rate.
 inline constexpr double kMaxPathSamples = 1e6;
-/// Where there would be more, it is the path that is at fault if points of the robot may move
-/// further than this on it, m (then there would be as many at steps of 1 cm), else the step.
+/// A path is too long, whatever the step, if points of the robot may move further than this on it,
+/// m: then there would be as many at steps of 1 cm.
 inline constexpr double kMaxPathMotion = 1e4;
 
 /// The referee's finding about a path.
@@ -34,11 +34,11 @@ struct PathVerdict {
 /// Judges a path by an engine of the caller's choice, independently of the planner: waypoints
 /// finite, of the right size, within limits; the first at `start`, the last inside one of `goals`
 /// (both to 1e-6); every edge sampled so that no point of the geometry moves more than `step_m`
-/// between samples, all samples free. A path that is empty, or too long to be sampled at all, is
-/// invalid. `base_positions` (full positions, those the checker's scene was set with) only serve
-/// the tip's travel; empty: the model's default positions, which is as good unless a held joint
-/// lies between the group's joints. Throws InputError for a step that is not positive, or too fine
-/// for a path that nothing else speaks against, and for a start or goal of the wrong size.
+/// between samples, all samples free. A path that is empty or too long is invalid. `base_positions`
+/// (full positions, those the checker's scene was set with) only serve the tip's travel; empty: the
+/// model's default positions, which is as good unless a held joint lies between the group's joints.
+/// Throws InputError for a step that is not positive, or too fine for a path that nothing else
+/// speaks against, and for a start or goal of the wrong size.
 PathVerdict JudgePath(CollisionChecker* checker, const Path& path, std::span<const double> start,
                       const std::vector<GoalBox>& goals, double step_m, bool with_clearance,
                       std::span<const double> base_positions = {});

@@ -157,10 +157,13 @@ TEST_F(PathJudgeTest, OfTooManySamplesAPathIsTooLongOrTheStepTooFine) {
   Path long_path = {straight_.front()};
   for (int i = 0; i < 8000; ++i) long_path.push_back({i % 2 == 0 ? 2.5 : -0.5, 0, 0});
   long_path.push_back(straight_.back());
-  const PathVerdict verdict = Judge(long_path, EmptyPlanarScene());
-  EXPECT_FALSE(verdict.valid);
-  EXPECT_THAT(verdict.reason, HasSubstr("the path is too long: points of the robot move by up to"));
-  EXPECT_TRUE(verdict.measures.empty());
+  for (const double step_m : {0.01, 1.0}) {
+    const PathVerdict verdict = Judge(long_path, EmptyPlanarScene(), false, step_m);
+    EXPECT_FALSE(verdict.valid);
+    EXPECT_THAT(verdict.reason,
+                HasSubstr("the path is too long: points of the robot move by up to"));
+    EXPECT_TRUE(verdict.measures.empty());
+  }
 
   ExpectInputError([&] { Judge(straight_, EmptyPlanarScene(), false, 1e-6); },
                    {"step_m of 1e-06 m", "more than 1000000 samples", "--referee-step"});
