@@ -137,13 +137,13 @@ PlanningGroup RobotModel::MakeGroup(const std::string& name,
     return link;
   };
   group.tip_link = find_tip(tip_link);
+  std::set<int> named = {group.tip_link};
   for (const std::string& tip : more_tips) {
     const int link = find_tip(tip);
-    const std::vector<int> tips = group.tips();
-    if (std::ranges::count(tips, link) > 0) fail(fmt::format("tip '{}' is repeated", tip));
     // What is summed over the tips would count it twice.
     const auto is_rigid = [&](int other) { return Rigid(link, other); };
-    if (std::ranges::none_of(tips, is_rigid)) group.more_tips.push_back(link);
+    if (std::ranges::none_of(named, is_rigid)) group.more_tips.push_back(link);
+    if (!named.insert(link).second) fail(fmt::format("tip '{}' is repeated", tip));
   }
 
   std::set<std::string> seen;

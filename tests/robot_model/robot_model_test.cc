@@ -222,6 +222,11 @@ TEST_F(RobotModelTest, OfTipsThatAreRigidToEachOtherTheFirstCounts) {
       model_.MakeGroup("arm", {"alpha", "zulu", "bravo"}, "twig", {"leaf_b", "branch", "leaf_a"});
   EXPECT_EQ(group.tips(), (std::vector<int>{model_.FindLink("twig"), model_.FindLink("leaf_b"),
                                             model_.FindLink("leaf_a")}));
+  ExpectInputError(
+      [this] {
+        model_.MakeGroup("arm", {"alpha"}, "leaf_b", {"branch", "branch"});
+      },
+      {"arm", "tip 'branch' is repeated"});
 }
 
 TEST_F(RobotModelTest, RefusesGroupsItCannotMake) {
