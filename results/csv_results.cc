@@ -177,6 +177,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
   std::istringstream lines(std::move(text));
   std::vector<std::string> header;
   StoredSession session;
+  session.is_csv = true;
   session.contestants = {{name, "imported from " + file_name + "\n"}};
   using Key = std::tuple<std::string, int, Direction>;
   std::map<Key, int> num_rows;
@@ -194,7 +195,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
     }
     const Row row(file_name, number, header, SplitLine(line));
     StoredRun run = ReadRun(row, time_limit_s);
-    run.id = run.line = number;
+    run.id = number;
     const Key key(run.problem_set, run.problem_index, run.direction);
     if (!row.Has("trial")) run.trial = ++num_rows[key];
     if (!trials.emplace(key, run.trial).second) {

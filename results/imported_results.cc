@@ -102,7 +102,7 @@ void KeepProblems(const ProblemsBySet& problems, StoredSession* imported,
   const auto first = std::find_if(runs.begin(), runs.end(), is_other);
   if (first == runs.end()) return;
   const std::string file = imported->file.string();
-  const std::string place = first->line > 0 ? fmt::format("{}:{}", file, first->line) : file;
+  const std::string place = imported->is_csv ? fmt::format("{}:{}", file, first->id) : file;
   const std::string problem =
       fmt::format("problem {} of '{}'", first->problem_index, first->problem_set);
   const std::size_t num_all = runs.size();

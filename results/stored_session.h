@@ -17,8 +17,7 @@ namespace planbench {
 
 /// A run as a results database holds it (docs/database.md).
 struct StoredRun {
-  std::int64_t id = 0;         ///< `runs.id`
-  int line = 0;                ///< Of the CSV file that it was imported from; else 0.
+  std::int64_t id = 0;         ///< `runs.id`; of a CSV file, the line.
   std::size_t contestant = 0;  ///< Index into those of its session.
   std::string request_id;
   std::string problem_set;
@@ -83,6 +82,7 @@ struct StoredSession {
   std::filesystem::path file;
   std::string run_id;
   bool imported = false;   ///< From elsewhere (imported_results.h): nobody judged its paths.
+  bool is_csv = false;     ///< From a CSV file.
   bool described = false;  ///< The session's own message was stored: what follows is known.
   bool finished = false;
   double total_time_s = 0;
