@@ -1,6 +1,7 @@
 #include "messaging/planner_node.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -27,9 +28,18 @@ PlannerNode::PlannerNode(Bus* bus, const std::string& name, std::unique_ptr<Plan
       status_(MakeNodeStatus(name, NodeKind::kPlanner)) {
   std::erase_if(description_.collision_models,
                 [this](CollisionModel model) { return unusable_models_.contains(model); });
+  std::vector<std::string> not_offered;  // though asked for
   for (const auto& [model, reason] : unusable_models_) {
-    spdlog::info("the collision model '{}' is not offered: {}", EnumName(model), reason);
     status_.unusable_models.emplace(EnumName(model), reason);
+    if (std::find(models.begin(), models.end(), model) != models.end()) {
+      not_offered.push_back(fmt::format("'{}': {}", EnumName(model), reason));
+    }
+  }
+  if (description_.collision_models.empty()) {
+    spdlog::error("no collision model can be used, and every request will be refused; {}",
+                  fmt::join(not_offered, "; "));
+  } else if (!not_offered.empty()) {
+    spdlog::info("collision models that cannot be used: {}", fmt::join(not_offered, "; "));
   }
   status_.robot_name = planner_->robot().name;
   status_.robot_id = planner_->robot().content_id;

@@ -18,7 +18,9 @@
 namespace planbench {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using Verdict = PlanAckVerdict;
 
 const Robot& PlanarRobot() {
@@ -177,6 +179,23 @@ TEST_F(PlannerNodeTest, OffersTheModelsThatItWasStartedForAlone) {
   request.collision_model = CollisionModel::kVoxels;
   EXPECT_EQ(SendForAck(request).verdict, Verdict::kWorking);
   ResultOf("b");
+}
+
+TEST_F(PlannerNodeTest, TellsOfModelsThatItWasAskedForAndCannotUse) {
+  PlannerDescription able = ScriptedPlanner::Able();
+  able.collision_models.push_back(CollisionModel::kEnclosing);  // of which the robot has no spheres
+  const auto told = [&](const std::vector<CollisionModel>& models) {
+    testing::internal::CaptureStdout();  // Where messages go.
+    const PlannerNode node(
+        &bus_, "arm", std::make_unique<ScriptedPlanner>(PlanarRobot(), StraightLine, able), models);
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_THAT(told({CollisionModel::kSpheres}), Not(HasSubstr("cannot be used")));
+  EXPECT_THAT(told({CollisionModel::kSpheres, CollisionModel::kEnclosing}),
+              AllOf(HasSubstr("info"), HasSubstr("models that cannot be used: 'enclosing': ")));
+  EXPECT_THAT(told({CollisionModel::kEnclosing}),
+              AllOf(HasSubstr("error"), HasSubstr("no collision model can be used"),
+                    HasSubstr("'enclosing': "), Not(HasSubstr("'spheres'"))));
 }
 
 TEST_F(PlannerNodeTest, AcceptsSolvesAndSendsTheResult) {
