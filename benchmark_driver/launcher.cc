@@ -105,8 +105,8 @@ void RequireEmptyBus(Bus* bus) {
 }
 
 void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
-                    const std::filesystem::path& logs, const std::string& lcm_url,
-                    Supervisor* supervisor) {
+                    const ModelsByPlanner& models, const std::filesystem::path& logs,
+                    const std::string& lcm_url, Supervisor* supervisor) {
   for (const LineUpEntry& entry : line_up) {
     const std::string& planner = entry.contestant.planner;
     std::vector<std::string> arguments;
@@ -114,11 +114,10 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
       arguments = {"/bin/sh", "-c", kRunCommand, "sh", entry.contestant.command};
     } else {
       arguments = WithRobot(std::string(kPlannerPrefix) + entry.program, options.robot);
-      arguments.insert(arguments.end(), {"--name", planner});
-      if (!options.replay) {  // the requests of a log have models of their own
-        arguments.insert(arguments.end(),
-                         {"--collision-models", std::string(EnumName(options.ModelOf(entry)))});
-      }
+      std::vector<std::string_view> its_models;
+      for (const CollisionModel model : models.at(planner)) its_models.push_back(EnumName(model));
+      arguments.insert(arguments.end(), {"--name", planner, "--collision-models",
+                                         fmt::format("{}", fmt::join(its_models, ","))});
       if (entry.config) arguments.insert(arguments.end(), {"--config", entry.config->string()});
       for (const std::string& setting : entry.settings) {
         arguments.insert(arguments.end(), {"--set", setting});
@@ -163,7 +162,11 @@ void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry
   supervisor->Start(std::move(logger));
 
   LaunchSceneServer(options, logs, lcm_url, supervisor);
-  LaunchPlanners(options, line_up, logs, lcm_url, supervisor);
+  ModelsByPlanner models;
+  for (const LineUpEntry& entry : line_up) {
+    models[entry.contestant.planner] = {options.ModelOf(entry)};
+  }
+  LaunchPlanners(options, line_up, models, logs, lcm_url, supervisor);
 }
 
 Subscription WatchChildren(Bus* bus, const std::vector<LineUpEntry>& line_up,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,12 +25,15 @@ void RequirePrograms(const std::vector<LineUpEntry>& line_up,
 /// itself.
 void RequireEmptyBus(Bus* bus);
 
+/// By planner, the collision models that it is asked to check with.
+using ModelsByPlanner = std::map<std::string, std::set<CollisionModel>>;
+
 /// Starts the planners as children on the bus `lcm_url`, with their output in <logs>/NAME.log; the
-/// folder exists. The programs are those beside this one; but for a replay each prepares the
-/// collision model of its contestant alone.
+/// folder exists. The programs are those beside this one; each prepares its `models` (one at least)
+/// alone.
 void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
-                    const std::filesystem::path& logs, const std::string& lcm_url,
-                    Supervisor* supervisor);
+                    const ModelsByPlanner& models, const std::filesystem::path& logs,
+                    const std::string& lcm_url, Supervisor* supervisor);
 
 /// The same for the scene server.
 void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,

@@ -66,6 +66,10 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
       options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
   // First paths are in the requests.
   std::erase_if(line_up, [](const LineUpEntry& entry) { return entry.finds_first_paths_only; });
+  ModelsByPlanner models;
+  for (const RunRecordMessage& run : recorded.runs) {
+    models[run.planner].insert(run.request.collision_model);
+  }
   std::vector<std::string> planners;
   for (const LineUpEntry& entry : line_up) planners.push_back(entry.contestant.planner);
 
@@ -95,7 +99,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
     stopper.emplace(line_up, &bus, &*supervisor);
     // The driver hands out the log's scenes; a planner may need more of a scene server than that.
     if (!options.problems.empty()) LaunchSceneServer(options, folder / "logs", url, &*supervisor);
-    LaunchPlanners(options, line_up, folder / "logs", url, &*supervisor);
+    LaunchPlanners(options, line_up, models, folder / "logs", url, &*supervisor);
   }
   const NodeStatusMessage self = MakeNodeStatus("driver", NodeKind::kDriver);
   const NodeAnnouncer announcer(&bus, [&] { return self; });

@@ -2,11 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
+#include "messaging/bus.h"
+#include "messaging/channels.h"
 #include "messaging/event_log.h"
 #include "messaging/event_log_files.h"
 #include "messaging/event_log_reader.h"
 #include "tests/pipeline/pipeline_fixture.h"
+#include "tests/support/message_collector.h"
 #include "tests/support/private_bus.h"
 
 namespace planbench {
@@ -93,10 +98,19 @@ TEST_F(Replay, PlannersAnswerAsTheyDidOrItIsSaid) {
     return Start(arguments);
   };
 
-  ChildProcess* same = launched("same", {});
-  EXPECT_EQ(same->Wait(), 0) << same->Output() << same->Errors();
-  EXPECT_NE(same->Output().find("Answers now and as recorded"), std::string::npos)
-      << same->Output();
+  {
+    Bus bus(url());
+    MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
+    bus.Start();
+    ChildProcess* same = launched("same", {"--lcm-url", url()});
+    EXPECT_EQ(same->Wait(), 0) << same->Output() << same->Errors();
+    EXPECT_NE(same->Output().find("Answers now and as recorded"), std::string::npos)
+        << same->Output();
+    // What the log asks for is prepared, and nothing else.
+    const std::vector<std::string> asked_for = {"voxels"};
+    EXPECT_GE(statuses.Count([&](const auto& s) { return s.collision_models == asked_for; }), 1u);
+    EXPECT_EQ(statuses.Count([](const auto& s) { return s.collision_models.size() > 1; }), 0u);
+  }
 
   ChildProcess* other = launched("other", {"--set", "rrtc.range=0.3"});
   EXPECT_EQ(other->Wait(), 1) << other->Output() << other->Errors();
