@@ -80,7 +80,7 @@ struct AraSettings {
   /// Whether states have spines of burs of free configuration space (Lacevic, Osmankovic and
   /// Ademovic 2016) beside their moves: each move repeated in a row as often as the clearance
   /// proves it free, and at least twice. Neither such spines nor the moves within them are checked.
-  /// With the collision model voxels there are none.
+  /// Requests for the collision model voxels, whose distances prove no motion free, are refused.
   bool burs = false;
   /// Whether a search whose moves lead nowhere any more goes on with finer ones: short moves
   /// everywhere and halves of the long ones, then halves of those, down to single cells.

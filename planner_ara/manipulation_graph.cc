@@ -112,8 +112,11 @@ ManipulationGraph::ManipulationGraph(EdgeChecker* edges, std::span<const double>
       from_(start.size()),
       to_(start.size()),
       target_(start.size()) {
-  // The distances of a field are those between cells: they prove no motion free.
-  if (edges->checker().model() == CollisionModel::kVoxels) options_.burs = false;
+  if (options_.burs && edges->checker().model() == CollisionModel::kVoxels) {
+    throw InputError(
+        "burs: the collision model 'voxels' has distances between cells, which prove no motion "
+        "free: take another model, or burs: false");
+  }
   // The turns of a state are known of moves alone.
   if (arms_.num > 1 && options_.wrap_heuristic) {
     first_move_ = static_cast<std::uint16_t>(kArmToGoal + arms_.num);

@@ -69,7 +69,8 @@ class ManipulationGraph {
   static constexpr StateId kStart = 1;
 
   /// `start` is valid, `options` as ResolveOptions has them. Throws InputError for more primitives
-  /// than there are numbers of edges, and what Lattice refuses. The edge checker must outlive this.
+  /// than there are numbers of edges, burs with the collision model voxels, and what Lattice
+  /// refuses. The edge checker must outlive this.
   ManipulationGraph(EdgeChecker* edges, std::span<const double> start, const GoalBox& goal,
                     ManipulationGraphOptions options);
 

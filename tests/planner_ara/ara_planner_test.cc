@@ -1,5 +1,6 @@
 #include "planner_ara/ara_planner.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -362,6 +363,17 @@ TEST_F(AraPlannerTest, ItsNameSaysWhichVariantItIs) {
   EXPECT_EQ(name("tip_guide: 0\ncrowding: 0"), "ARA* (two-way)");
   EXPECT_EQ(name("burs: true"), "ARA* (two-way, guided, burs)");
   EXPECT_EQ(name("two_way: false\ntip_guide: 0"), "ARA* (guided)");
+}
+
+TEST_F(AraPlannerTest, BursAreRefusedWhereDistancesProveNothing) {
+  PlanRequest request = PastThePost();
+  request.collision_model = CollisionModel::kVoxels;
+  EXPECT_NE(Make(kPlanarSettings)->Plan(request, PostsScene(), nullptr).status,
+            PlanStatus::kInvalidRequest);
+  const PlanResult result =
+      Make(kPlanarSettings + "burs: true")->Plan(request, PostsScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kInvalidRequest);
+  EXPECT_THAT(result.message, testing::HasSubstr("burs: the collision model 'voxels'"));
 }
 
 TEST_F(AraPlannerTest, TheStudysSettingsSolveWithItsOwnMoves) {

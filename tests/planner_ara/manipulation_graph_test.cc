@@ -236,20 +236,6 @@ TEST_F(ManipulationGraphTest, SpinesOfBursAreFreeUnchecked) {
   }
 }
 
-TEST_F(ManipulationGraphTest, ADistanceFieldProvesNoSpines) {
-  const auto field = MakeCollisionChecker(robot_, robot_.groups.front(), CollisionModel::kVoxels);
-  field->SetScene(PostsScene(), std::vector<double>(4, 0.0));
-  EdgeChecker edges(field.get(), robot_.edge_resolution_m, EdgeCheck::kCertified);
-  std::vector<std::size_t> num_edges;
-  for (const bool burs : {false, true}) {
-    ManipulationGraphOptions options = Options(0.02);
-    options.burs = burs;
-    ManipulationGraph graph(&edges, kLeft, PointGoal(kRight), options);
-    num_edges.push_back(EdgesOf(&graph, ManipulationGraph::kStart).size());
-  }
-  EXPECT_EQ(num_edges[0], num_edges[1]);
-}
-
 TEST_F(ManipulationGraphTest, SpinesOfAJointThatMovesNoGeometryEndAtItsLimits) {
   Robot bare = robot_;
   const int hand = bare.model.FindLink("hand");
