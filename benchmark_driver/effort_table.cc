@@ -19,11 +19,12 @@
 namespace planbench {
 namespace {
 
-/// A column of the table of effort and quality: a median over problems.
+/// A column of the tables of effort and path quality: a median over problems.
 struct EffortColumn {
   std::string heading;
   std::function<std::optional<double>(const RunRecordMessage&)> read;  ///< Nothing: left out.
   std::function<std::string(double)> format;
+  bool is_quality = false;
 };
 
 std::vector<EffortColumn> MakeEffortColumns() {
@@ -66,7 +67,7 @@ std::vector<EffortColumn> MakeEffortColumns() {
         if (value) *value *= measure.column.scale;
         return value;
       };
-      columns.push_back({heading, read, decimals(measure.column.decimals)});
+      columns.push_back({heading, read, decimals(measure.column.decimals), true});
     };
     add(measure.column.heading, &Record::path_check);
     add(measure.column.heading_simplified, &Record::simplified_check);
@@ -77,6 +78,34 @@ std::vector<EffortColumn> MakeEffortColumns() {
 const std::vector<EffortColumn>& EffortColumns() {
   static const std::vector<EffortColumn> columns = MakeEffortColumns();
   return columns;
+}
+
+/// Of the columns of path quality, or the others.
+std::string MedianTable(const SessionResults& results, const std::string& title, bool is_quality,
+                        const std::string& notes) {
+  const std::vector<EffortColumn>& columns = EffortColumns();
+  std::vector<std::string> header = {"contestant"};
+  for (const EffortColumn& column : columns) {
+    if (column.is_quality == is_quality) header.push_back(column.heading);
+  }
+  TextTable table(title, std::move(header), 1);
+  for (const SetResults& set : results.sets()) {
+    table.AddHeading(set.name);
+    for (const ContestantResults& one : set.contestants) {
+      std::vector<std::string> row = {one.label()};
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (columns[i].is_quality != is_quality) continue;
+        ValuesByProblem values;
+        for (const RunRow* run : one.runs) {
+          if (!run->confirmed() || std::isnan(run->effort[i])) continue;
+          values[run->problem_index].push_back(run->effort[i]);
+        }
+        row.push_back(columns[i].format(SummarizeByProblem(values).median));
+      }
+      table.Add(std::move(row));
+    }
+  }
+  return table.Format(notes);
 }
 
 // What the mesh robot says of a number of paths.
@@ -109,32 +138,18 @@ std::vector<double> EffortValues(const RunRecordMessage& record) {
   return values;
 }
 
-std::string EffortTable(const SessionResults& results) {
-  const std::vector<EffortColumn>& columns = EffortColumns();
-  std::vector<std::string> header = {"set", "contestant"};
-  for (const EffortColumn& column : columns) header.push_back(column.heading);
-  TextTable table("Effort and quality of confirmed runs, medians over problems", std::move(header),
-                  2);
-  for (const SetResults& set : results.sets()) {
-    for (const ContestantResults& one : set.contestants) {
-      std::vector<std::string> row = {set.name, one.label()};
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        ValuesByProblem values;
-        for (const RunRow* run : one.runs) {
-          if (!run->confirmed() || std::isnan(run->effort[i])) continue;
-          values[run->problem_index].push_back(run->effort[i]);
-        }
-        row.push_back(columns[i].format(SummarizeByProblem(values).median));
-      }
-      table.Add(std::move(row));
-    }
-  }
-  return table.Format(
-      "A problem counts once, by the median of its runs; medians over different problems do not "
-      "compare. bus: the driver's round trip less the planner's own time. checking: share of "
-      "collision checking in the search. length: joint space, L2, rad and m. tip: travel of the "
-      "tip link from sample to sample of the referee, on the raw path. clearance: least at these "
-      "samples. -: not told, or not measured.\n\n");
+std::string EffortTables(const SessionResults& results) {
+  return MedianTable(results, "Effort of confirmed runs, medians over problems", false,
+                     "A problem counts once, by the median of its runs; medians over different "
+                     "problems do not compare. bus: the driver's round trip less the planner's own "
+                     "time. checking: share of collision checking in the search. edges, "
+                     "configurations: how many the planner checked, simplification aside. -: not "
+                     "told.\n\n") +
+         MedianTable(results, "Path quality of confirmed runs, medians over problems", true,
+                     "length: joint space, L2, rad and m, of the raw path; simplified: of the "
+                     "simplified one. tip: travel of the tip link from sample to sample of the "
+                     "referee, on the raw path. clearance: least at these samples. -: not "
+                     "measured.\n\n");
 }
 
 std::string MeshTable(const SessionResults& results) {

@@ -7,12 +7,12 @@
 
 namespace planbench {
 
-/// What EffortTable shows of a run whose path was confirmed, by column; NaN: not taken.
+/// What EffortTables show of a run whose path was confirmed, by column; NaN: not taken.
 std::vector<double> EffortValues(const RunRecordMessage& record);
 
 /// Effort and path quality of the runs whose path was confirmed: medians over problems, of which
 /// each counts by the median of its runs.
-std::string EffortTable(const SessionResults& results);
+std::string EffortTables(const SessionResults& results);
 
 /// What the mesh robot says of confirmed paths; empty if it did not judge.
 std::string MeshTable(const SessionResults& results);

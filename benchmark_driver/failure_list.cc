@@ -49,14 +49,16 @@ std::string FailureSummary(const SessionResults& results) {
 
 std::string FailureList(const SessionResults& results) {
   TextTable table("Attempts without a confirmed path",
-                  {"set", "problem", "contestant", "direction", "trial", "status", "reason"}, 7);
+                  {"problem", "contestant", "direction", "trial", "status", "reason"}, 6);
   bool any = false;
   for (const SetResults& set : results.sets()) {
+    bool any_of_set = false;
     for (const ContestantResults& one : set.contestants) {
       for (const RunRow* run : one.runs) {
         if (run->confirmed()) continue;
-        any = true;
-        table.Add({set.name, fmt::format("{}", run->problem_index), one.label(),
+        if (!any_of_set) table.AddHeading(set.name);
+        any = any_of_set = true;
+        table.Add({fmt::format("{}", run->problem_index), one.label(),
                    std::string(EnumName(run->direction)), fmt::format("{}", run->trial),
                    std::string(EnumName(run->status)), *run->message});
       }

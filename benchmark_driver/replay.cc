@@ -216,18 +216,21 @@ bool Replay::Run(const std::function<bool()>& interrupted,
 std::string Replay::Table() const {
   TextTable table(
       "Answers now and as recorded",
-      {"Planner", "Requests", "Equal", "Different", "Not asked", "Time", "25 %", "75 %"}, 1);
+      {"Planner", "Requests", "Equal", "Different", "Not asked", "Paths", "Time", "25 %", "75 %"},
+      1);
   for (const auto& [planner, tally] : tallies_) {
     const Summary ratio = Summarize(tally.time_ratios);
     table.Add({planner, std::to_string(tally.num_requests), std::to_string(tally.num_equal),
                std::to_string(tally.num_different),
                std::to_string(tally.num_requests - tally.num_equal - tally.num_different),
-               Number(ratio.median, 2), Number(ratio.lower_quartile, 2),
-               Number(ratio.upper_quartile, 2)});
+               std::to_string(ratio.count), Number(ratio.median, 2),
+               Number(ratio.lower_quartile, 2), Number(ratio.upper_quartile, 2)});
   }
   return table.Format(
-      "Equal: status, joints, paths and cost. Time: planning time now over planning time then, "
-      "median and quartiles over the equal answers with a path; no part of the verdict.");
+      "Equal: status, joints, paths and cost. Paths: equal answers with one, that took more than 0 "
+      "s "
+      "then. Time: planning time now over planning time then, median and quartiles over these; no "
+      "part of the verdict.");
 }
 
 }  // namespace planbench

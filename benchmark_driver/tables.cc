@@ -179,12 +179,11 @@ std::string PairTable(const SessionResults& results, bool all) {
   }
   if (shown.empty()) return "";
   const std::string notes = fmt::format(
-      "{}problems: that both tried. won: share of them that the first solved faster in the median, "
-      "or alone; a tie is half. both: those that both solved in the median. time ratio: geometric "
-      "mean of first / second over these, with Student's interval of the logarithms' mean, of six "
-      "at least; below 1 the first is faster. p: of Wilcoxon's signed-rank test that neither is "
-      "faster, two-sided, problems that only one solved in the median included, adjusted for all "
-      "pairs of the set (Holm), those that only tables.txt shows too.{}\n",
+      "{}problems: that both tried. won: share of them that the first solved faster, or alone; a "
+      "tie is half. both: those that both solved, in more than 0 ms. time ratio: geometric mean of "
+      "first / second over these, with Student's interval, of six at least; below 1 the first is "
+      "faster. p: Wilcoxon's signed-rank test of those that either solved, two-sided, adjusted for "
+      "all pairs of the set (Holm), which tables.txt shows.{}\n",
       kProblemTimeNote, ZeroTimesNote(shown));
   return table.Format(notes) + "\n";
 }
@@ -192,33 +191,33 @@ std::string PairTable(const SessionResults& results, bool all) {
 /// Planning times of the attempts themselves, by direction.
 std::string DirectionTable(const SessionResults& results) {
   TextTable table("Planning time of confirmed attempts by direction, ms",
-                  {"set", "contestant", "direction", "attempts", "confirmed", "problems", "median",
-                   "mean", "25 %", "75 %", "95 %"},
-                  3);
-  for (const SetResults& set : results.sets()) {
-    for (const ContestantResults& one : set.contestants) {
-      for (const Direction direction : EnumValues<Direction>()) {
-        int attempts = 0, confirmed = 0;
-        ValuesByProblem times_s;
-        for (const RunRow* run : one.runs) {
-          if (run->direction != direction) continue;
-          ++attempts;
-          if (!run->confirmed()) continue;
-          ++confirmed;
-          times_s[run->problem_index].push_back(run->time_s);
+                  {"contestant", "dir.", "attempts", "confirmed", "problems", "median", "mean",
+                   "25 %", "75 %", "95 %"},
+                  2);
+  ForEachRow(
+      results, [&](const SetResults& set) { table.AddHeading(set.name); },
+      [&](const SetResults&, const ContestantResults& one) {
+        for (const Direction direction : EnumValues<Direction>()) {
+          int attempts = 0, confirmed = 0;
+          ValuesByProblem times_s;
+          for (const RunRow* run : one.runs) {
+            if (run->direction != direction) continue;
+            ++attempts;
+            if (!run->confirmed()) continue;
+            ++confirmed;
+            times_s[run->problem_index].push_back(run->time_s);
+          }
+          if (attempts == 0) continue;
+          const Summary s = SummarizeByProblem(times_s);
+          table.Add({one.label(), direction == Direction::kForward ? "fwd" : "bwd", Count(attempts),
+                     Count(confirmed), Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
+                     Milliseconds(s.lower_quartile), Milliseconds(s.upper_quartile),
+                     Milliseconds(s.percentile_95)});
         }
-        if (attempts == 0) continue;
-        const Summary s = SummarizeByProblem(times_s);
-        table.Add({set.name, one.label(), std::string(EnumName(direction)), Count(attempts),
-                   Count(confirmed), Count(s.count), Milliseconds(s.median), Milliseconds(s.mean),
-                   Milliseconds(s.lower_quartile), Milliseconds(s.upper_quartile),
-                   Milliseconds(s.percentile_95)});
-      }
-    }
-  }
+      });
   return table.Format(
-             "Attempts of either direction for themselves; a problem counts once, by the median of "
-             "its confirmed ones.\n") +
+             "Attempts of either direction for themselves. problems: those with a confirmed one, "
+             "which count once, by the median of these.\n") +
          "\n";
 }
 
@@ -386,7 +385,7 @@ SessionTables MakeTables(const SessionConditions& conditions, const RunRows& run
                             SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results);
   return {begin + PairTable(results, false) + meshes + FailureSummary(results),
-          begin + DirectionTable(results) + PairTable(results, true) + EffortTable(results) +
+          begin + DirectionTable(results) + PairTable(results, true) + EffortTables(results) +
               meshes + FailureList(results)};
 }
 

@@ -137,7 +137,7 @@ Table ChangeTable(const ComparedSessions& compared) {
       "changes",
       "What changed from session to session",
       "Contestants of one name, on the problems that both sessions have, against the session that "
-      "was begun first. Both: problems solved in the median in both. Time ratio: of these, "
+      "was begun first. Both: problems solved in both, in more than 0 s. Time ratio: of these, "
       "geometric mean of after / before, with Student's 95 % interval. p: signed-rank test of "
       "problem by problem, adjusted for all rows (Holm). Faster or slower: beyond chance at the "
       "5 % level; too few problems: that could not be shown of so few.",

@@ -337,14 +337,13 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
   Table table{
       "pairs",
       "Problem by problem",
-      "Problems: that both tried. Faster, slower: those that the first solved faster in the "
-      "median, or alone, and the other way round. Both: those that both solved in the median. Time "
-      "ratio: geometric mean of first / second over these, with Student's 95 % interval of the "
+      "Problems: that both tried. Faster, slower: those that the first solved faster, or alone, "
+      "and the other way round. Both: those that both solved, in more than 0 s. Time ratio: "
+      "geometric mean of first / second over these, with Student's 95 % interval of the "
       "logarithms' mean (six problems at least). p: Wilcoxon's signed-rank test of the logarithms, "
-      "two-sided, problems that only one solved in the median included and ties left out; beside "
-      "it adjusted for all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the "
-      "first is always faster, 1 if always slower; here ties count, with the lowest ranks and no "
-      "side.",
+      "two-sided, problems that only one solved included and ties left out; beside it adjusted for "
+      "all pairs of the set (Holm). Effect: rank-biserial correlation, -1 if the first is always "
+      "faster, 1 if always slower; here ties count, with the lowest ranks and no side.",
       {{"set", "set"},
        {"first", "first"},
        {"second", "second"},

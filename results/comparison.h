@@ -67,8 +67,8 @@ std::vector<double> AdjustedPValues(const std::vector<PairedComparison>& family)
 
 /// What stands below every table of such comparisons: what they go by.
 inline constexpr char kProblemTimeNote[] =
-    "A problem is solved in the median if more than half of its trials have a confirmed path; its "
-    "time is the median of all trials, those without being longer than any. ";
+    "A problem is solved here, in the median, if more than half of its trials have a confirmed "
+    "path; its time is the median of all trials, those without being longer than any. ";
 
 /// What stands below a table of ratios of which some problems are left out since a time is 0, a
 /// blank before it; "" if none are.

@@ -109,7 +109,8 @@ inline constexpr char kSuccess[] = "Success";
 inline constexpr char kTimes[] = "Planning time, ms";
 inline constexpr char kPairs[] = "Problem by problem";
 inline constexpr char kDirections[] = "Planning time of confirmed attempts by direction, ms";
-inline constexpr char kEffort[] = "Effort and quality of confirmed runs, medians over problems";
+inline constexpr char kEffort[] = "Effort of confirmed runs, medians over problems";
+inline constexpr char kQuality[] = "Path quality of confirmed runs, medians over problems";
 inline constexpr char kMeshes[] = "Paths judged with the robot's meshes";
 inline constexpr char kFailed[] = "Attempts without a confirmed path";
 
