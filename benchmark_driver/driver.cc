@@ -21,6 +21,7 @@
 #include "common/utime.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
+#include "planning/told_edges.h"
 #include "results/reason_count.h"
 #include "results/training.h"
 
@@ -33,6 +34,21 @@ constexpr double kWarmUpLimit = 1;  // s
 /// Planbench's own, not one that a command starts, or somebody else's.
 bool IsOwn(const LineUpEntry& entry) {
   return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
+}
+
+/// Tells among their settings how planners are asked to check for collisions: who finds first paths
+/// alone is none of the contestants, of which the conditions tell it.
+void TellChecks(const SessionConditions& conditions, const std::vector<Contestant>& asked,
+                std::vector<NodeStatusMessage>* nodes) {
+  for (const Contestant& one : asked) {
+    const auto model = one.collision_model.value_or(conditions.request.collision_model);
+    for (NodeStatusMessage& node : *nodes) {
+      if (node.kind != NodeKind::kPlanner || node.name != one.planner) continue;
+      node.settings["collision checks"] =
+          fmt::format("{}, edges {}", EnumName(model),
+                      DescribeEdges(one.edge_check, one.edge_resolution_m, node.settings));
+    }
+  }
 }
 
 std::set<std::string> IdsOf(const std::vector<ScheduledRun>& runs) {
@@ -397,6 +413,8 @@ SessionMessage Driver::Session(bool finished) const {
   for (const auto* planners : {&planners_, &earlier_planners_}) {
     for (const auto& [name, planner] : *planners) session.nodes.push_back(planner);
   }
+  TellChecks(session.conditions, session.conditions.contestants, &session.nodes);
+  TellChecks(session.conditions, first_planners_, &session.nodes);
   return session;
 }
 

@@ -409,6 +409,36 @@ TEST_F(DriverTest, WhoFindsFirstPathsOnlyIsNoContestantAndNeedNotBeAnytime) {
   for (const PlanRequest& request : first.requests().messages()) EXPECT_FALSE(request.anytime);
 }
 
+TEST_F(DriverTest, HowWhoFindsFirstPathsOnlyChecksIsACondition) {
+  FakePlanner planner(&bus_);
+  planner.status.can_improve = true;
+  planner.Restart();
+  FakePlanner first(&bus_, "first");
+  first.status.collision_models.emplace_back("voxels");
+  first.Restart();
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
+  line_up[0].contestant.first_path_of = "first";
+  line_up[1].finds_first_paths_only = true;
+  line_up[1].contestant.edge_check = EdgeCheck::kFixed;
+  Driver begun(&bus_, Options(), line_up, {});
+  MakeAll(&begun);
+  EarlierSession earlier;
+  earlier.sessions = {logger.sessions().messages().back()};
+  const auto resume = [&] { Driver(&bus_, Options(), line_up, {}, earlier).Discover(true, Idle); };
+  EXPECT_NO_THROW(resume());
+  line_up[1].finds_first_paths_only = false;
+  EXPECT_NO_THROW(resume()) << "as a contestant besides";
+  line_up[1].finds_first_paths_only = true;
+  line_up[1].contestant.edge_resolution_m = 0.05;
+  ExpectInputError(resume, {"--resume", "node[first].setting[collision checks]",
+                            "spheres, edges fixed at 0.02 m", "spheres, edges fixed at 0.05 m"});
+  line_up[1].contestant.edge_resolution_m.reset();
+  line_up[1].contestant.collision_model = CollisionModel::kVoxels;
+  ExpectInputError(resume, {"--resume", "node[first].setting[collision checks]", "voxels, edges"});
+}
+
 TEST_F(DriverTest, ALoggerOfAnotherBuildIsRefused) {
   const FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
