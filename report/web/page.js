@@ -31,7 +31,7 @@ const report = (() => {
     const grouped = columns[0].heading === "set" ? 1 : 0;
     const shown = columns.slice(grouped);
     const cell = (tag, text, column, content = [text]) => {
-      const kind = column.numeric ? "numeric" : text.length > 40 ? "" : "short";
+      const kind = column.numeric ? "numeric" : text.length > 40 || /\S{17}/.test(text) ? "" : "short";
       return element(tag, {class: kind, ...(tag === "th" ? {scope: "col"} : {})}, ...content);
     };
     const body = element("tbody");
@@ -60,6 +60,17 @@ const report = (() => {
     block.addEventListener("toggle", () => block.append(...parts()), {once: true});
     return block;
   }
+
+  // On paper nothing can be opened.
+  const closed = [];
+  addEventListener("beforeprint", () => {
+    for (const details of document.querySelectorAll("details:not([open])")) {
+      details.dispatchEvent(new Event("toggle"));  // its own comes when the sheet has been laid out
+      details.open = true;
+      closed.push(details);
+    }
+  });
+  addEventListener("afterprint", () => closed.splice(0).forEach(details => { details.open = false; }));
 
   // `name`: what it shows, for who cannot see it.
   function figure(title, name, height, make) {
@@ -360,12 +371,12 @@ const report = (() => {
     const number = value => value == null ? "-" : Number(value.toPrecision(4)).toString();
     attempts.run.forEach((run, i) => {
       if (attempts.set[i] !== problem.set || attempts.problem[i] !== problem.index) return;
-      rows.push([nameIn(data, [sets[problem.set]], attempts.contestant[i]), String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
+      rows.push([nameIn(data, [sets[problem.set]], attempts.contestant[i]), viewButton(i), String(attempts.trial[i]), attempts.directions[attempts.direction[i]],
                  attempts.statuses[attempts.status[i]], number(attempts.time[i]), number(attempts.length[i]),
-                 number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run), viewButton(i)]);
+                 number(attempts.length_simplified[i]), attempts.reasons[attempts.reason[i]], String(run)]);
     });
-    const columns = [["contestant"], ["trial", 1], ["direction"], ["status"], ["time, ms", 1], ["length", 1],
-                     ["simplified", 1], ["reason"], ["run", 1], [""]];
+    const columns = [["contestant"], [""], ["trial", 1], ["direction"], ["status"], ["time, ms", 1], ["length", 1],
+                     ["simplified", 1], ["reason"], ["run", 1]];
     return {title: "Attempts at this problem", rows, columns: columns.map(([heading, numeric]) => ({heading, numeric}))};
   }
 

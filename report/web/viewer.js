@@ -156,36 +156,47 @@ function makeViewer(container, data, previous = null) {
   let bounds = null;  // a sphere about all of the first
 
   // ---- Picture ----------------------------------------------------------------------------------
-  const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view: drag or arrow keys turn, wheel or + and - come nearer and go away, shift and arrow keys move"});
+  const HOW_TO_MOVE = "Drag or arrow keys turn, wheel or + and - come nearer and go away, right button or shift and arrow keys move.";
+  const canvas = element("canvas", {tabindex: "0", "aria-label": "3D view. " + HOW_TO_MOVE});
   const renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
   renderer.setPixelRatio(devicePixelRatio);
-  renderer.setScissorTest(true);
   const camera = new THREE.PerspectiveCamera(40, 1, 0.05, 50);
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableKeys = false;
 
+  let fitted = 1;  // the share of the width that a picture lacks to be as wide as high: from so much further away it is seen
   function look(direction) {
     const box = new THREE.Box3().setFromObject(scenes[0].body.group).union(new THREE.Box3().setFromObject(scenes[0].goal.group));
     if (box.isEmpty()) box.setFromObject(scenes[0].scene);  // of a robot that cannot be shown
     const centre = box.getCenter(new THREE.Vector3());
-    const distance = 1.6 * (box.getSize(new THREE.Vector3()).length() || 1);
+    const distance = 1.6 * (box.getSize(new THREE.Vector3()).length() || 1) / fitted;
     controls.target.copy(centre);
     camera.position.copy(centre).addScaledVector(new THREE.Vector3(...direction).normalize(), distance);
     controls.update();
   }
 
+  const NARROW = 600;  // px, below which paths stand one above the other
   function draw() {
-    const width = canvas.clientWidth / scenes.length, height = canvas.clientHeight;
-    if (width === 0) return;
-    renderer.setSize(canvas.clientWidth, height, false);
+    if (canvas.clientWidth === 0) return;
+    const stacked = container.classList.toggle("stacked", scenes.length > 1 && canvas.clientWidth < NARROW);
+    const width = canvas.clientWidth / (stacked ? 1 : scenes.length), height = canvas.clientHeight / (stacked ? scenes.length : 1);
+    renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
     camera.aspect = width / height;
+    const fit = Math.min(1, camera.aspect);
+    approach(fitted / fit);
+    fitted = fit;
     camera.far = Math.max(50, camera.position.distanceTo(bounds.center) + 2 * bounds.radius);
     camera.near = camera.far / 1000;
     camera.updateProjectionMatrix();
+    renderer.setScissorTest(false);
+    renderer.setClearColor(colour("--line"));
+    renderer.clear();
+    renderer.setScissorTest(true);
     scenes.forEach((one, i) => {
-      renderer.setViewport(i * width, 0, width, height);
-      renderer.setScissor(i * width, 0, width, height);
+      const [left, bottom] = stacked ? [0, canvas.clientHeight - (i + 1) * height] : [i * width, 0];
+      renderer.setViewport(left, bottom, width, height);
+      renderer.setScissor(left + 1, bottom + 1, width - 2, height - 2);  // in a frame
       renderer.render(one.scene, camera);
     });
   }
@@ -269,8 +280,10 @@ function makeViewer(container, data, previous = null) {
       [`${motion.name} path`, ...motion.remarks].join("; ")))),
     canvas,
     element("div", {class: "controls"}, ...(moves ? [play, slider] : [element("p", {class: "note"}, "There is no path.")]),
-            ...toggles.map(toggle => toggle.label), ...buttons));
+            ...toggles.map(toggle => toggle.label), ...buttons),
+    element("p", {class: "note"}, (moves ? "Blue: the robot on its way; line: the way of its tip. " : "Blue: the robot. ") + HOW_TO_MOVE));
   canvas.classList.add("view");
+  container.classList.add("viewer");
 
   function rebuild() {
     scenes = (moves ? data.motions : [null]).map(makeScene);
@@ -282,12 +295,21 @@ function makeViewer(container, data, previous = null) {
   if (seenFrom) {
     camera.position.copy(seenFrom.position);
     controls.target.copy(seenFrom.target);
+    fitted = seenFrom.fitted;
     controls.update();
   } else {
     look(views["from behind"]);
   }
   controls.addEventListener("change", draw);
-  const stopListening = theme.onChange(rebuild);
+  // Of WebGL paper would show what was drawn before it was asked for.
+  const sheet = element("canvas", {class: "sheet"});
+  canvas.after(sheet);
+  const stopListening = theme.onChange(() => {
+    rebuild();
+    if (!theme.isForPaper()) return;
+    [sheet.width, sheet.height] = [canvas.width, canvas.height];
+    sheet.getContext("2d").drawImage(canvas, 0, 0);
+  });
   addEventListener("resize", draw);
   draw();
 
@@ -301,6 +323,6 @@ function makeViewer(container, data, previous = null) {
     renderer.forceContextLoss();
     container.replaceChildren();
   }
-  const seen = () => ({position: camera.position.clone(), target: controls.target.clone()});
+  const seen = () => ({position: camera.position.clone(), target: controls.target.clone(), fitted});
   return {moveTo, play: () => { if (started === null) play.click(); }, canvas, seenFrom: seen, dispose};
 }

@@ -118,9 +118,16 @@ constexpr char kProbe[] = R"script(
         .map(c => contrast(c.trim(), background))),
     };
   };
-  document.querySelectorAll("details").forEach(details => details.dispatchEvent(new Event("toggle")));
+  // On paper everything is open, and afterwards what was.
+  const closed = () => document.querySelectorAll("details:not([open])").length;
+  found.closed = [closed()];
+  dispatchEvent(new Event("beforeprint"));
+  found.unprinted = closed() + [...document.querySelectorAll("details")].filter(one => !one.querySelector("table, pre")).length;
+  dispatchEvent(new Event("afterprint"));
+  found.closed.push(closed());
   pictures.all.forEach(chart => pictures.render(chart));
   found.charts = pictures.all.length;
+  found.success_width = Math.max(0, ...[...document.querySelectorAll("#success table")].map(one => one.offsetWidth));
   found.names = new Set(pictures.all.map(chart => chart.element.getAttribute("aria-label"))).size;
   found.empty = pictures.all.filter(chart => !chart.element.querySelector("svg, canvas")).length;
   found.marks = count();
@@ -245,6 +252,8 @@ class PageTest : public testing::Test {
     EXPECT_EQ(found["evil"], 0) << "a name was taken for markup";
     EXPECT_EQ(found["unreachable"], 0) << "not reachable with the keyboard";
     EXPECT_EQ(found["empty"], 0);
+    EXPECT_EQ(found["unprinted"], 0) << "closed, or without what it holds, on paper";
+    EXPECT_EQ(found["closed"][1], found["closed"][0]);
     EXPECT_EQ(found["wider"], nlohmann::json::array()) << "than a narrow window";
     EXPECT_EQ(found["faults"], nlohmann::json::array());
     EXPECT_EQ(found["crossing"], 0) << "labels that run into one another";
@@ -344,8 +353,11 @@ TEST_F(PageTest, MarksWhoHasLearnedWhereverItIsShown) {
 
 TEST_F(PageTest, IsRightForNoRunAndForOne) {
   EXPECT_EQ(Open({})["charts"], 0);
-  const nlohmann::json one = Open({{.contestant = "A", .status = PlanStatus::kTimedOut}});
+  const nlohmann::json one =
+      Open({{.contestant = "RRT-Connect (canonical)", .status = PlanStatus::kTimedOut}});
   EXPECT_EQ(one["marks"]["failed-runs"], 1);
+  EXPECT_GT(one["closed"][0], 0);
+  EXPECT_LE(one["success_width"], 1176) << "cut off in a window of 1300 px";
 }
 
 TEST_F(PageTest, HoldsThirtyContestants) {

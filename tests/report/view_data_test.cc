@@ -346,6 +346,49 @@ TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
   EXPECT_EQ(found["left"], 0);
 }
 
+TEST_F(ViewDataTest, HoweverNarrowAViewHoldsTheWholeRobot) {
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  scene_.objects.clear();
+  run_.result.result.simplified_path = {{0, 0, 0}, {1, 0, 0}};
+  const TemporaryFolder folder;
+  WriteFile(folder / "view.html", ViewPage(RunView(robot_, scene_, run_, 10)));
+  const nlohmann::json found = Browse(folder / "view.html", std::string(kPixels) + R"script(
+    const main = document.getElementById("main");
+    const distance = () => view.seenFrom().position.distanceTo(view.seenFrom().target);
+    const wide = distance();
+    const light = pixels();
+    found.seen = [1100, 800, 400].map(width => {
+      main.style.width = width + "px";
+      dispatchEvent(new Event("resize"));
+      const stacked = main.classList.contains("stacked"), {canvas} = view, all = pixels();
+      const [columns, rows] = stacked ? [1, 2] : [2, 1];
+      const at = (x, y) => all[y * canvas.width + x];
+      // The picture's first, last and middle columns and rows, inside of the frames.
+      const cut = [3, Math.floor(canvas.width / 2) - 4, canvas.width - 4].filter((x, i) => i !== 1 || columns === 2)
+        .reduce((sum, x) => sum + [...Array(canvas.height).keys()].filter(y =>
+          y > 3 && y < canvas.height - 4 && Math.abs(y - canvas.height / 2) > 4 && at(x, y) !== at(3, 3)).length, 0);
+      const halves = rows === 2 ? [all.slice(0, all.length / 2), all.slice(all.length / 2)] : [all];
+      return {stacked, cut, fit: distance() / wide * Math.min(1, canvas.clientWidth / columns / (canvas.clientHeight / rows)),
+              colours: Math.min(...halves.map(half => new Set(half).size))};
+    });
+    main.style.width = "";
+    dispatchEvent(new Event("resize"));
+    found.back = distance() / wide;
+    document.getElementById("theme").click();
+    dispatchEvent(new Event("beforeprint"));
+    found.printed = differing(light, pixels(document.querySelector(".sheet")));
+  )script");
+  for (const auto& seen : found["seen"]) {
+    EXPECT_EQ(seen["cut"], 0) << seen;
+    EXPECT_NEAR(seen["fit"], 1, 1e-6) << seen;
+    EXPECT_GT(seen["colours"], 10) << seen;
+  }
+  EXPECT_EQ(found["seen"][1]["stacked"], false);
+  EXPECT_EQ(found["seen"][2]["stacked"], true);
+  EXPECT_NEAR(found["back"], 1, 1e-6);
+  EXPECT_EQ(found["printed"], 0) << "not what was seen, in light colours";
+}
+
 TEST_F(ViewDataTest, TheMeshOfABoxIsDrawnAsTheBox) {
   if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   TriangleMesh box = BoxMesh({0.5, 0.4, 0.6});
