@@ -9,9 +9,9 @@ const live = (() => {
     return made;
   };
 
-  function table(headings, rows) {
+  function table(title, headings, rows) {
     if (rows.length === 0) return element("p", {class: "note"}, "None.");
-    return element("div", {class: "scroll", tabindex: "0"}, element("table", {},
+    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": title}, element("table", {},
       element("thead", {}, element("tr", {}, ...headings.map(text => element("th", {scope: "col"}, text)))),
       element("tbody", {}, ...rows.map(row => element("tr", {}, ...row.map(text => element("td", {}, text)))))));
   }
@@ -25,13 +25,13 @@ const live = (() => {
       (runs === 0 ? "no session heard yet" : `${runs} runs heard of a session that began before this viewer listened`) :
       `session ${session.run_id}, robot ${session.robot}: ` +
       (session.finished ? `finished, ${session.num_runs} runs` : `${runs} runs heard of ${session.num_runs}`);
-    at("nodes").replaceChildren(table(["name", "kind", "state", "host"], state.nodes.map(node => [
+    at("nodes").replaceChildren(table("Nodes", ["name", "kind", "state", "host"], state.nodes.map(node => [
       node.name, node.kind, node.gone ? "gone" : node.busy ? `busy with ${node.request}` : "ready", node.host])));
-    at("contestants").replaceChildren(table(["contestant", "runs", "solved"], state.contestants.map(one => [
+    at("contestants").replaceChildren(table("Contestants", ["contestant", "runs", "solved"], state.contestants.map(one => [
       one.name, String(one.runs), String(one.solved)])));
-    at("runs").replaceChildren(table(["contestant", "problem", "status", "time", "reason"], state.runs.map(run => [
+    at("runs").replaceChildren(table("Last runs", ["contestant", "problem", "status", "time", "reason"], state.runs.map(run => [
       run.contestant, run.problem, run.status, seconds(run.time_s), run.reason])));
-    at("progress").replaceChildren(table(["time", "cost", "bound"], state.progress.map(one => [
+    at("progress").replaceChildren(table("Improvements", ["time", "cost", "bound"], state.progress.map(one => [
       seconds(one.time_s), one.cost == null ? "-" : String(Number(one.cost.toPrecision(5))),
       one.bound == null ? "-" : String(Number(one.bound.toPrecision(4)))])));
     at("bus").textContent = `${state.lost} messages lost, ${state.dropped} dropped here, ` +
