@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "collision/collision_model.h"
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/file_kind.h"
@@ -96,7 +97,8 @@ std::vector<int> ParsePin(const std::string& text) {
 void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) {
   CLI::Option* launch = app->add_flag(
       "--launch", options->launch,
-      "start scene server, planners and logger on a private port, and stop them at the end");
+      "start scene server, planners and logger, and stop them at the end; on a port that is free, "
+      "whatever $LCM_DEFAULT_URL says, but for --lcm-url");
   const auto with_launch = [launch](CLI::Option* option) {
     return option->needs(launch)->allow_extra_args(false)->group("With --launch");
   };
@@ -215,7 +217,7 @@ void AddDriverFlags(CLI::App* app, DriverOptions* options) {
                   "seed of the session; every problem, direction and trial has a seed made of it")
       ->check(AnySeed())
       ->capture_default_str();
-  AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, "robot geometry")
+  AddEnum<CollisionModel>(app, "--collision-model", &request.collision_model, kCollisionModelsHelp)
       ->default_str(std::string(EnumName(request.collision_model)));
   app->add_option(
          "--edge-resolution", request.edge_resolution_m,

@@ -7,6 +7,8 @@ int main(int argc, char** argv) {
                              "Runs motion planners over problem sets and compares them.");
   planbench::DriverOptions options;
   planbench::AddDriverFlags(&program.app(), &options);
+  CLI::Option* const lcm_url = program.app().get_option("--lcm-url");
+  lcm_url->description(lcm_url->get_description() + "; with --launch a port that is free");
   return program.Run(argc, argv, [&] {
     return planbench::RunSession(options, planbench::FlagsOf(program.app()), program.lcm_url(),
                                  program.lcm_url_given(), planbench::AwaitStopSignals());

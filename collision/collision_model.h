@@ -17,4 +17,9 @@ struct EnumNames<CollisionModel> {
       std::to_array<std::string_view>({"spheres", "voxels", "meshes", "enclosing"});
 };
 
+/// For --help.
+inline constexpr char kCollisionModelsHelp[] =
+    "spheres: the robot's spheres; voxels: the same, against a distance field of the scene; "
+    "meshes: its URDF's collision geometry; enclosing: its spheres that enclose that";
+
 }  // namespace planbench

@@ -82,6 +82,10 @@ int ParseAndWork(CLI::App* app, int argc, char** argv, const std::function<int()
 }  // namespace
 
 int RunCommand(CLI::App* app, int argc, char** argv, const std::function<int()>& work) {
+  app->footer(
+      "Exit code: 0; 1: ran, but something failed; 2: bad use or bad input; 128 + N, as shells "
+      "tell "
+      "it: ended by signal N.");
   const int code = ParseAndWork(app, argc, argv, work);
   const std::string fault = StandardOutputFault();
   if (fault.empty()) return code;

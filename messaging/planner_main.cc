@@ -1,7 +1,9 @@
 #include "messaging/planner_main.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "collision/collision_model.h"
 #include "common/command_line.h"
 #include "messaging/planner_node.h"
 #include "messaging/program.h"
@@ -32,7 +34,9 @@ int PlannerMain(int argc, char** argv, const std::string& planner, const std::st
       ->group("");  // The driver's, and not shown.
   program.app()
       .add_option("--collision-models", models,
-                  "those to prepare and to offer, comma-separated; default: all that can be used")
+                  fmt::format("those to prepare and to offer, comma-separated; default: all that "
+                              "can be used; {}",
+                              kCollisionModelsHelp))
       ->delimiter(',')
       ->allow_extra_args(false)
       ->transform(OneOf<CollisionModel>());

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "collision/collision_model.h"
 #include "common/command_line.h"
 #include "common/error.h"
 #include "common/exit_codes.h"
@@ -124,7 +125,9 @@ int main(int argc, char** argv) {
   const std::vector<CLI::Option*> robot_flags = flags.robot.AddTo(&app);
   robot_flags[0]->description("robot folder; default: the session's");
   robot_flags[1]->needs(problems);  // What is recorded tells its spheres,
-  app.add_option("--collision-model", flags.model, "geometry by which the robot is shown")
+  app.add_option("--collision-model", flags.model,
+                 fmt::format("geometry by which the robot is shown; {}",
+                             planbench::kCollisionModelsHelp))
       ->transform(planbench::OneOf<planbench::CollisionModel>())
       ->default_str("spheres")
       ->needs(problems);  // and by what it was checked.

@@ -13,10 +13,12 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "common/command_line.h"
 #include "common/error.h"
 #include "common/standard_output.h"
 #include "messaging/lcm_url.h"
 #include "messaging/robot_flags.h"
+#include "planning/plan_status.h"
 #include "tests/support/expect_input_error.h"
 
 namespace planbench {
@@ -94,8 +96,22 @@ TEST_F(ProgramTest, MissingRequiredFlagIsNamed) {
 TEST_F(ProgramTest, HelpNamesTheFlagsOfAllPrograms) {
   EXPECT_EQ(Run({"--help"}, MustNotWork), kExitOk);
   EXPECT_THAT(out_, HasSubstr("Tests programs."));
-  for (const char* flag : {"--help", "--version", "--lcm-url"}) EXPECT_THAT(out_, HasSubstr(flag));
+  for (const char* told : {"--help", "--version", "--lcm-url", "128 + N"}) {
+    EXPECT_THAT(out_, HasSubstr(told));
+  }
   EXPECT_EQ(err_, "");
+}
+
+TEST_F(ProgramTest, AFlagOfAnEnumTakesItsNamesAlone) {
+  Direction direction = Direction::kForward;
+  program_.app().add_option("--direction", direction)->transform(OneOf<Direction>());
+  EXPECT_EQ(Run({"--direction", "backward"}, [&] { return static_cast<int>(direction); }), 1);
+  spdlog::drop("tester");
+  EXPECT_EQ(Run({"--direction", "1"}, MustNotWork), kExitBadInput);
+  EXPECT_EQ(err_, "tester: --direction: 1 is not forward or backward (see tester --help)\n");
+  spdlog::drop("tester");
+  EXPECT_EQ(Run({"--help"}, MustNotWork), kExitOk);
+  EXPECT_THAT(out_, HasSubstr("{forward,backward}"));
 }
 
 TEST_F(ProgramTest, VersionIsTold) {

@@ -171,6 +171,9 @@ TEST_F(BadUse, HelpAndVersion) {
     ChildProcess* help = Start({Program(program), "--help"});
     EXPECT_EQ(help->Wait(), 0);
     EXPECT_NE(help->Output().find("--lcm-url"), std::string::npos) << help->Output();
+    EXPECT_EQ(help->Output().find("with --launch a port that is free") != std::string::npos,
+              std::string(program) == "benchmark_driver")
+        << help->Output();
     ChildProcess* version = Start({Program(program), "--version"});
     EXPECT_EQ(version->Wait(), 0);
     EXPECT_NE(version->Output().find(program), std::string::npos) << version->Output();

@@ -54,6 +54,12 @@ TEST_F(ReportProgramTest, WritesThePageAndTheTables) {
   EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr(",12,24,24,24,100,"));
 }
 
+TEST_F(ReportProgramTest, ViewTakesCollisionModelsByName) {
+  EXPECT_EQ(Run({"--problems", "set/1", "--robot", "r", "--collision-model", "3"}, "view"),
+            kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("--collision-model: 3 is not spheres, voxels, meshes or "));
+}
+
 TEST_F(ReportProgramTest, AnEventLogThatLacksAFileIsNamed) {
   WriteSession(folder_ / "example", ExampleRuns(), ExampleSession());
   {
