@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "common/random.h"
@@ -49,7 +50,7 @@ CenterFit::CenterFit(const LinkBody& link, int num_samples) : link_(link) {
   Settle(kSettleRounds);
 }
 
-CenterFit::Center CenterFit::At(const Vector3d& p) const { return {p, link_.Depth(p), 0, true}; }
+CenterFit::Center CenterFit::At(const Vector3d& p) const { return {p, link_.Depth(p)}; }
 
 double CenterFit::Worst() const {
   double worst = -std::numeric_limits<double>::infinity();
@@ -57,19 +58,25 @@ double CenterFit::Worst() const {
   return worst;
 }
 
-// Gives every sample to the centre of the least cost.
+// Gives every sample to the centre of the least cost, of several the first. Those whose centre has
+// stayed may have gone to one that has not: the others cost what they did.
 void CenterFit::Assign() {
   owner_.resize(samples_.size(), centers_.size());
   cost_.resize(samples_.size());
-  for (Center& center : centers_) {
-    center.protrusion = -std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> all(centers_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<std::size_t> elsewhere;
+  for (const std::size_t k : all) {
+    centers_[k].protrusion = -std::numeric_limits<double>::infinity();
+    if (centers_[k].elsewhere) elsewhere.push_back(k);
   }
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < centers_.size(); ++k) {
+    const bool stayed = owner_[i] < centers_.size() && !centers_[owner_[i]].elsewhere;
+    std::size_t best = stayed ? owner_[i] : 0;
+    double least = stayed ? cost_[i] : std::numeric_limits<double>::infinity();
+    for (const std::size_t k : stayed ? elsewhere : all) {
       const double cost = (samples_[i] - centers_[k].p).norm() - centers_[k].depth;
-      if (cost < least) {
+      if (cost < least || (cost == least && k < best)) {
         least = cost;
         best = k;
       }
@@ -82,6 +89,7 @@ void CenterFit::Assign() {
     cost_[i] = least;
     centers_[best].protrusion = std::max(centers_[best].protrusion, least);
   }
+  for (Center& center : centers_) center.elsewhere = false;
 }
 
 // Moves a centre downhill to where the highest cost of its samples is least: steps along the axes,
@@ -90,7 +98,8 @@ void CenterFit::Recenter(std::size_t k, const std::vector<std::size_t>& samples)
   const auto farthest = [&](const Vector3d& p) {
     std::pair<double, std::size_t> most = {-1, 0};
     for (const std::size_t i : samples) {
-      most = std::max(most, {(samples_[i] - p).squaredNorm(), i});
+      const double distance2 = (samples_[i] - p).squaredNorm();
+      if (distance2 >= most.first) most = {distance2, i};
     }
     return most;
   };
@@ -125,6 +134,7 @@ void CenterFit::Recenter(std::size_t k, const std::vector<std::size_t>& samples)
     }
     if (!better) step /= 2;
   }
+  centers_[k].elsewhere |= p != centers_[k].p;
   centers_[k].p = p;
   centers_[k].depth = depth;
 }

@@ -41,6 +41,7 @@ class CenterFit {
     double depth = 0;       // m
     double protrusion = 0;  // The highest cost of its samples, m.
     bool moved = true;      // Its samples have changed since it came to rest.
+    bool elsewhere = true;  // It has another place than when samples were given to centres last.
   };
   struct State {
     std::vector<Center> centers;
