@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "planner_rrtc/scan_neighbors.h"
 
@@ -82,6 +83,49 @@ class RepeatablePrm final : public og::PRM {
   }
 };
 
+/// OMPL's lazy roadmap, which asks for the time before each path that it tries, too. OMPL's own
+/// does so between samples only, and tries path after path until one is free or none is left: once
+/// the limit has come no edge is free (EdgeChecker::StopWhen), and a large roadmap takes long to
+/// undo.
+template <typename LazyRoadmap>
+class PunctualRoadmap final : public LazyRoadmap {
+ public:
+  explicit PunctualRoadmap(const ob::SpaceInformationPtr& si) : LazyRoadmap(si) {}
+
+  /// Ends with the first path: neither is offered as an anytime planner.
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
+    checkValidity();
+    while (const ob::State* state = pis_.nextStart()) {
+      startM_.push_back(addMilestone(si_->cloneState(state)));
+    }
+    if (startM_.empty()) return ob::PlannerStatus::INVALID_START;
+    if (const ob::State* state = pis_.nextGoal(ptc)) {
+      goalM_.push_back(addMilestone(si_->cloneState(state)));
+    }
+    if (goalM_.empty()) return ob::PlannerStatus::INVALID_GOAL;
+
+    ob::PathPtr solution;
+    std::pair<std::size_t, std::size_t> ends;  // of a path, among starts and goals
+    ob::State* sample = si_->allocState();
+    while (!solution && !ptc) {
+      sampler_->sampleUniform(sample);
+      addMilestone(si_->cloneState(sample));
+      while (!solution && !ptc && solutionComponent(&ends) != -1) {
+        solution = constructSolution(startM_[ends.first], goalM_[ends.second]);
+      }
+    }
+    si_->freeState(sample);
+    if (!solution) return ob::PlannerStatus::TIMEOUT;
+    pdef_->addSolutionPath(solution, /*approximate=*/false, /*difference=*/0, getName());
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+
+ private:
+  using LazyRoadmap::addMilestone, LazyRoadmap::checkValidity, LazyRoadmap::constructSolution,
+      LazyRoadmap::getName, LazyRoadmap::goalM_, LazyRoadmap::pdef_, LazyRoadmap::pis_,
+      LazyRoadmap::sampler_, LazyRoadmap::si_, LazyRoadmap::solutionComponent, LazyRoadmap::startM_;
+};
+
 using enum PlannerClass;
 constexpr std::array kAlgorithms = {
     OmplAlgorithm{"ABITstar", kSearchAndSample, true, false, Make<og::ABITstar>},
@@ -93,8 +137,9 @@ constexpr std::array kAlgorithms = {
     OmplAlgorithm{"InformedRRTstar", kSamplingGuided, true, false, Make<og::InformedRRTstar>},
     OmplAlgorithm{"KPIECE1", kSamplingGuided, false, false, Make<og::KPIECE1>},
     OmplAlgorithm{"LBKPIECE1", kSamplingGuided, false, true, Make<og::LBKPIECE1>},
-    OmplAlgorithm{"LazyPRM", kSampleThenSearch, false, true, Make<og::LazyPRM>},
-    OmplAlgorithm{"LazyPRMstar", kSampleThenSearch, false, true, Make<og::LazyPRMstar>},
+    OmplAlgorithm{"LazyPRM", kSampleThenSearch, false, true, Make<PunctualRoadmap<og::LazyPRM>>},
+    OmplAlgorithm{"LazyPRMstar", kSampleThenSearch, false, true,
+                  Make<PunctualRoadmap<og::LazyPRMstar>>},
     OmplAlgorithm{"PDST", kSamplingGuided, false, false, Make<og::PDST>},
     OmplAlgorithm{"PRM", kSampleThenSearch, false, true, Make<RepeatablePrm<false>>, "grown only"},
     OmplAlgorithm{"PRMstar", kSampleThenSearch, false, true, Make<RepeatablePrm<true>>,
