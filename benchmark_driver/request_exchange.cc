@@ -71,6 +71,14 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
     Answer answer = End(Outcome::kResult, "", result->arrival);
     if (!interrupted_) answer.result = result->message;
     answer.overdue = cancelled_.has_value();
+    // Stopped for nothing but its time.
+    if (PlanResult& result = answer.result.result;
+        answer.overdue && result.status == PlanStatus::kCancelled) {
+      result.status = PlanStatus::kTimedOut;
+      result.message =
+          fmt::format("no path had come {:.1f} s after it was asked for, the limit being {} s",
+                      Seconds(*cancelled_ - sent_), Seconds(time_limit_));
+    }
     return answer;
   } else if (const auto* unusable = std::get_if<UnusableResult>(&event)) {
     if (Ours(unusable->request_id)) {

@@ -33,9 +33,10 @@ class RequestExchange {
   enum class Outcome { kResult, kRefused, kNoAnswer, kInterrupted };
   struct Answer {
     Outcome outcome = Outcome::kNoAnswer;
-    PlanResultMessage result = {};  ///< kResult only.
-    bool overdue = false;           ///< It came after the request had been cancelled for that.
-    std::string message = {};       ///< Why, for kRefused and kNoAnswer.
+    /// kResult only. CANCELLED has become TIMED_OUT where it was overdue.
+    PlanResultMessage result = {};
+    bool overdue = false;      ///< It came after the request had been cancelled for that.
+    std::string message = {};  ///< Why, for kRefused and kNoAnswer.
     /// Request sent -> result arrived, or given up; 0: none was sent.
     double roundtrip_time_s = 0;
   };

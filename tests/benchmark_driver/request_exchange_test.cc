@@ -221,6 +221,21 @@ TEST(RequestExchange, OverdueRequestIsCancelledUntilItsResultComes) {
                                     "the time limit; what came: cost: nan"}});
 }
 
+TEST(RequestExchange, CancelledForBeingOverdueIsTimedOut) {
+  const auto outcome = [](const Event& last) {
+    Exchange exchange("r", kTimeLimit, At(0));
+    for (double at = 0; at < 25.1; at += 0.25) exchange.Take(At(at), Working());
+    EXPECT_TRUE(exchange.Take(At(25.1), kTick).send_cancel);
+    const auto answer = exchange.Take(At(25.4), last).answer;
+    return answer ? answer->result.result : PlanResult();
+  };
+  const PlanResult cancelled = outcome(Result(25.4, "r", PlanStatus::kCancelled));
+  EXPECT_EQ(cancelled.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(cancelled.message,
+            "no path had come 25.1 s after it was asked for, the limit being 10 s");
+  EXPECT_EQ(outcome(Result(25.4, "r", PlanStatus::kExhausted)).status, PlanStatus::kExhausted);
+}
+
 TEST(RequestExchange, PlannerThatForgotTheRequestIsAskedOn) {
   Play({{0, kTick, "request"},
         {0.1, Working(), ""},
