@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <new>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "collision/rigid_bodies.h"
+#include "common/content_hash.h"
 #include "common/error.h"
 #include "common/numbers.h"
 #include "planning/free_goal.h"
@@ -38,6 +40,14 @@ constexpr double kFirstTurnWork = 100'000;
 /// Ends of a path may differ from the asked ones by this much (rad or m), the rounding of
 /// interpolation.
 constexpr double kEndRounding = 1e-9;
+
+/// A hash of the path. The request's seed has drawn the numbers of the search; and where that does
+/// not look at it, the answer is not to depend on it.
+std::uint64_t ShortcutSeed(const Path& path) {
+  ContentHash hash;
+  for (const Configuration& q : path) hash.Add(q);
+  return std::stoull(hash.HexDigest().substr(0, 16), nullptr, 16);
+}
 
 [[noreturn]] void BrokenInvariant(const std::string& algorithm, const std::string& what) {
   fmt::print(stderr, "{}: broken invariant: {}\n", algorithm, what);
@@ -446,7 +456,7 @@ void Planner::PlanInScene(const PlanRequest& request, ResolvedQuery resolved, co
   };
   edges->StopWhen(should_stop);
   result->simplified_path =
-      ShortcutPath(edges, result->path, request.seed, kShortcutRounds, should_stop);
+      ShortcutPath(edges, result->path, ShortcutSeed(result->path), kShortcutRounds, should_stop);
   // Cut corners are waypoints more.
   if (!WhyTooLong(result->simplified_path).empty()) result->simplified_path = result->path;
   result->phases.simplification_s = simplification.seconds();

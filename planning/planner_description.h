@@ -34,7 +34,7 @@ struct PlannerDescription {
   /// Searches from both ends at once (a roadmap has no direction at all): a backward request is the
   /// same experiment as a forward one.
   bool bidirectional = false;
-  /// The same raw path and counts whatever the seed.
+  /// The same path and counts whatever the seed.
   bool deterministic = false;
   std::vector<CollisionModel> collision_models;
   std::map<std::string, std::string> settings;  ///< Effective settings, as text.

@@ -318,6 +318,7 @@ TEST_P(PlannerContract, ADeterministicPlannerDoesNotLookAtTheSeed) {
   request.seed = 20;
   const PlanResult other = planner->Plan(request, PostsScene(), nullptr);
   EXPECT_EQ(one.path, other.path);
+  EXPECT_EQ(one.simplified_path, other.simplified_path);
   EXPECT_EQ(one.counters, other.counters);
 }
 

@@ -117,6 +117,22 @@ TEST_F(PlannerTest, SimplificationIsTimedApartAndOnlyWhenAskedFor) {
   EXPECT_EQ(simplified.counters, plain.counters) << "simplification is no part of the counts";
 }
 
+TEST_F(PlannerTest, SimplificationDoesNotDependOnTheSeed) {
+  const Path around_post = {start_,          {0.9, 0.5, 0.3},  {0.7, 1.3, 1.0},
+                            {0.6, 2.0, 1.5}, {-0.3, 2.1, 1.2}, {-1.0, 2.0, 1.5},
+                            {-1.1, 1.0, 0},  {-0.9, 0.2, 0.2}, goal_};
+  PlanRequest request = Request();
+  const auto simplified = [&](std::uint64_t seed) {
+    request.seed = seed;
+    return Plan([&](SearchQuery&) { return Solved(around_post); }, request, PostsScene())
+        .simplified_path;
+  };
+  const Path one = simplified(1);
+  EXPECT_GT(one.size(), 2u);
+  EXPECT_NE(one, around_post);
+  for (const std::uint64_t seed : {2, 3, 4}) EXPECT_EQ(simplified(seed), one);
+}
+
 TEST_F(PlannerTest, PhasesAddUpToTheTotalTime) {
   const PlanResult result = Plan(
       [](SearchQuery& query) {
