@@ -172,19 +172,45 @@ double EdgeChecker::FindFreePart(std::span<const double> from, std::span<const d
   const ScopedTimer timer(&counters_.ticks);
   ++counters_.edges;
   if (!space().WithinLimits(from) || !space().WithinLimits(to)) return 0;
-  std::optional<double> found = FindBlocked(from, to, /*from_is_free=*/true);
-  if (!found) return 1;
   const double motion = Move(from, to, &motion_);
-  // What was found need not be the first that blocks: that lies between these.
+  return method_ == EdgeCheck::kFixed ? FreeSamples(from, motion) : FreeStretches(from, to, motion);
+}
+
+double EdgeChecker::FreeSamples(std::span<const double> from, double motion) {
+  const std::int64_t num_parts = RequireFewIntervals(NumIntervals(motion));
+  const std::int64_t batch = std::min(checker_->BatchSize(), kMaxBlock);
+  std::int64_t free = 0;  // samples that are, in order
+  bool is_blocked = false;
+  while (free < num_parts && !is_blocked && !GiveUp()) {
+    block_.clear();
+    for (std::int64_t part = free + 1; part <= std::min(free + batch, num_parts); ++part) {
+      block_.push_back({static_cast<double>(part) / static_cast<double>(num_parts)});
+    }
+    // Where one collides, the engine may not have looked at those before it.
+    while (!block_.empty()) {
+      const std::uint64_t blocked = CheckBlock(from, block_, SampleRole::kMotion).blocked;
+      if (blocked == 0) break;
+      is_blocked = true;
+      block_.resize(static_cast<std::size_t>(std::countr_zero(blocked)));
+    }
+    free += static_cast<std::int64_t>(block_.size());
+  }
+  return static_cast<double>(free) / static_cast<double>(num_parts);
+}
+
+double EdgeChecker::FreeStretches(std::span<const double> from, std::span<const double> to,
+                                  double motion_m) {
+  if (!FindBlockedStretch(from, motion_m)) return 1;
+  // What blocks first is within halves of halves: where it was found tells nothing here, since
+  // which of several stretches is found depends on how many the engine handles at once.
   double free = 0;
-  double blocked = *found;
+  double blocked = 1;
   std::vector<double> begin(from.begin(), from.end()), end(from.size());
-  while ((blocked - free) * motion > resolution_) {
+  while ((blocked - free) * motion_m > resolution_) {
     const double middle = (free + blocked) / 2;
     space().Interpolate(from, to, middle, end);
-    found = FindBlocked(begin, end, /*from_is_free=*/true);
-    if (found) {
-      blocked = free + *found * (middle - free);
+    if (FindBlocked(begin, end, /*from_is_free=*/true)) {
+      blocked = middle;
     } else {
       free = middle;
       begin.swap(end);

@@ -88,8 +88,9 @@ class EdgeChecker {
 
   /// The part of the edge out of `from`, which is free, up to which it is free by the method: 1 if
   /// all of it is, 0 if `to` is outside the limits; else it is blocked no further on than the edge
-  /// resolution. It is proven in pieces: that part as a single edge may be judged otherwise, since
-  /// it is sampled elsewhere. Takes two edges and about log2(motion / edge resolution) blocks.
+  /// resolution. It is the same however many samples the engine handles at once. It is proven in
+  /// pieces: that part as a single edge may be judged otherwise, since it is sampled elsewhere.
+  /// Takes one edge; certified, two and log2(motion / edge resolution) blocks.
   double FindFreePart(std::span<const double> from, std::span<const double> to);
 
   /// Number of even intervals that the fixed method divides an edge into (its samples - 1), at
@@ -126,6 +127,9 @@ class EdgeChecker {
   std::optional<double> FindBlockedSample(std::span<const double> from, double motion,
                                           bool from_is_free);
   std::optional<double> FindBlockedStretch(std::span<const double> from, double motion_m);
+  // FindFreePart.
+  double FreeSamples(std::span<const double> from, double motion);
+  double FreeStretches(std::span<const double> from, std::span<const double> to, double motion_m);
   SampleVerdicts CheckBlock(std::span<const double> from, std::span<const MotionSample> block,
                             SampleRole role);
   /// True if the edge at hand is to be given up.

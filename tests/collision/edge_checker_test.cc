@@ -34,6 +34,8 @@ class ScriptedChecker : public CollisionChecker {
 
   Predicate collides = [](std::span<const double>) { return false; };
   double clearance = 1;  ///< m, of whatever does not collide.
+  /// Samples are looked at from the last on, up to one that collides.
+  bool backwards = false;
   std::vector<std::vector<double>> asked;
 
  protected:
@@ -43,6 +45,18 @@ class ScriptedChecker : public CollisionChecker {
   bool DoIsFree(std::span<const double> q) override {
     asked.emplace_back(q.begin(), q.end());
     return !collides(q);
+  }
+  SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
+                                std::span<const MotionSample> samples, SampleRole role) override {
+    if (!backwards) return CollisionChecker::DoCheckSamples(start, motion, samples, role);
+    SampleVerdicts verdicts;
+    for (std::size_t k = samples.size(); k-- > 0 && verdicts.certain == 0;) {
+      const SampleVerdicts one =
+          CollisionChecker::DoCheckSamples(start, motion, samples.subspan(k, 1), role);
+      verdicts.blocked |= one.blocked << k;
+      verdicts.certain |= one.certain << k;
+    }
+    return verdicts;
   }
   std::optional<Contact> DoFindContact(std::span<const double>) override { return std::nullopt; }
   ClosestPair DoFindClosest(std::span<const double> q) override {
@@ -337,6 +351,38 @@ TEST(EdgeCheckerTest, FindsHowFarAnEdgeIsFree) {
       EXPECT_EQ(edges.FindFreePart(from, to), 1);
     }
   }
+}
+
+TEST(EdgeCheckerTest, HowFarAnEdgeIsFreeIsTheSameWhateverTheEngineLooksAtFirst) {
+  const Robot robot = MakePendulum();
+  const std::vector<double> from = {0, 0}, to = {1, 0};
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    for (const double first : {0.0005, 0.3, 0.41}) {
+      SCOPED_TRACE(fmt::format("{}, blocked from {}", EnumName(method), first));
+      std::vector<double> parts;
+      for (const int batch_size : {1, 4, 64}) {
+        for (const bool backwards : {false, true}) {
+          ScriptedChecker checker(robot, batch_size);
+          checker.clearance = 1e-3;
+          checker.backwards = backwards;
+          checker.collides = [first](std::span<const double> q) {
+            return (q[0] >= first && q[0] < first + 0.01) || q[0] > 0.45;
+          };
+          parts.push_back(EdgeChecker(&checker, 1e-3, method).FindFreePart(from, to));
+        }
+      }
+      EXPECT_THAT(parts, testing::Each(parts.front()));
+    }
+  }
+}
+
+TEST(EdgeCheckerTest, ASampleThatBlocksEndsThePartThatIsFree) {
+  const Robot robot = MakePendulum();
+  ScriptedChecker checker(robot, 16);
+  checker.backwards = true;
+  checker.collides = [](std::span<const double> q) { return q[0] == 0.625 || q[0] == 0.875; };
+  EdgeChecker edges(&checker, 0.125, EdgeCheck::kFixed);
+  EXPECT_EQ(edges.FindFreePart(std::vector<double>{0, 0}, std::vector<double>{1, 0}), 0.5);
 }
 
 TEST(EdgeCheckerTest, ManyShortEdgesAreGivenUpAsOneLongOneIs) {

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "collision/edge_checker.h"
 #include "collision/simd/ball_tree.h"
 #include "collision/simd/kernels/scratch.h"
 #include "collision/simd/kernels/sphere_kernel.h"
@@ -118,6 +119,40 @@ TEST(KernelsTest, InstructionSetsAgree) {
       }
       EXPECT_LE(num_differ, 2);
     });
+  }
+}
+
+TEST(KernelsTest, InstructionSetsAgreeHowFarEdgesAreFree) {
+  const Robot arm = MakeTestArm();
+  const auto base = FullPositions(arm.model, {"finger_joint"}, {0.1}, "test");
+  std::mt19937_64 generator(3);
+  std::vector<std::vector<double>> ends;
+  for (int i = 0; i < 50; ++i) {
+    ends.push_back(RandomConfiguration(arm.groups.front().space, &generator));
+  }
+  for (const EdgeCheck method : {EdgeCheck::kFixed, EdgeCheck::kCertified}) {
+    SCOPED_TRACE(EnumName(method));
+    for (const NamedScene& world : MakeTestScenes()) {
+      SCOPED_TRACE(world.what);
+      std::vector<double> expected;
+      OnEveryInstructionSet([&] {
+        SimdChecker checker(arm, arm.groups.front());
+        checker.SetScene(world.scene, base);
+        EdgeChecker edges(&checker, 0.02, method);
+        std::vector<double> parts;
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+          if (!edges.IsValidState(ends[i])) continue;
+          parts.push_back(edges.FindFreePart(ends[i], ends[i + 1]));
+        }
+        if (expected.empty()) expected = parts;
+        ASSERT_EQ(parts.size(), expected.size());
+        int num_differ = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+          num_differ += parts[i] != expected[i] ? 1 : 0;
+        }
+        EXPECT_LE(num_differ, 2) << "of " << parts.size() << ", by rounding";
+      });
+    }
   }
 }
 
