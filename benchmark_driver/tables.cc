@@ -169,7 +169,9 @@ std::string PairTable(const SessionResults& results, bool all) {
       if (pairs[i].first > 0 && !all) continue;
       const PairedComparison& pair = of_set[i];
       shown.push_back(pair);
-      const auto format = [](double value) { return fmt::format("{:.3g}", value); };
+      const auto format = [](double value) {
+        return RatioText(value, fmt::format("{:.3g}", value));
+      };
       table.Add(
           {contestants[pairs[i].second].label(), contestants[pairs[i].first].label(),
            Count(pair.num_problems), Number(100 * pair.wins.Share(), 1), Count(pair.num_in_ratio()),

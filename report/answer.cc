@@ -157,12 +157,13 @@ std::string ByHowMuch(const ComparedSessions& compared, const ComparedPair& next
   text += " solved " + SolvedShare(compared.pooled_common().at(next.second));
   if (const auto& ratio = next.result.ratio) {
     // Told the other way round: how many times as long the second takes.
+    const auto inverse = [](double value) { return RatioText(1 / value, FormatNumber(1 / value)); };
     text += fmt::format(
         " and took {} times as long on the {} that both solved in the median (geometric mean",
-        FormatNumber(1 / ratio->mean), Count(ratio->num_pairs, "problem"));
+        inverse(ratio->mean), Count(ratio->num_pairs, "problem"));
     if (const auto& interval = ratio->interval) {
-      text += fmt::format(", 95 % interval {} to {})", FormatNumber(1 / interval->upper),
-                          FormatNumber(1 / interval->lower));
+      text += fmt::format(", 95 % interval {} to {})", inverse(interval->upper),
+                          inverse(interval->lower));
       if (interval->lower <= 1 && interval->upper >= 1) {
         text += ", which leaves open which of the two is faster";
       }

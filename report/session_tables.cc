@@ -150,7 +150,7 @@ Table ChangeTable(const ComparedSessions& compared) {
        {"confirmed_before_percent", "confirmed before, % [95 %]", Style::kShare, true},
        {"confirmed_after_percent", "confirmed after, % [95 %]", Style::kShare, true},
        {"problems_in_ratio", "both", Style::kCount},
-       {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
+       {"time_ratio", "time ratio [95 %]", Style::kRatio, true},
        {"p_holm", "p (Holm)", Style::kPValue}},
       {}};
   constexpr std::size_t kChange = 4;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "results/paired.h"
+
 namespace planbench {
 namespace {
 
@@ -12,6 +14,8 @@ std::string FormatValue(double value, Style style) {
   switch (style) {
     case Style::kShare:
       return fmt::format("{:.1f}", value);
+    case Style::kRatio:
+      return RatioText(value, FormatNumber(value));
     case Style::kPValue:
       return value < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", value);
     default:

@@ -31,6 +31,7 @@ enum class Style {
   kText,
   kCount,
   kNumber,  ///< Three significant digits.
+  kRatio,   ///< The same, or more: 1 is 1 (RatioText).
   kShare,   ///< Percent, one decimal.
   kPValue,  ///< Four decimals, "< 0.0001" below.
 };

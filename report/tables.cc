@@ -352,7 +352,7 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
        {"slower", "slower", Style::kCount},
        {"tied", "tied", Style::kCount},
        {"problems_in_ratio", "both", Style::kCount},
-       {"time_ratio", "time ratio [95 %]", Style::kNumber, true},
+       {"time_ratio", "time ratio [95 %]", Style::kRatio, true},
        {"p", "p", Style::kPValue},
        {"p_holm", "p (Holm)", Style::kPValue},
        {"effect", "effect", Style::kNumber}},
@@ -392,7 +392,7 @@ Table QualityTable(const ComparedSessions& compared) {
                {"upper_quartile", "75 %", Style::kNumber},
                {"reference", "reference"},
                {"problems_in_ratio", "both", Style::kCount},
-               {"ratio_to_reference", "ratio [95 %]", Style::kNumber, true},
+               {"ratio_to_reference", "ratio [95 %]", Style::kRatio, true},
                {"simplified_rejected", "rejected", Style::kCount}},
               {}};
   for (const auto& [set, by_contestant] : compared.outcomes()) {

@@ -1,7 +1,10 @@
 #include "results/paired.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -60,6 +63,17 @@ std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
       StudentQuantile(degrees) * std::sqrt(sum_of_squares / degrees / estimate.num_pairs);
   estimate.interval = {std::exp(mean - half), std::exp(mean + half)};
   return estimate;
+}
+
+std::string RatioText(double ratio, const std::string& rounded) {
+  const auto reads_one = [](const std::string& text) {
+    return std::strtod(text.c_str(), nullptr) == 1;
+  };
+  std::string text = rounded;
+  for (int decimals = 3; decimals <= 9 && reads_one(text); ++decimals) {
+    text = fmt::format("{:.{}f}", ratio, decimals);
+  }
+  return reads_one(text) ? rounded : text;
 }
 
 }  // namespace planbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "results/statistics.h"
@@ -31,5 +32,9 @@ struct RatioEstimate {
 /// Throws std::invalid_argument for values that are not positive or numbers that differ.
 std::optional<RatioEstimate> EstimateRatio(const std::vector<double>& first,
                                            const std::vector<double>& second);
+
+/// What a reader sees of a ratio: `rounded`, unless that reads 1, which is neither faster nor
+/// slower, and the ratio is another; then its first decimals that differ from 1 (nine at most).
+std::string RatioText(double ratio, const std::string& rounded);
 
 }  // namespace planbench

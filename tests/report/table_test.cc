@@ -29,6 +29,8 @@ TEST(FormatCellTest, ShowsWhatThereIs) {
   EXPECT_EQ(FormatCell(0.25, Style::kPValue), "0.2500");
   EXPECT_EQ(FormatCell(Estimate{2, Interval{1, 3}}, Style::kNumber), "2.00 [1.00, 3.00]");
   EXPECT_EQ(FormatCell(Estimate{2, std::nullopt}, Style::kNumber), "2.00");
+  EXPECT_EQ(FormatCell(Estimate{0.952, Interval{0.904, 1.0028}}, Style::kRatio),
+            "0.952 [0.904, 1.003]");
 }
 
 Table Example() {

@@ -43,6 +43,16 @@ TEST(EstimateRatioTest, FewPairsGiveNoInterval) {
   }
 }
 
+TEST(RatioTextTest, NeverReadsOneThatIsNot) {
+  EXPECT_EQ(RatioText(0.952, "0.952"), "0.952");
+  EXPECT_EQ(RatioText(1.0028, "1"), "1.003");
+  EXPECT_EQ(RatioText(1.0028, "1.00"), "1.003");
+  EXPECT_EQ(RatioText(0.99951, "1.00"), "0.9995");
+  EXPECT_EQ(RatioText(1.000002, "1"), "1.000002");
+  EXPECT_EQ(RatioText(1, "1.00"), "1.00");
+  EXPECT_EQ(RatioText(1 + 1e-15, "1"), "1") << "rounding";
+}
+
 TEST(EstimateRatioTest, IntervalIsStudents) {
   // Logarithms 1 to 6: mean 3.5, variance 3.5; t of 5 degrees from the table.
   std::vector<double> first;
