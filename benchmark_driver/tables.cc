@@ -185,8 +185,8 @@ std::string PairTable(const SessionResults& results, bool all) {
       "tie is half. both: those that both solved, in more than 0 ms. time ratio: geometric mean of "
       "first / second over these, with Student's interval, of six at least; below 1 the first is "
       "faster. p: Wilcoxon's signed-rank test of those that either solved, two-sided, adjusted for "
-      "all pairs of the set (Holm), which tables.txt shows.{}\n",
-      kProblemTimeNote, ZeroTimesNote(shown));
+      "all pairs of the set (Holm), which tables.txt shows.{}{}\n",
+      kProblemTimeNote, ZeroTimesNote(shown), NearRatiosNote(shown));
   return table.Format(notes) + "\n";
 }
 

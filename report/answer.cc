@@ -203,10 +203,13 @@ std::string HowSure(const ComparedSessions& compared,
                     const std::vector<const ComparedPair*>& of_leader, std::size_t num_tests) {
   // Of too few problems the test cannot show anything, whatever the times.
   const int fewest = FewestDifferences(num_tests);
-  std::vector<std::string> open, untested;
+  std::vector<std::string> near, open, untested;
   for (const ComparedPair* pair : of_leader) {
     const SignedRankTest& test = pair->result.test;
-    if (pair->adjusted_p <= kTestLevel && test.negative > test.positive) continue;
+    if (pair->adjusted_p <= kTestLevel && test.negative > test.positive) {
+      if (IsNearOne(pair->result)) near.push_back(Called(compared, pair->second));
+      continue;
+    }
     const bool too_few = pair->adjusted_p > kTestLevel && pair->result.num_problems < fewest;
     (too_few ? untested : open).push_back(Called(compared, pair->second));
   }
@@ -238,6 +241,12 @@ std::string HowSure(const ComparedSessions& compared,
       text += fmt::format("; too few problems for the test with {} ({} would do)", Named(untested),
                           fewest);
     }
+  }
+  if (!near.empty()) {
+    text += fmt::format(
+        "; {} within 5 % of it, which may be of the processes rather than of the planners: "
+        "several sessions tell",
+        Named(near) + (near.size() == 1 ? " is" : " are"));
   }
   if (compared.outcomes().size() > 1) {
     const auto [num_first, num_shared] = SetsLed(compared, leader);

@@ -203,7 +203,8 @@ Table ChangeTable(const ComparedSessions& compared) {
     table.rows[i][kChange] = std::string(change);
     table.rows[i].emplace_back(adjusted[i]);
   }
-  table.note = fmt::format("{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(results));
+  table.note = fmt::format("{}{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(results),
+                           NearRatiosNote(results));
   return table;
 }
 

@@ -366,7 +366,8 @@ Table PairTable(const std::vector<ComparedPair>& pairs) {
                           r.ratio ? Cell(Estimate{r.ratio->mean, r.ratio->interval}) : Cell(),
                           r.test.p_value, pair.adjusted_p, r.test.rank_biserial});
   }
-  table.note = fmt::format("{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(rows));
+  table.note = fmt::format("{}{}{}{}", kProblemTimeNote, table.note, ZeroTimesNote(rows),
+                           NearRatiosNote(rows));
   return table;
 }
 

@@ -136,4 +136,16 @@ std::string ZeroTimesNote(const std::vector<PairedComparison>& rows) {
       num_rows, num_rows == 1 ? "" : "s", num_zero, num_zero == 1 ? "" : "s");
 }
 
+bool IsNearOne(const PairedComparison& pair) {
+  constexpr double kNear = 1.05;
+  return pair.ratio && pair.ratio->interval && pair.ratio->mean <= kNear &&
+         1 / pair.ratio->mean <= kNear;
+}
+
+std::string NearRatiosNote(const std::vector<PairedComparison>& rows) {
+  if (std::none_of(rows.begin(), rows.end(), IsNearOne)) return "";
+  return " Ratios within 5 % of 1, and their p, may be of these processes rather than of the "
+         "planners: several sessions tell.";
+}
+
 }  // namespace planbench

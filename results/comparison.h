@@ -74,4 +74,10 @@ inline constexpr char kProblemTimeNote[] =
 /// blank before it; "" if none are.
 std::string ZeroTimesNote(const std::vector<PairedComparison>& rows);
 
+/// Whether a ratio with an interval is so near 1 (5 %) that one process of a planner may be as far
+/// from the next of the same planner.
+bool IsNearOne(const PairedComparison& pair);
+/// What stands below a table with such ratios, a blank before it; "" if there are none.
+std::string NearRatiosNote(const std::vector<PairedComparison>& rows);
+
 }  // namespace planbench

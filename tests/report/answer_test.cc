@@ -218,6 +218,29 @@ TEST_F(ReportTest, TooFewProblemsAreNoSignOfEquality) {
               StartsWith("Problem by problem A is faster than each of the 2 others"));
 }
 
+TEST_F(ReportTest, WhatProcessesMayMakeIsNoProofOfAFasterPlanner) {
+  const auto compared_of = [](double ratio) {
+    std::vector<MadeRun> runs;
+    for (int problem = 1; problem <= 8; ++problem) {
+      runs.push_back({.contestant = "A", .problem = problem});
+      runs.push_back({.contestant = "B", .problem = problem, .time_s = ratio});
+    }
+    return Read(runs);
+  };
+  const std::string near =
+      "A is faster than B beyond chance (signed-rank test, 5 % level); B is within 5 % of it, "
+      "which may be of the processes";
+  for (const bool is_near : {true, false}) {
+    const ComparedSessions compared = compared_of(is_near ? 1.04 : 1.06);
+    const std::vector<ComparedPair> pairs = ComparePairs(compared);
+    const auto is_told = [is_near](const std::string& text, const std::string& what) {
+      EXPECT_EQ(text.find(what) != std::string::npos, is_near) << text;
+    };
+    is_told(Answer(compared, pairs).at(2), near);
+    is_told(PairTable(pairs).note, "Ratios within 5 % of 1");
+  }
+}
+
 TEST_F(ReportTest, EqualsAreToldToRankAlike) {
   // Times of A, B, C and so on, in s.
   const auto answer_of = [](const std::vector<double>& times_s) {
