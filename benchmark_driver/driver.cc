@@ -21,6 +21,7 @@
 #include "common/utime.h"
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
+#include "messaging/session_conditions.h"
 #include "planning/told_edges.h"
 #include "results/reason_count.h"
 #include "results/training.h"
@@ -108,8 +109,9 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   for (const ProblemSetSummary& set : served_.sets) {
     if (sets.contains(set.name)) options_.conditions.problem_sets[set.name] = set.content_id;
   }
-  for (const SessionMessage& session : earlier_.sessions) {
-    RequireSameConditions(session, Session(false));
+  for (const auto& session : earlier_.sessions) RequireSameConditions(session, Session(false));
+  if (const auto line = DescribeInstructionDifference(earlier_.sessions, Session(false).cpu)) {
+    spdlog::warn("--resume: {}", *line);
   }
   std::map<ProblemKey, PlanRequest> met;
   for (const RunRecordMessage& record : earlier_.runs) {

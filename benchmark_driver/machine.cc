@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "collision/collision_checker.h"
 #include "common/lookup.h"
 
 namespace planbench {
@@ -47,7 +48,7 @@ std::string CpuName(const std::filesystem::path& proc) {
 
 std::map<std::string, std::string> DescribeMachine(const KernelFolders& kernel) {
   std::map<std::string, std::string> machine = {
-      {"cpu", CpuName(kernel.proc)},
+      {"cpu", fmt::format("{} [{}]", CpuName(kernel.proc), VectorInstructions())},
       {"processors", fmt::format("{}", sysconf(_SC_NPROCESSORS_ONLN))}};
   std::istringstream load(FirstLine(kernel.proc / "loadavg"));
   std::string minutes, five_minutes, quarter;

@@ -16,9 +16,9 @@ struct KernelFolders {
   std::filesystem::path sys = "/sys";
 };
 
-/// What this machine is and does: its model of processor ("cpu"), number of processors, their
-/// frequency governors, the load averages of the last 1, 5 and 15 minutes. What it does not tell is
-/// left out.
+/// What this machine is and does: its model of processor and the vector instructions that planbench
+/// uses there ("cpu": "NAME [AVX2]"), number of processors, their frequency governors, the load
+/// averages of the last 1, 5 and 15 minutes. What it does not tell is left out.
 std::map<std::string, std::string> DescribeMachine(const KernelFolders& kernel);
 
 /// What kept processes from working while something was measured, from construction on.

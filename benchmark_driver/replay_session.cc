@@ -14,6 +14,7 @@
 
 #include "benchmark_driver/await_nodes.h"
 #include "benchmark_driver/launcher.h"
+#include "benchmark_driver/machine.h"
 #include "benchmark_driver/new_session_folder.h"
 #include "benchmark_driver/replay.h"
 #include "benchmark_driver/supervisor.h"
@@ -25,6 +26,7 @@
 #include "messaging/lcm_url.h"
 #include "messaging/node_announcer.h"
 #include "messaging/record_log.h"
+#include "messaging/session_conditions.h"
 #include "robot_model/shipped_robots.h"
 
 namespace planbench {
@@ -56,6 +58,10 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   RecordedSession recorded = ReadRecords(log);
   std::map<std::string, Scene> scenes = ReadScenes(log, &recorded.passed_over);
   for (const std::string& line : recorded.passed_over) spdlog::warn("{}", line);
+  const std::string cpu = DescribeMachine(options.kernel).at("cpu");
+  if (const auto line = DescribeInstructionDifference(recorded.sessions, cpu)) {
+    spdlog::warn("--replay: {}", *line);
+  }
   if (PlannersAsked(recorded.runs).empty()) {
     throw InputError(log.string() + ": holds no run that could be made again");
   }

@@ -168,4 +168,8 @@ std::unique_ptr<CollisionChecker> MakeReferenceChecker(const Robot& robot,
                                                        const PlanningGroup& group,
                                                        CollisionModel model);
 
+/// The vector instructions that engines use on this machine, chosen at run time: "SSE4", "AVX2",
+/// "AVX-512", "NEON", or another name of Highway's.
+std::string VectorInstructions();
+
 }  // namespace planbench

@@ -158,4 +158,20 @@ std::optional<ConditionDifference> FindConditionDifference(const NodeStatusMessa
   return FindConditionDifference(of_first, of_second);
 }
 
+std::optional<std::string> DescribeInstructionDifference(
+    const std::vector<SessionMessage>& sessions, std::string_view cpu) {
+  std::string cpus(cpu);
+  for (const SessionMessage& session : sessions) cpus += session.cpu;
+  std::set<std::string> instructions;
+  for (std::size_t begin = 0; (begin = cpus.find('[', begin)) != std::string::npos;) {
+    const std::size_t end = cpus.find(']', ++begin);
+    if (end != std::string::npos) instructions.insert(cpus.substr(begin, end - begin));
+  }
+  if (instructions.size() < 2) return std::nullopt;
+  return fmt::format(
+      "processors with different vector instructions ({}): the same request and seed may give "
+      "paths that differ by rounding, as of STOMP and CHOMP",
+      fmt::join(instructions, ", "));
+}
+
 }  // namespace planbench

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "messaging/messages.h"
 
@@ -27,5 +29,11 @@ std::optional<ConditionDifference> FindConditionDifference(const SessionMessage&
 /// The same of two processes of one name; the models that they offer count.
 std::optional<ConditionDifference> FindConditionDifference(const NodeStatusMessage& first,
                                                            const NodeStatusMessage& second);
+
+/// Runs of machines with different vector instructions belong together all the same, but need not
+/// be alike to the last digit: a line that says so and names those that sessions and `cpu`, one
+/// more of theirs, tell of (in brackets behind each processor); nothing if they are at most one.
+std::optional<std::string> DescribeInstructionDifference(
+    const std::vector<SessionMessage>& sessions, std::string_view cpu = {});
 
 }  // namespace planbench

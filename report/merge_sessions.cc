@@ -260,8 +260,9 @@ class Merge {
   std::string bus() const { return shares_.bus(); }
 
   std::string Summary(const fs::path& out) const {
+    const auto instructions = DescribeInstructionDifference({session_});
     return fmt::format(
-        "{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}{}", out.string(),
+        "{}: {} runs of {} session{}, {} of them told of more than once{}{}{}{}{}{}", out.string(),
         runs_.size(), parts_.size(), parts_.size() == 1 ? "" : "s", num_told_again_,
         num_to_repeat_ == 0
             ? ""
@@ -272,7 +273,8 @@ class Merge {
         without_bus_.empty() ? ""
                              : fmt::format("; what was lost on the bus is not known: {}",
                                            fmt::join(without_bus_, ", ")),
-        passed_over_.empty() ? "" : "; ", fmt::join(passed_over_, "; "));
+        instructions ? fmt::format("; {}", *instructions) : "", passed_over_.empty() ? "" : "; ",
+        fmt::join(passed_over_, "; "));
   }
 
  private:

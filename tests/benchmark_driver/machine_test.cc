@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "collision/collision_checker.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planbench {
@@ -28,13 +29,13 @@ TEST_F(MachineTest, IsDescribedAsFarAsItTells) {
   folder_.Write("sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "powersave\n");
   folder_.Write("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "performance\n");
   const auto machine = DescribeMachine(Kernel());
-  EXPECT_EQ(machine.at("cpu"), "Fast CPU");
+  EXPECT_EQ(machine.at("cpu"), fmt::format("Fast CPU [{}]", VectorInstructions()));
   EXPECT_EQ(machine.at("load"), "0.50 1.00 2.00");
   EXPECT_EQ(machine.at("governor"), "performance, powersave");
   EXPECT_GE(std::stoi(machine.at("processors")), 1);
 
   const auto silent = DescribeMachine({folder_ / "none", folder_ / "none"});
-  EXPECT_EQ(silent.at("cpu"), "unknown");
+  EXPECT_EQ(silent.at("cpu"), fmt::format("unknown [{}]", VectorInstructions()));
   EXPECT_FALSE(silent.contains("load"));
   EXPECT_FALSE(silent.contains("governor"));
 }
@@ -46,7 +47,8 @@ TEST_F(MachineTest, ProcessorsWithoutANameHaveNumbers) {
   }
   folder_.Write("proc/cpuinfo", cores);
   EXPECT_EQ(DescribeMachine(Kernel()).at("cpu"),
-            "ARM implementer 0x41 part 0xd05, ARM implementer 0x41 part 0xd40");
+            fmt::format("ARM implementer 0x41 part 0xd05, ARM implementer 0x41 part 0xd40 [{}]",
+                        VectorInstructions()));
 }
 
 TEST_F(MachineTest, AMeterTellsWhatHappenedSinceItBegan) {

@@ -16,6 +16,7 @@
 #include "messaging/codec.h"
 #include "messaging/event_log.h"
 #include "messaging/message_fields.h"
+#include "messaging/session_conditions.h"
 #include "results/reproduce.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/session_database.h"
@@ -221,6 +222,19 @@ TEST(RequireSameConditionsTest, WhatIsRunMayChangeAndWhenAndWhere) {
     s.host = s.cpu = "another";
     s.left_out["cage 3"] = "is odd";
   }));
+}
+
+TEST(DescribeInstructionDifferenceTest, OfWhatProcessorsTell) {
+  const auto difference = [](const std::vector<std::string>& cpus, const std::string& cpu) {
+    std::vector<SessionMessage> sessions;
+    for (const std::string& of_session : cpus) sessions.emplace_back().cpu = of_session;
+    return DescribeInstructionDifference(sessions, cpu).value_or("");
+  };
+  EXPECT_EQ(difference({}, ""), "");
+  EXPECT_EQ(difference({"Intel(R) Xeon(R) [AVX2]"}, "of an earlier version"), "");
+  EXPECT_EQ(difference({"one [AVX2]", "another [AVX2], a third [AVX2]"}, "["), "");
+  EXPECT_THAT(difference({"one [AVX2]"}, "one [AVX-512]"), testing::HasSubstr("(AVX-512, AVX2)"));
+  EXPECT_THAT(difference({"one [SSE4], one [AVX2]"}, ""), testing::HasSubstr("(AVX2, SSE4)"));
 }
 
 TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {

@@ -38,6 +38,16 @@ TEST_F(MergeSessionsTest, ShardsOfDifferentWholesAreNotComplete) {
   EXPECT_FALSE(ReadSessions(folder_ / "whole").sessions.front().finished);
 }
 
+TEST_F(MergeSessionsTest, OtherVectorInstructionsAreToldOf) {
+  for (const int shard : {1, 2}) {
+    SessionMessage part = PartOf(shard, 2);
+    part.cpu = shard == 1 ? "Old CPU (Q, no T) [SSE4]" : "New CPU [AVX2]";
+    Write(part.run_id, part, {{.contestant = "A", .problem = shard}});
+  }
+  ASSERT_EQ(Merge({"part1", "part2"}), kExitOk) << errors_;
+  EXPECT_THAT(output_, HasSubstr("different vector instructions (AVX2, SSE4)"));
+}
+
 TEST_F(MergeSessionsTest, ShardsOfAnEarlierVersionMayNotBeAll) {
   for (const int shard : {1, 2}) {
     SessionMessage part = PartOf(shard, 2);

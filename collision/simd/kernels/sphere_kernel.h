@@ -312,7 +312,7 @@ void PlaceSamples(const Joints& joints, const SampleBlock& block, float* q, floa
 /// For tests: sines and cosines of kBlock angles, |angle| <= 2 pi; absolute error below 2e-7.
 void BlockSinCos(const float* angles, float* sines, float* cosines);
 
-/// For tests: name of the instruction set that is used here, e.g. "AVX3".
+/// Highway's name of the instruction set that is used here, e.g. "AVX3".
 const char* InstructionSet();
 
 }  // namespace planbench::kernels
