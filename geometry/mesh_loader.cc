@@ -18,6 +18,7 @@
 #include "common/read_text.h"
 #include "common/text.h"
 #include "geometry/obj_text.h"
+#include "geometry/ply_text.h"
 #include "geometry/stl_reader.h"
 #include "geometry/text_words.h"
 
@@ -125,7 +126,7 @@ void CheckCollada(const std::string& text, const std::string& file) {
   }
 }
 
-// Adds what assimp makes of a file; OBJ files are made plain for it first.
+// Adds what assimp makes of a file; OBJ and PLY files are made plain OBJ for it first.
 void AddScene(const fs::path& path, const std::string& format, const Vector3d& scale,
               MeshBuilder* builder) {
   const std::string file = path.string();
@@ -133,8 +134,9 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
   // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
-  if (format == ".obj") {
-    const std::string plain = PlainObj(ReadText(path), file);
+  if (format == ".obj" || format == ".ply") {
+    const std::string text = ReadText(path);
+    const std::string plain = format == ".obj" ? PlainObj(text, file) : ObjOfPly(text, file);
     if (plain.empty()) return;
     scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
   } else {

@@ -29,7 +29,7 @@ struct ResourceResolver {
 std::map<std::string, std::filesystem::path> ParsePackagePaths(
     const std::vector<std::string>& arguments);
 
-/// Reads an STL (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
+/// Reads an STL or PLY (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
 /// transforms and the file's unit applied, vertices scaled per axis. What other formats assimp
 /// knows is read as well. Throws InputError if it cannot be read or has no triangles.
 TriangleMesh LoadMesh(const std::filesystem::path& path,

@@ -140,7 +140,6 @@ std::string Dae(const TriangleMesh& mesh, const DaeOptions& options = {}) {
                      mesh.vertices.size(), mesh.triangles.size(), indices, options.transform);
 }
 
-// One of the formats that are assimp's alone.
 std::string Ply(const TriangleMesh& mesh) {
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"

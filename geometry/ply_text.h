@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace planbench {
+
+/// The polygons of a PLY file (ASCII, or binary of either byte order) as PlainObj gives those of an
+/// OBJ file, in the file's unit; "" if there is none. Triangle strips (element `tristrips`, where
+/// -1 begins another) become triangles. Throws InputError naming `file`, and the line or the
+/// element, for files that are cut off, or hold more than their header tells, corners that are no
+/// vertex, and vertices that are not finite.
+std::string ObjOfPly(std::string_view data, const std::string& file);
+
+}  // namespace planbench
