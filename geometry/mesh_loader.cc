@@ -17,6 +17,7 @@
 #include "common/name_value.h"
 #include "common/read_text.h"
 #include "common/text.h"
+#include "geometry/collada_text.h"
 #include "geometry/obj_text.h"
 #include "geometry/ply_text.h"
 #include "geometry/stl_reader.h"
@@ -36,6 +37,8 @@ constexpr std::string_view kFileScheme = "file://";
 class MeshBuilder {
  public:
   explicit MeshBuilder(const std::string& file) : file_(file) {}
+
+  const std::string& file() const { return file_; }
 
   std::uint32_t AddVertex(const Vector3d& vertex) {
     if (!vertex.allFinite()) throw InputError(file_ + ": a vertex is not finite");
@@ -87,8 +90,13 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
-      builder->AddTriangle(indices.at(face.mIndices[0]), indices.at(face.mIndices[1]),
-                           indices.at(face.mIndices[2]), mirrored);
+      const auto corner = [&](int i) {
+        const unsigned index = face.mIndices[i];
+        if (index < indices.size()) return indices[index];
+        throw InputError(fmt::format("{}: a face names vertex {}, counted from 0, of {}",
+                                     builder->file(), index, indices.size()));
+      };
+      builder->AddTriangle(corner(0), corner(1), corner(2), mirrored);
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -96,40 +104,13 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& to
   }
 }
 
-// Assimp takes a unit that is no number for a metre, and scales by any other.
-void CheckUnit(std::string_view text, const std::string& file) {
-  const std::size_t at = text.find("<unit ");
-  if (at == std::string_view::npos) return;
-  const std::string_view tag = text.substr(at, text.find('>', at) - at);
-  const std::size_t meter = tag.find(" meter=");
-  if (meter == std::string_view::npos) return;
-  const std::string_view quoted = tag.substr(meter + std::string_view(" meter=").size());
-  if (quoted.size() < 2) return;
-  const std::string_view value = quoted.substr(1, quoted.find(quoted.front(), 1) - 1);
-  std::string plain(value);
-  std::ranges::replace(plain, ',', '.');  // As some write it.
-  std::string_view words = plain;
-  const std::optional<double> length = ParseNumber(TakeWord(&words));
-  if (length && *length > 0) return;
-  throw InputError(
-      fmt::format("{}:{}: <unit meter=\"{}\">: must be the length of the file's unit in metres, "
-                  "above 0",
-                  file, 1 + std::ranges::count(text.substr(0, at), '\n'), Printable(value)));
-}
-
-// Refuses what assimp has no message for: it ends the process at a <skew>.
-void CheckCollada(const std::string& text, const std::string& file) {
-  RefuseUtf16(text, file);
-  CheckUnit(text, file);
-  if (text.find("<skew") != std::string::npos) {
-    throw InputError(file + ": <skew> cannot be read; export the mesh with transforms applied");
-  }
-}
-
 // Adds what assimp makes of a file; OBJ and PLY files are made plain OBJ for it first.
 void AddScene(const fs::path& path, const std::string& format, const Vector3d& scale,
               MeshBuilder* builder) {
   const std::string file = path.string();
+  if (format == ".zae") {
+    throw InputError(file + ": is an archive; unpack it (unzip) and name the .dae within");
+  }
   Assimp::Importer importer;
   // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -140,7 +121,7 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
     if (plain.empty()) return;
     scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
   } else {
-    if (format == ".dae") CheckCollada(ReadText(path), file);
+    if (format == ".dae" || format == ".xml") CheckCollada(ReadText(path), file);
     scene = importer.ReadFile(file, aiProcess_Triangulate);
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
@@ -311,10 +292,16 @@ TriangleMesh LoadMesh(const fs::path& path, const Vector3d& scale) {
   RefusePointer(path);
   const std::string format = LowerCase(path.extension().string());
   MeshBuilder builder(file);
-  if (format == ".stl") {
-    AddStl(path, scale, &builder);
-  } else {
-    AddScene(path, format, scale, &builder);
+  try {
+    if (format == ".stl") {
+      AddStl(path, scale, &builder);
+    } else {
+      AddScene(path, format, scale, &builder);
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {  // Of assimp, or no memory for what a file asks for.
+    throw InputError(fmt::format("{}: cannot be read as a mesh: {}", file, error.what()));
   }
   TriangleMesh mesh = builder.Take();
   if (mesh.triangles.empty()) throw InputError(file + ": the mesh has no triangles");

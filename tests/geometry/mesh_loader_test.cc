@@ -391,6 +391,54 @@ TEST_F(LoadMeshTest, RefusesUnitsOfColladaThatAreNone) {
   EXPECT_NO_THROW(LoadMesh(with_unit("meter='0,1'")));
 }
 
+TEST_F(LoadMeshTest, ArchivesOfColladaAreToldFromFiles) {
+  const auto file = folder_.Write("box.zae", "PK\3\4");
+  ExpectInputError([&file] { LoadMesh(file); }, {file.string(), "unzip", ".dae"});
+}
+
+TEST_F(LoadMeshTest, RefusesWhatAssimpTakesAnotherWayInCollada) {
+  const std::string dae = Dae(UnevenBoxMesh(), {.transform = "<rotate>0 0 1 90</rotate>"});
+  const std::string controller = "<instance_controller url=\"#box\"/>";
+  struct Case {
+    std::string what;
+    std::string by;
+    std::vector<std::string> message;
+  };
+  const std::vector<Case> cases = {
+      {"0 0 1 90", "1 1 0 90", {":17: <rotate>", "length 1, and is of 1.414"}},
+      {"0 0 1 90", "0 0 2 90", {":17: <rotate>", "length 1, and is of 2"}},
+      {"0 0 1 90", "0 0 1", {":17: <rotate>", "four numbers"}},
+      {"<rotate>", "<skew>45 0 1 0 1 0 0</skew><rotate>", {":17: <skew>"}},
+      {"count=\"24\"", "count=\"21\"", {":6: <float_array count=\"21\">", "24 values"}},
+      {"url=\"#box\"", "url=\"#bax\"", {":17: <instance_geometry url=\"#bax\">", "no <geometry>"}},
+      {"url=\"#box\"", "url=\"b.dae#box\"", {":17: <instance_geometry url=\"b.dae#box\">"}},
+      {"<rotate>", "<instance_node url='#box'/><rotate>", {":17: <instance_node", "no <node>"}},
+      {"<rotate>", controller + "<rotate>", {":17: <instance_controller>", "skinned"}}};
+  for (const auto& [what, by, message] : cases) {
+    SCOPED_TRACE(what + " -> " + by);
+    std::string text = dae;
+    ASSERT_NE(text.find(what), std::string::npos);
+    text.replace(text.find(what), what.size(), by);
+    for (const char* name : {"bad.dae", "bad.xml"}) {
+      const auto file = folder_.Write(name, text);
+      std::vector<std::string> parts = message;
+      parts[0] = file.string() + parts[0];
+      ExpectInputError([&file] { LoadMesh(file); }, parts);
+    }
+  }
+}
+
+TEST_F(LoadMeshTest, CommentsOfColladaDoNotCount) {
+  const std::string comment =
+      "<!-- <unit meter='0'/>\n<skew> --><![CDATA[<instance_controller/>]]>";
+  std::string dae = Dae(UnevenBoxMesh(), {.transform = "<rotate>0 0 9 0</rotate>"});
+  dae.insert(dae.find("<asset>"), comment);
+  EXPECT_EQ(TriangleSet(LoadMesh(folder_.Write("box.dae", dae))), TriangleSet(UnevenBoxMesh()));
+  dae.replace(dae.find("meter=\"1\""), 9, "\nmeter = '0'");
+  const auto file = folder_.Write("bad.dae", dae);
+  ExpectInputError([&file] { LoadMesh(file); }, {file.string() + ":4: <unit meter=\"0\">"});
+}
+
 TEST_F(LoadMeshTest, RefusesScalesThatFlattenOrAreNoNumbers) {
   const auto file = folder_.Write("box.stl", BinaryStl(UnevenBoxMesh()));
   ExpectInputError([&] { LoadMesh(file, Vector3d(1, 0, 1)); }, {file.string(), "scale"});
