@@ -16,10 +16,10 @@
 #include "common/error.h"
 #include "common/name_value.h"
 #include "common/read_text.h"
-#include "common/text.h"
 #include "geometry/collada_text.h"
 #include "geometry/obj_text.h"
-#include "geometry/ply_text.h"
+#include "geometry/plain_polygons.h"
+#include "geometry/ply_reader.h"
 #include "geometry/stl_reader.h"
 #include "geometry/text_words.h"
 
@@ -31,6 +31,9 @@ using Eigen::Vector3d;
 
 constexpr std::string_view kPackageScheme = "package://";
 constexpr std::string_view kFileScheme = "file://";
+
+constexpr double kSinglePrecision = 6e-8;  // Of a coordinate, which assimp rounds by so much.
+constexpr double kMostRounding = 1e-4;     // m
 
 // Gathers triangles, giving vertices of exactly the same position one index: STL names every corner
 // of every triangle anew, and tools that follow a surface need to know which corners meet.
@@ -55,6 +58,18 @@ class MeshBuilder {
     if (a == b || b == c || c == a) return;  // Joining made it a line: no surface.
     if (mirrored) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
+  }
+
+  // Refuses a mesh whose vertices were rounded to single precision too far from its origin.
+  void CheckRounding() const {
+    double farthest = 0;
+    for (const Vector3d& v : mesh_.vertices) farthest = std::max(farthest, v.cwiseAbs().maxCoeff());
+    const double rounding = kSinglePrecision * farthest;
+    if (rounding <= kMostRounding) return;
+    throw InputError(fmt::format(
+        "{}: reaches {:.4g} m from its origin, where its vertices are read to {:.2g} mm "
+        "only; check its unit, move it to its origin, or write it as OBJ or PLY",
+        file_, farthest, 1000 * rounding));
   }
 
   TriangleMesh Take() { return std::move(mesh_); }
@@ -115,10 +130,14 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
   // Robot descriptions take a mesh's axes as they are written, whatever the file calls "up".
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
-  if (format == ".obj" || format == ".ply") {
+  Vector3d origin = Vector3d::Zero();
+  const bool is_plain = format == ".obj" || format == ".ply";
+  if (is_plain) {
     const std::string text = ReadText(path);
-    const std::string plain = format == ".obj" ? PlainObj(text, file) : ObjOfPly(text, file);
+    const PlainPolygons polygons = format == ".obj" ? PlainObj(text, file) : ReadPly(text, file);
+    const std::string plain = polygons.Text();
     if (plain.empty()) return;
+    origin = polygons.origin();
     scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "obj");
   } else {
     if (format == ".dae" || format == ".xml") CheckCollada(ReadText(path), file);
@@ -128,9 +147,11 @@ void AddScene(const fs::path& path, const std::string& format, const Vector3d& s
     throw InputError(
         fmt::format("{}: cannot be read as a mesh: {}", file, importer.GetErrorString()));
   }
-  Eigen::Matrix4d scaling = Eigen::Matrix4d::Identity();
-  scaling.diagonal().head<3>() = scale;
-  AddNode(*scene, *scene->mRootNode, scaling, builder);
+  Eigen::Matrix4d to_shape = Eigen::Matrix4d::Identity();
+  to_shape.diagonal().head<3>() = scale;
+  to_shape.topRightCorner<3, 1>() = scale.cwiseProduct(origin);
+  AddNode(*scene, *scene->mRootNode, to_shape, builder);
+  if (!is_plain) builder->CheckRounding();
 }
 
 // Of Git LFS, what stands in a file's place until that is fetched.

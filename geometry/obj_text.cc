@@ -4,7 +4,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <iterator>
+#include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -24,7 +26,7 @@ class ObjReader {
     }
   }
 
-  std::string Plain() const { return faces_.empty() ? "" : vertices_ + faces_; }
+  PlainPolygons Take() { return std::move(polygons_); }
 
  private:
   [[noreturn]] void Fail(int line, const std::string& what) const {
@@ -69,30 +71,28 @@ class ObjReader {
   }
 
   void ReadVertex(std::string_view words) {
-    vertices_ += 'v';
-    for (int i = 0; i < 3; ++i) {  // A weight or a colour may follow.
+    Eigen::Vector3d vertex;
+    for (double& value : vertex) {  // A weight or a colour may follow.
       const auto number = ParseNumber(TakeWord(&words));
       if (!number || !std::isfinite(*number)) {
         Fail(lines_.number(), "v: expected three finite numbers");
       }
-      fmt::format_to(std::back_inserter(vertices_), " {}", *number);
+      value = *number;
     }
-    vertices_ += '\n';
+    polygons_.AddVertex(vertex);
     ++num_vertices_;
   }
 
   void ReadFace(std::string_view words) {
-    std::vector<int> corners;
+    std::vector<std::uint32_t> corners;
     for (std::string_view word = TakeWord(&words); !word.empty(); word = TakeWord(&words)) {
-      corners.push_back(ReadIndex(word));
+      corners.push_back(static_cast<std::uint32_t>(ReadIndex(word)));
     }
     // Lines and points have elements of their own: this one lost its corners.
     if (corners.size() < 3) {
       Fail(lines_.number(), "f: a face has three corners at least; is the file cut off?");
     }
-    faces_ += 'f';
-    for (const int corner : corners) fmt::format_to(std::back_inserter(faces_), " {}", corner);
-    faces_ += '\n';
+    polygons_.AddPolygon(corners);
   }
 
   // The vertex of "7", "7/1", "7//3" or "7/1/3"; -1 is the last one so far.
@@ -115,8 +115,7 @@ class ObjReader {
 
   TextLines lines_;
   const std::string& file_;
-  std::string vertices_;
-  std::string faces_;
+  PlainPolygons polygons_;
   int num_vertices_ = 0;
   int highest_index_ = 0;  // That a face names: vertices may follow later.
   int line_of_highest_ = 0;
@@ -124,10 +123,10 @@ class ObjReader {
 
 }  // namespace
 
-std::string PlainObj(std::string_view text, const std::string& file) {
+PlainPolygons PlainObj(std::string_view text, const std::string& file) {
   RefuseUtf16(text, file);
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // The mark of UTF-8.
-  return ObjReader(text, file).Plain();
+  return ObjReader(text, file).Take();
 }
 
 }  // namespace planbench

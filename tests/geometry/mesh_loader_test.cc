@@ -428,6 +428,23 @@ TEST_F(LoadMeshTest, RefusesWhatAssimpTakesAnotherWayInCollada) {
   }
 }
 
+TEST_F(LoadMeshTest, KeepsItsDigitsFarFromTheOrigin) {
+  TriangleMesh box = UnevenBoxMesh();
+  for (Vector3d& vertex : box.vertices) vertex = 0.1 * vertex + Vector3d(500000.3, 5400000.7, 0);
+  for (const auto& file :
+       {folder_.Write("far.obj", Obj(box)), folder_.Write("far.ply", Ply(box))}) {
+    SCOPED_TRACE(file);
+    EXPECT_EQ(TriangleSet(LoadMesh(file)), TriangleSet(box));
+    TriangleMesh scaled = box;
+    for (Vector3d& vertex : scaled.vertices) vertex = vertex.cwiseProduct(Vector3d(1, 2, 3));
+    EXPECT_EQ(TriangleSet(LoadMesh(file, Vector3d(1, 2, 3))), TriangleSet(scaled));
+  }
+  const auto dae = folder_.Write("far.dae", Dae(box));
+  ExpectInputError([&dae] { LoadMesh(dae); }, {dae.string(), "5.4e+06 m", "mm only", "OBJ"});
+  for (Vector3d& vertex : box.vertices) vertex -= Vector3d(499000, 5400000, 0);
+  EXPECT_NO_THROW(LoadMesh(folder_.Write("near.dae", Dae(box))));
+}
+
 TEST_F(LoadMeshTest, CommentsOfColladaDoNotCount) {
   const std::string comment =
       "<!-- <unit meter='0'/>\n<skew> --><![CDATA[<instance_controller/>]]>";

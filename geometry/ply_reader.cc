@@ -1,4 +1,4 @@
-#include "geometry/ply_text.h"
+#include "geometry/ply_reader.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -69,7 +69,7 @@ class PlyReader {
     RefuseRest();
   }
 
-  std::string Obj() const { return faces_.empty() ? "" : vertices_ + faces_; }
+  PlainPolygons Take() { return std::move(polygons_); }
 
  private:
   [[noreturn]] void Fail(const std::string& what) const {
@@ -168,11 +168,12 @@ class PlyReader {
   }
 
   // 0 to 2 for x, y and z of a vertex.
-  static std::optional<std::size_t> Axis(const PlyElement& element, const PlyProperty& property) {
+  static std::optional<Eigen::Index> Axis(const PlyElement& element, const PlyProperty& property) {
     const std::size_t axis = std::string_view("xyz").find(property.name);
     const bool is_one = element.name == "vertex" && property.count_type == nullptr &&
                         property.name.size() == 1 && axis != std::string_view::npos;
-    return is_one ? std::optional(axis) : std::nullopt;
+    if (!is_one) return std::nullopt;
+    return static_cast<Eigen::Index>(axis);
   }
 
   void CheckElement(const PlyElement& element) const {
@@ -192,14 +193,14 @@ class PlyReader {
     for (std::uint64_t i = 1; i <= element.count; ++i) {
       place_ = fmt::format("{} {} of {}: ", element.name, i, element.count);
       if (is_text_) TakeElementLine();
-      std::array<double, 3> position{};
+      Eigen::Vector3d position = Eigen::Vector3d::Zero();
       for (const PlyProperty& property : element.properties) {
         if (property.count_type != nullptr) {
           ReadList(property);
           if (IsCorners(element, property)) AddCorners(IsStrips(element));
         } else {
           const double value = TakeValue(*property.type);
-          if (const auto axis = Axis(element, property)) position[*axis] = value;
+          if (const auto axis = Axis(element, property)) position(*axis) = value;
         }
       }
       if (element.name == "vertex") AddVertex(position);
@@ -241,16 +242,13 @@ class PlyReader {
     while (static_cast<double>(list_.size()) < count) list_.push_back(TakeValue(*property.type));
   }
 
-  void AddVertex(const std::array<double, 3>& position) {
-    for (const double value : position) {
-      if (!std::isfinite(value)) Fail("is not finite");
-    }
-    fmt::format_to(std::back_inserter(vertices_), "v {} {} {}\n", position[0], position[1],
-                   position[2]);
+  void AddVertex(const Eigen::Vector3d& position) {
+    if (!position.allFinite()) Fail("is not finite");
+    polygons_.AddVertex(position);
   }
 
   void AddCorners(bool is_strips) {
-    std::vector<std::uint64_t> corners;
+    std::vector<std::uint32_t> corners;  // Counted from 1.
     for (const double index : list_) {
       if (is_strips && index == -1) {
         AddStrip(corners);
@@ -262,7 +260,7 @@ class PlyReader {
         Fail(fmt::format("there is no vertex {}; the file has {}, counted from 0", index,
                          num_vertices_));
       }
-      corners.push_back(static_cast<std::uint64_t>(index));
+      corners.push_back(static_cast<std::uint32_t>(index) + 1);
     }
     if (is_strips) {
       AddStrip(corners);
@@ -272,20 +270,16 @@ class PlyReader {
   }
 
   // Every second triangle of a strip turns the other way.
-  void AddStrip(const std::vector<std::uint64_t>& strip) {
+  void AddStrip(const std::vector<std::uint32_t>& strip) {
     for (std::size_t i = 2; i < strip.size(); ++i) {
       const bool is_odd = i % 2 != 0;
       AddFace({strip[i - (is_odd ? 1 : 2)], strip[i - (is_odd ? 2 : 1)], strip[i]});
     }
   }
 
-  void AddFace(const std::vector<std::uint64_t>& corners) {
+  void AddFace(const std::vector<std::uint32_t>& corners) {
     if (corners.size() < 3) Fail("has fewer than three corners");
-    faces_ += 'f';
-    for (const std::uint64_t corner : corners) {
-      fmt::format_to(std::back_inserter(faces_), " {}", corner + 1);
-    }
-    faces_ += '\n';
+    polygons_.AddPolygon(corners);
   }
 
   void RefuseRest() const {
@@ -313,14 +307,13 @@ class PlyReader {
   std::string place_;       // Element being read, for messages.
   std::string_view words_;  // Left of its line.
   std::vector<double> list_;
-  std::string vertices_;
-  std::string faces_;
+  PlainPolygons polygons_;
 };
 
 }  // namespace
 
-std::string ObjOfPly(std::string_view data, const std::string& file) {
-  return PlyReader(data, file).Obj();
+PlainPolygons ReadPly(std::string_view data, const std::string& file) {
+  return PlyReader(data, file).Take();
 }
 
 }  // namespace planbench

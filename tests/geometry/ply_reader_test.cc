@@ -1,4 +1,4 @@
-#include "geometry/ply_text.h"
+#include "geometry/ply_reader.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,39 +69,39 @@ std::string BinaryPly(bool is_big) {
   return data;
 }
 
-TEST(ObjOfPly, ReadsTextAndBytesOfEitherOrder) {
+TEST(ReadPly, ReadsTextAndBytesOfEitherOrder) {
   const std::string plain = std::string(kPlyHeader) + kPlyBody;
-  EXPECT_EQ(ObjOfPly(plain, "a.ply"), kPlyObj);
-  EXPECT_EQ(ObjOfPly(BinaryPly(false), "a.ply"), kPlyObj);
-  EXPECT_EQ(ObjOfPly(BinaryPly(true), "a.ply"), kPlyObj);
+  EXPECT_EQ(ReadPly(plain, "a.ply").Text(), kPlyObj);
+  EXPECT_EQ(ReadPly(BinaryPly(false), "a.ply").Text(), kPlyObj);
+  EXPECT_EQ(ReadPly(BinaryPly(true), "a.ply").Text(), kPlyObj);
   for (const std::string end : {"\r", "\r\n", "\n\n", " \n"}) {
     std::string text;
     for (const char c : plain) text += c == '\n' ? end : std::string(1, c);
-    EXPECT_EQ(ObjOfPly(text, "a.ply"), kPlyObj);
+    EXPECT_EQ(ReadPly(text, "a.ply").Text(), kPlyObj);
   }
   const std::string points = PlyWith(plain.substr(0, plain.find("4 0")), "face 2", "face 0");
-  EXPECT_EQ(ObjOfPly(points, "a.ply"), "");
+  EXPECT_EQ(ReadPly(points, "a.ply").Text(), "");
 }
 
-TEST(ObjOfPly, StripsBecomeTrianglesThatFaceOneWay) {
+TEST(ReadPly, StripsBecomeTrianglesThatFaceOneWay) {
   const std::string strips =
       PlyWith(PlyWith(kPlyHeader, "face 2", "tristrips 1"), "uchar int", "int int") +
       "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n8 0 1 3 2 -1 3 2 1\n";
-  EXPECT_EQ(ObjOfPly(strips, "a.ply"),
+  EXPECT_EQ(ReadPly(strips, "a.ply").Text(),
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 4\nf 4 2 3\nf 4 3 2\n");
 }
 
-TEST(ObjOfPly, EveryCutIsTold) {
+TEST(ReadPly, EveryCutIsTold) {
   for (const std::string& data :
        {std::string(kPlyHeader) + kPlyBody, BinaryPly(false), BinaryPly(true)}) {
     for (std::size_t size = 0; size < data.size(); ++size) {
       SCOPED_TRACE(size);
-      ExpectInputError([&] { ObjOfPly(data.substr(0, size), "cut.ply"); }, {"cut.ply"});
+      ExpectInputError([&] { ReadPly(data.substr(0, size), "cut.ply"); }, {"cut.ply"});
     }
   }
 }
 
-TEST(ObjOfPly, SaysWhatIsWrongAndWhere) {
+TEST(ReadPly, SaysWhatIsWrongAndWhere) {
   const std::string plain = std::string(kPlyHeader) + kPlyBody;
   struct Case {
     std::string what;
@@ -134,9 +134,9 @@ TEST(ObjOfPly, SaysWhatIsWrongAndWhere) {
   for (const auto& [what, by, message] : cases) {
     SCOPED_TRACE(what + " -> " + by);
     const std::string data = PlyWith(plain, what, by);
-    ExpectInputError([&] { ObjOfPly(data, "a.ply"); }, message);
+    ExpectInputError([&] { ReadPly(data, "a.ply"); }, message);
   }
-  ExpectInputError([&] { ObjOfPly(plain.substr(0, plain.size() - 1), "a.ply"); },
+  ExpectInputError([&] { ReadPly(plain.substr(0, plain.size() - 1), "a.ply"); },
                    {"a.ply:15:", "no end"});
 }
 
