@@ -151,9 +151,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
           "VALUES (?, ?, 0, 0, 'planbench')")),
       insert_experiment_session_(
           connection_.Prepare("INSERT INTO experiment_sessions VALUES (?, ?, ?)")),
-      count_run_(connection_.Prepare(
-          "UPDATE experiments SET runcount = max(runcount, (SELECT count(*) FROM runs "
-          "WHERE experimentid = ?1 AND plannerid = ?2)) WHERE id = ?1")),
+      count_run_(
+          connection_.Prepare("UPDATE experiments SET runcount = max(runcount, ?2) WHERE id = ?1")),
       find_planner_(
           connection_.Prepare("SELECT id FROM plannerConfigs WHERE name = ? AND settings = ?")),
       find_planners_(connection_.Prepare(
@@ -164,7 +163,8 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
       find_run_(connection_.Prepare(
           "SELECT id, status, scene_id, roundtrip_time, "
           "strftime('%s', substr(start_time, 1, 19)) * 1000000 + substr(start_time, 21, 6), "
-          "disturbed, repeats FROM runs WHERE run_id = ? AND request_id = ?")),
+          "disturbed, repeats, experimentid, plannerid FROM runs "
+          "WHERE run_id = ? AND request_id = ?")),
       find_equal_run_(connection_.Prepare(FindEqualRunSql())),
       delete_run_(connection_.Prepare("DELETE FROM runs WHERE id = ?")),
       insert_run_(connection_.Prepare(InsertRunSql())),
@@ -172,7 +172,11 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& file)
           "INSERT INTO progress (runid, time, epsilon, cost, expansions, best_cost) "
           "VALUES (?1, ?2, ?3, ?4, ?5, ?4)")),
       insert_counter_(connection_.Prepare("INSERT INTO counters VALUES (?, ?, ?)")),
-      insert_position_(connection_.Prepare("INSERT INTO paths VALUES (?, ?, ?, ?, ?)")) {}
+      insert_position_(connection_.Prepare("INSERT INTO paths VALUES (?, ?, ?, ?, ?)")) {
+  SqliteStatement count = connection_.Prepare(
+      "SELECT experimentid, plannerid, count(*) FROM runs GROUP BY experimentid, plannerid");
+  while (count.Step()) num_runs_[{count.Int(0), count.Int(1)}] = count.Int(2);
+}
 
 ResultsDatabase::~ResultsDatabase() {
   try {
@@ -236,7 +240,10 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   bind_columns(&insert_run_.BindAll(experiment, planner), 2);
   insert_run_.Run();
   const std::int64_t run = connection_.LastInsertId();
-  count_run_.BindAll(experiment, planner).Run();
+  const RunGroup group(experiment, planner);
+  const bool stays_in_group = known && known->group == group;
+  const std::int64_t num_runs = num_runs_[group] + (stays_in_group ? 0 : 1);
+  count_run_.BindAll(experiment, num_runs).Run();
 
   const PlanResult& result = record.result.result;
   InsertProgress(run, result);
@@ -244,6 +251,8 @@ ResultsDatabase::Outcome ResultsDatabase::Store(const RunRecordMessage& record) 
   InsertPath(run, "raw", result.path, record.result.joint_names);
   InsertPath(run, "simplified", result.simplified_path, record.result.joint_names);
   transaction.Commit();
+  if (known) --num_runs_[known->group];
+  ++num_runs_[group];
   return known ? Outcome::kReplaced : Outcome::kStored;
 }
 
@@ -254,6 +263,7 @@ std::optional<ResultsDatabase::KnownRun> ResultsDatabase::FindRun(const RunRecor
   const bool was_asked = TellsOfRequest(find_run_.Double(3), status, !find_run_.Text(2).empty());
   const KnownRun known = {
       find_run_.Int(0),
+      {find_run_.Int(7), find_run_.Int(8)},
       {was_asked, find_run_.Int(4), find_run_.Int(5) != 0, static_cast<int>(find_run_.Int(6))}};
   find_run_.Reset();
   return known;

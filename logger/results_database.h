@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/sqlite.h"
@@ -49,8 +51,11 @@ class ResultsDatabase {
   std::vector<IncompleteSession> IncompleteSessions();
 
  private:
+  /// Ids of an experiment and a planner.
+  using RunGroup = std::pair<std::int64_t, std::int64_t>;
   struct KnownRun {
     std::int64_t id = 0;
+    RunGroup group;
     RunStanding standing;
   };
   /// The run that is stored of the record's ids.
@@ -80,6 +85,8 @@ class ResultsDatabase {
   SqliteStatement insert_progress_;
   SqliteStatement insert_counter_;
   SqliteStatement insert_position_;
+  /// Runs that are stored of each: to count them anew would take longer the more there are.
+  std::map<RunGroup, std::int64_t> num_runs_;
 };
 
 }  // namespace planbench

@@ -455,6 +455,34 @@ TEST_F(ResultsDatabaseTest, ExperimentsCarryTheFactsOfTheirSession) {
   }
 }
 
+TEST_F(ResultsDatabaseTest, RunsAreCountedThroughReplacementsErrorsAndReopening) {
+  const auto file = folder_ / "counted.sqlite";
+  const auto expect_count = [&](std::int64_t expected) {
+    SqliteConnection connection(file, SqliteConnection::Mode::kReadOnly);
+    EXPECT_EQ(connection.QueryValue("SELECT runcount FROM experiments"), Int(expected));
+  };
+  {
+    ResultsDatabase database(file);
+    database.Store(UnansweredRecord("a"));
+    database.Store(UnansweredRecord("b"));
+    expect_count(2);
+    EXPECT_EQ(database.Store(SampleRecord("a")), Outcome::kReplaced) << "by another planner's";
+    database.Store(UnansweredRecord("c"));
+    expect_count(2);
+  }
+  ResultsDatabase database(file);
+  RunRecordMessage bad = SampleRecord("d");
+  bad.result.joint_names = {"pan", "pan"};
+  EXPECT_THROW(database.Store(bad), SqliteError);
+  RunRecordMessage later = UnansweredRecord("c");
+  later.start_utime += 1;
+  EXPECT_EQ(database.Store(later), Outcome::kReplaced);
+  database.Store(SampleRecord("d"));
+  expect_count(2);
+  database.Store(SampleRecord("e"));
+  expect_count(3);
+}
+
 TEST_F(ResultsDatabaseTest, ASessionHeardAfterItsRunsStillDescribesThem) {
   database_.Store(SampleRecord());
   EXPECT_EQ(Query("SELECT timelimit FROM experiments"), SqliteValue(30.0));
