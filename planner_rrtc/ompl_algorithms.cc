@@ -86,11 +86,12 @@ class RepeatablePrm final : public og::PRM {
 /// OMPL's lazy roadmap, which asks for the time before each path that it tries, too. OMPL's own
 /// does so between samples only, and tries path after path until one is free or none is left: once
 /// the limit has come no edge is free (EdgeChecker::StopWhen), and a large roadmap takes long to
-/// undo.
+/// undo. Frees its states, too, which OMPL's own leaves behind when it is destroyed (1.5).
 template <typename LazyRoadmap>
 class PunctualRoadmap final : public LazyRoadmap {
  public:
   explicit PunctualRoadmap(const ob::SpaceInformationPtr& si) : LazyRoadmap(si) {}
+  ~PunctualRoadmap() override { freeMemory(); }
 
   /// Ends with the first path: neither is offered as an anytime planner.
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
@@ -122,8 +123,9 @@ class PunctualRoadmap final : public LazyRoadmap {
 
  private:
   using LazyRoadmap::addMilestone, LazyRoadmap::checkValidity, LazyRoadmap::constructSolution,
-      LazyRoadmap::getName, LazyRoadmap::goalM_, LazyRoadmap::pdef_, LazyRoadmap::pis_,
-      LazyRoadmap::sampler_, LazyRoadmap::si_, LazyRoadmap::solutionComponent, LazyRoadmap::startM_;
+      LazyRoadmap::freeMemory, LazyRoadmap::getName, LazyRoadmap::goalM_, LazyRoadmap::pdef_,
+      LazyRoadmap::pis_, LazyRoadmap::sampler_, LazyRoadmap::si_, LazyRoadmap::solutionComponent,
+      LazyRoadmap::startM_;
 };
 
 using enum PlannerClass;
