@@ -163,9 +163,9 @@ std::optional<std::string> DescribeInstructionDifference(
   std::string cpus(cpu);
   for (const SessionMessage& session : sessions) cpus += session.cpu;
   std::set<std::string> instructions;
-  for (std::size_t begin = 0; (begin = cpus.find('[', begin)) != std::string::npos;) {
-    const std::size_t end = cpus.find(']', ++begin);
-    if (end != std::string::npos) instructions.insert(cpus.substr(begin, end - begin));
+  for (std::size_t end = 0; (end = cpus.find(']', end + 1)) != std::string::npos;) {
+    const std::size_t begin = cpus.rfind('[', end);
+    if (begin != std::string::npos) instructions.insert(cpus.substr(begin + 1, end - begin - 1));
   }
   if (instructions.size() < 2) return std::nullopt;
   return fmt::format(

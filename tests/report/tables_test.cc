@@ -349,7 +349,7 @@ TEST_F(ReportTest, ARatioTellsOnHowManyProblemsItRests) {
   ASSERT_EQ(table.columns[7].name, "problems_in_ratio");
   EXPECT_EQ(Texts(table, 0)[7], "1") << "half of A's trials at the first problem are no median";
   EXPECT_THAT(times.note, testing::HasSubstr("in one trial at least"));
-  EXPECT_THAT(table.note, testing::HasSubstr("in the median if more than half of its trials"));
+  EXPECT_THAT(table.note, testing::HasSubstr("in the median, if more than half of its trials"));
   EXPECT_THAT(Answer(compared, pairs).at(1),
               testing::HasSubstr("on the 1 problem that both solved in the median"));
 }
