@@ -73,7 +73,7 @@ Driver::Driver(Bus* bus, DriverOptions options, std::vector<LineUpEntry> line_up
       earlier_(std::move(earlier)),
       begun_utime_(NowUtime()),
       registry_(bus),
-      recorder_(bus, &registry_) {
+      recorder_(bus, &registry_, options_.record_folder) {
   if (earlier_.sessions.empty()) return;
   begun_utime_ = earlier_.sessions.front().start_utime;
   earlier_time_s_ = earlier_.sessions.back().total_time_s;

@@ -53,6 +53,9 @@ struct DriverOptions {
   /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).
   std::vector<std::pair<std::string, std::string>> references;
 
+  /// Where records wait for loggers to come, beyond what memory holds.
+  std::filesystem::path record_folder = "/tmp";
+
   std::optional<std::filesystem::path> replay;  ///< Event log whose requests are made again.
 
   bool launch = false;

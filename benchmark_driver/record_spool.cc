@@ -1,45 +1,62 @@
 #include "benchmark_driver/record_spool.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace planbench {
 
-void RecordSpool::Fail(const char* what) {
-  throw std::runtime_error(std::string("run records that no logger has yet cannot be ") + what +
-                           " in a temporary file: " + std::strerror(errno));
+bool RecordSpool::Write(const std::string& text) {
+  if (!file_) {
+    std::string name = folder_ / "records_XXXXXX";
+    const int descriptor = mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor < 0) return false;
+    unlink(name.c_str());
+    file_.reset(fdopen(descriptor, "w+"));
+    if (!file_) return false;
+    // Bytes that found no room would be written anew, in vain, before anything is read.
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  }
+  return fseeko(file_.get(), file_bytes_, SEEK_SET) == 0 &&
+         std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
 }
 
 void RecordSpool::Add(const Record& record) {
-  Place place{static_cast<std::int64_t>(memory_.size()),
-              static_cast<std::uint32_t>(record.id.size()),
-              static_cast<std::uint32_t>(record.bytes.size())};
-  const std::string text = record.id + std::string(record.bytes.begin(), record.bytes.end());
-  if (!file_ && memory_.size() + text.size() <= memory_bytes_) {
-    memory_ += text;
-  } else {
-    if (!file_) file_.reset(std::tmpfile());
-    place.offset += file_bytes_;
-    if (!file_ || fseeko(file_.get(), file_bytes_, SEEK_SET) != 0 ||
-        std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() ||
-        std::fflush(file_.get()) != 0) {
-      Fail("kept");
-    }
-    file_bytes_ += static_cast<std::int64_t>(text.size());
+  const std::size_t num_bytes = record.id.size() + record.bytes.size();
+  to_file_ = to_file_ || num_bytes > memory_left_;
+  if (to_file_ && !Write(record.id + std::string(record.bytes.begin(), record.bytes.end()))) {
+    spdlog::warn(
+        "run records for loggers to come cannot be kept in a file in {}: {}; from now on they take "
+        "memory",
+        folder_.string(), std::strerror(errno));
+    to_file_ = false;
+    memory_left_ = std::numeric_limits<std::size_t>::max();
   }
-  places_.push_back(place);
+  places_.push_back({file_bytes_, static_cast<std::uint32_t>(record.id.size()),
+                     static_cast<std::uint32_t>(record.bytes.size())});
+  if (to_file_) {
+    file_bytes_ += static_cast<std::int64_t>(num_bytes);
+  } else {
+    in_memory_[places_.size() - 1] = record;
+    memory_left_ -= num_bytes;
+  }
 }
 
 RecordSpool::Record RecordSpool::At(std::size_t index) {
   const Place& place = places_.at(index);
+  if (const auto found = in_memory_.find(index); found != in_memory_.end()) return found->second;
   std::string text(place.id_bytes + place.bytes, '\0');
-  const auto in_memory = static_cast<std::int64_t>(memory_.size());
-  if (place.offset < in_memory) {
-    text = memory_.substr(static_cast<std::size_t>(place.offset), text.size());
-  } else if (fseeko(file_.get(), place.offset - in_memory, SEEK_SET) != 0 ||
-             std::fread(text.data(), 1, text.size(), file_.get()) != text.size()) {
-    Fail("found");
+  if (fseeko(file_.get(), place.offset, SEEK_SET) != 0 ||
+      std::fread(text.data(), 1, text.size(), file_.get()) != text.size()) {
+    throw std::runtime_error(fmt::format("run records in a file in {} cannot be read: {}",
+                                         folder_.string(), std::strerror(errno)));
   }
   return {text.substr(0, place.id_bytes), {text.begin() + place.id_bytes, text.end()}};
 }

@@ -21,9 +21,10 @@ constexpr std::size_t kWindow = 16;
 
 }  // namespace
 
-Recorder::Recorder(Bus* bus, NodeRegistry* registry)
+Recorder::Recorder(Bus* bus, NodeRegistry* registry, const std::filesystem::path& folder)
     : bus_(bus),
       registry_(registry),
+      spool_(folder),
       record_acks_(bus->SubscribeFrom<AckMessage>(
           channel::kRunRecordAck,
           [this](const AckMessage& ack, const Origin& origin) { OnAck(ack, origin); })),

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -28,10 +29,11 @@ class Recorder {
   /// How long it is waited at the end for a logger that was there to come back.
   std::chrono::milliseconds return_patience{15'000};
 
-  Recorder(Bus* bus, NodeRegistry* registry);
+  /// `folder`: RecordSpool's.
+  Recorder(Bus* bus, NodeRegistry* registry, const std::filesystem::path& folder);
 
   /// Returns once every live logger has stored the record and all before it, or is in trouble or
-  /// silent. Throws std::runtime_error if it cannot be kept.
+  /// silent. Throws std::runtime_error if one that was kept in a file cannot be read.
   void Record(const RunRecordMessage& record);
   /// The session as it is now; returns as above.
   void Record(const SessionMessage& session);

@@ -160,6 +160,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
                      : options.out  ? *options.out
                                     : std::filesystem::path("sessions") / run_id;
     session_folder = std::filesystem::absolute(session_folder).lexically_normal();
+    // Whose disk has to have room for them anyway.
+    options.record_folder = session_folder;
   }
 
   if (!options.pinned.empty()) KeepOff(options.pinned);

@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <set>
 
 #include "messaging/asked_runs.h"
 #include "tests/benchmark_driver/fake_nodes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace planbench {
 namespace {
@@ -38,7 +41,8 @@ class RecorderTest : public testing::Test {
 
   Bus bus_{"memq://"};
   NodeRegistry registry_{&bus_};
-  Recorder recorder_{&bus_, &registry_};
+  TemporaryFolder folder_;
+  Recorder recorder_{&bus_, &registry_, folder_.path()};
 };
 
 TEST_F(RecorderTest, RecordsRunsAndSessions) {
@@ -242,19 +246,55 @@ TEST_F(RecorderTest, ALoggerThatAcknowledgesNothingButOtherRecordsIsNotWaitedFor
   EXPECT_EQ(recorder_.num_unrecorded(), 1u);
 }
 
-TEST(RecordSpoolTest, GivesBackWhatItWasGivenInMemoryAndBeyond) {
-  RecordSpool spool(100);
+/// Adds records of 0 to 49 bytes.
+void AddFifty(RecordSpool* spool) {
   for (int i = 0; i < 50; ++i) {
-    spool.Add({std::to_string(i),
-               std::vector<std::uint8_t>(static_cast<std::size_t>(i), std::uint8_t(i))});
+    spool->Add({std::to_string(i),
+                std::vector<std::uint8_t>(static_cast<std::size_t>(i), std::uint8_t(i))});
   }
-  ASSERT_EQ(spool.size(), 50u);
+}
+
+void ExpectFifty(RecordSpool* spool) {
+  ASSERT_EQ(spool->size(), 50u);
   for (const int i : {0, 49, 7, 14, 13, 30}) {
-    const RecordSpool::Record record = spool.At(static_cast<std::size_t>(i));
+    const RecordSpool::Record record = spool->At(static_cast<std::size_t>(i));
     EXPECT_EQ(record.id, std::to_string(i));
     EXPECT_EQ(record.bytes,
               std::vector<std::uint8_t>(static_cast<std::size_t>(i), std::uint8_t(i)));
   }
+}
+
+TEST(RecordSpoolTest, GivesBackWhatItWasGivenInMemoryAndBeyond) {
+  const TemporaryFolder folder;
+  RecordSpool spool(folder.path(), 100);
+  AddFifty(&spool);
+  ExpectFifty(&spool);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "unlinked";
+}
+
+TEST(RecordSpoolTest, WithoutAFolderItKeepsAllInMemory) {
+  const TemporaryFolder folder;
+  RecordSpool spool(folder / "none", 100);
+  testing::internal::CaptureStdout();
+  AddFifty(&spool);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              AllOf(HasSubstr((folder / "none").string() + ": No such file"), HasSubstr("memory")));
+  ExpectFifty(&spool);
+}
+
+TEST(RecordSpoolTest, WhatAFullDiskHoldsCanBeReadAndTheRestIsInMemory) {
+  const TemporaryFolder folder;
+  RecordSpool spool(folder.path(), 100);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit full = before;
+  full.rlim_cur = 500;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+  AddFifty(&spool);
+  ExpectFifty(&spool);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
 }
 
 }  // namespace
