@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "report/web_files.h"
@@ -63,6 +64,12 @@ std::string ReportPage(const Json& data, const EmbeddedViews& views) {
     scripts += ScriptElement(WebFile(name));
   }
   return Page(WebFile("page.html"), scripts);
+}
+
+std::size_t RoomForViews(const Json& data) {
+  EmbeddedViews one;  // with which three.js comes
+  one.by_attempt[0] = nullptr;
+  return kMostPageBytes - std::min(kMostPageBytes, ReportPage(data, one).size());
 }
 
 std::string PageWithViews(std::string_view html, const std::string& data, std::string_view script) {

@@ -16,6 +16,8 @@ namespace {
 
 /// Of a path in a report, where many share the room.
 constexpr int kFramesEmbedded = 40;
+/// Of the element that holds a view or a mesh in the page, about.
+constexpr std::size_t kElementBytes = 120;
 
 }  // namespace
 
@@ -91,8 +93,8 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
         if (!embedded.meshes.contains(id)) new_meshes[id] = std::move(mesh);
         mesh = nullptr;
       }
-      num_bytes += view.dump().size();
-      for (const auto& [id, mesh] : new_meshes) num_bytes += mesh.dump().size();
+      num_bytes += view.dump().size() + kElementBytes;
+      for (const auto& [id, mesh] : new_meshes) num_bytes += mesh.dump().size() + kElementBytes;
       if (num_bytes > most_bytes) break;
       embedded.meshes.merge(new_meshes);
       embedded.by_attempt.emplace(candidate.attempt, std::move(view));

@@ -26,10 +26,6 @@
 namespace planbench {
 namespace {
 
-/// A page that is to be sent by mail has 30 MB at most; scripts, figures and tables of 30,000 runs
-/// take 6 of them.
-constexpr std::size_t kMostBytesOfViews = 24'000'000;
-
 struct Flags {
   std::vector<std::string> sessions;
   std::string out = "report.html";
@@ -162,7 +158,7 @@ int Run(Flags flags) {
   WriteTables(flags.latex, ".tex", tables, TableLatex);
   const Json data = FigureData(compared, pairs, tables);
   if (!flags.figures.empty()) PrintFigures(data, flags.figures);
-  const EmbeddedViews views = EmbedViews(compared, kMostBytesOfViews, packages);
+  const EmbeddedViews views = EmbedViews(compared, RoomForViews(data), packages);
   WriteFile(flags.out, ReportPage(data, views));
   for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   std::cout << "report: " << flags.out << "\n";
