@@ -345,14 +345,8 @@ void Driver::AddContestant(const LineUpEntry& entry) {
     throw InputError(fmt::format(
         "--anytime: the planner '{}' is no anytime planner: leave it out by --planners", name));
   }
-  if (const std::string& first = contestant.first_path_of; !first.empty()) {
-    if (!planner->can_improve) {
-      throw InputError(fmt::format("first_path_of: the planner '{}' does not improve paths", name));
-    }
-    if (options_.conditions.parallel) {
-      throw InputError(fmt::format(
-          "--parallel: '{}' cannot search for '{}' and for itself at the same time", first, name));
-    }
+  if (!contestant.first_path_of.empty() && !planner->can_improve) {
+    throw InputError(fmt::format("first_path_of: the planner '{}' does not improve paths", name));
   }
   // Of planners that would have one name, each also has the one that tells it apart.
   if (contestant.name.empty()) {

@@ -305,4 +305,13 @@ std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
   return entries;
 }
 
+void RequireNoFirstPaths(const std::vector<LineUpEntry>& line_up) {
+  for (const LineUpEntry& entry : line_up) {
+    if (entry.contestant.first_path_of.empty()) continue;
+    throw InputError(
+        fmt::format("--parallel: '{}' cannot search for '{}' and for itself at the same time",
+                    entry.contestant.first_path_of, entry.contestant.planner));
+  }
+}
+
 }  // namespace planbench

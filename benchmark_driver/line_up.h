@@ -49,4 +49,8 @@ std::vector<LineUpEntry> ReadLineUp(const std::filesystem::path& file,
 std::vector<LineUpEntry> MakeLineUp(const LineUpFlags& flags,
                                     const std::optional<std::filesystem::path>& robot_folder);
 
+/// Throws InputError if one is given another's path: the other would search for both at once, where
+/// contestants work at once.
+void RequireNoFirstPaths(const std::vector<LineUpEntry>& line_up);
+
 }  // namespace planbench

@@ -152,6 +152,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   const std::vector<LineUpEntry> line_up = MakeLineUp(
       options.line_up,
       options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
+  if (options.conditions.parallel) RequireNoFirstPaths(line_up);
   if (options.launch) {
     RequirePrograms(line_up, ProgramFolder());
     CheckRobots(options, line_up);

@@ -344,22 +344,15 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   ExpectNotDiscovered(Options(), {"'arm'", "robot-2", kFakeRobotId});
 }
 
-TEST_F(DriverTest, OneWhoIsGivenAPathMustImproveItAndNotAtTheSameTime) {
-  FakePlanner planner(&bus_);
+TEST_F(DriverTest, OneWhoIsGivenAPathMustImproveIt) {
+  const FakePlanner planner(&bus_);
   const FakePlanner first(&bus_, "first");
   const FakeSceneServer server(&bus_);
   std::vector<LineUpEntry> line_up = LineUp({"arm", "first"});
   line_up[0].contestant.first_path_of = "first";
-  DriverOptions options = Options();
-  const auto expect_refused = [&](const std::vector<std::string>& parts) {
-    Driver driver(&bus_, options, line_up, {});
-    ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
-  };
-  expect_refused({"first_path_of", "'arm' does not improve paths"});
-  planner.status.can_improve = true;
-  Reannounce(&planner);
-  options.conditions.parallel = true;
-  expect_refused({"--parallel", "'first'", "arm"});
+  Driver driver(&bus_, Options(), line_up, {});
+  ExpectInputError([&] { driver.Discover(false, Idle); },
+                   {"first_path_of", "'arm' does not improve paths"});
 }
 
 TEST_F(DriverTest, WhatTheFirstPathsPlannerLearnedFromIsTold) {

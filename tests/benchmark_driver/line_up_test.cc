@@ -281,6 +281,8 @@ TEST_F(LineUpTest, AFirstPathIsOfAnotherWhoFindsItAlone) {
   LineUpFlags flags = Flags(text);
   flags.planners = {"chomp", "rrtc"};
   EXPECT_EQ(MakeLineUp(flags, robot()).at(0).contestant.first_path_of, "rrtc");
+  ExpectInputError([&] { RequireNoFirstPaths(MakeLineUp(flags, robot())); },
+                   {"--parallel", "'rrtc' cannot search for 'chomp'"});
   const auto expect_refused = [&](const std::vector<std::string>& planners,
                                   const std::vector<std::string>& parts) {
     flags.planners = planners;

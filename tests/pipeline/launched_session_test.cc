@@ -135,6 +135,16 @@ TEST_F(LaunchedSession, PlannersWorkAtOnceWithParallel) {
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved"), 4);
 }
 
+TEST_F(LaunchedSession, PlannersThatFindFirstPathsDoNotWorkAtOnce) {
+  const auto line_up = folder() / "lineup.yaml";
+  std::ofstream(line_up) << "contestants: {chomp: {program: trajopt, first_path_of: rrtc}, rrtc: "
+                            "{}}";
+  ExpectBadInput(StartLaunchedDriver(folder() / "session",
+                                     {"--lineup", line_up.string(), "--parallel", "--time", "30"}),
+                 "--parallel: 'rrtc' cannot search for 'chomp'");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "session")) << "before anything is started";
+}
+
 TEST_F(LaunchedSession, InterruptedLeavesNothingRunningAndResumes) {
   const auto session = folder() / "session";
   const std::vector<std::string> flags = {"--problems-range", "1-2", "--time",     "30",
