@@ -20,10 +20,13 @@ double SquaredDistanceToSegment(const Vector3d& p, const Vector3d& a, const Vect
 }
 
 double SquaredDistanceToTriangle(const Vector3d& p, const Corners& corners) {
+  // The normal of less than that is rounding; no point of the face is then that far from an edge.
+  constexpr double kLeastSine = 1e-9;
   const auto& [a, b, c] = corners;
   const Vector3d normal = (b - a).cross(c - a);
   const double normal2 = normal.squaredNorm();
-  const bool above = normal2 > 0 && normal.cross(b - a).dot(p - a) >= 0 &&
+  const double least2 = kLeastSine * kLeastSine * (b - a).squaredNorm() * (c - a).squaredNorm();
+  const bool above = normal2 > least2 && normal.cross(b - a).dot(p - a) >= 0 &&
                      normal.cross(c - b).dot(p - b) >= 0 && normal.cross(a - c).dot(p - c) >= 0;
   if (above) {
     const double height = normal.dot(p - a);
@@ -31,6 +34,10 @@ double SquaredDistanceToTriangle(const Vector3d& p, const Corners& corners) {
   }
   return std::min({SquaredDistanceToSegment(p, a, b), SquaredDistanceToSegment(p, b, c),
                    SquaredDistanceToSegment(p, c, a)});
+}
+
+double SquaredDistanceToBox(const Vector3d& p, const Vector3d& low, const Vector3d& high) {
+  return (low - p).cwiseMax(p - high).cwiseMax(0).squaredNorm();
 }
 
 std::vector<Corners> TrianglesOf(const TriangleMesh& mesh) {
@@ -84,36 +91,25 @@ void MeshSurface::Build(std::uint32_t begin, std::uint32_t end) {
 }
 
 double MeshSurface::Distance(const Vector3d& point, double at_most) const {
-  double best2 = at_most * at_most;
-  if (nodes_.empty()) return at_most;
-  const auto to_box = [&](std::uint32_t index) {
-    const Node& node = nodes_[index];
-    return (node.low - point).cwiseMax(point - node.high).cwiseMax(0).squaredNorm();
-  };
-  struct Open {
-    double distance2;
-    std::uint32_t node;
-  };
-  std::array<Open, 64> stack;  // Halving leaves no tree of 2^32 triangles deeper than that.
-  std::size_t size = 0;
-  stack[size++] = {to_box(0), 0};
-  while (size > 0) {
-    const Open open = stack[--size];
-    if (open.distance2 >= best2) continue;
-    const Node& node = nodes_[open.node];
-    if (node.second == 0) {
-      for (std::uint32_t t = node.begin; t < node.end; ++t) {
-        best2 = std::min(best2, SquaredDistanceToTriangle(point, triangles_[t]));
-      }
-      continue;
-    }
-    Open near = {to_box(open.node + 1), open.node + 1};
-    Open far = {to_box(node.second), node.second};
-    if (far.distance2 < near.distance2) std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
-  }
-  return std::sqrt(best2);
+  return std::sqrt(Least(
+      at_most * at_most,
+      [&](const Vector3d& low, const Vector3d& high, double) {
+        return SquaredDistanceToBox(point, low, high);
+      },
+      [&](const Corners& corners, double) { return SquaredDistanceToTriangle(point, corners); }));
+}
+
+double MeshSurface::Distance(const Segment& segment, double at_most) const {
+  return std::sqrt(Least(
+      at_most * at_most,
+      [&](const Vector3d& low, const Vector3d& high, double) {
+        return LeastOnSegment(
+            segment, [&](const Vector3d& p) { return SquaredDistanceToBox(p, low, high); });
+      },
+      [&](const Corners& corners, double) {
+        return LeastOnSegment(
+            segment, [&](const Vector3d& p) { return SquaredDistanceToTriangle(p, corners); });
+      }));
 }
 
 }  // namespace planbench

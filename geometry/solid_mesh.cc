@@ -51,7 +51,8 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     return v;
   };
   std::vector<Triangle> all;
-  std::vector<int> vertex_of;  // one vertex of each triangle
+  std::vector<int> vertex_of;                       // one vertex of each triangle
+  std::vector<bool> known(index_of.size(), false);  // vertices, of what component_points_ tells of
   for (const auto& triangle : mesh.triangles) {
     const std::array<int, 3> v = {welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]};
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // no area
@@ -65,6 +66,7 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
       ++edge.triangles;
       edge.balance += a < b ? 1 : -1;
       parent[static_cast<std::size_t>(root(a))] = root(b);
+      known[static_cast<std::size_t>(a)] = true;
     }
   }
 
@@ -95,6 +97,17 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     // Of the pyramid over the triangle, seen from a vertex of the mesh.
     const Eigen::Vector3d& apex = mesh.vertices.front();
     survey_.volume += (all[t].a - apex).dot((all[t].b - apex).cross(all[t].c - apex)) / 6;
+  }
+  // Lines and points without a component.
+  for (const auto& triangle : mesh.triangles) {
+    const auto is_known = [&](std::uint32_t index) {
+      return known[static_cast<std::size_t>(welded[index])];
+    };
+    if (std::ranges::none_of(triangle, is_known)) {
+      component_points_.push_back(mesh.vertices[triangle[0]]);
+    }
+    for (const std::uint32_t index : triangle)
+      known[static_cast<std::size_t>(welded[index])] = true;
   }
   if (has_inside()) BuildGrid();
 }

@@ -26,7 +26,7 @@ class SolidMesh {
 
   /// True if some component is closed, so that the mesh has an inside.
   bool has_inside() const { return !triangles_.empty(); }
-  /// One vertex of each component.
+  /// One vertex of each component, and of what is but lines and points apart from them.
   const std::vector<Eigen::Vector3d>& component_points() const { return component_points_; }
   /// True if closed components enclose the point: those of consistent orientation by a winding
   /// number that is not 0 (so that overlapping solids join and inverted ones are cavities), others

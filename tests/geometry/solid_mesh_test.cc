@@ -46,6 +46,17 @@ TEST(SolidMeshTest, TellsInsideFromOutside) {
   }
 }
 
+TEST(SolidMeshTest, LinesAndPointsApartAreParts) {
+  TriangleMesh mesh = Cube(1);
+  mesh.vertices.insert(mesh.vertices.end(), {{3, 0, 0}, {4, 0, 0}, {5, 0, 0}, {0, 7, 0}});
+  // A line from the cube, two that join, a point; none of them opens the cube.
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 0, 1}, {8, 8, 9}, {9, 10, 9}, {11, 11, 11}});
+  const SolidMesh solid(mesh);
+  EXPECT_EQ(solid.component_points().size(), 3u);
+  EXPECT_EQ(solid.survey().components, 1);
+  EXPECT_TRUE(solid.Contains(kHere));
+}
+
 TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
   // An octahedron: the ray along z meets its tip, its edges and, from the side, its rim.
   TriangleMesh mesh;
