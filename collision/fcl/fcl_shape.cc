@@ -11,22 +11,25 @@
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_box.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_cylinder.h>
 #include <fcl/narrowphase/distance.h>
-#include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "collision/shape_check.h"
-#include "common/error.h"
+#include "geometry/lexicographic_less.h"
+#include "geometry/mesh_surface.h"
 #include "geometry/solid_mesh.h"
 
 namespace planbench {
 namespace {
-
-using BvhModel = fcl::BVHModel<fcl::OBBRSSd>;
 
 template <typename... Visitors>
 struct Overloaded : Visitors... {
@@ -55,27 +58,69 @@ double CapsuleDistance(const Capsule& capsule, const Eigen::Vector3d& point) {
   return std::hypot(point.head<2>().norm(), beyond) - capsule.radius;
 }
 
-/// A triangle that is but a line: FCL divides by its area, and finds it at distance 0 of anything.
-bool IsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const double squared =
-      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return (b - a).cross(c - a).norm() <= 1e-6 * squared;
+/// Nearer than that to each other, m, what has no thickness touches, which rounding would deny.
+constexpr double kTouchingLines = 1e-9;
+
+/// A line between two points in either direction, as something to sort by; equal ones are a point.
+using Line = std::array<double, 6>;
+
+Line LineBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const auto& [from, to] = LexicographicLess(b, a) ? std::tie(b, a) : std::tie(a, b);
+  return {from.x(), from.y(), from.z(), to.x(), to.y(), to.z()};
 }
 
-std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
+/// The triangles of a mesh, and apart those that are but lines or points: from these FCL's balls
+/// are at distance 0 wherever they are, as it divides by the area, and triangles in their plane
+/// collide.
+struct SplitMesh {
   std::vector<fcl::Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
+  /// As {a, b, a}: the longest edge, from which nothing of such a triangle is further than 1e-6 of
+  /// its length. Those that are edges or corners of a triangle with an area, as most are that files
+  /// have, are left out.
+  std::vector<Corners> lines;
+};
+
+SplitMesh SplitTriangles(const TriangleMesh& mesh) {
+  SplitMesh split;
+  split.triangles.reserve(mesh.triangles.size());
+  std::set<Line> lines;
   for (const auto& t : mesh.triangles) {
-    // Their edges are those of other triangles, unless the mesh is nothing else.
-    if (IsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
-    triangles.emplace_back(t[0], t[1], t[2]);
+    const Eigen::Vector3d* const corners[] = {&mesh.vertices[t[0]], &mesh.vertices[t[1]],
+                                              &mesh.vertices[t[2]]};
+    const Eigen::Vector3d edges[] = {*corners[1] - *corners[0], *corners[2] - *corners[1],
+                                     *corners[0] - *corners[2]};
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (edges[k].squaredNorm() > edges[longest].squaredNorm()) longest = k;
+    }
+    if (edges[0].cross(edges[1]).norm() <= 1e-6 * edges[longest].squaredNorm()) {
+      lines.insert(LineBetween(*corners[longest], *corners[(longest + 1) % 3]));
+    } else {
+      split.triangles.emplace_back(t[0], t[1], t[2]);
+    }
   }
-  if (triangles.empty()) {
-    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  for (const fcl::Triangle& t : split.triangles) {
+    if (lines.empty()) break;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& corner = mesh.vertices[t[k]];
+      lines.erase(LineBetween(corner, corner));
+      lines.erase(LineBetween(corner, mesh.vertices[t[(k + 1) % 3]]));
+    }
   }
-  auto model = std::make_unique<BvhModel>();
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
+  for (const auto& [ax, ay, az, bx, by, bz] : lines) {
+    const Eigen::Vector3d a(ax, ay, az);
+    split.lines.push_back({a, Eigen::Vector3d(bx, by, bz), a});
+  }
+  return split;
+}
+
+/// Null without a triangle.
+std::unique_ptr<fcl::CollisionGeometryd> MakeBvh(const std::vector<Eigen::Vector3d>& vertices,
+                                                 const std::vector<fcl::Triangle>& triangles) {
+  if (triangles.empty()) return nullptr;
+  auto model = std::make_unique<fcl::BVHModel<fcl::OBBRSSd>>();
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+  model->addSubModel(vertices, triangles);
   model->endModel();
   return model;
 }
@@ -83,10 +128,14 @@ std::unique_ptr<fcl::CollisionGeometryd> MakeMesh(const TriangleMesh& mesh) {
 }  // namespace
 
 struct FclShape::Geometry {
+  /// Null of half-spaces, and of meshes that are but lines and points.
   std::unique_ptr<fcl::CollisionGeometryd> fcl;
   std::variant<Box, Sphere, Cylinder, Cone, Capsule, HalfSpace, SolidMesh> shape;
+  MeshSurface surface;  ///< Of a mesh.
+  MeshSurface lines;    ///< What of it FCL is not given, see SplitMesh.
 
   bool IsHalfSpace() const { return std::holds_alternative<HalfSpace>(shape); }
+  bool IsCapsule() const { return std::holds_alternative<Capsule>(shape); }
   bool IsMesh() const { return std::holds_alternative<SolidMesh>(shape); }
   const SolidMesh& mesh() const { return std::get<SolidMesh>(shape); }
 
@@ -112,27 +161,18 @@ struct FclShape::Geometry {
               return across > 1e-12 || up.z() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
             },
             [&](const SolidMesh&) {
-              const auto& model = static_cast<const BvhModel&>(*fcl);
-              double lowest = std::numeric_limits<double>::infinity();
-              for (int t = 0; t < model.num_tris; ++t) {
-                for (std::size_t corner = 0; corner < 3; ++corner) {
-                  lowest = std::min(lowest, up.dot(model.vertices[model.tri_indices[t][corner]]));
-                }
-              }
-              return -lowest;
+              return -surface.Least(
+                  std::numeric_limits<double>::infinity(),
+                  [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high, double) {
+                    return (up.dot(low + high) - up.cwiseAbs().dot(high - low)) / 2;
+                  },
+                  [&](const Corners& corners, double) {
+                    return std::min({up.dot(corners[0]), up.dot(corners[1]), up.dot(corners[2])});
+                  });
             },
         },
         shape);
     return X_AS.translation.z() - below;
-  }
-
-  /// Distance of a point from the surface of the mesh.
-  double SurfaceDistance(const Eigen::Vector3d& point) const {
-    const fcl::Sphered dot(0);
-    fcl::DistanceResultd result;
-    const double distance = fcl::distance(fcl.get(), fcl::Transform3d::Identity(), &dot,
-                                          Translation(point), fcl::DistanceRequestd(), result);
-    return std::max(distance, 0.0);  // FCL gives -1 for a point on the surface
   }
 };
 
@@ -171,8 +211,11 @@ FclShape::FclShape(const Shape& shape, const std::string& owner)
             box_half_size_.setConstant(std::numeric_limits<double>::infinity());
           },
           [&](const Mesh& mesh) {
-            geometry_->fcl = MakeMesh(mesh.triangles);
+            SplitMesh split = SplitTriangles(mesh.triangles);
+            geometry_->fcl = MakeBvh(mesh.triangles->vertices, split.triangles);
             geometry_->shape = SolidMesh(mesh.triangles);
+            geometry_->surface = MeshSurface(mesh.triangles);
+            geometry_->lines = MeshSurface(std::move(split.lines));
             box_center_ = mesh.triangles.box().center();
             box_half_size_ = mesh.triangles.box().sizes() / 2;
           },
@@ -207,11 +250,8 @@ bool FclShape::TouchesBall(const Eigen::Vector3d& center, double radius) const {
           [&](const Capsule& capsule) { return CapsuleDistance(capsule, center) <= radius; },
           [&](const HalfSpace&) { return center.z() <= radius; },
           [&](const SolidMesh& mesh) {
-            const fcl::Sphered ball(radius);
-            fcl::CollisionResultd result;
-            fcl::collide(geometry_->fcl.get(), identity, &ball, Translation(center),
-                         fcl::CollisionRequestd(), result);
-            return result.isCollision() || mesh.Contains(center);
+            return geometry_->surface.Distance(center, radius + kTouchingLines) <= radius ||
+                   mesh.Contains(center);
           },
       },
       geometry_->shape);
@@ -252,7 +292,7 @@ double FclShape::BallDistance(const Eigen::Vector3d& center, double radius) cons
           [&](const Capsule& capsule) { return CapsuleDistance(capsule, center) - radius; },
           [&](const HalfSpace&) { return center.z() - radius; },
           [&](const SolidMesh& mesh) {
-            const double distance = geometry_->SurfaceDistance(center);
+            const double distance = geometry_->surface.Distance(center);
             return (mesh.Contains(center) ? -distance : distance) - radius;
           },
       },
@@ -269,6 +309,29 @@ bool FclShape::Contains(const FclShape& other, const Pose& X_SO) const {
                      [&](const Eigen::Vector3d& point) { return mesh.Contains(X_SO * point); });
 }
 
+double FclShape::SegmentDistance(const Segment& segment, double at_most) const {
+  if (geometry_->IsMesh()) return geometry_->surface.Distance(segment, at_most);
+  return std::min(at_most, LeastOnSegment(segment, [this](const Eigen::Vector3d& point) {
+                    return std::max(0.0, BallDistance(point, 0));
+                  }));
+}
+
+double FclShape::LineDistance(const FclShape& other, const Pose& X_SO, double at_most) const {
+  const auto nearest = [](const FclShape& of, const FclShape& to, const Pose& X_TF, double limit) {
+    return of.geometry_->lines.Least(
+        limit,
+        [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high, double best) {
+          const Eigen::Vector3d center = X_TF * ((low + high) / 2);
+          const double radius = (high - low).norm() / 2;
+          return std::max(0.0, to.SegmentDistance({center, center}, best + 2 * radius) - radius);
+        },
+        [&](const Corners& line, double best) {
+          return to.SegmentDistance({X_TF * line[0], X_TF * line[1]}, best);
+        });
+  };
+  return nearest(other, *this, X_SO, nearest(*this, other, X_SO.Inverse(), at_most));
+}
+
 bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
   if (const auto* sphere = std::get_if<Sphere>(&other.geometry_->shape)) {
     return TouchesBall(X_SO.translation, sphere->radius);
@@ -279,9 +342,32 @@ bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
   if (geometry_->IsHalfSpace()) return other.geometry_->LowestHeight(X_SO) <= 0;
   if (other.geometry_->IsHalfSpace()) return geometry_->LowestHeight(X_SO.Inverse()) <= 0;
   fcl::CollisionResultd result;
-  fcl::collide(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
-               X_SO.ToIsometry(), fcl::CollisionRequestd(), result);
-  return result.isCollision() || Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
+  if (geometry_->fcl != nullptr && other.geometry_->fcl != nullptr) {
+    fcl::collide(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
+                 X_SO.ToIsometry(), fcl::CollisionRequestd(), result);
+  }
+  return result.isCollision() || LineDistance(other, X_SO, 2 * kTouchingLines) <= kTouchingLines ||
+         Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
+}
+
+double FclShape::FaceDistance(const FclShape& other, const Pose& X_SO, double at_most) const {
+  // Both of FCL's iterative solvers stop early in some poses, at a distance that is too large
+  // (libccd by up to 5e-4 m, where faces are parallel; the other one by centimetres, seldom): the
+  // smaller is right. Triangles against triangles need neither.
+  double distance = at_most;
+  if (geometry_->fcl == nullptr || other.geometry_->fcl == nullptr) return distance;
+  for (const fcl::GJKSolverType solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
+    fcl::DistanceRequestd request;
+    request.gjk_solver_type = solver;
+    request.distance_tolerance = 1e-12;  // of the last step, not of the result
+    fcl::DistanceResultd result;
+    result.min_distance = distance;  // FCL skips what is further
+    distance = std::min(
+        distance, fcl::distance(geometry_->fcl.get(), fcl::Transform3d::Identity(),
+                                other.geometry_->fcl.get(), X_SO.ToIsometry(), request, result));
+    if (geometry_->IsMesh() && other.geometry_->IsMesh()) break;
+  }
+  return distance;
 }
 
 double FclShape::Distance(const FclShape& other, const Pose& X_SO, double at_most) const {
@@ -296,20 +382,17 @@ double FclShape::Distance(const FclShape& other, const Pose& X_SO, double at_mos
     return std::clamp(other.geometry_->LowestHeight(X_SO), 0.0, at_most);
   }
   if (other.geometry_->IsHalfSpace()) return other.Distance(*this, X_SO.Inverse(), at_most);
-  // Both of FCL's iterative solvers stop early in some poses, at a distance that is too large
-  // (libccd by up to 5e-4 m, where faces are parallel; the other one by centimetres, seldom): the
-  // smaller is right. Triangles against triangles need neither.
+  if (geometry_->IsCapsule() && !other.geometry_->IsCapsule()) {
+    return other.Distance(*this, X_SO.Inverse(), at_most);
+  }
   double distance = at_most;
-  for (const fcl::GJKSolverType solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
-    fcl::DistanceRequestd request;
-    request.gjk_solver_type = solver;
-    request.distance_tolerance = 1e-12;  // of the last step, not of the result
-    fcl::DistanceResultd result;
-    result.min_distance = distance;  // FCL skips what is further
-    distance = std::min(
-        distance, fcl::distance(geometry_->fcl.get(), fcl::Transform3d::Identity(),
-                                other.geometry_->fcl.get(), X_SO.ToIsometry(), request, result));
-    if (geometry_->IsMesh() && other.geometry_->IsMesh()) break;
+  if (const auto* capsule = std::get_if<Capsule>(&other.geometry_->shape)) {
+    // FCL's libccd ends the process where a capsule just touches something.
+    const Eigen::Vector3d to_end = X_SO.rotation.col(2) * (capsule->length / 2);
+    const Segment axis{X_SO.translation - to_end, X_SO.translation + to_end};
+    distance = SegmentDistance(axis, at_most + capsule->radius) - capsule->radius;
+  } else {
+    distance = LineDistance(other, X_SO, FaceDistance(other, X_SO, at_most));
   }
   // Where shapes almost touch the verdict decides the sign, so that the two never disagree.
   constexpr double kAlmostTouching = 1e-5;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "collision/rigid_bodies.h"
+#include "geometry/segment.h"
 #include "geometry/shapes.h"
 
 namespace planbench {
@@ -14,8 +15,11 @@ namespace planbench {
 /// searched for when asked.
 ///
 /// FCL's own view of a mesh is its surface; what lies wholly inside a closed one is found here by
-/// ray parity. A mesh that is not closed remains a surface. Half-spaces are not given to FCL, which
-/// has no distances from them: how far the other shape reaches down is exact and simpler.
+/// ray parity. A mesh that is not closed remains a surface.
+///
+/// FCL is not asked where it has no distances (half-spaces: how far the other shape reaches down is
+/// exact and simpler), has wrong ones (balls near thin triangles; triangles that are but lines or
+/// points) or ends the process (distances of capsules that just touch).
 class FclShape {
  public:
   /// Throws InputError naming `owner` if the shape has a negative or non-finite size, or is a mesh
@@ -44,6 +48,13 @@ class FclShape {
  private:
   struct Geometry;
   bool Contains(const FclShape& other, const Pose& X_SO) const;
+  /// How far a segment in the shape's frame, or `at_most` if that is less; 0 in solids, but of
+  /// meshes from their surface.
+  double SegmentDistance(const Segment& segment, double at_most) const;
+  /// By FCL: of what lines and points are not.
+  double FaceDistance(const FclShape& other, const Pose& X_SO, double at_most) const;
+  /// The least distance of the lines and points that either shape has from the other, or `at_most`.
+  double LineDistance(const FclShape& other, const Pose& X_SO, double at_most) const;
 
   std::unique_ptr<Geometry> geometry_;
   BoundingSphere bounding_sphere_;

@@ -51,17 +51,21 @@ double CapsuleDistance(const Capsule& capsule, const Vector3d& p) {
 
 double TriangleDistance(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                         const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a).normalized();
+  const Vector3d across = (b - a).cross(c - a);
+  const bool has_face = across.norm() > 1e-9 * (b - a).norm() * (c - a).norm();
+  const Vector3d normal = across.normalized();
   const Vector3d foot = p - normal * normal.dot(p - a);
-  const bool over_face = (b - a).cross(foot - a).dot(normal) >= 0 &&
+  const bool over_face = has_face && (b - a).cross(foot - a).dot(normal) >= 0 &&
                          (c - b).cross(foot - b).dot(normal) >= 0 &&
                          (a - c).cross(foot - c).dot(normal) >= 0;
   if (over_face) return std::abs(normal.dot(p - a));
   double best = std::numeric_limits<double>::infinity();
   const std::pair<Vector3d, Vector3d> edges[] = {{a, b}, {b, c}, {c, a}};
   for (const auto& [from, to] : edges) {
-    const double t = std::clamp((p - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
-    best = std::min(best, (p - from - t * (to - from)).norm());
+    const Vector3d along = to - from;
+    const double t =
+        from == to ? 0.0 : std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    best = std::min(best, (p - from - t * along).norm());
   }
   return best;
 }
@@ -171,6 +175,28 @@ double OracleDistance(const Shape& shape, const Eigen::Vector3d& point) {
   if (const auto* capsule = std::get_if<Capsule>(&shape)) return CapsuleDistance(*capsule, point);
   if (std::holds_alternative<HalfSpace>(shape)) return point.z();
   return MeshDistance(std::get<Mesh>(shape).triangles, point);
+}
+
+double OracleLeastAlong(const Vector3d& from, const Vector3d& to,
+                        const std::function<double(const Vector3d&)>& convex) {
+  constexpr int kSteps = 40;
+  double least = convex(from);
+  if (from == to) return least;
+  double best = 0;  // where that is, as a fraction
+  double low = 0;
+  double high = 1;
+  for (int level = 0; level < 5; ++level) {
+    const double step = (high - low) / kSteps;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double value = convex(from + (low + i * step) * (to - from));
+      if (value >= least) continue;
+      least = value;
+      best = low + i * step;
+    }
+    low = std::max(0.0, best - step);
+    high = std::min(1.0, best + step);
+  }
+  return least;
 }
 
 std::vector<OraclePair> OraclePairs(const Robot& robot, const PlanningGroup& group,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <functional>
 #include <random>
 #include <span>
 #include <string>
@@ -18,8 +19,12 @@ namespace planbench {
 inline constexpr double kBand_m = 1e-4;
 
 /// Signed distance of a point from a solid shape, negative inside, by formulas written for the
-/// tests alone. A mesh must be closed.
+/// tests alone. A mesh must be closed, but for triangles that are lines and points.
 double OracleDistance(const Shape& shape, const Eigen::Vector3d& point);
+
+/// The least value of a convex function on a line, found among 41 places again and again.
+double OracleLeastAlong(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const std::function<double(const Eigen::Vector3d&)>& convex);
 
 /// What two bodies that must be checked against each other are apart: minus the depth of their
 /// deepest pair of spheres or shapes if they collide.

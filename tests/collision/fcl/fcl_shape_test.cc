@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "common/numbers.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/generated_meshes.h"
+#include "tests/support/line_meshes.h"
 
 namespace planbench {
 namespace {
@@ -75,6 +78,127 @@ TEST(FclShapeTest, EveryPairOfShapesMeetsAndParts) {
       EXPECT_GE(distance, 0.2 - 1e-5);
       EXPECT_NEAR(second.Distance(first, Shift(-width - 0.2, 0, 0), kInfinity), distance, 1e-5);
       EXPECT_NEAR(first.Distance(second, Shift(width + 0.2, 0, 0), 0.1), 0.1, 0);
+    }
+  }
+}
+
+/// How far a line, in the frame of a convex shape, is from it; 0 if it touches.
+double LineDistance(const Shape& shape, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return OracleLeastAlong(
+      a, b, [&](const Eigen::Vector3d& p) { return std::max(0.0, OracleDistance(shape, p)); });
+}
+
+/// Poses anywhere, and along the axes at places that are exact in binary.
+Eigen::Isometry3d PoseOrGrid(int i, std::mt19937_64* generator) {
+  if (i % 2 == 0) return RandomPose(generator, 1);
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  for (double& p : X.translation()) p = static_cast<double>((*generator)() % 9) / 4 - 1;
+  return X;
+}
+
+/// Of depths, which are told of spheres, nothing is expected.
+void ExpectDistance(const FclShape& shape, const FclShape& other, const Pose& X_SO, double truth) {
+  EXPECT_NEAR(std::max(0.0, shape.Distance(other, X_SO, kInfinity)), truth, 1e-7);
+  EXPECT_NEAR(std::max(0.0, other.Distance(shape, X_SO.Inverse(), kInfinity)), truth, 1e-7);
+  EXPECT_NEAR(std::max(0.0, shape.Distance(other, X_SO, 0.2)), std::min(truth, 0.2), 1e-7);
+  if (truth > 0 && truth < 1e-7) return;
+  EXPECT_EQ(shape.Touches(other, X_SO), truth <= 0) << truth;
+  EXPECT_EQ(other.Touches(shape, X_SO.Inverse()), truth <= 0) << truth;
+}
+
+TEST(FclShapeTest, LinesAndPointsOfMeshesAreWhereTheyAre) {
+  std::mt19937_64 generator(13);
+  std::vector<Shape> shapes = AllShapes();
+  shapes.emplace_back(HalfSpace{});
+  for (const Shape& shape : shapes) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape solid(shape, "solid");
+    for (int i = 0; i < 100; ++i) {
+      const Lines lines = RandomLines(1 + i % 5, 1, &generator);
+      Mesh mesh;
+      mesh.triangles = LineMesh(lines);
+      const Eigen::Isometry3d X = PoseOrGrid(i, &generator);
+      double truth = kInfinity;
+      for (const auto& [a, b] : lines) truth = std::min(truth, LineDistance(shape, X * a, X * b));
+      ExpectDistance(solid, FclShape(mesh, "lines"), Pose::From(X), truth);
+      // A mesh of something else as well.
+      mesh.triangles = Joined(BoxMesh({0.1, 0.1, 0.1}), LineMesh(lines), {0, 0, 0});
+      Mesh box;
+      box.triangles = BoxMesh({0.1, 0.1, 0.1});
+      const double of_box = solid.Distance(FclShape(box, "box"), Pose::From(X), kInfinity);
+      ExpectDistance(solid, FclShape(mesh, "both"), Pose::From(X), std::clamp(of_box, 0.0, truth));
+    }
+  }
+}
+
+TEST(FclShapeTest, LinesAgainstLinesAndSheets) {
+  std::mt19937_64 generator(14);
+  for (int i = 0; i < 400; ++i) {
+    const Lines lines = RandomLines(2, 1, &generator);
+    const Lines others = RandomLines(3, 1, &generator);
+    const Eigen::Isometry3d X = PoseOrGrid(i, &generator);
+    double truth = kInfinity;
+    for (const auto& [a, b] : lines) {
+      for (const auto& [c, d] : others) {
+        const Eigen::Vector3d along = X * d - X * c;
+        const Eigen::Vector3d from = X * c;
+        const auto to_other = [&](const Eigen::Vector3d& p) {
+          if (along.isZero()) return (p - from).norm();
+          const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          return (p - from - t * along).norm();
+        };
+        truth = std::min(truth, OracleLeastAlong(a, b, to_other));
+      }
+    }
+    if (truth < 1e-7) truth = 0;
+    Mesh mesh;
+    mesh.triangles = LineMesh(lines);
+    const FclShape first(mesh, "lines");
+    mesh.triangles = LineMesh(others);
+    ExpectDistance(first, FclShape(mesh, "others"), Pose::From(X), truth);
+  }
+  // Through a sheet and beside it in its plane, where only its edge is near.
+  Mesh sheet;
+  TriangleMesh triangle;
+  triangle.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  triangle.triangles = {{0, 1, 2}};
+  sheet.triangles = triangle;
+  const FclShape shape(sheet, "sheet");
+  const auto distance = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    Mesh mesh;
+    mesh.triangles = LineMesh({{a, b}});
+    return shape.Distance(FclShape(mesh, "line"), Pose(), kInfinity);
+  };
+  EXPECT_EQ(distance({0.2, 0.3, -1}, {0.3, 0.2, 1}), 0);
+  EXPECT_EQ(distance({0.2, 0.3, 0}, {0.3, 0.2, 0}), 0);
+  EXPECT_EQ(distance({0.2, 0.3, 0}, {0.2, 0.3, 0}), 0);
+  EXPECT_NEAR(distance({0.9, 0.4, 0}, {0.4, 0.9, 0}), 0.3 / std::sqrt(2), 1e-9);
+  EXPECT_NEAR(distance({0.7, 0.7, 0}, {0.95, 0.95, 0}), 0.4 / std::sqrt(2), 1e-9);
+  EXPECT_NEAR(distance({0.1, 0.1, 0.5}, {0.2, 0.2, 0.5}), 0.5, 1e-9);
+}
+
+TEST(FclShapeTest, CapsulesAreExactAndMayJustTouch) {
+  std::mt19937_64 generator(15);
+  const Capsule capsule{0.25, 0.5};
+  const FclShape pill(capsule, "pill");
+  std::vector<Shape> shapes = AllShapes();
+  shapes.emplace_back(Box{{0.5, 0.5, 0.5}});
+  shapes.emplace_back(Cylinder{0.25, 0.5});
+  shapes.emplace_back(Cone{0.25, 0.5});
+  for (const Shape& shape : shapes) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    const FclShape solid(shape, "solid");
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::Isometry3d X = PoseOrGrid(i, &generator);
+      const Eigen::Vector3d end(0, 0, capsule.length / 2);
+      const double truth = LineDistance(shape, X * -end, X * end) - capsule.radius;
+      const Pose X_SP = Pose::From(X);
+      if (std::abs(truth) < 1e-7) {
+        EXPECT_LE(solid.Distance(pill, X_SP, kInfinity), 1e-7);
+        EXPECT_LE(pill.Distance(solid, X_SP.Inverse(), kInfinity), 1e-7);
+      } else {
+        ExpectDistance(solid, pill, X_SP, std::max(0.0, truth));
+      }
     }
   }
 }

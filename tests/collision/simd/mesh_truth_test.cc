@@ -19,6 +19,7 @@
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
 #include "tests/support/generated_meshes.h"
+#include "tests/support/line_meshes.h"
 #include "tests/support/trials.h"
 
 namespace planbench {
@@ -109,6 +110,7 @@ double SurfaceDistance(const TriangleMesh& mesh, const Eigen::Vector3d& p) {
 }
 
 std::vector<NamedMesh> Meshes() {
+  std::mt19937_64 random(10);
   const TriangleMesh torus = TorusMesh(0.5, 0.2, 60, 40);
   return {{"box", BoxMesh({0.4, 0.6, 1.0})},
           {"needle", BoxMesh({1e-4, 2.0, 1e-4})},
@@ -122,6 +124,10 @@ std::vector<NamedMesh> Meshes() {
           {"ball in a ball",
            Joined(SphereMesh(0.7, 20, 20), TurnedInsideOut(SphereMesh(0.6, 20, 20)), {0, 0, 0.02})},
           {"box with lines", BoxWithLines()},
+          {"points and rods", LineMesh(RandomLines(40, 1.5, &random))},
+          {"point", LineMesh(RandomLines(1, 1, &random))},
+          {"ball among points and rods",
+           Joined(SphereMesh(0.2, 12, 9), LineMesh(RandomLines(20, 1.5, &random)), {0, 0, 0})},
           {"hall", BoxMesh({12, 30, 8})}};
 }
 
@@ -220,7 +226,9 @@ TEST(MeshTruthTest, DistancesAreThoseOfTheOracle) {
   Robot robot = MakeGantry(kRadius);
   robot.spheres.resize(1);
   for (const TriangleMesh& mesh :
-       {TorusMesh(0.4, 0.2, 25, 20), SphereMesh(0.5, 9, 7), BoxMesh({0.5, 0.2, 0.9})}) {
+       {TorusMesh(0.4, 0.2, 25, 20), SphereMesh(0.5, 9, 7), BoxMesh({0.5, 0.2, 0.9}),
+        LineMesh(RandomLines(30, 1, &random)), LineMesh(RandomLines(1, 1, &random)),
+        Joined(BoxMesh({0.3, 0.2, 0.3}), LineMesh(RandomLines(30, 1, &random)), {0, 0, 0})}) {
     const Shape shape = AsShape(mesh);
     SceneMeshComparison comparison(robot, SceneWith("thing", shape));
     std::vector<double> qs;
@@ -228,8 +236,10 @@ TEST(MeshTruthTest, DistancesAreThoseOfTheOracle) {
     std::vector<double> distances(160);
     comparison.fast().FindDistances(qs, 160, 0.4, distances);
     for (std::size_t i = 0; i < distances.size(); ++i) {
-      const double oracle =
-          std::min(0.4, OracleDistance(shape, Eigen::Vector3d::Map(&qs[3 * i])) - kRadius);
+      const auto q = std::span(qs).subspan(3 * i, 3);
+      const double truth = OracleDistance(shape, Eigen::Vector3d::Map(q.data())) - kRadius;
+      EXPECT_NEAR(comparison.exact().FindClosest(q).distance_m, truth, 1e-9);
+      const double oracle = std::min(0.4, truth);
       if (oracle > 0) {
         EXPECT_NEAR(distances[i], oracle, kBand_m);
       } else {
@@ -245,14 +255,19 @@ TEST(MeshTruthTest, SplintersAreWhatTheyAre) {
   Robot robot = MakeGantry(0.01);
   robot.spheres.resize(1);
   const TriangleMesh mesh = Splinters();
-  SimdChecker checker(robot, robot.groups.front());
-  checker.SetScene(SceneWith("splinters", AsShape(mesh)), std::vector<double>(3, 0.0));
+  SceneMeshComparison comparison(robot, SceneWith("splinters", AsShape(mesh)));
   for (int i = 0; i < 1000; ++i) {
     Eigen::Vector3d q(coordinate(random), coordinate(random), coordinate(random));
     if (i % 2 == 0) q = RandomSurfacePoint(mesh, &random) + 0.02 * q;
-    const double expected = std::min(0.2, SurfaceDistance(mesh, q) - 0.01);
+    const std::span<const double> at(q.data(), 3);
+    const double truth = SurfaceDistance(mesh, q) - 0.01;
+    EXPECT_NEAR(comparison.exact().FindClosest(at).distance_m, truth, 1e-7);
+    if (std::abs(truth) > 1e-7) {
+      EXPECT_EQ(comparison.exact().IsFree(at), truth > 0) << truth;
+    }
+    const double expected = std::min(0.2, truth);
     double distance = 0;
-    checker.FindDistances(std::span(q.data(), 3), 1, 0.2, std::span(&distance, 1));
+    comparison.fast().FindDistances(at, 1, 0.2, std::span(&distance, 1));
     EXPECT_LE(distance, expected + 1e-7);
     EXPECT_GE(distance, expected - kBand_m);
   }
