@@ -246,9 +246,7 @@ CompiledTree CompiledScene::Attach(const SceneObject& object, int link, std::vec
   if (field_ == nullptr && HasExactKernels(object, balls)) {
     LinkGeometry geometry{link, object.shapes};
     for (PlacedShape& placed : geometry.shapes) placed.X_FS = object.X_WO * placed.X_FS;
-    const RobotMeshes& meshes = attached_meshes_.emplace_back(geometry, balls);
-    // Nothing tells whether what has no area is inside of something.
-    if (!meshes.links.front().points.empty()) return compiled_robot_->AddTree(meshes);
+    return compiled_robot_->AddTree(attached_meshes_.emplace_back(geometry, balls));
   }
   return compiled_robot_->AddTree(link, TreeAround(object, std::move(balls)));
 }

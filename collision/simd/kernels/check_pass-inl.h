@@ -226,13 +226,13 @@ class CheckPass {
       const Inside& inside = InsideAt(node.first_inside + k);
       for (int i = 0; i < num; ++i) {
         const Solid& solid = world_.solids[static_cast<std::size_t>(list[i])];
-        if (solid.extent > inside.extent) continue;
         if (solid.mesh >= 0 && !solid.doubtful) {
-          if (TestMeshInside(inside, world_.meshes[static_cast<std::size_t>(solid.mesh)])) {
-            return true;
-          }
+          const WorldMesh& mesh = world_.meshes[static_cast<std::size_t>(solid.mesh)];
+          const bool may_fit = solid.extent <= inside.extent || mesh.tree->points.size() > 1;
+          if (may_fit && TestMeshInside(inside, mesh)) return true;
           continue;
         }
+        if (solid.extent > inside.extent) continue;
         // Of what is in a bounding box no point is known: somewhere within it.
         const float extent = solid.doubtful ? 2 * solid.extent : 0.0f;
         if (TestInside(inside, Fill(solid.center), extent, alive_, solid.doubtful)) return true;

@@ -101,8 +101,10 @@ HWY_INLINE V SquaredBetweenEdges(const InFrame& t, const Points& a, const Points
     const V y = hn::MulAdd(s, v.y, a.y);
     const V side_1 = hn::NegMulAdd(t.along[0][1], x - t.length[0], t.along[0][0] * y);
     const V side_2 = hn::NegMulAdd(t.along[1][1], x - t.apex[0], t.along[1][0] * (y - t.apex[1]));
-    const M inside =
-        hn::And(hn::Ge(y, Zero()), hn::And(hn::Ge(side_1, Zero()), hn::Ge(side_2, Zero())));
+    // A triangle that is but a line has no sides, and is all there is on it.
+    const M beside = hn::And(hn::And(hn::Ge(x, Zero()), hn::Le(x, t.length[0])),
+                             hn::And(hn::Ge(y, Zero()), hn::Le(y, t.apex[1])));
+    const M inside = hn::And(beside, hn::And(hn::Ge(side_1, Zero()), hn::Ge(side_2, Zero())));
     least = hn::IfThenZeroElse(hn::And(through, inside), least);
   }
   // Of lines closer to parallel than this ends are as near as anything, up to 1e-4 of a length.

@@ -43,7 +43,11 @@ HWY_INLINE M MeetsBox(const Triangles& t, const float* half_size, float margin) 
     const Points n = Cross(edges[0], edges[1]);
     const Points size = Abs(n);
     const V reach = hn::MulAdd(size.x, half_x, hn::MulAdd(size.y, half_y, size.z * half_z));
-    apart = hn::Or(apart, gap(hn::Abs(Dot(n, c[0])) - reach, SquaredNorm(n)));
+    // Of a triangle that is but a line the normal is rounding, and its corners differ along it.
+    const V at[3] = {Dot(n, c[0]), Dot(n, c[1]), Dot(n, c[2])};
+    const V beyond = hn::Max(hn::Min(at[0], hn::Min(at[1], at[2])),
+                             hn::Neg(hn::Max(at[0], hn::Max(at[1], at[2]))));
+    apart = hn::Or(apart, gap(beyond - reach, SquaredNorm(n)));
   }
   for (int k = 0; k < 3; ++k) {
     // The ends of an edge have one place along an axis across it.
@@ -120,7 +124,7 @@ HWY_INLINE M MeetsCylinder(const Triangles& t, float radius, float half_length) 
       meets = hn::Or(meets, hn::And(both, hn::Le(distance, reach)));
     }
   }
-  // Where the axis goes through the triangle.
+  // Where the axis goes through the triangle; if that is seen edge-on, its edges pass as near.
   const auto wedge = [](const Points& a, const Points& b) {
     return hn::MulSub(a.x, b.y, a.y * b.x);
   };
@@ -129,8 +133,12 @@ HWY_INLINE M MeetsCylinder(const Triangles& t, float radius, float half_length) 
   const V w2 = wedge(c[0], c[1]);
   const M same_side = hn::Or(hn::Ge(hn::Min(w0, hn::Min(w1, w2)), zero),
                              hn::Le(hn::Max(w0, hn::Max(w1, w2)), zero));
+  const auto from_axis = [](const Points& p) { return hn::MulAdd(p.x, p.x, p.y * p.y); };
+  const V farthest = hn::Max(from_axis(c[0]), hn::Max(from_axis(c[1]), from_axis(c[2])));
+  const V area = hn::Abs(w0 + w1 + w2);
   const V height = hn::MulAdd(w0, c[0].z, hn::MulAdd(w1, c[1].z, w2 * c[2].z));
-  const M at_height = hn::Le(hn::Abs(height), high * hn::Abs(w0 + w1 + w2));
+  const M at_height =
+      hn::And(hn::Gt(area, farthest * Fill(1e-5f)), hn::Le(hn::Abs(height), high * area));
   return hn::And(between, hn::Or(meets, hn::And(same_side, at_height)));
 }
 

@@ -22,74 +22,24 @@
 #include "geometry/polyhedra.h"
 #include "tests/contract/collision_oracle.h"
 #include "tests/contract/collision_test_worlds.h"
+#include "tests/support/flying_tool.h"
 #include "tests/support/generated_meshes.h"
+#include "tests/support/line_meshes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/trials.h"
 
 namespace planbench {
 namespace {
 
-constexpr char kToolGeometry[] = R"(<mesh filename="tool.obj"/>)";
-
-/// Links in a row along x, the first one `from`, the last one `to`, `length_m` apart.
-std::string Boom(const std::string& from, const std::string& to, double length_m) {
-  constexpr double kStep = 500;  // lengths beyond a kilometre are refused
-  std::string urdf;
-  std::string last = from;
-  for (double left_m = length_m; left_m > 0; left_m -= kStep) {
-    const std::string next = left_m <= kStep ? to : to + std::to_string(left_m);
-    if (next != to) urdf += "<link name=\"" + next + "\"/>";
-    urdf += "<joint name=\"to_" + next + "\" type=\"fixed\"> <parent link=\"" + last +
-            "\"/> <child link=\"" + next + "\"/> <origin xyz=\"" +
-            std::to_string(std::min(left_m, kStep)) + " 0 0\"/> </joint>";
-    last = next;
-  }
-  return urdf;
-}
-
-/// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
-/// angles. The base is `far_m` from the origin, along x.
-Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
-                const std::string& base_geometry = {}, bool with_middles = false,
-                double far_m = 0) {
-  folder.Write("tool.obj", MeshAsObj(tool));
-  const auto body = [](const std::string& name, const std::string& geometry) {
-    if (geometry.empty()) return "<link name=\"" + name + "\"/>";
-    return "<link name=\"" + name +
-           "\"> <collision> <origin xyz=\"0.01 0 0\" rpy=\"0.1 0.2 0.3\"/>" + "<geometry>" +
-           geometry + "</geometry> </collision> </link>";
-  };
-  std::string urdf = "<robot name=\"flyer\">" + body("base", base_geometry);
-  if (far_m > 0) urdf += "<link name=\"origin\"/>" + Boom("origin", "base", far_m);
-  const std::vector<std::string> links = {"a", "b", "c", "d", "e", "tool"};
-  const std::vector<std::string> joints = {"x", "y", "z", "roll", "pitch", "yaw"};
-  const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    urdf += body(links[i], links[i] == "tool" ? kToolGeometry : "");
-    urdf += "<joint name=\"" + joints[i] + "\" type=\"" + (i < 3 ? "prismatic" : "revolute") +
-            "\"> <parent link=\"" + (i == 0 ? "base" : links[i - 1]) + "\"/> <child link=\"" +
-            links[i] + "\"/> <axis xyz=\"" + axes[i % 3] +
-            "\"/> <limit lower=\"-2\" upper=\"2\" velocity=\"1\" effort=\"1\"/> </joint>";
-  }
-  Robot robot;
-  robot.name = "flyer";
-  robot.model = RobotModel::FromUrdf(urdf + "</robot>", "flyer.urdf");
-  robot.groups = {robot.model.MakeGroup("flyer", joints, "tool")};
-  robot.resources.base_folder = folder.path();
-  if (with_middles) {
-    const int link = robot.model.FindLink("tool");
-    robot.enclosing_spheres = {{link, {0.2, 0, 0}, 0.15}, {link, {-0.2, 0.1, 0.1}, 0.2}};
-  }
-  return robot;
-}
-
 struct GeneratedMesh {
   std::string what;
   TriangleMesh triangles;
 };
 
-/// Closed and open, convex and not, of many parts, large and small triangles, some but lines.
+/// Closed and open, convex and not, of many parts, large and small triangles, some but lines or
+/// points, on edges or apart.
 std::vector<GeneratedMesh> ToolMeshes() {
+  std::mt19937_64 random(20);
   TriangleMesh lines = BoxMesh({0.3, 0.2, 0.25});
   lines.vertices.push_back((lines.vertices[0] + 3 * lines.vertices[1]) / 4);
   const auto last = static_cast<std::uint32_t>(lines.vertices.size() - 1);
@@ -105,7 +55,10 @@ std::vector<GeneratedMesh> ToolMeshes() {
           {"torus, ball and sheet", Joined(Joined(torus, SphereMesh(0.05, 12, 9), {0.4, 0, 0.1}),
                                            SheetMesh(0.1, 0.2, 5, 5), {0, 0.1, 0.3})},
           {"ball in a ball", Joined(SphereMesh(0.3, 20, 20),
-                                    TurnedInsideOut(SphereMesh(0.25, 20, 20)), {0, 0, 0.02})}};
+                                    TurnedInsideOut(SphereMesh(0.25, 20, 20)), {0, 0, 0.02})},
+          {"rods", LineMesh(RandomLines(12, 0.6, &random))},
+          {"box among rods",
+           Joined(BoxMesh({0.1, 0.2, 0.1}), LineMesh(RandomLines(12, 0.6, &random)), {0, 0, 0})}};
 }
 
 Mesh MeshFrom(TriangleMesh triangles) {
@@ -129,6 +82,7 @@ std::vector<Shape> SolidsOfEveryKind() {
           MeshFrom(TorusMesh(0.3, 0.15, 30, 20)),
           MeshFrom(SheetMesh(0.3, 0.3, 8, 8)),
           MeshFrom(BoxMesh({0.02, 0.02, 0.02})),
+          MeshFrom(LineMesh({{{-0.3, 0, 0}, {0.3, 0, 0}}, {{0, 0.2, 0.1}, {0, 0.2, 0.1}}})),
           MeshFrom(BoxMesh({1.5, 1.5, 1.5}))};
 }
 
@@ -422,6 +376,16 @@ TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
     }
   }
   EXPECT_GT(num_clear, Trials(100));
+}
+
+TEST(RobotMeshTruthTest, APartOfALargeMeshIsInsideALink) {
+  const TemporaryFolder folder;
+  const Robot robot = MakeFlyer(folder, BoxMesh({0.4, 0.4, 0.4}));
+  MeshComparison comparison(robot);
+  const TriangleMesh crumb = BoxMesh({0.01, 0.01, 0.01});
+  comparison.SetScene(SceneWith("crumbs", MeshFrom(Joined(crumb, crumb, {3, 0, 0}))));
+  EXPECT_FALSE(comparison.exact().IsFree(std::vector<double>(6, 0.0)));
+  EXPECT_FALSE(comparison.fast().IsFree(std::vector<double>(6, 0.0)));
 }
 
 TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
