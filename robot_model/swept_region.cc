@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/golden_section.h"
+
 namespace planbench {
 
 using Eigen::Vector3d;
@@ -23,30 +25,9 @@ double MaxDistanceToEllipse(const Eigen::Vector2d& w, double r, double s) {
   const auto dual = [&](double l) { return l + wx2 * l / (l - r2) + wy2 * l / (l - r2 * s2); };
   // The minimum lies where it does for s = 1 at the latest, l = r^2 + r |w|; towards r^2 the first
   // quotient grows without bound, unless w_x = 0.
-  double low = r2 * (1 + 1e-14);
-  double high = r2 + r * distance + r2 * 1e-13;
-  double best = std::min(dual(low), dual(high));
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double a = high - golden * (high - low);
-  double b = low + golden * (high - low);
-  double at_a = dual(a);
-  double at_b = dual(b);
-  for (int i = 0; i < 60 && high - low > 1e-9 * high; ++i) {
-    best = std::min({best, at_a, at_b});
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - golden * (high - low);
-      at_a = dual(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + golden * (high - low);
-      at_b = dual(b);
-    }
-  }
+  const double low = r2 * (1 + 1e-14);
+  const double high = r2 + r * distance + r2 * 1e-13;
+  const double best = LeastByGoldenSections(low, high, 1e-9, dual);
   // The circle around the ellipse bounds it too (and exactly, where the ellipse is one).
   return std::min(std::sqrt(best), distance + r);
 }
