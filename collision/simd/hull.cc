@@ -1,14 +1,12 @@
 #include "collision/simd/hull.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "collision/simd/simplex.h"
 #include "geometry/lexicographic_less.h"
 
 namespace planbench {
@@ -21,76 +19,25 @@ constexpr double kNegligible = 1e-5;
 /// Steps towards the nearest point of a hull.
 constexpr int kMostSteps = 50;
 
-/// Up to four points.
-struct Simplex {
-  std::array<Vector3d, 4> corners;
-  std::size_t size = 0;
-};
-
-/// The point of a simplex that is nearest to the origin, if that is inside of it or of a face of it
-/// that has the last corner. Corners that it does not need are dropped.
-Vector3d Nearest(Simplex* simplex) {
-  const std::size_t last = simplex->size - 1;
-  const Vector3d p = simplex->corners[last];
-  Vector3d nearest = p;
-  unsigned needed = 0;
-  for (unsigned others = 1; others < 1u << last; ++others) {
-    std::array<Vector3d, 3> edges;
-    std::size_t num = 0;
-    for (std::size_t i = 0; i < last; ++i) {
-      if ((others >> i & 1) != 0) edges[num++] = simplex->corners[i] - p;
-    }
-    Vector3d weights = Vector3d::Zero();
-    const auto& [a, b, c] = edges;
-    if (num == 1) {
-      weights[0] = -p.dot(a) / a.squaredNorm();
-    } else if (num == 2) {
-      const double ab = a.dot(b);
-      const double determinant = a.squaredNorm() * b.squaredNorm() - ab * ab;
-      weights[0] = (ab * p.dot(b) - b.squaredNorm() * p.dot(a)) / determinant;
-      weights[1] = (ab * p.dot(a) - a.squaredNorm() * p.dot(b)) / determinant;
-    } else {
-      const double volume = a.dot(b.cross(c));
-      weights = -Vector3d(p.dot(b.cross(c)), p.dot(c.cross(a)), p.dot(a.cross(b))) / volume;
-    }
-    // Not so of what is not a number, where the edges have no extent.
-    if (!(weights.minCoeff() >= 0 && weights.sum() <= 1)) continue;
-    Vector3d point = p;
-    for (std::size_t i = 0; i < num; ++i) point += weights[static_cast<Eigen::Index>(i)] * edges[i];
-    if (point.squaredNorm() >= nearest.squaredNorm()) continue;
-    nearest = point;
-    needed = others;
-  }
-  Simplex left;
-  for (std::size_t i = 0; i <= last; ++i) {
-    if (i == last || (needed >> i & 1) != 0) left.corners[left.size++] = simplex->corners[i];
-  }
-  *simplex = left;
-  return nearest;
-}
-
-/// An upper bound of the distance of a point from the hull of others, hardly more than it is
-/// (Gilbert, Johnson and Keerthi, A fast procedure for computing the distance between complex
-/// objects, 1988).
+/// An upper bound of the distance of a point from the hull of others, hardly more than it is.
 double DistanceFrom(const std::vector<Vector3d>& hull, const Vector3d& point) {
   const auto first =
       std::min_element(hull.begin(), hull.end(), [&](const Vector3d& a, const Vector3d& b) {
         return (a - point).squaredNorm() < (b - point).squaredNorm();
       });
-  Vector3d to_hull = *first - point;
-  Simplex simplex;
-  simplex.corners[simplex.size++] = to_hull;
+  Simplex<double> simplex;
+  simplex.Add(*first - point);
+  Vector3d to_hull = simplex.nearest();
   for (int i = 0; i < kMostSteps && to_hull.norm() > kNegligible; ++i) {
     const auto extreme = std::min_element(
         hull.begin(), hull.end(),
         [&](const Vector3d& a, const Vector3d& b) { return a.dot(to_hull) < b.dot(to_hull); });
     const Vector3d corner = *extreme - point;
     if (to_hull.dot(to_hull - corner) <= kNegligible * to_hull.norm()) break;
-    if (simplex.size == simplex.corners.size()) break;  // rounding: it encloses the point
-    simplex.corners[simplex.size++] = corner;
-    const Vector3d nearer = Nearest(&simplex);
-    if (nearer.squaredNorm() >= to_hull.squaredNorm()) break;
-    to_hull = nearer;
+    if (simplex.encloses_origin()) break;  // but for rounding
+    simplex.Add(corner);
+    if (simplex.squared_distance() >= to_hull.squaredNorm()) break;
+    to_hull = simplex.nearest();
   }
   return to_hull.norm();
 }

@@ -6,23 +6,22 @@
 #define PLANBENCH_KERNELS_HULLS_INL_H_
 #endif
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "collision/simd/kernels/transform-inl.h"
+#include "collision/simd/simplex.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
 
-// Planes between convex hulls, by Gilbert's algorithm (An iterative procedure for computing the
-// minimum of a quadratic form on a convex set, 1966): along a direction the two are apart by what
-// the extremes of their points are; the extremes are where a better direction is looked for. It
-// stops early, since what it does not tell apart the triangles decide.
+// Planes between convex hulls, by the algorithm of Gilbert, Johnson and Keerthi (see Simplex):
+// along a direction the two are apart by what the extremes of their points are; the extremes are
+// where a better direction is looked for. It stops early, since what it does not tell apart the
+// triangles decide, and nothing that it rounds makes a plane of what is none.
 
 /// Directions that are tried.
-inline constexpr int kMostDirections = 8;
+inline constexpr int kMostDirections = 12;
 
 /// Least d . p over a hull's points p, a direction a lane.
 HWY_INLINE V LeastAlong(const PointGroup* points, int num, const Points& d) {
@@ -90,27 +89,19 @@ inline float Dot(const float* a, const float* b) { return a[0] * b[0] + a[1] * b
 /// other to the one, any but 0; becomes the plane's, if one is found.
 template <typename Gap>
 HWY_INLINE bool PlaneBetween(float* direction, float margin, Gap gap) {
-  float v[3] = {direction[0], direction[1], direction[2]};
+  Simplex<float> simplex;
+  Eigen::Vector3f v = Eigen::Vector3f::Map(direction);
   for (int i = 0; i < kMostDirections; ++i) {
-    float w[3];
-    const float squared = Dot(v, v);
-    if (gap(v, w,
+    Eigen::Vector3f w;
+    const float squared = v.squaredNorm();
+    if (gap(v.data(), w.data(),
             [&](float apart) { return apart > 0 && apart * apart > margin * margin * squared; })) {
-      std::copy_n(v, 3, direction);
+      Eigen::Vector3f::Map(direction) = v;
       return true;
     }
-    if (i == 0) {
-      std::copy_n(w, 3, v);
-    } else {
-      // The point nearest to the origin of the segment from v to w, both differences of points.
-      const float e[3] = {w[0] - v[0], w[1] - v[1], w[2] - v[2]};
-      const float length = Dot(e, e);
-      if (length <= 0) return false;
-      const float s = std::clamp(-Dot(v, e) / length, 0.0f, 1.0f);
-      if (s <= 0) return false;
-      for (int k = 0; k < 3; ++k) v[k] += s * e[k];
-    }
-    if (Dot(v, v) <= margin * margin) return false;
+    simplex.Add(w);
+    if (simplex.encloses_origin() || simplex.squared_distance() <= margin * margin) return false;
+    v = simplex.nearest();
   }
   return false;
 }
