@@ -11,6 +11,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "common/error.h"
@@ -55,7 +56,10 @@ class MeshBuilder {
 
   // Mirroring turns surfaces inside out; the order of the corners turns them back.
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool mirrored) {
-    if (a == b || b == c || c == a) return;  // Joining made it a line: no surface.
+    if (a == b || b == c || c == a) {
+      lines_.emplace(std::min({a, b, c}), std::max({a, b, c}));
+      return;
+    }
     if (mirrored) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
   }
@@ -72,11 +76,24 @@ class MeshBuilder {
         file_, farthest, 1000 * rounding));
   }
 
-  TriangleMesh Take() { return std::move(mesh_); }
+  // Files have thousands of lines that are edges of other triangles, and add nothing to them.
+  TriangleMesh Take() {
+    for (const auto& t : mesh_.triangles) {
+      if (lines_.empty()) break;
+      for (std::size_t k = 0; k < 3; ++k) {
+        lines_.erase({t[k], t[k]});
+        lines_.erase(std::minmax(t[k], t[(k + 1) % 3]));
+      }
+    }
+    for (const auto& [a, b] : lines_) mesh_.triangles.push_back({a, b, a});
+    return std::move(mesh_);
+  }
 
  private:
   const std::string& file_;
   TriangleMesh mesh_;
+  // Triangles with corners in one place, by their ends: those of points are equal.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> lines_;
   std::map<std::array<double, 3>, std::uint32_t> index_;
 };
 

@@ -31,7 +31,8 @@ std::map<std::string, std::filesystem::path> ParsePackagePaths(
 
 /// Reads an STL or PLY (binary or ASCII), OBJ or DAE file, all its meshes joined with their node
 /// transforms and the file's unit applied, vertices scaled per axis. What other formats assimp
-/// knows is read as well. Throws InputError if it cannot be read or has no triangles.
+/// knows is read as well. Triangles with corners in one place are left out where another has that
+/// edge or corner. Throws InputError if it cannot be read or has no triangles.
 TriangleMesh LoadMesh(const std::filesystem::path& path,
                       const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 

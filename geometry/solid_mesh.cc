@@ -1,12 +1,13 @@
 #include "geometry/solid_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "geometry/degenerate_triangles.h"
 #include "geometry/lexicographic_less.h"
 
 namespace planbench {
@@ -29,44 +30,47 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
       return LexicographicLess(a, b);
     }
   };
-  std::map<Eigen::Vector3d, int, Less> index_of;
-  std::vector<int> welded;
+  std::map<Eigen::Vector3d, std::uint32_t, Less> index_of;
+  std::vector<std::uint32_t> joined_index;
+  TriangleMesh joined;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    welded.push_back(index_of.emplace(vertex, static_cast<int>(index_of.size())).first->second);
+    const auto next = static_cast<std::uint32_t>(joined.vertices.size());
+    const auto [entry, is_new] = index_of.emplace(vertex, next);
+    if (is_new) joined.vertices.push_back(vertex);
+    joined_index.push_back(entry->second);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    joined.triangles.push_back({joined_index[a], joined_index[b], joined_index[c]});
   }
 
   struct Edge {
     int triangles = 0;
     int balance = 0;  // triangles that run along it less those that run against it
   };
-  std::map<std::pair<int, int>, Edge> edges;
-  std::vector<int> parent(index_of.size());  // disjoint sets of vertices
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) {
-      int& up = parent[static_cast<std::size_t>(v)];
-      up = parent[static_cast<std::size_t>(up)];
-      v = up;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
+  std::vector<std::uint32_t> parent(joined.vertices.size());  // disjoint sets of vertices
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&parent](std::uint32_t v) {
+    while (parent[v] != v) {
+      parent[v] = parent[parent[v]];
+      v = parent[v];
     }
     return v;
   };
   std::vector<Triangle> all;
-  std::vector<int> vertex_of;                       // one vertex of each triangle
-  std::vector<bool> known(index_of.size(), false);  // vertices, of what component_points_ tells of
-  for (const auto& triangle : mesh.triangles) {
-    const std::array<int, 3> v = {welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]};
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // no area
-    all.push_back(
-        {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]], true});
+  std::vector<std::uint32_t> vertex_of;           // one vertex of each triangle
+  std::vector<bool> known(parent.size(), false);  // vertices, of what component_points_ tells of
+  for (const auto& v : SurfaceTriangles(joined)) {
+    all.push_back({joined.vertices[v[0]], joined.vertices[v[1]], joined.vertices[v[2]], true});
     vertex_of.push_back(v[0]);
     for (std::size_t k = 0; k < 3; ++k) {
-      const int a = v[k];
-      const int b = v[(k + 1) % 3];
-      Edge& edge = edges[{std::min(a, b), std::max(a, b)}];
+      const std::uint32_t a = v[k];
+      const std::uint32_t b = v[(k + 1) % 3];
+      Edge& edge = edges[std::minmax(a, b)];
       ++edge.triangles;
       edge.balance += a < b ? 1 : -1;
-      parent[static_cast<std::size_t>(root(a))] = root(b);
-      known[static_cast<std::size_t>(a)] = true;
+      parent[root(a)] = root(b);
+      known[a] = true;
     }
   }
 
@@ -75,14 +79,14 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     bool closed = true;
     bool oriented = true;
   };
-  std::vector<Component> components(index_of.size());  // by root vertex
+  std::vector<Component> components(parent.size());  // by root vertex
   for (const auto& [ends, edge] : edges) {
-    Component& component = components[static_cast<std::size_t>(root(ends.first))];
+    Component& component = components[root(ends.first)];
     if (edge.triangles % 2 != 0) component.closed = false;
     if (edge.balance != 0) component.oriented = false;
   }
   for (std::size_t t = 0; t < all.size(); ++t) {
-    Component& component = components[static_cast<std::size_t>(root(vertex_of[t]))];
+    Component& component = components[root(vertex_of[t])];
     if (!component.seen) {
       component_points_.push_back(all[t].a);
       ++survey_.components;
@@ -99,15 +103,12 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     survey_.volume += (all[t].a - apex).dot((all[t].b - apex).cross(all[t].c - apex)) / 6;
   }
   // Lines and points without a component.
-  for (const auto& triangle : mesh.triangles) {
-    const auto is_known = [&](std::uint32_t index) {
-      return known[static_cast<std::size_t>(welded[index])];
-    };
+  for (const auto& triangle : joined.triangles) {
+    const auto is_known = [&](std::uint32_t v) { return known[v]; };
     if (std::ranges::none_of(triangle, is_known)) {
-      component_points_.push_back(mesh.vertices[triangle[0]]);
+      component_points_.push_back(joined.vertices[triangle[0]]);
     }
-    for (const std::uint32_t index : triangle)
-      known[static_cast<std::size_t>(welded[index])] = true;
+    for (const std::uint32_t v : triangle) known[v] = true;
   }
   if (has_inside()) BuildGrid();
 }

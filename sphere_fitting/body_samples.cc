@@ -61,8 +61,8 @@ BodySamples SampleBody(const LinkBody& body, int on_surface, int inside) {
   }
   if (!(low.array() <= high.array()).all()) return samples;
   const double extent = (high - low).norm();
-  // Slivers without area still need some.
-  samples.spacing_m = std::max(std::sqrt(area / on_surface), 0.002 * extent);
+  // Slivers without area still need some, and points one.
+  samples.spacing_m = std::max({std::sqrt(area / on_surface), 0.002 * extent, 1e-9});
   ThinnedPoints surface(samples.spacing_m);
   for (const Solid* solid : body.hulls()) {
     const TriangleMesh& mesh = solid->mesh();

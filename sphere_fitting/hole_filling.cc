@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/degenerate_triangles.h"
+
 namespace planbench {
 namespace {
 
@@ -23,9 +25,9 @@ double Area(const TriangleMesh& mesh, const Triangle& triangle) {
 // Vertices that triangles join.
 class Parts {
  public:
-  explicit Parts(const TriangleMesh& mesh) : up_(mesh.vertices.size()) {
+  Parts(std::size_t num_vertices, const std::vector<Triangle>& triangles) : up_(num_vertices) {
     std::iota(up_.begin(), up_.end(), 0U);
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : triangles) {
       up_[Root(t[0])] = Root(t[1]);
       up_[Root(t[1])] = Root(t[2]);
     }
@@ -44,13 +46,13 @@ class Parts {
 
 // The loops of edges that an odd number of triangles have, each as its vertices, run through
 // against the triangles that are there.
-std::vector<std::vector<Index>> Loops(const TriangleMesh& mesh) {
+std::vector<std::vector<Index>> Loops(const std::vector<Triangle>& triangles) {
   struct Edge {
     int triangles = 0;
     int balance = 0;  // Those that run from the lower vertex to the higher, less the others.
   };
   std::map<std::pair<Index, Index>, Edge> edges;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = t[k];
       const Index b = t[(k + 1) % 3];
@@ -92,11 +94,12 @@ std::vector<std::vector<Index>> Loops(const TriangleMesh& mesh) {
 }  // namespace
 
 int FillSmallHoles(TriangleMesh* mesh) {
-  const std::vector<std::vector<Index>> loops = Loops(*mesh);
+  const std::vector<Triangle> surface = SurfaceTriangles(*mesh);
+  const std::vector<std::vector<Index>> loops = Loops(surface);
   if (loops.empty()) return 0;
-  Parts parts(*mesh);
+  Parts parts(mesh->vertices.size(), surface);
   std::map<Index, double> area;
-  for (const Triangle& t : mesh->triangles) area[parts.Root(t[0])] += Area(*mesh, t);
+  for (const Triangle& t : surface) area[parts.Root(t[0])] += Area(*mesh, t);
   std::map<Index, double> missing;
   std::map<Index, std::vector<Triangle>> patches;
   std::map<Index, int> holes;

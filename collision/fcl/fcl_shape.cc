@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "collision/shape_check.h"
+#include "geometry/degenerate_triangles.h"
 #include "geometry/lexicographic_less.h"
 #include "geometry/mesh_surface.h"
 #include "geometry/solid_mesh.h"
@@ -74,9 +75,8 @@ Line LineBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// collide.
 struct SplitMesh {
   std::vector<fcl::Triangle> triangles;
-  /// As {a, b, a}: the longest edge, from which nothing of such a triangle is further than 1e-6 of
-  /// its length. Those that are edges or corners of a triangle with an area, as most are that files
-  /// have, are left out.
+  /// What they are (AsLine), as {a, b, a}. Those that are edges or corners of a triangle with an
+  /// area, as most are that files have, are left out.
   std::vector<Corners> lines;
 };
 
@@ -85,16 +85,8 @@ SplitMesh SplitTriangles(const TriangleMesh& mesh) {
   split.triangles.reserve(mesh.triangles.size());
   std::set<Line> lines;
   for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d* const corners[] = {&mesh.vertices[t[0]], &mesh.vertices[t[1]],
-                                              &mesh.vertices[t[2]]};
-    const Eigen::Vector3d edges[] = {*corners[1] - *corners[0], *corners[2] - *corners[1],
-                                     *corners[0] - *corners[2]};
-    std::size_t longest = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (edges[k].squaredNorm() > edges[longest].squaredNorm()) longest = k;
-    }
-    if (edges[0].cross(edges[1]).norm() <= 1e-6 * edges[longest].squaredNorm()) {
-      lines.insert(LineBetween(*corners[longest], *corners[(longest + 1) % 3]));
+    if (const auto line = AsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) {
+      lines.insert(LineBetween(line->a, line->b));
     } else {
       split.triangles.emplace_back(t[0], t[1], t[2]);
     }

@@ -172,6 +172,25 @@ TEST_F(LoadMeshTest, EveryFormatGivesTheSameTriangles) {
   }
 }
 
+TEST_F(LoadMeshTest, LinesAndPointsAreLeftOutWhereOtherTrianglesHaveThem) {
+  TriangleMesh mesh = UnevenBoxMesh();
+  mesh.vertices.insert(mesh.vertices.end(), {{3, 3, 3}, {3, 3, 4}, {3, 3, 3}, {5, 5, 5}});
+  TriangleMesh expected = mesh;
+  mesh.triangles.insert(mesh.triangles.end(),
+                        {{0, 0, 1}, {2, 1, 1}, {7, 7, 7}, {8, 9, 8}, {9, 9, 10}, {11, 11, 11}});
+  expected.triangles.insert(expected.triangles.end(), {{8, 9, 8}, {11, 11, 11}});
+  const std::vector<std::pair<std::string, std::string>> files = {{"ascii.stl", AsciiStl(mesh)},
+                                                                  {"lines.obj", Obj(mesh)},
+                                                                  {"lines.dae", Dae(mesh)},
+                                                                  {"lines.ply", Ply(mesh)}};
+  for (const auto& [name, content] : files) {
+    SCOPED_TRACE(name);
+    const TriangleMesh loaded = LoadMesh(folder_.Write(name, content));
+    EXPECT_EQ(TriangleSet(loaded), TriangleSet(expected));
+    EXPECT_EQ(loaded.triangles.size(), expected.triangles.size());
+  }
+}
+
 TEST_F(LoadMeshTest, SplitsPolygonsIntoTriangles) {
   const TriangleMesh mesh = LoadMesh(
       folder_.Write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nf 1 2 3 4\n"));
@@ -357,7 +376,6 @@ TEST_F(LoadMeshTest, RefusesBadFilesByName) {
       {"cut.stl", BinaryStl(UnevenBoxMesh()).substr(0, 200)},
       {"nothing.stl", "solid nothing\nendsolid nothing\n"},
       {"points.obj", "o points\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"},
-      {"flat.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"},
       {"cut.dae", Dae(UnevenBoxMesh()).substr(0, 700)},
       {"skew.dae", Dae(UnevenBoxMesh(), {.transform = "<skew>45 0 1 0 1 0 0</skew>"})},
       {"unknown.xyz", "0 0 0\n"}};

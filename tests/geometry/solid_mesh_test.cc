@@ -57,6 +57,37 @@ TEST(SolidMeshTest, LinesAndPointsApartAreParts) {
   EXPECT_TRUE(solid.Contains(kHere));
 }
 
+TEST(SolidMeshTest, SliversCloseAPartAndOpenNone) {
+  TriangleMesh mesh = Cube(2);
+  const auto [a, b, c] = mesh.triangles[0];
+  const Eigen::Vector3d corner = mesh.vertices[c];
+  // The middle of an edge that one side alone has.
+  mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+  mesh.triangles[0] = {a, 8, c};
+  mesh.triangles.push_back({8, b, c});
+  EXPECT_FALSE(SolidMesh(mesh).has_inside());
+  mesh.triangles.push_back({a, b, 8});
+  const auto expect_cube = [&](std::size_t num_points) {
+    const SolidMesh solid(mesh);
+    EXPECT_EQ(solid.component_points().size(), num_points);
+    EXPECT_EQ(solid.survey().components, 1);
+    EXPECT_EQ(solid.survey().open, 0);
+    EXPECT_EQ(solid.survey().not_oriented, 0);
+    EXPECT_NEAR(solid.survey().volume, 8, 1e-12);
+    EXPECT_TRUE(solid.Contains(kHere));
+  };
+  expect_cube(1);
+  mesh.triangles.push_back({a, b, 8});  // once more
+  expect_cube(1);
+  // From a corner outwards, three that share edges; and one apart.
+  for (const double share : {2, 3, 4, 5}) mesh.vertices.emplace_back(share * corner);
+  mesh.triangles.insert(mesh.triangles.end(), {{c, 9, 10}, {9, 10, 11}, {c, 9, 12}});
+  expect_cube(1);
+  mesh.vertices.insert(mesh.vertices.end(), {{7, 0, 0}, {8, 0, 0}, {9, 0, 0}});
+  mesh.triangles.push_back({13, 14, 15});
+  expect_cube(2);
+}
+
 TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
   // An octahedron: the ray along z meets its tip, its edges and, from the side, its rim.
   TriangleMesh mesh;

@@ -30,6 +30,11 @@ TEST(FillSmallHoles, LeavesWhatIsOpenAndWhatIsClosed) {
   EXPECT_EQ(sheet.triangles.size(), triangles);
   TriangleMesh sphere = SphereMesh(0.3, 20, 10);
   EXPECT_EQ(FillSmallHoles(&sphere), 0);
+  // A point, a line and a sliver are no holes.
+  sphere.vertices.push_back(3 * sphere.vertices[0] - 2 * sphere.vertices[1]);
+  const auto last = static_cast<std::uint32_t>(sphere.vertices.size() - 1);
+  sphere.triangles.insert(sphere.triangles.end(), {{0, 0, 0}, {0, last, 0}, {0, 1, last}});
+  EXPECT_EQ(FillSmallHoles(&sphere), 0);
 }
 
 }  // namespace

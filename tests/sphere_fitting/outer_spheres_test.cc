@@ -218,6 +218,11 @@ TEST(FitOuterSpheres, TrianglesWithoutAreaAreHeldToo) {
   const std::vector<Ball> balls = FitOuterSpheres({body}, Spheres(3))[0].balls;
   for (int i = 0; i <= 100; ++i) EXPECT_TRUE(InOne(balls, {0.004 * i, 0, 0}));
   EXPECT_TRUE(FitInnerSpheres(body, 3).empty());
+  TriangleMesh point;
+  point.vertices = {{1, 2, 3}};
+  point.triangles = {{0, 0, 0}};
+  const LinkBody small = BodyOf(point, Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(InOne(FitOuterSpheres({small}, Spheres(1))[0].balls, {1, 2, 3}));
 }
 
 }  // namespace

@@ -13,14 +13,13 @@ namespace planbench {
 /// Lines from the first point to the second, points where these are equal.
 using Lines = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
 
-/// A mesh of triangles that are these lines: with three corners in a row or, unless it is to be
-/// written to a file, from which these are not read, two in one place.
-inline TriangleMesh LineMesh(const Lines& lines, bool for_file = false) {
+/// A mesh of triangles that are these lines: with three corners in a row or two in one place.
+inline TriangleMesh LineMesh(const Lines& lines) {
   TriangleMesh mesh;
   for (const auto& [a, b] : lines) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), {a, b, a + 0.3 * (b - a)});
-    if (for_file || first % 2 == 0) {
+    if (first % 2 == 0) {
       mesh.triangles.push_back({first + 2, first, first + 1});
     } else {
       mesh.triangles.push_back({first, first + 1, first});

@@ -113,10 +113,9 @@ void ExpectAsTheOracle(const Robot& robot, const Scene& scene,
 TEST(LineTruthTest, OfTheRobot) {
   std::mt19937_64 random(41);
   for (const int num : {3, 4, 12}) {
-    Lines lines = RandomLines(num, 0.5, &random);
-    std::erase_if(lines, [](const auto& line) { return line.first == line.second; });
+    const Lines lines = RandomLines(num, 0.5, &random);
     const TemporaryFolder folder;
-    const Robot robot = MakeFlyer(folder, LineMesh(lines, true));
+    const Robot robot = MakeFlyer(folder, LineMesh(lines));
     for (const Solid& solid : Solids()) {
       SCOPED_TRACE(std::to_string(num) + " and " + ShapeTypeName(solid.shape));
       const Eigen::Isometry3d X_WO = RandomPose(&random, 0.2);
