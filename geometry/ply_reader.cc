@@ -195,12 +195,16 @@ class PlyReader {
       if (is_text_) TakeElementLine();
       Eigen::Vector3d position = Eigen::Vector3d::Zero();
       for (const PlyProperty& property : element.properties) {
+        digits_may_follow_ = false;
         if (property.count_type != nullptr) {
           ReadList(property);
           if (IsCorners(element, property)) AddCorners(IsStrips(element));
         } else {
           const double value = TakeValue(*property.type);
-          if (const auto axis = Axis(element, property)) position(*axis) = value;
+          if (const auto axis = Axis(element, property)) {
+            position(*axis) = value;
+            digits_may_follow_ = true;
+          }
         }
       }
       if (element.name == "vertex") AddVertex(position);
@@ -250,6 +254,7 @@ class PlyReader {
   void AddCorners(bool is_strips) {
     std::vector<std::uint32_t> corners;  // Counted from 1.
     for (const double index : list_) {
+      digits_may_follow_ = index > 0 && 10 * index < static_cast<double>(num_vertices_);
       if (is_strips && index == -1) {
         AddStrip(corners);
         corners.clear();
@@ -284,8 +289,10 @@ class PlyReader {
 
   void RefuseRest() const {
     // A number that is cut off is a number.
-    if (is_text_ && !line_has_end_) {
-      Fail("the last line has no end; the file may be cut off (end the line if it is whole)");
+    if (is_text_ && !line_has_end_ && words_.empty() && digits_may_follow_) {
+      Fail(
+          "the last line has no end, so that its last number may be cut off; if it is whole, end "
+          "the line (echo >> FILE)");
     }
     constexpr std::string_view kFilling(" \t\r\n\0", 5);
     if (rest_.find_first_not_of(kFilling) == std::string_view::npos) return;
@@ -306,6 +313,8 @@ class PlyReader {
   std::uint64_t num_vertices_ = 0;
   std::string place_;       // Element being read, for messages.
   std::string_view words_;  // Left of its line.
+  // The number that came last is used, and would be another, as good, with more digits.
+  bool digits_may_follow_ = false;
   std::vector<double> list_;
   PlainPolygons polygons_;
 };
