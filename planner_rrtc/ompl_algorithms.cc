@@ -51,15 +51,13 @@ ob::PlannerPtr MakeScanning(const ob::SpaceInformationPtr& si) {
   return planner;
 }
 
-/// OMPL's PRM divides its time between growing and expanding by the clock and looks for solutions
-/// in a second thread, so that no two runs are alike. The same roadmap, grown only, in one thread,
-/// towards one sample of the goal.
-template <bool kStar>
-class RepeatablePrm final : public og::PRM {
+/// A roadmap of OMPL's from the starts towards one sample of the goal; ends with its first path.
+template <typename Roadmap>
+class OneQueryRoadmap : public Roadmap {
  public:
-  explicit RepeatablePrm(const ob::SpaceInformationPtr& si) : og::PRM(si, kStar) {}
+  using Roadmap::Roadmap;
 
-  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) final {
     checkValidity();
     while (const ob::State* state = pis_.nextStart()) {
       startM_.push_back(addMilestone(si_->cloneState(state)));
@@ -69,17 +67,38 @@ class RepeatablePrm final : public og::PRM {
       goalM_.push_back(addMilestone(si_->cloneState(state)));
     }
     if (goalM_.empty()) return ob::PlannerStatus::INVALID_GOAL;
-    if (!sampler_) sampler_ = si_->allocValidStateSampler();
 
-    ob::PathPtr solution;
     ob::State* sample = si_->allocState();
-    while (!ptc && !maybeConstructSolution(startM_, goalM_, solution)) {
-      if (sampler_->sample(sample)) addMilestone(si_->cloneState(sample));
-    }
+    const ob::PathPtr solution = FindPath(ptc, sample);
     si_->freeState(sample);
     if (!solution) return ob::PlannerStatus::TIMEOUT;
     pdef_->addSolutionPath(solution, /*approximate=*/false, /*difference=*/0, getName());
     return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+
+ protected:
+  /// Grows the roadmap until it has a path. `sample`: for its samples. Null if stopped.
+  virtual ob::PathPtr FindPath(const ob::PlannerTerminationCondition& ptc, ob::State* sample) = 0;
+
+  using Roadmap::addMilestone, Roadmap::checkValidity, Roadmap::getName, Roadmap::goalM_,
+      Roadmap::pdef_, Roadmap::pis_, Roadmap::si_, Roadmap::startM_;
+};
+
+/// OMPL's PRM divides its time between growing and expanding by the clock and looks for solutions
+/// in a second thread, so that no two runs are alike. The same roadmap, grown only, in one thread.
+template <bool kStar>
+class RepeatablePrm final : public OneQueryRoadmap<og::PRM> {
+ public:
+  explicit RepeatablePrm(const ob::SpaceInformationPtr& si) : OneQueryRoadmap(si, kStar) {}
+
+ private:
+  ob::PathPtr FindPath(const ob::PlannerTerminationCondition& ptc, ob::State* sample) override {
+    if (!sampler_) sampler_ = si_->allocValidStateSampler();
+    ob::PathPtr solution;
+    while (!ptc && !maybeConstructSolution(startM_, goalM_, solution)) {
+      if (sampler_->sample(sample)) addMilestone(si_->cloneState(sample));
+    }
+    return solution;
   }
 };
 
@@ -88,44 +107,24 @@ class RepeatablePrm final : public og::PRM {
 /// the limit has come no edge is free (EdgeChecker::StopWhen), and a large roadmap takes long to
 /// undo. Frees its states, too, which OMPL's own leaves behind when it is destroyed (1.5).
 template <typename LazyRoadmap>
-class PunctualRoadmap final : public LazyRoadmap {
+class PunctualRoadmap final : public OneQueryRoadmap<LazyRoadmap> {
  public:
-  explicit PunctualRoadmap(const ob::SpaceInformationPtr& si) : LazyRoadmap(si) {}
-  ~PunctualRoadmap() override { freeMemory(); }
-
-  /// Ends with the first path: neither is offered as an anytime planner.
-  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
-    checkValidity();
-    while (const ob::State* state = pis_.nextStart()) {
-      startM_.push_back(addMilestone(si_->cloneState(state)));
-    }
-    if (startM_.empty()) return ob::PlannerStatus::INVALID_START;
-    if (const ob::State* state = pis_.nextGoal(ptc)) {
-      goalM_.push_back(addMilestone(si_->cloneState(state)));
-    }
-    if (goalM_.empty()) return ob::PlannerStatus::INVALID_GOAL;
-
-    ob::PathPtr solution;
-    std::pair<std::size_t, std::size_t> ends;  // of a path, among starts and goals
-    ob::State* sample = si_->allocState();
-    while (!solution && !ptc) {
-      sampler_->sampleUniform(sample);
-      addMilestone(si_->cloneState(sample));
-      while (!solution && !ptc && solutionComponent(&ends) != -1) {
-        solution = constructSolution(startM_[ends.first], goalM_[ends.second]);
-      }
-    }
-    si_->freeState(sample);
-    if (!solution) return ob::PlannerStatus::TIMEOUT;
-    pdef_->addSolutionPath(solution, /*approximate=*/false, /*difference=*/0, getName());
-    return ob::PlannerStatus::EXACT_SOLUTION;
-  }
+  explicit PunctualRoadmap(const ob::SpaceInformationPtr& si) : OneQueryRoadmap<LazyRoadmap>(si) {}
+  ~PunctualRoadmap() override { this->freeMemory(); }
 
  private:
-  using LazyRoadmap::addMilestone, LazyRoadmap::checkValidity, LazyRoadmap::constructSolution,
-      LazyRoadmap::freeMemory, LazyRoadmap::getName, LazyRoadmap::goalM_, LazyRoadmap::pdef_,
-      LazyRoadmap::pis_, LazyRoadmap::sampler_, LazyRoadmap::si_, LazyRoadmap::solutionComponent,
-      LazyRoadmap::startM_;
+  ob::PathPtr FindPath(const ob::PlannerTerminationCondition& ptc, ob::State* sample) override {
+    ob::PathPtr solution;
+    std::pair<std::size_t, std::size_t> ends;  // of a path, among starts and goals
+    while (!solution && !ptc) {
+      this->sampler_->sampleUniform(sample);
+      this->addMilestone(this->si_->cloneState(sample));
+      while (!solution && !ptc && this->solutionComponent(&ends) != -1) {
+        solution = this->constructSolution(this->startM_[ends.first], this->goalM_[ends.second]);
+      }
+    }
+    return solution;
+  }
 };
 
 using enum PlannerClass;
