@@ -22,6 +22,7 @@
 #include "messaging/asked_runs.h"
 #include "messaging/node_announcer.h"
 #include "messaging/session_conditions.h"
+#include "planning/path_judge.h"
 #include "planning/told_edges.h"
 #include "results/reason_count.h"
 #include "results/training.h"
@@ -304,7 +305,7 @@ void Driver::CompleteConditions() {
   if (!request.edge_resolution_m) request.edge_resolution_m = served_.edge_resolution_m;
   if (!request.edge_check) request.edge_check = served_.edge_check;
   if (!conditions.referee_step_m) {
-    conditions.referee_step_m = std::max(*request.edge_resolution_m / 2, kFinestDefaultRefereeStep);
+    conditions.referee_step_m = DefaultRefereeStep(*request.edge_resolution_m);
   }
   conditions.referee_robot_id = served_.referee_robot_id;
   for (const LineUpEntry& entry : line_up_) AddContestant(entry);

@@ -16,10 +16,6 @@
 
 namespace planbench {
 
-/// Of the referee where none is asked for, m: a verdict on a usual path of an arm takes seconds at
-/// most, whatever edge resolution it would be half of.
-inline constexpr double kFinestDefaultRefereeStep = 2e-4;
-
 /// What the driver was asked to do.
 struct DriverOptions {
   std::vector<std::string> sets;     ///< Empty: every set the scene server announces.

@@ -1,6 +1,6 @@
 // Runs one planner over problem sets in this process, without the bus: solved, times, effort and
-// where the time went, a table row for each set and direction. Every path is judged at half the
-// edge resolution, as the referee does it.
+// where the time went, a table row for each set and direction. Every path is judged at the step
+// that a session's referee takes by default.
 //
 //   planner_benchmark --problems DIR [DIR ...] --planner ara|rrtc|trajopt [--set KEY=VALUE ...]
 //
@@ -88,8 +88,9 @@ class Referee {
     std::unique_ptr<CollisionChecker>& checker = checkers_[group.name];
     if (checker == nullptr) checker = MakeCollisionChecker(robot_, group, request.collision_model);
     checker->SetScene(scene, query.base_positions);
-    const double resolution_m = request.edge_resolution_m.value_or(robot_.edge_resolution_m);
-    return JudgePath(checker.get(), path, query.start, query.goals, resolution_m / 2, false).valid;
+    const double step_m =
+        DefaultRefereeStep(request.edge_resolution_m.value_or(robot_.edge_resolution_m));
+    return JudgePath(checker.get(), path, query.start, query.goals, step_m, false).valid;
   }
 
  private:

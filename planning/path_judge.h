@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,15 @@ inline constexpr double kMaxPathSamples = 1e6;
 /// A path is too long, whatever the step, if points of the robot may move further than this on it,
 /// m: then there would be as many at steps of 1 cm.
 inline constexpr double kMaxPathMotion = 1e4;
+/// The finest step at which paths are judged where none is asked for, m: a verdict on a usual path
+/// of an arm takes seconds at most.
+inline constexpr double kFinestDefaultRefereeStep = 2e-4;
+
+/// The step at which paths are judged where none is asked for, m: half of the edge resolution, but
+/// not finer than that.
+inline double DefaultRefereeStep(double edge_resolution_m) {
+  return std::max(edge_resolution_m / 2, kFinestDefaultRefereeStep);
+}
 
 /// The referee's finding about a path.
 struct PathVerdict {

@@ -174,6 +174,12 @@ TEST_F(PathJudgeTest, OfTooManySamplesAPathIsTooLongOrTheStepTooFine) {
               HasSubstr("waypoint 1: joint 'elbow' at 1e+09 rad is outside"));
 }
 
+TEST_F(PathJudgeTest, ByDefaultAtHalfTheEdgeResolutionButNotTooFine) {
+  EXPECT_EQ(DefaultRefereeStep(0.02), 0.01);
+  const double step_m = DefaultRefereeStep(1e-6);
+  EXPECT_TRUE(Judge(straight_, EmptyPlanarScene(), false, step_m).valid) << step_m;
+}
+
 TEST_F(PathJudgeTest, RefusesBadSteps) {
   for (const double step_m : {0.0, -0.01, std::nan(""), double{INFINITY}}) {
     ExpectInputError([&] { Judge(straight_, EmptyPlanarScene(), false, step_m); }, {"step_m"});
