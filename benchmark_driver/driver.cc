@@ -165,6 +165,7 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     const bool is_to_repeat = IsToRepeat(standing);
     if (is_to_repeat && is_in_call) repeats_[record.request_id] = standing.repeats;
     num_owed_repeats_ += is_to_repeat && !is_in_call;
+    num_owed_unjudgeable_ += IsUnjudgeable(record);
     Keep(record);
   }
   std::erase_if(schedule_, [&](const ScheduledRun& run) {

@@ -60,6 +60,8 @@ class Driver {
   /// Of them those that the resumed session was to make and this call is not; some may have a
   /// record, of that they were not asked for.
   int num_owed() const { return num_owed_; }
+  /// Of these those that no resumed session makes (messaging/asked_runs.h).
+  int num_owed_unjudgeable() const { return num_owed_unjudgeable_; }
   /// Disturbed runs of the resumed session that are still to be made again, and not by this call.
   int num_owed_repeats() const { return num_owed_repeats_; }
   /// These, and those of this call, be it that no request could be sent for them.
@@ -153,6 +155,7 @@ class Driver {
   std::vector<ScheduledRun> schedule_;  // what is left to do
   int num_runs_ = 0;                    // of the session, those done earlier included
   int num_owed_ = 0;                    // of those the resumed session's that are not to do
+  int num_owed_unjudgeable_ = 0;
   int num_owed_repeats_ = 0;
   std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's

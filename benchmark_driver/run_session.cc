@@ -251,17 +251,11 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
                  number == 1 ? "1 run" : fmt::format("{} runs", number),
                  WhatMakesThem(number, driver.num_unjudgeable()));
   }
-  std::vector<std::string> owed;
-  if (const int number = driver.num_owed(); number > 0) {
-    owed.push_back(fmt::format("not made: {}", number));
-  }
-  if (const int number = driver.num_owed_repeats(); number > 0) {
-    owed.push_back(fmt::format("disturbed and not made again: {}", number));
-  }
-  if (!owed.empty()) {
-    spdlog::warn("runs of the session's earlier plan {}; it is not finished; go on with: {}",
-                 fmt::join(owed, ", "),
-                 ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume)));
+  if (driver.num_owed() > 0 || driver.num_owed_repeats() > 0) {
+    spdlog::warn(
+        "{}",
+        DescribeOwed(driver.num_owed(), driver.num_owed_unjudgeable(), driver.num_owed_repeats(),
+                     ResumingCommand(earlier_flags, std::filesystem::absolute(*options.resume))));
   }
   if (const std::vector<std::string>& awaited = driver.awaited_shards(); !awaited.empty()) {
     spdlog::warn("the session is not finished; shards missing: {}", fmt::join(awaited, "; "));

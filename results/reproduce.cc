@@ -1,6 +1,7 @@
 #include "results/reproduce.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -99,6 +100,24 @@ std::string WhatMakesThem(int number, int num_unjudgeable) {
   if (num_unjudgeable == number) return fmt::format("{} makes {}", new_session, them);
   return fmt::format("--resume makes {} of them, {} the others", number - num_unjudgeable,
                      new_session);
+}
+
+std::string DescribeOwed(int number, int num_unjudgeable, int num_repeats,
+                         const std::string& resuming) {
+  std::vector<std::string> owed;
+  if (number > 0) {
+    const std::string what =
+        num_unjudgeable == 0 ? "" : fmt::format(" ({})", WhatMakesThem(number, num_unjudgeable));
+    owed.push_back(fmt::format("not made: {}{}", number, what));
+  }
+  if (num_repeats > 0) {
+    owed.push_back(fmt::format("disturbed and not made again: {}", num_repeats));
+  }
+  std::string text = fmt::format("runs of the session's earlier plan {}; it is not finished",
+                                 fmt::join(owed, ", "));
+  const bool may_go_on = number > num_unjudgeable || num_repeats > 0;
+  if (may_go_on) text += fmt::format("; go on with: {}", resuming);
+  return text;
 }
 
 }  // namespace planbench

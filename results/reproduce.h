@@ -42,4 +42,9 @@ std::string ResumingCommand(const std::map<std::string, std::string>& flags,
 /// them". Of `number` runs, `num_unjudgeable` have a path that the referee's step is too fine for.
 std::string WhatMakesThem(int number, int num_unjudgeable);
 
+/// What a resumed session lacks of its earlier plan, and what makes it: `number` runs, of which
+/// `num_unjudgeable` as above, and `num_repeats` of disturbed ones; `resuming`: the command.
+std::string DescribeOwed(int number, int num_unjudgeable, int num_repeats,
+                         const std::string& resuming);
+
 }  // namespace planbench

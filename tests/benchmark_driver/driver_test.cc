@@ -284,6 +284,15 @@ TEST_F(DriverTest, PathsThatTheRefereeRefusesAreToldFromWhatAResumedSessionMakes
   EXPECT_EQ(driver.num_not_asked(), 2);
   EXPECT_EQ(driver.num_unjudgeable(), 2);
   EXPECT_FALSE(logger.sessions().messages().back().finished);
+
+  DriverOptions options = Options();
+  options.problem_indices = {1};
+  Driver of_others(&bus_, options, LineUp({"arm"}), {},
+                   {logger.sessions().messages(), logger.records().messages()});
+  MakeAll(&of_others);
+  EXPECT_EQ(of_others.num_unjudgeable(), 0);
+  EXPECT_EQ(of_others.num_owed_unjudgeable(), 2);
+  EXPECT_EQ(of_others.num_owed(), 2);
 }
 
 TEST_F(DriverTest, OneThatComesBackWithOtherSettingsHasNoMoreRuns) {

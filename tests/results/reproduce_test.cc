@@ -78,5 +78,21 @@ TEST(WhatMakesThemTest, TellsRunsApartThatNoResumedSessionMakes) {
             "--resume makes 1 of them, a new session with a larger --referee-step the others");
 }
 
+TEST(DescribeOwedTest, NobodyIsToldToResumeForWhatThatDoesNotMake) {
+  const std::string begin = "runs of the session's earlier plan ";
+  EXPECT_EQ(DescribeOwed(3, 0, 0, "make"),
+            begin + "not made: 3; it is not finished; go on with: make");
+  EXPECT_EQ(DescribeOwed(2, 2, 0, "make"),
+            begin +
+                "not made: 2 (a new session with a larger --referee-step makes them); it is "
+                "not finished");
+  EXPECT_EQ(DescribeOwed(0, 0, 1, "make"),
+            begin + "disturbed and not made again: 1; it is not finished; go on with: make");
+  EXPECT_EQ(DescribeOwed(1, 1, 1, "make"),
+            begin +
+                "not made: 1 (a new session with a larger --referee-step makes it), disturbed "
+                "and not made again: 1; it is not finished; go on with: make");
+}
+
 }  // namespace
 }  // namespace planbench
