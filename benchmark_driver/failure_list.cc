@@ -39,7 +39,7 @@ std::string FailureSummary(const SessionResults& results) {
           line += fmt::format(" {}", problem);
         text += Shortened(line) + "\n";
         if (const std::string reason = failures.reasons.Summary(); !reason.empty()) {
-          text += BreakLines(Shortened(reason, 3 * kTextWidth), 4);
+          text += BreakLines(Shortened(reason, kLongText), 4);
         }
       }
     }

@@ -10,7 +10,7 @@ namespace planbench {
 /// problems and its commonest reason, in lines of at most kTextWidth; empty if there are none.
 std::string FailureSummary(const SessionResults& results);
 
-/// Every one of them in a line of its own, with its reason in full; empty if there are none.
+/// Every one of them in a row of its own, with its reason; empty if there are none.
 std::string FailureList(const SessionResults& results);
 
 }  // namespace planbench

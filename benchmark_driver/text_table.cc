@@ -7,6 +7,15 @@
 #include <sstream>
 
 namespace planbench {
+namespace {
+
+/// `text` broken into lines that begin where `begin` ends, in the first of which that stands.
+std::string Beside(const std::string& begin, const std::string& text) {
+  std::string lines = BreakLines(text, begin.size());
+  return lines.replace(0, std::min(begin.size(), lines.find_first_not_of(' ')), begin);
+}
+
+}  // namespace
 
 TextTable::TextTable(std::string title, std::vector<std::string> header, int num_left)
     : title_(std::move(title)), num_left_(num_left) {
@@ -14,7 +23,10 @@ TextTable::TextTable(std::string title, std::vector<std::string> header, int num
 }
 
 void TextTable::Add(std::vector<std::string> row) {
-  for (std::string& cell : row) cell = Shortened(std::move(cell));
+  for (std::string& cell : row) {
+    const bool is_broken = BreaksLast() && &cell == &row.back();
+    cell = Shortened(std::move(cell), is_broken ? kLongText : kTextWidth);
+  }
   rows_.push_back(std::move(row));
 }
 
@@ -27,16 +39,24 @@ std::string TextTable::Format(const std::string& notes) const {
     if (row.size() != num_columns) continue;
     for (std::size_t c = 0; c < num_columns; ++c) widths[c] = std::max(widths[c], row[c].size());
   }
+  if (BreaksLast()) {
+    std::size_t left = kTextWidth - 2;
+    for (std::size_t c = 0; c + 1 < num_columns; ++c) left -= std::min(left, widths[c] + 2);
+    widths.back() = std::min(widths.back(), left);
+  }
   std::string text = title_ + "\n";
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto& row = rows_[r];
+    const bool is_heading = row.size() != num_columns;
     std::string line = "  ";
-    if (row.size() != num_columns) line += row[0];
-    for (std::size_t c = 0; c < num_columns && row.size() == num_columns; ++c) {
+    if (is_heading) line += row[0];
+    const std::size_t num_aligned = is_heading ? 0 : BreaksLast() ? num_columns - 1 : num_columns;
+    for (std::size_t c = 0; c < num_aligned; ++c) {
       line += static_cast<int>(c) < num_left_ ? fmt::format("{:<{}}  ", row[c], widths[c])
                                               : fmt::format("{:>{}}  ", row[c], widths[c]);
     }
-    line.erase(line.find_last_not_of(' ') + 1);
+    if (!is_heading && BreaksLast()) line = Beside(line, row.back());
+    line.erase(line.find_last_not_of(" \n") + 1);
     text += line + "\n";
     if (r == 0) {
       std::size_t total = 0;

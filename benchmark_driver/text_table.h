@@ -6,11 +6,13 @@
 namespace planbench {
 
 /// A table as text: columns aligned, the first `num_left` to the left, the others to the right.
+/// Where the last is to the left, too, it is broken into lines, so that all are at most kTextWidth.
 class TextTable {
  public:
   TextTable(std::string title, std::vector<std::string> header, int num_left);
 
-  /// Cells are Shortened to kTextWidth: whoever wants all of a text finds it in the database.
+  /// Cells are Shortened to kTextWidth, those that are broken to kLongText: whoever wants all of a
+  /// text finds it in the database.
   void Add(std::vector<std::string> row);
   /// A line of its own between the rows.
   void AddHeading(std::string text);
@@ -18,6 +20,8 @@ class TextTable {
   std::string Format(const std::string& notes) const;
 
  private:
+  bool BreaksLast() const { return num_left_ == static_cast<int>(rows_[0].size()); }
+
   std::string title_;
   int num_left_;
   std::vector<std::vector<std::string>> rows_;  // of one cell: a heading
@@ -25,6 +29,9 @@ class TextTable {
 
 /// What tables that are read on a terminal keep to.
 inline constexpr std::size_t kTextWidth = 100;
+
+/// What they show of a text that they break into lines.
+inline constexpr std::size_t kLongText = 3 * kTextWidth;
 
 /// Breaks text into lines of at most kTextWidth at its blanks, each indented by `indent`; '\n'
 /// stays.

@@ -210,6 +210,15 @@ TEST(TablesTest, FailuresAreListedWithProblemAndReason) {
             "elbow hits board");
 }
 
+TEST(TablesTest, ALongReasonInTheListOfFailuresGoesOnBelow) {
+  auto records = FourProblems();
+  records.back().message = "waypoint 1: joint 'elbow' at 7.5 rad is outside its limits [-2, 2]";
+  EXPECT_THAT(Full(records),
+              HasSubstr(fmt::format("INVALID_PATH  waypoint 1: joint 'elbow' at 7.5 rad is\n"
+                                    "{:56}outside its limits [-2, 2]\n",
+                                    "")));
+}
+
 TEST(TablesTest, ALongReasonOfFailuresIsBrokenNotCut) {
   RunRecordMessage record = AttemptOf(PlanStatus::kTimedOut, 60);
   const std::string before = "no scene: object[5].shape[0].mesh_resource:";
@@ -429,6 +438,9 @@ TEST(TablesTest, FullOnesFitATerminal) {
     record.problem_set = "shelf_height_rot_test";
     if (record.contestant == "ARA*") record.contestant = "RRT-Connect (canonical)";
     record.result.result.counters = {{"edges_checked", 1e5}, {"configurations_checked", 1e7}};
+    if (record.status != PlanStatus::kSolved) {
+      record.message = "collision on segment 3 at 0.250: 'gripper_link' and 'left_side_board'\n";
+    }
   }
   std::istringstream lines(Full(records));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), kTextWidth) << line;
