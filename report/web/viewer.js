@@ -122,10 +122,12 @@ function makeViewer(container, data, previous = null) {
     sun.position.set(2, -3, 5);
     scene.add(sun);
     const wood = material(colour("--muted"), 0.22);
+    const objects = new THREE.Group();
+    scene.add(objects);
     for (const one of data.solids.filter(one => !one.link)) {
       const body = solid(one.shape, wood);
       place(body, one.pose);
-      scene.add(body);
+      objects.add(body);
       if (one.shape.type === "box" || one.shape.type === "mesh") {
         const edges = new THREE.LineSegments(outline(geometry(one.shape)),
                                              new THREE.LineBasicMaterial({color: colour("--text"), transparent: true, opacity: 0.6}));
@@ -150,7 +152,7 @@ function makeViewer(container, data, previous = null) {
         scene.add(hit.group);
       }
     }
-    return {scene, motion, start, goal, body, hit};
+    return {scene, motion, objects, start, goal, body, hit};
   }
   let scenes = [];
   let bounds = null;  // a sphere about all of the first
@@ -169,8 +171,16 @@ function makeViewer(container, data, previous = null) {
   function look(direction) {
     const box = new THREE.Box3().setFromObject(scenes[0].body.group).union(new THREE.Box3().setFromObject(scenes[0].goal.group));
     if (box.isEmpty()) box.setFromObject(scenes[0].scene);  // of a robot that cannot be shown
+    for (const motion of data.motions) for (const point of motion.tips.flat()) box.expandByPoint(new THREE.Vector3(...point));
+    // What is near comes into view with it, but floors and walls do not shrink it.
+    const sizeOf = one => one.getSize(new THREE.Vector3()).length();
+    const size = sizeOf(box), near = box.clone().expandByScalar(size / 4);
+    for (const object of scenes[0].objects.children) {
+      const part = new THREE.Box3().setFromObject(object);
+      if (sizeOf(part) < 2 * size && part.intersectsBox(near)) box.union(part.intersect(near));
+    }
     const centre = box.getCenter(new THREE.Vector3());
-    const distance = 1.6 * (box.getSize(new THREE.Vector3()).length() || 1) / fitted;
+    const distance = 1.6 * (sizeOf(box) || 1) / fitted;
     controls.target.copy(centre);
     camera.position.copy(centre).addScaledVector(new THREE.Vector3(...direction).normalize(), distance);
     controls.update();

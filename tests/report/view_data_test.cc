@@ -389,6 +389,29 @@ TEST_F(ViewDataTest, HoweverNarrowAViewHoldsTheWholeRobot) {
   EXPECT_EQ(found["printed"], 0) << "not what was seen, in light colours";
 }
 
+TEST_F(ViewDataTest, ObjectsNearTheRobotAreInViewFromTheBeginning) {
+  if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  const TemporaryFolder folder;
+  WriteFile(folder / "view.html", ViewPage(RunView(robot_, scene_, run_, 10)));
+  const nlohmann::json found = Browse(folder / "view.html", R"script(
+    view.dispose();
+    const data = JSON.parse(document.getElementById("data").textContent);
+    const seen = (size, ...place) => {
+      Object.assign(data.solids[0], {shape: {type: "box", size}, pose: [...place, 0, 0, 0, 1]});
+      const one = makeViewer(document.getElementById("main"), data);
+      const {position, target} = one.seenFrom();
+      one.dispose();
+      return {distance: position.distanceTo(target), x: target.x};
+    };
+    found.far = seen([0.2, 0.4, 0.6], 9, 0, 0);
+    found.near = seen([0.2, 0.4, 0.6], 1.4, 0, 0);
+    found.floor = seen([90, 90, 0.1], 0, 0, -0.2);
+  )script");
+  EXPECT_GT(found["near"]["distance"], 1.05 * found["far"]["distance"].get<double>());
+  EXPECT_GT(found["near"]["x"], found["far"]["x"].get<double>() + 0.05);
+  EXPECT_EQ(found["floor"], found["far"]);
+}
+
 TEST_F(ViewDataTest, TheMeshOfABoxIsDrawnAsTheBox) {
   if (!FindBrowser()) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
   TriangleMesh box = BoxMesh({0.5, 0.4, 0.6});
