@@ -114,18 +114,13 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   if (const auto line = DescribeInstructionDifference(earlier_.sessions, Session(false).cpu)) {
     spdlog::warn("--resume: {}", *line);
   }
-  std::map<ProblemKey, PlanRequest> met;
-  for (const RunRecordMessage& record : earlier_.runs) {
-    PlanRequest& request = met[{record.problem_set, record.problem_index}];
-    if (request.scene_id.empty()) request = record.request;
-  }
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
   const std::chrono::milliseconds to_come = options_.TimeToComeBack();
   patience.until_passed_over = std::max(patience.until_passed_over, to_come);
   absence_patience_ = patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
                                             first_planners_, std::move(server), patience);
-  CheckProblems(met, watch);
+  CheckProblems(known.met, watch);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
   // needless goes when it is known.
@@ -152,14 +147,16 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     }
   }
   const std::set<std::string> in_call = IdsOf(known.call);
-  for (const RunRecordMessage& record : earlier.runs) {
+  earlier.each_run([&](const RunRecordMessage& record) {
+    PlanRequest& met = known.met[{record.problem_set, record.problem_index}];
+    if (met.scene_id.empty()) met = record.request;
     const bool is_in_call = in_call.contains(record.request_id);
     known.all_in_call = known.all_in_call && is_in_call;
     known.recorded[{{record.problem_set, record.problem_index, record.trial},
                     record.planner,
                     record.request.direction}] = Suffices(record);
     const bool was_asked = WasAsked(record);
-    if (!was_asked && is_in_call) continue;  // it is to be made
+    if (!was_asked && is_in_call) return;  // it is to be made
     (was_asked ? known.done : known.not_asked).insert(record.request_id);
     const RunStanding standing = StandingOf(record);
     const bool is_to_repeat = IsToRepeat(standing);
@@ -167,7 +164,7 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     num_owed_repeats_ += is_to_repeat && !is_in_call;
     num_owed_unjudgeable_ += IsUnjudgeable(record);
     Keep(record);
-  }
+  });
   std::erase_if(schedule_, [&](const ScheduledRun& run) {
     return known.done.contains(run.request_id) && !repeats_.contains(run.request_id);
   });

@@ -102,14 +102,15 @@ class Driver {
   std::vector<PlannedPlanner> PlannedPlanners() const;
   /// What is known of the session when this call goes on with it; of a new one that is the call.
   struct Known {
-    SessionMessage last;                  ///< What it told before.
-    std::optional<SessionPlan> plan;      ///< This call included; nothing if it is not known.
-    std::vector<ScheduledRun> planned;    ///< Of that, by the calls before.
-    std::vector<ScheduledRun> call;       ///< All of this one, whatever is made or cannot be.
-    std::map<PlannedRun, bool> recorded;  ///< Whatever has a record: CountOwed's `made`.
-    std::set<std::string> done;           ///< Request ids of records of requests.
-    std::set<std::string> not_asked;      ///< Of others, but for what this call makes.
-    bool all_in_call = true;              ///< Whatever has a record.
+    SessionMessage last;                    ///< What it told before.
+    std::optional<SessionPlan> plan;        ///< This call included; nothing if it is not known.
+    std::vector<ScheduledRun> planned;      ///< Of that, by the calls before.
+    std::vector<ScheduledRun> call;         ///< All of this one, whatever is made or cannot be.
+    std::map<PlannedRun, bool> recorded;    ///< Whatever has a record: CountOwed's `made`.
+    std::map<ProblemKey, PlanRequest> met;  ///< CheckProblems'.
+    std::set<std::string> done;             ///< Request ids of records of requests.
+    std::set<std::string> not_asked;        ///< Of others, but for what this call makes.
+    bool all_in_call = true;                ///< Whatever has a record.
   };
   /// Takes over what was told and made of the resumed session, and leaves to do what it lacks.
   Known TakeUp(EarlierSession earlier, const PlannedCall& call);

@@ -33,10 +33,11 @@ namespace planbench {
 namespace {
 
 /// What the flags leave open: the planners of the log, started by the commands of then.
-void Complete(const RecordedSession& recorded, LineUpFlags* flags) {
-  if (flags->planners.empty()) flags->planners = PlannersAsked(recorded.runs);
-  if (flags->file || recorded.sessions.empty()) return;
-  for (const Contestant& contestant : recorded.sessions.back().conditions.contestants) {
+void Complete(const std::vector<SessionMessage>& sessions, const std::vector<std::string>& asked,
+              LineUpFlags* flags) {
+  if (flags->planners.empty()) flags->planners = asked;
+  if (flags->file || sessions.empty()) return;
+  for (const Contestant& contestant : sessions.back().conditions.contestants) {
     const auto is_it = [&](const auto& command) { return command.first == contestant.planner; };
     if (!contestant.command.empty() &&
         std::find(flags->planners.begin(), flags->planners.end(), contestant.planner) !=
@@ -62,18 +63,22 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   if (const auto line = DescribeInstructionDifference(recorded.sessions, cpu)) {
     spdlog::warn("--replay: {}", *line);
   }
-  if (PlannersAsked(recorded.runs).empty()) {
+  // All at once: what is made again is compared with it, path by path.
+  std::vector<RunRecordMessage> runs;
+  for (const RecordedRun& run : recorded.runs) runs.push_back(ReadRecord(run.place));
+  const std::vector<std::string> asked = PlannersAsked(runs);
+  if (asked.empty()) {
     throw InputError(log.string() + ": holds no run that could be made again");
   }
   const std::vector<std::string> missing_runs = MissingRuns(log.string(), recorded);
-  Complete(recorded, &options.line_up);
+  Complete(recorded.sessions, asked, &options.line_up);
   std::vector<LineUpEntry> line_up = MakeLineUp(
       options.line_up,
       options.launch ? std::optional(FindRobotFolder(options.robot.folder)) : std::nullopt);
   // First paths are in the requests.
   std::erase_if(line_up, [](const LineUpEntry& entry) { return entry.finds_first_paths_only; });
   ModelsByPlanner models;
-  for (const RunRecordMessage& run : recorded.runs) {
+  for (const RunRecordMessage& run : runs) {
     models[run.planner].insert(run.request.collision_model);
   }
   std::vector<std::string> planners;
@@ -89,7 +94,7 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   }
   Bus bus(url);
   NodeRegistry registry(&bus);
-  Replay replay(&bus, &registry, run_id, std::move(recorded.runs), std::move(scenes), planners,
+  Replay replay(&bus, &registry, run_id, std::move(runs), std::move(scenes), planners,
                 std::max(PlannerClient::Terms().patience, options.TimeToComeBack()));
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::optional<NewSessionFolder> new_folder;

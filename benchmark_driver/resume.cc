@@ -11,8 +11,6 @@
 
 #include "benchmark_driver/logger_lock.h"
 #include "common/error.h"
-#include "messaging/asked_runs.h"
-#include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
 #include "results/reproduce.h"
 #include "results/session_plan.h"
@@ -93,7 +91,9 @@ EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder) {
   const std::string run_id = recorded.sessions.back().run_id;
   std::erase_if(recorded.sessions, [&](const auto& session) { return session.run_id != run_id; });
   std::erase_if(recorded.runs, [&](const auto& run) { return run.run_id != run_id; });
-  return {std::move(recorded.sessions), std::move(recorded.runs)};
+  return {std::move(recorded.sessions), [runs = std::move(recorded.runs)](const VisitRun& visit) {
+            for (const RecordedRun& run : runs) visit(ReadRecord(run.place));
+          }};
 }
 
 void RequireSameConditions(const SessionMessage& before, const SessionMessage& now) {

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "messaging/messages.h"
+#include "messaging/record_log.h"
 
 namespace planbench {
 
 /// What a session folder holds of the session to go on with.
 struct EarlierSession {
   std::vector<SessionMessage> sessions;  ///< Of each time it was begun or resumed.
-  std::vector<RunRecordMessage> runs;
+  EachRun each_run = [](const VisitRun&) {};
 };
 
 /// Waits for the logger that still writes to the folder to end: that of a driver that was killed
@@ -21,7 +22,8 @@ void AwaitLoggersEnd(const std::filesystem::path& session_folder,
 
 /// Reads the last session of a folder's only .lcmlog; nothing if the folder is a session's whose
 /// driver was killed before it had told of the session. Throws InputError if it is none, if there
-/// are several logs, or if results.sqlite holds sessions or runs that the log lacks.
+/// are several logs, or if results.sqlite holds sessions or runs that the log lacks. The log must
+/// stay as long as its runs are visited.
 EarlierSession ReadEarlierSession(const std::filesystem::path& session_folder);
 
 /// A session can be given more sets, problems, planners or trials when it is resumed, but nothing

@@ -45,29 +45,29 @@ bool Wanted(const std::vector<std::string>& wanted, const std::string& name) {
 
 }  // namespace
 
-Learned LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons) {
+Learned LearnPaths(const EachRun& each_run, const Lessons& lessons) {
   Learned learned;
   PathLibrary& library = learned.library;
   // By set, number and scene: sets of one name need not hold the same problems.
   std::map<std::tuple<std::string, int, std::string>, std::pair<double, Path>> shortest;
   std::set<std::string> sets;
   std::set<std::string> contestants;
-  for (const RunRecordMessage& run : runs) {
+  each_run([&](const RunRecordMessage& run) {
     sets.insert(run.problem_set);
     contestants.insert({run.contestant, run.planner});
     const bool is_wanted =
         Wanted(lessons.sets, run.problem_set) &&
         (Wanted(lessons.contestants, run.contestant) || Wanted(lessons.contestants, run.planner));
-    if (!is_wanted || !Confirmed(run)) continue;
+    if (!is_wanted || !Confirmed(run)) return;
     const Path& path = run.result.result.simplified_path;
-    if (path.size() < 2) continue;  // It started at its goal.
+    if (path.size() < 2) return;  // It started at its goal.
     if (!FreeByMeshes(run)) {
       ++learned.num_against_meshes;
-      continue;
+      return;
     }
     const std::optional<double> length =
         FindMeasure(run.simplified_check.verdict->measures, kLength);
-    if (!length) continue;
+    if (!length) return;
     if (library.joints.empty()) library.joints = run.result.joint_names;
     if (library.joints != run.result.joint_names) {
       throw InputError(fmt::format("set '{}': its paths are of other joints than those before",
@@ -76,7 +76,7 @@ Learned LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& les
     const auto [best, first] = shortest.try_emplace(
         {run.problem_set, run.problem_index, run.request.scene_id}, *length, path);
     if (!first && *length < best->second.first) best->second = {*length, path};
-  }
+  });
   RequireSeen(lessons.sets, sets, "--sets");
   RequireSeen(lessons.contestants, contestants, "--contestants");
   if (shortest.empty()) {

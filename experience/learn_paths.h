@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "messaging/messages.h"
+#include "messaging/record_log.h"
 #include "planning/path_library.h"
 
 namespace planbench {
@@ -23,6 +23,6 @@ struct Learned {
 /// Of each problem the shortest simplified path that the referee confirmed and, where it judged
 /// with meshes too, found free by them. Throws InputError if there is none, a set or contestant is
 /// not among the runs, or paths are of different joints.
-Learned LearnPaths(const std::vector<RunRecordMessage>& runs, const Lessons& lessons);
+Learned LearnPaths(const EachRun& each_run, const Lessons& lessons);
 
 }  // namespace planbench

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <iostream>
-#include <iterator>
 
 #include "common/command_line.h"
 #include "common/exit_codes.h"
@@ -31,15 +30,16 @@ int main(int argc, char** argv) {
                  "default: everybody's")
       ->allow_extra_args(false);
   return RunCommand(&app, argc, argv, [&] {
-    std::vector<RunRecordMessage> runs;
-    for (const std::string& session : sessions) {
-      RecordedSession recorded = ReadRecords(FindEventLog(session));
-      for (const std::string& line : recorded.passed_over) {
-        std::cerr << "learn_paths: " << line << "\n";
+    const auto each_run = [&](const VisitRun& visit) {
+      for (const std::string& session : sessions) {
+        const RecordedSession recorded = ReadRecords(FindEventLog(session));
+        for (const std::string& line : recorded.passed_over) {
+          std::cerr << "learn_paths: " << line << "\n";
+        }
+        for (const RecordedRun& run : recorded.runs) visit(ReadRecord(run.place));
       }
-      std::move(recorded.runs.begin(), recorded.runs.end(), std::back_inserter(runs));
-    }
-    const auto [library, num_against_meshes] = LearnPaths(runs, lessons);
+    };
+    const auto [library, num_against_meshes] = LearnPaths(each_run, lessons);
     WriteFile(out, ToYaml(library));
     std::cout << fmt::format("{}: {} paths of {}", out, library.paths.size(),
                              fmt::join(library.learned_from, ", "));

@@ -58,17 +58,9 @@ bool Replaces(const RunStanding& record, const RunStanding& known) {
   return record.was_asked && known.disturbed && record.repeats > known.repeats;
 }
 
-bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known) {
-  return Replaces(StandingOf(record), StandingOf(known));
-}
-
 bool Contradicts(const RunStanding& record, const RunStanding& known) {
   return record.was_asked && known.was_asked && !Replaces(record, known) &&
          !Replaces(known, record);
-}
-
-bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known) {
-  return Contradicts(StandingOf(record), StandingOf(known));
 }
 
 }  // namespace planbench

@@ -47,11 +47,9 @@ std::string SessionAckId(const SessionMessage& session);
 /// a later attempt; or which was disturbed, since it is of a later repeat. The other way round
 /// `record` is to be passed over.
 bool Replaces(const RunStanding& record, const RunStanding& known);
-bool Replaces(const RunRecordMessage& record, const RunRecordMessage& known);
 
 /// Whether two records of a run that differ cannot both be true: each tells of a request, and
 /// neither of a repeat of the other.
 bool Contradicts(const RunStanding& record, const RunStanding& known);
-bool Contradicts(const RunRecordMessage& record, const RunRecordMessage& known);
 
 }  // namespace planbench

@@ -66,13 +66,15 @@ class EventScanner {
     return event;
   }
 
-  void Read(const Event& event, ReceivedMessage* message) {
+  void Read(const Event& event, LoggedMessage* message) {
     const auto bytes =
         bytes_.Exactly(event.begin + kHeaderBytes, event.channel_bytes + event.data_bytes);
     const auto data = bytes.subspan(event.channel_bytes);
     message->channel.assign(bytes.begin(), data.begin());
     message->bytes.assign(data.begin(), data.end());
     message->utime = event.utime;
+    message->place.offset = event.begin + kHeaderBytes + event.channel_bytes;
+    message->place.bytes = event.data_bytes;
   }
 
   /// Of what came so far.
@@ -151,7 +153,8 @@ std::string DamageText(const std::filesystem::path& file, const EventLogExtent& 
 
 EventLogExtent ReadEventLogFile(const std::filesystem::path& file, const VisitMessage& visit) {
   EventScanner events(file);
-  ReceivedMessage message;
+  LoggedMessage message;
+  message.place.file = std::make_shared<const std::filesystem::path>(file);
   while (const std::optional<Event> event = events.Next()) {
     events.Read(*event, &message);
     visit(message);
@@ -175,6 +178,12 @@ std::vector<std::string> ReadEventLog(const std::filesystem::path& event_log,
                     file.string(), size - extent.bytes, extent.bytes));
   }
   return passed_over;
+}
+
+std::vector<std::uint8_t> ReadEventBytes(const EventPlace& place) {
+  FileBytes file(*place.file);
+  const auto bytes = file.Exactly(place.offset, place.bytes);
+  return {bytes.begin(), bytes.end()};
 }
 
 bool HoldsEvent(const std::filesystem::path& event_log) {

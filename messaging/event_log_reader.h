@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,31 @@
 
 namespace planbench {
 
-using VisitMessage = std::function<void(const ReceivedMessage& message)>;
+/// Where the bytes of a message are in an event log.
+struct EventPlace {
+  std::shared_ptr<const std::filesystem::path> file;
+  std::uint64_t offset = 0;
+  std::size_t bytes = 0;
+};
 
-/// Reads the events of an LCM event log in order, all its files (EventLogFiles) if it was split;
-/// `utime` of a message is its event's. Damage is no error, nor is a torn last event (of a logger
+/// A message of an event log; `utime` is its event's.
+struct LoggedMessage : ReceivedMessage {
+  EventPlace place;
+};
+
+using VisitMessage = std::function<void(const LoggedMessage& message)>;
+
+/// Reads the events of an LCM event log in order, all its files (EventLogFiles) if it was split.
+/// Damage is no error, nor is a torn last event (of a logger
 /// that was killed): every whole event is read. Returns what was passed over, a line for each file
 /// that is damaged and one for each whose end was not read: how many bytes, and where. Throws
 /// InputError if a file cannot be read.
 std::vector<std::string> ReadEventLog(const std::filesystem::path& event_log,
                                       const VisitMessage& visit);
+
+/// The bytes of a message that was there when the log was read; a log only grows. Throws InputError
+/// if the file cannot be read, or has been shortened.
+std::vector<std::uint8_t> ReadEventBytes(const EventPlace& place);
 
 /// Whether there is a whole event in an event log, in any of its files: one that has none may be
 /// anything. Throws like ReadEventLog.

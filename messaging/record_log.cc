@@ -1,31 +1,34 @@
 #include "messaging/record_log.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 #include <utility>
 
 #include "common/error.h"
-#include "messaging/asked_runs.h"
 #include "messaging/channels.h"
+#include "messaging/codec.h"
 #include "messaging/decoded.h"
-#include "messaging/event_log_reader.h"
 
 namespace planbench {
 
 RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   RecordedSession recorded;
-  std::map<std::string, std::size_t> places;  // by request id
+  std::map<std::string, std::size_t> indices;  // by request id
   Decoded<SessionMessage> sessions(event_log, channel::kSession);
   Decoded<RunRecordMessage> runs(event_log, channel::kRunRecord);
-  recorded.passed_over = ReadEventLog(event_log, [&](const ReceivedMessage& message) {
+  recorded.passed_over = ReadEventLog(event_log, [&](const LoggedMessage& message) {
     if (auto session = sessions.Take(message)) recorded.sessions.push_back(*std::move(session));
-    auto run = runs.Take(message);
-    if (!run) return;
-    const auto [place, is_new] = places.try_emplace(run->request_id, recorded.runs.size());
+    const auto record = runs.Take(message);
+    if (!record) return;
+    RecordedRun run = {record->run_id, record->request_id, StandingOf(*record), message.place};
+    const auto [index, is_new] = indices.try_emplace(run.request_id, recorded.runs.size());
     if (is_new) {
-      recorded.runs.push_back(*std::move(run));
-    } else if (RunRecordMessage& known = recorded.runs[place->second]; Replaces(*run, known)) {
-      known = *std::move(run);
+      recorded.runs.push_back(std::move(run));
+    } else if (RecordedRun& known = recorded.runs[index->second];
+               Replaces(run.standing, known.standing)) {
+      known = std::move(run);
     }
   });
   sessions.RequireAny();
@@ -33,6 +36,15 @@ RecordedSession ReadRecords(const std::filesystem::path& event_log) {
   sessions.TellPassedOver(&recorded.passed_over);
   runs.TellPassedOver(&recorded.passed_over);
   return recorded;
+}
+
+RunRecordMessage ReadRecord(const EventPlace& place) {
+  try {
+    return Decode<RunRecordMessage>(ReadEventBytes(place), channel::kRunRecord);
+  } catch (const MessageError& error) {
+    throw InputError(
+        fmt::format("{}: was changed while it was read: {}", place.file->string(), error.what()));
+  }
 }
 
 SessionMessage LastTold(const RecordedSession& recorded, const std::string& run_id) {

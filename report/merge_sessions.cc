@@ -122,16 +122,22 @@ struct Part {
 /// Run ids of a session and of those that it was merged of.
 using Origins = std::set<std::string>;
 
+/// What is known of a run while its record is left in the log.
 struct Run {
-  std::string folder;
-  RunRecordMessage record;
-  const Origins* origins;
+  EventPlace place;
+  RunStanding standing;
+  std::string contestant;
+  PlannedRun planned;
+  bool suffices = false;  ///< asked_runs.h
+  const Origins* origins = nullptr;
+
+  std::string folder() const { return place.file->parent_path().string(); }
 };
 
 /// Whether both tell of a request, in sessions that have nothing in common: neither is a repeat of
 /// the other.
 bool AreOfStrangers(const Run& a, const Run& b) {
-  return WasAsked(a.record) && WasAsked(b.record) &&
+  return a.standing.was_asked && b.standing.was_asked &&
          std::none_of(a.origins->begin(), a.origins->end(),
                       [&](const std::string& run_id) { return b.origins->contains(run_id); });
 }
@@ -181,15 +187,23 @@ class Merge {
       part.plans.insert(part.plans.begin() + (place - part.told.begin()), std::move(plan));
       part.told.insert(place, std::move(session));
     }
-    for (RunRecordMessage& record : recorded.runs) {
+    for (const RecordedRun& one : recorded.runs) {
+      const RunRecordMessage record = ReadRecord(one.place);
       const auto part = parts_.find(record.run_id);
       if (part == parts_.end()) {
         throw InputError(fmt::format("{}: run {} is of the session {}, which it does not describe",
                                      log.string(), record.request_id, record.run_id));
       }
       part->second.request_ids.insert(record.request_id);
-      const Origins* origins = &origins_[record.run_id];
-      runs_.push_back({folder, std::move(record), origins});
+      Run& run = runs_.emplace_back();
+      run.place = one.place;
+      run.standing = one.standing;
+      run.contestant = record.contestant;
+      run.planned.trial = {record.problem_set, record.problem_index, record.trial};
+      run.planned.planner = record.planner;
+      run.planned.direction = record.request.direction;
+      run.suffices = Suffices(record);
+      run.origins = &origins_[record.run_id];
     }
   }
 
@@ -204,32 +218,29 @@ class Merge {
       }
     }
     MakeSession();
-    std::map<std::tuple<std::string, std::string, int, Direction, int>, std::size_t> places;
+    std::map<std::tuple<std::string, PlannedTrial, Direction>, std::size_t> places;
     std::vector<Run> united;
     for (Run& run : runs_) {
-      run.record = Renamed(std::move(run.record), session_.run_id);
-      const RunRecordMessage& record = run.record;
-      const auto [place, is_new] =
-          places.try_emplace({record.contestant, record.problem_set, record.problem_index,
-                              record.request.direction, record.trial},
-                             united.size());
+      const auto [place, is_new] = places.try_emplace(
+          {run.contestant, run.planned.trial, run.planned.direction}, united.size());
       if (is_new) {
         united.push_back(std::move(run));
         continue;
       }
       Run& known = united[place->second];
       const bool are_of_strangers = AreOfStrangers(run, known);
-      if (!are_of_strangers && Replaces(record, known.record)) {
+      if (!are_of_strangers && Replaces(run.standing, known.standing)) {
         known = std::move(run);
         continue;
       }
-      if (known.record == record) continue;
-      if (!are_of_strangers && !Contradicts(record, known.record)) continue;
+      if (!are_of_strangers && !Contradicts(run.standing, known.standing)) continue;
+      if (RecordOf(run) == RecordOf(known)) continue;
+      const auto& [set, problem, trial] = run.planned.trial;
       throw InputError(
           fmt::format("{} and {} tell differently of {}, {} {}, {}, trial {}: two runs of one kind "
                       "are not parts of one session",
-                      known.folder, run.folder, record.contestant, record.problem_set,
-                      record.problem_index, EnumName(record.request.direction), record.trial));
+                      known.folder(), run.folder(), run.contestant, set, problem,
+                      EnumName(run.planned.direction), trial));
     }
     num_told_again_ = runs_.size() - united.size();
     runs_ = std::move(united);
@@ -251,7 +262,7 @@ class Merge {
       answers.TellPassedOver(&passed_over_);
     }
     for (const Run& run : runs_) {
-      log.Write({channel::kRunRecord, Encode(run.record), run.record.start_utime});
+      log.Write({channel::kRunRecord, Encode(RecordOf(run)), run.standing.start_utime});
     }
     log.Flush();
   }
@@ -278,6 +289,11 @@ class Merge {
   }
 
  private:
+  /// As it stands in the merged session, whose run id is known.
+  RunRecordMessage RecordOf(const Run& run) const {
+    return Renamed(ReadRecord(run.place), session_.run_id);
+  }
+
   void AddShares(const std::string& folder, const std::vector<SessionMessage>& told) {
     const fs::path run_json = fs::path(folder) / "run.json";
     std::optional<std::string> bus;
@@ -358,8 +374,8 @@ class Merge {
     if (session_.left_out.empty()) return;
     std::set<std::string> kept;
     for (const Run& run : runs_) {
-      if (!WasAsked(run.record)) continue;
-      kept.insert(LeftOutName(run.record.problem_set, run.record.problem_index));
+      if (!run.standing.was_asked) continue;
+      kept.insert(LeftOutName(run.planned.trial.problem_set, run.planned.trial.problem_index));
     }
     for (const auto& [run_id, part] : parts_) kept.merge(part.Kept());
     std::erase_if(session_.left_out, [&](const auto& one) { return kept.contains(one.first); });
@@ -387,12 +403,9 @@ class Merge {
     const bool repeats_disturbed = RepeatsDisturbed(session_.settings);
     std::map<PlannedRun, bool> made;
     for (const Run& run : runs_) {
-      const RunRecordMessage& record = run.record;
-      made[{{record.problem_set, record.problem_index, record.trial},
-            record.planner,
-            record.request.direction}] = Suffices(record);
-      finished = finished && WasAsked(record);
-      num_to_repeat_ += repeats_disturbed && OwesRepeat(StandingOf(record)) ? 1 : 0;
+      made[run.planned] = run.suffices;
+      finished = finished && run.standing.was_asked;
+      num_to_repeat_ += repeats_disturbed && OwesRepeat(run.standing) ? 1 : 0;
     }
     const int num_owed = CountOwed(plan, made, session_.left_out);
     missing_shards_ = MissingShards(plan);

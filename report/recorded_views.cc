@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/error.h"
-#include "messaging/record_log.h"
 #include "report/session_robot.h"
 
 namespace planbench {
@@ -32,21 +31,22 @@ RecordedViews::RecordedViews(const StoredSession& session,
       ShownRobot(LoadSessionRobot(told, robot_folder, packages), told.conditions.mesh_robot_id);
   for (auto& [id, scene] : ReadScenes(log_, &passed_over_)) scenes_.emplace(id, std::move(scene));
   passed_over_.insert(passed_over_.end(), recorded.passed_over.begin(), recorded.passed_over.end());
-  for (RunRecordMessage& record : recorded.runs) {
-    if (record.run_id == session.run_id) records_.emplace(record.request_id, std::move(record));
+  for (const RecordedRun& run : recorded.runs) {
+    if (run.run_id == session.run_id) records_.emplace(run.request_id, run.place);
   }
 }
 
 Json RecordedViews::View(const StoredRun& run, int num_frames) const {
-  const auto record = records_.find(run.request_id);
-  if (record == records_.end()) {
+  const auto place = records_.find(run.request_id);
+  if (place == records_.end()) {
     throw InputError(fmt::format("{}: run {} is not in it", log_.string(), run.id));
   }
-  const auto scene = scenes_.find(record->second.request.scene_id);
+  const RunRecordMessage record = ReadRecord(place->second);
+  const auto scene = scenes_.find(record.request.scene_id);
   if (scene == scenes_.end()) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", log_.string(), run.id));
   }
-  return RunView(robot_, scene->second, record->second, num_frames);
+  return RunView(robot_, scene->second, record, num_frames);
 }
 
 EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_bytes,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "messaging/record_log.h"
 #include "report/view_data.h"
 #include "results/compared_sessions.h"
 
@@ -30,8 +31,8 @@ class RecordedViews {
   std::filesystem::path log_;
   ShownRobot robot_;
   std::vector<std::string> passed_over_;
-  std::map<std::string, RunRecordMessage> records_;  ///< By request.
-  std::map<std::string, ShownScene> scenes_;         ///< By content id.
+  std::map<std::string, EventPlace> records_;  ///< By request.
+  std::map<std::string, ShownScene> scenes_;   ///< By content id.
 };
 
 /// Views of as many runs as fit into `most_bytes`, those of first trials first.

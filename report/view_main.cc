@@ -65,7 +65,8 @@ Json ViewOfLog(const Flags& flags) {
     throw InputError(
         fmt::format("{}: no run {}; --run takes 1 to {}", flags.log, number, num_runs));
   }
-  const RunRecordMessage& run = recorded.runs[static_cast<std::size_t>(number - 1)];
+  const RunRecordMessage run =
+      ReadRecord(recorded.runs[static_cast<std::size_t>(number - 1)].place);
   const auto scene = scenes.find(run.request.scene_id);
   if (scene == scenes.end()) {
     throw InputError(fmt::format("{}: the scene of run {} is not in it", flags.log, number));

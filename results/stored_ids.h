@@ -24,8 +24,8 @@ struct StoredIds {
   /// no runs. Not for what is empty.
   std::string Text() const;
 
-  /// What is not among the logged sessions' run_id and the logged runs' request_id, of which a
-  /// later repeat covers those before. The caller includes messaging/asked_runs.h.
+  /// What is not among the logged sessions (SessionMessage) and runs (RecordedRun), of which a
+  /// later repeat covers those before.
   template <typename Sessions, typename Runs>
   StoredIds Without(const Sessions& logged_sessions, const Runs& logged_runs) const {
     std::set<std::string> session_ids;
@@ -33,7 +33,7 @@ struct StoredIds {
     for (const auto& session : logged_sessions) session_ids.insert(session.run_id);
     for (const auto& run : logged_runs) {
       int& last = last_repeats[run.request_id];
-      last = std::max(last, StandingOf(run).repeats);
+      last = std::max(last, run.standing.repeats);
     }
     StoredIds left = *this;
     std::erase_if(left.sessions, [&](const std::string& id) { return session_ids.contains(id); });

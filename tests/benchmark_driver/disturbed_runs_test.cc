@@ -139,7 +139,8 @@ TEST_F(DisturbedRunsTest, AResumedSessionMakesTheRepeatsThatAreOwed) {
   ASSERT_EQ(attempts.size(), 3u);
   for (std::size_t made = 0; made < attempts.size(); ++made) {
     FakeLogger logger(&bus_);
-    Driver driver(&bus_, options, LineUp({"arm"}), {}, {{sessions.front()}, {attempts[made]}});
+    Driver driver(&bus_, options, LineUp({"arm"}), {},
+                  HeldSession{{sessions.front()}, {attempts[made]}}.Earlier());
     MakeAll(&driver);
     std::vector<std::string> expected = {"run/cans/2/arm/forward/1 disturbed 0 after 0"};
     for (std::size_t repeat = made + 1; repeat < attempts.size(); ++repeat) {
@@ -159,7 +160,7 @@ TEST_F(DisturbedRunsTest, ASessionThatOwesRepeatsIsNotFinished) {
   const FakeSceneServer server(&bus_);
   FakeLogger logger(&bus_);
   DriverOptions options = Repeating(machine, Directions::kForward);
-  EarlierSession earlier;
+  HeldSession earlier;
   {
     Driver driver(&bus_, options, LineUp({"arm"}), {});
     MakeAll(&driver);
@@ -171,7 +172,7 @@ TEST_F(DisturbedRunsTest, ASessionThatOwesRepeatsIsNotFinished) {
   ASSERT_EQ(earlier.runs.size(), 2u);
   for (const int problem : {2, 1}) {
     options.problem_indices = {problem};
-    Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+    Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
     driver.Discover(true, Idle);
     EXPECT_EQ(driver.num_to_repeat(), 1);
     EXPECT_TRUE(driver.Run(Never, Idle));

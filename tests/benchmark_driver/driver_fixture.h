@@ -10,6 +10,7 @@
 #include "benchmark_driver/driver.h"
 #include "tests/benchmark_driver/fake_nodes.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/held_runs.h"
 
 namespace planbench {
 
@@ -35,6 +36,14 @@ inline std::vector<LineUpEntry> LineUp(const std::vector<std::string>& planners)
   flags.planners = planners;
   return MakeLineUp(flags, std::nullopt);
 }
+
+/// A session as a test holds it, to be gone on with.
+struct HeldSession {
+  std::vector<SessionMessage> sessions;
+  std::vector<RunRecordMessage> runs;
+
+  EarlierSession Earlier() const { return {sessions, Held(runs)}; }
+};
 
 /// A scene server whose failures the test counts.
 inline SupervisedServer CountedBy(const std::atomic<int>& num_failures) {

@@ -426,9 +426,11 @@ TEST_F(DriverTest, HowWhoFindsFirstPathsOnlyChecksIsACondition) {
   line_up[1].contestant.edge_check = EdgeCheck::kFixed;
   Driver begun(&bus_, Options(), line_up, {});
   MakeAll(&begun);
-  EarlierSession earlier;
+  HeldSession earlier;
   earlier.sessions = {logger.sessions().messages().back()};
-  const auto resume = [&] { Driver(&bus_, Options(), line_up, {}, earlier).Discover(true, Idle); };
+  const auto resume = [&] {
+    Driver(&bus_, Options(), line_up, {}, earlier.Earlier()).Discover(true, Idle);
+  };
   EXPECT_NO_THROW(resume());
   line_up[1].finds_first_paths_only = false;
   EXPECT_NO_THROW(resume()) << "as a contestant besides";
@@ -495,7 +497,7 @@ TEST_F(DriverTest, BadProblemsMayBeLeftOut) {
   EXPECT_EQ(driver.left_out(), left_out);
   // With nothing else to do, the session is as complete as it was.
   Driver again(&bus_, options, LineUp({"arm"}), {},
-               {logger.sessions().messages(), logger.records().messages()});
+               {logger.sessions().messages(), Held(logger.records().messages())});
   MakeAll(&again);
   EXPECT_EQ(again.runs().size(), 2u);
 

@@ -167,7 +167,8 @@ TEST_F(ReplayTest, NeedsRequestsAndTheirScenes) {
 
 TEST(MissingRunsTest, AreThoseThatTheSessionHasAndTheLogLacks) {
   RecordedSession recorded;
-  recorded.runs = {Recorded("then/a"), Recorded("then/b")};
+  recorded.runs.resize(2);
+  for (RecordedRun& run : recorded.runs) run.run_id = "then";
   SessionMessage session;
   session.run_id = "then";
   session.num_runs = 5;

@@ -317,6 +317,12 @@ TEST(ReadEarlierSessionTest, ASessionKilledAtOnceHoldsNothing) {
   EXPECT_TRUE(ReadEarlierSession(folder.path()).sessions.empty());
 }
 
+std::size_t NumRuns(const EarlierSession& session) {
+  std::size_t number = 0;
+  session.each_run([&](const RunRecordMessage&) { ++number; });
+  return number;
+}
+
 /// A session folder "s" whose database and event log hold different things, if the test says so.
 class LoggedSessionTest : public testing::Test {
  protected:
@@ -380,7 +386,20 @@ TEST_F(LoggedSessionTest, ARepeatThatTheLogLacksIsNotMadeAgain) {
   log(0);
   ExpectNotResumed({"1 run, s-4 (repeat 1)"});
   log(2);  // the database is behind
-  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 4u);
+  EXPECT_EQ(NumRuns(ReadEarlierSession(path_)), 4u);
+}
+
+TEST_F(LoggedSessionTest, RunsAreReadFromTheLogWhenTheyAreVisited) {
+  WriteLog({0, 1, 2});
+  const EarlierSession earlier = ReadEarlierSession(path_);
+  std::size_t number = 0;
+  earlier.each_run([&](const RunRecordMessage& record) {
+    EXPECT_EQ(record, MakeRecord(runs_[number], "s", static_cast<int>(number) + 1));
+    ++number;
+  });
+  EXPECT_EQ(number, 3u);
+  std::filesystem::resize_file(path_ / "s.lcmlog", 10);
+  ExpectInputError([&] { NumRuns(earlier); }, {"s.lcmlog", "was shortened"});
 }
 
 TEST_F(LoggedSessionTest, TheFolderBesideIsNamedAlsoOfOneThatIsHere) {
@@ -395,18 +414,18 @@ TEST_F(LoggedSessionTest, TheFolderBesideIsNamedAlsoOfOneThatIsHere) {
 
 TEST_F(LoggedSessionTest, ADatabaseMayBeBehindItsLogOrLost) {
   WriteLog({0, 1, 2});
-  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  EXPECT_EQ(NumRuns(ReadEarlierSession(path_)), 3u);
   {
     SqliteConnection database(path_ / "results.sqlite", SqliteConnection::Mode::kReadWriteCreate);
     database.Execute("DELETE FROM runs WHERE problem_index = 1");
     // As other programs append it.
     database.Execute("UPDATE runs SET run_id = NULL, request_id = 'x' WHERE problem_index = 2");
   }
-  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  EXPECT_EQ(NumRuns(ReadEarlierSession(path_)), 3u);
   folder_.Write("s/results.sqlite", "");  // of a logger that was killed at once
-  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  EXPECT_EQ(NumRuns(ReadEarlierSession(path_)), 3u);
   std::filesystem::remove(path_ / "results.sqlite");
-  EXPECT_EQ(ReadEarlierSession(path_).runs.size(), 3u);
+  EXPECT_EQ(NumRuns(ReadEarlierSession(path_)), 3u);
 }
 
 TEST_F(LoggedSessionTest, NoSecondSessionBeginsWhereTheLogIsGone) {

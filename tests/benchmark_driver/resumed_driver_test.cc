@@ -20,8 +20,8 @@ namespace planbench {
 namespace {
 
 /// Of problems 1 and 2, of which the second goes bad before its first run.
-EarlierSession SessionWithoutProblem2(Bus* bus, const DriverOptions& options,
-                                      FakeSceneServer* server, FakeLogger* logger) {
+HeldSession SessionWithoutProblem2(Bus* bus, const DriverOptions& options, FakeSceneServer* server,
+                                   FakeLogger* logger) {
   Driver driver(bus, options, LineUp({"arm"}), {});
   driver.Discover(true, Idle);
   server->RefuseProblem(2, "scene0002.yaml: is missing");
@@ -37,7 +37,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kForward;
-  EarlierSession earlier;
+  HeldSession earlier;
   {
     Driver driver(&bus_, options, LineUp({"arm"}), {});
     MakeAll(&driver);
@@ -46,7 +46,7 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   const std::set<std::string> recorded_before = Ids(logger.records());
   options.problem_indices = {1};  // no longer 2
   options.directions = Directions::kBoth;
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&driver);
   std::set<std::string> recorded = Ids(logger.records());
   for (const std::string& id : recorded_before) recorded.erase(id);
@@ -57,11 +57,11 @@ TEST_F(DriverTest, ResumedSessionMakesOnlyWhatIsLeft) {
   EXPECT_GT(logger.sessions().messages().back().total_time_s, earlier.sessions.back().total_time_s);
 
   options.conditions.request.time_limit_s = 7;
-  Driver other(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver other(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   ExpectInputError([&] { other.Discover(true, Idle); }, {"--resume", "time_limit_s", "60", "7"});
   planner.status.settings["step"] = "6";
   Reannounce(&planner);
-  Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier);
+  Driver another(&bus_, Options(), LineUp({"arm"}), {}, earlier.Earlier());
   ExpectInputError([&] { another.Discover(true, Idle); },
                    {"--resume", "node[arm].setting[step]", "\"5\"", "\"6\""});
 }
@@ -97,7 +97,7 @@ class OtherFlagsTest : public DriverTest {
     std::vector<LineUpEntry> line_up = LineUp(planners);
     line_up.front().directions = first_directions_;
     line_up.front().contestant.about = first_about_;
-    return std::make_unique<Driver>(&bus_, options, line_up, flags, earlier_);
+    return std::make_unique<Driver>(&bus_, options, line_up, flags, earlier_.Earlier());
   }
 
   /// A call for both.
@@ -124,7 +124,7 @@ class OtherFlagsTest : public DriverTest {
                        [&](const auto& one) { return one.request_id == record.request_id; });
       if (known == earlier_.runs.end()) {
         earlier_.runs.push_back(record);
-      } else if (Replaces(record, *known)) {
+      } else if (Replaces(StandingOf(record), StandingOf(*known))) {
         *known = record;
       }
     }
@@ -158,7 +158,7 @@ class OtherFlagsTest : public DriverTest {
   FakePlanner arm_{&bus_, "arm"};
   FakePlanner leg_{&bus_, "leg"};
   FakeSceneServer server_{&bus_};
-  EarlierSession earlier_;
+  HeldSession earlier_;
   // Of the next call:
   std::vector<int> problems_ = {1, 2};
   bool skips_bad_problems_ = false;
@@ -388,7 +388,7 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
   DriverOptions options = Options();
   options.directions = Directions::kAuto;
   options.problem_indices = {1, 2, 3};
-  EarlierSession earlier;
+  HeldSession earlier;
   std::map<std::string, RunRecordMessage> before;
   {
     // It dies of problem 2.
@@ -417,7 +417,7 @@ TEST_F(DriverTest, WhatAPlannerThatWasGivenUpWasNotAskedIsMadeByTheResumedSessio
 
   planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
   Reannounce(&planner);
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&driver);
   std::set<std::string> made;
   for (const RunRecordMessage& record : logger.records().messages()) {
@@ -437,9 +437,9 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kForward;
-  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  const HeldSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   options.problem_indices = {1, 2, 3};
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&driver);
   EXPECT_EQ(driver.runs().size(), 3u);
   EXPECT_EQ(driver.num_not_asked(), 1);
@@ -455,10 +455,10 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
 
   // One that the session did not have yet is another matter.
   server.RefuseProblem(3, "request0003.yaml: is missing");
-  Driver with_another(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver with_another(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   ExpectInputError([&] { with_another.Discover(true, Idle); }, {"1 of 2 problems are bad"});
   options.skip_bad_problems = true;
-  Driver without(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver without(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&without);
   ASSERT_EQ(without.left_out().size(), 1u);
   EXPECT_EQ(without.left_out().begin()->first, "cans 3");
@@ -468,7 +468,7 @@ TEST_F(DriverTest, AProblemThatWentBadMidwayDoesNotEndTheResumedSession) {
   EXPECT_EQ(without.num_not_asked(), 1);
 
   options.problem_indices = {1};
-  Driver of_others(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver of_others(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&of_others);
   EXPECT_EQ(of_others.runs().size(), 2u) << "tables tell why it is missing";
   EXPECT_EQ(of_others.num_runs(), 2);
@@ -483,12 +483,12 @@ TEST_F(DriverTest, ASessionThatMadeNothingIsRefusedProblemsThatAreAllBad) {
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kForward;
-  EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  HeldSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   std::erase_if(earlier.runs, [](const auto& record) { return record.problem_index != 2; });
   server.RefuseProblem(3, "request0003.yaml: is missing");
   options.problem_indices = {3};
   options.skip_bad_problems = true;
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   ExpectInputError([&] { driver.Discover(true, Idle); }, {"all 1 problems are bad"});
 }
 
@@ -499,7 +499,7 @@ TEST_F(DriverTest, AProblemAtWhichTheSceneServerFailsIsNotAskedForInAResumedSess
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kForward;
-  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  const HeldSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   server.ServeProblem(2);
   server.BeforeAnswers([&](const ProblemRequestMessage& request) {
     if (request.problem_index != 2) return;
@@ -508,7 +508,7 @@ TEST_F(DriverTest, AProblemAtWhichTheSceneServerFailsIsNotAskedForInAResumedSess
         [](const ProblemRequestMessage& next) { return next.problem_index == 3; });
   });
   options.problem_indices = {1, 2, 3};
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   driver.Discover(true, Idle, CountedBy(num_failures));
   EXPECT_TRUE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.num_not_asked(), 1);
@@ -530,11 +530,11 @@ TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedS
   FakeLogger logger(&bus_);
   DriverOptions options = Options();
   options.directions = Directions::kAuto;
-  const EarlierSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
+  const HeldSession earlier = SessionWithoutProblem2(&bus_, options, &server, &logger);
   EXPECT_FALSE(Ids(logger.records()).contains("run/cans/2/arm/backward/1"));
 
   server.ServeProblem(2);
-  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier);
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
   MakeAll(&driver);
   EXPECT_EQ(driver.num_runs(), 3);
   EXPECT_EQ(driver.num_not_asked(), 0);
@@ -550,14 +550,14 @@ TEST_F(DriverTest, AProblemThatIsAnotherThanInTheSessionsRunsEndsIt) {
   DriverOptions options = Options();
   Driver first(&bus_, options, LineUp({"arm"}), {});
   MakeAll(&first);
-  const EarlierSession earlier = {logger.sessions().messages(), logger.records().messages()};
+  const HeldSession earlier = {logger.sessions().messages(), logger.records().messages()};
   options.trials = 2;
   const auto resume_with = [&](void (*alter)(ProblemMessage*)) {
     server.AlterProblems([alter](ProblemMessage* problem) {
       if (problem->problem_index == 2) alter(problem);
     });
     return std::make_unique<Driver>(&bus_, options, LineUp({"arm"}),
-                                    std::map<std::string, std::string>(), earlier);
+                                    std::map<std::string, std::string>(), earlier.Earlier());
   };
   const std::map<std::string, void (*)(ProblemMessage*)> alterations = {
       {"scene", [](ProblemMessage* problem) { problem->scene_id = "another"; }},

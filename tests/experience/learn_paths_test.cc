@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/expect_input_error.h"
+#include "tests/support/held_runs.h"
 
 namespace planbench {
 namespace {
@@ -25,8 +26,8 @@ RunRecordMessage SolvedRun(const std::string& set, int problem, double length) {
 
 TEST(LearnPaths, TakesTheShortestOfEachProblem) {
   const auto [library, num_against_meshes] =
-      LearnPaths({SolvedRun("b", 1, 3), SolvedRun("a", 2, 2), SolvedRun("b", 1, 1),
-                  SolvedRun("a", 1, 4), SolvedRun("b", 1, 2)},
+      LearnPaths(Held({SolvedRun("b", 1, 3), SolvedRun("a", 2, 2), SolvedRun("b", 1, 1),
+                       SolvedRun("a", 1, 4), SolvedRun("b", 1, 2)}),
                  {});
   EXPECT_EQ(library.joints, (std::vector<std::string>{"turn"}));
   EXPECT_EQ(library.learned_from, (std::vector<std::string>{"a", "b"}));
@@ -37,7 +38,7 @@ TEST(LearnPaths, TakesTheShortestOfEachProblem) {
 TEST(LearnPaths, ProblemsOfOneNumberInOtherScenesAreTwo) {
   RunRecordMessage other = SolvedRun("a", 1, 5);
   other.request.scene_id = "other";
-  EXPECT_EQ(LearnPaths({SolvedRun("a", 1, 2), other}, {}).library.paths,
+  EXPECT_EQ(LearnPaths(Held({SolvedRun("a", 1, 2), other}), {}).library.paths,
             (std::vector<Path>{{{0}, {2}}, {{0}, {5}}}));
 }
 
@@ -49,7 +50,7 @@ TEST(LearnPaths, TellsTheScenesOfItsPaths) {
   RunRecordMessage unsolved = SolvedRun("a", 2, 2);
   unsolved.request.scene_id = "unsolved";
   unsolved.status = PlanStatus::kTimedOut;
-  EXPECT_EQ(LearnPaths({two, one, one, unsolved}, {}).library.scenes,
+  EXPECT_EQ(LearnPaths(Held({two, one, one, unsolved}), {}).library.scenes,
             (std::vector<std::string>{"one", "two"}));
 }
 
@@ -66,13 +67,13 @@ TEST(LearnPaths, TakesOnlyWhatTheRefereeConfirmed) {
   at_its_goal.result.result.simplified_path = {{0}};
   const std::vector<RunRecordMessage> none = {timed_out, rejected, unjudged, through_meshes,
                                               at_its_goal};
-  ExpectInputError([&] { LearnPaths({rejected}, {}); }, {"nothing to learn", "was recorded"});
-  ExpectInputError([&] { LearnPaths(none, {}); },
+  ExpectInputError([&] { LearnPaths(Held({rejected}), {}); }, {"nothing to learn", "was recorded"});
+  ExpectInputError([&] { LearnPaths(Held(none), {}); },
                    {"nothing to learn", "meshes refuse every", "(1)"});
   std::vector<RunRecordMessage> one = none;
   one.push_back(SolvedRun("a", 6, 7));
-  EXPECT_EQ(LearnPaths(one, {}).library.paths, (std::vector<Path>{{{0}, {7}}}));
-  EXPECT_EQ(LearnPaths(one, {}).num_against_meshes, 1);
+  EXPECT_EQ(LearnPaths(Held(one), {}).library.paths, (std::vector<Path>{{{0}, {7}}}));
+  EXPECT_EQ(LearnPaths(Held(one), {}).num_against_meshes, 1);
 }
 
 TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
@@ -80,14 +81,16 @@ TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
   other.contestant = "other, guided";
   other.planner = "prm";
   const std::vector<RunRecordMessage> runs = {other, SolvedRun("a", 1, 2), SolvedRun("b", 1, 3)};
-  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"ARA*"}}).library.paths, (std::vector<Path>{{{0}, {2}}}));
-  EXPECT_EQ(LearnPaths(runs, {{"b"}, {}}).library.learned_from, (std::vector<std::string>{"b"}));
-  ExpectInputError([&] { LearnPaths(runs, {{"c"}, {}}); }, {"--sets", "'c'"});
-  EXPECT_EQ(LearnPaths(runs, {{"a"}, {"prm"}}).library.paths, (std::vector<Path>{{{0}, {1}}}))
+  EXPECT_EQ(LearnPaths(Held(runs), {{"a"}, {"ARA*"}}).library.paths,
+            (std::vector<Path>{{{0}, {2}}}));
+  EXPECT_EQ(LearnPaths(Held(runs), {{"b"}, {}}).library.learned_from,
+            (std::vector<std::string>{"b"}));
+  ExpectInputError([&] { LearnPaths(Held(runs), {{"c"}, {}}); }, {"--sets", "'c'"});
+  EXPECT_EQ(LearnPaths(Held(runs), {{"a"}, {"prm"}}).library.paths, (std::vector<Path>{{{0}, {1}}}))
       << "its name on the bus";
   ExpectInputError(
       [&] {
-        LearnPaths(runs, {{}, {"PRM"}});
+        LearnPaths(Held(runs), {{}, {"PRM"}});
       },
       {"--contestants", "'PRM'", "ARA*; ara; other, guided; prm"});
 }
@@ -95,7 +98,11 @@ TEST(LearnPaths, TakesOnlyTheSetsAndContestantsAskedFor) {
 TEST(LearnPaths, PathsOfOtherJointsAreNotMixed) {
   RunRecordMessage other = SolvedRun("b", 1, 1);
   other.result.joint_names = {"bend"};
-  ExpectInputError([&] { LearnPaths({SolvedRun("a", 1, 1), other}, {}); }, {"'b'", "other joints"});
+  ExpectInputError(
+      [&] {
+        LearnPaths(Held({SolvedRun("a", 1, 1), other}), {});
+      },
+      {"'b'", "other joints"});
 }
 
 }  // namespace

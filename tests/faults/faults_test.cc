@@ -252,7 +252,8 @@ TEST_F(FaultsTest, AValidPathThatComesTwiceOrLateCountsOnceOrNotAtAll) {
       {"--planners", "rrtc", "--problems-range", "1-4", "--directions", "forward"});
   ASSERT_EQ(honest->Wait(), 0) << honest->Errors();
   std::map<int, PlanResultMessage> paths;
-  for (const RunRecordMessage& run : ReadRecords(folder() / "honest" / "honest.lcmlog").runs) {
+  for (const RecordedRun& recorded : ReadRecords(folder() / "honest" / "honest.lcmlog").runs) {
+    const RunRecordMessage run = ReadRecord(recorded.place);
     ASSERT_EQ(run.status, PlanStatus::kSolved) << run.request_id;
     paths[run.problem_index] = run.result;
   }

@@ -324,6 +324,25 @@ TEST(EventLog, ASplitLogIsReadAsOne) {
   ExpectInputError([&] { read(folder / "a.lcmlog.00"); }, {"a.lcmlog.03 is missing"});
 }
 
+TEST(EventLog, MessagesCanBeReadAnewWhereTheyAre) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.lcmlog";
+  {
+    EventLog log(file, EventLog::Mode::kNew, kTwoEvents);
+    for (int i = 0; i < 5; ++i) log.Write(Message("A", fmt::format("data{}", i), i));
+  }
+  SetByte(file, 0, 0);  // what is passed over moves no other
+  std::vector<LoggedMessage> messages;
+  ReadEventLog(file, [&](const LoggedMessage& message) { messages.push_back(message); });
+  ASSERT_EQ(messages.size(), 4u);
+  for (const LoggedMessage& message : messages) {
+    EXPECT_EQ(ReadEventBytes(message.place), message.bytes) << message.utime;
+  }
+  EXPECT_EQ(*messages[3].place.file, folder / "a.lcmlog.02");
+  std::filesystem::resize_file(folder / "a.lcmlog.02", 30);
+  ExpectInputError([&] { ReadEventBytes(messages[3].place); }, {"a.lcmlog.02", "was shortened"});
+}
+
 TEST(EventLog, AFileThatIsMissingAtTheEndIsNamed) {
   const TemporaryFolder folder;
   const auto file = folder / "a.lcmlog";

@@ -12,6 +12,7 @@
 
 #include "messaging/channels.h"
 #include "messaging/codec.h"
+#include "tests/messaging/allocation_meter.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -78,7 +79,7 @@ TEST_F(RecordLogTest, RepeatedRecordsCountOnce) {
   Add(channel::kRunRecord, Encode(Record("a", 2)));
   const RecordedSession recorded = Read();
   ASSERT_EQ(recorded.runs.size(), 1u);
-  EXPECT_EQ(recorded.runs[0].roundtrip_time_s, 1);
+  EXPECT_EQ(ReadRecord(recorded.runs[0].place).roundtrip_time_s, 1);
 }
 
 TEST_F(RecordLogTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
@@ -90,15 +91,15 @@ TEST_F(RecordLogTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   Add(channel::kRunRecord, Encode(Record("b", 1)));
   Add(channel::kRunRecord, Encode(not_asked_again));
   Add(channel::kRunRecord, Encode(not_asked));
-  EXPECT_EQ(Read().runs.front(), not_asked_again);
+  EXPECT_EQ(ReadRecord(Read().runs.front().place), not_asked_again);
   log_.reset(lcm_eventlog_create(file_.c_str(), "a"));
   Add(channel::kRunRecord, Encode(Record("a", 2)));
   Add(channel::kRunRecord, Encode(not_asked_again));
   Add(channel::kRunRecord, Encode(Record("a", 3)));
   const RecordedSession recorded = Read();
   ASSERT_EQ(recorded.runs.size(), 2u);
-  EXPECT_EQ(recorded.runs[0], Record("a", 2));
-  EXPECT_EQ(recorded.runs[1], Record("b", 1));
+  EXPECT_EQ(ReadRecord(recorded.runs[0].place), Record("a", 2));
+  EXPECT_EQ(ReadRecord(recorded.runs[1].place), Record("b", 1));
 }
 
 TEST_F(RecordLogTest, ADisturbedRunGivesWayToItsLastRepeatWhateverTheOrder) {
@@ -111,7 +112,41 @@ TEST_F(RecordLogTest, ADisturbedRunGivesWayToItsLastRepeatWhateverTheOrder) {
   }
   const RecordedSession recorded = Read();
   ASSERT_EQ(recorded.runs.size(), 1u);
-  EXPECT_EQ(recorded.runs[0], attempts[2]);
+  EXPECT_EQ(ReadRecord(recorded.runs[0].place), attempts[2]);
+}
+
+TEST_F(RecordLogTest, RecordsStayInTheLogAndAreReadOneByOne) {
+  constexpr std::size_t kRuns = 40;
+  std::vector<RunRecordMessage> records(kRuns);
+  for (std::size_t i = 0; i < kRuns; ++i) {
+    records[i] = Record(fmt::format("{}", i));
+    records[i].result.joint_names = {"j"};
+    records[i].result.result.path = Path(2000, Configuration(1, 0.5));
+    Add(channel::kRunRecord, Encode(records[i]));
+  }
+  log_.reset();
+  const AllocationMeter of_all;
+  const RecordedSession recorded = ReadRecords(file_);
+  const std::size_t peak_of_all = of_all.Peak();
+  ASSERT_EQ(recorded.runs.size(), kRuns);
+  for (std::size_t i = 0; i < kRuns; ++i) {
+    const AllocationMeter of_one;
+    EXPECT_EQ(ReadRecord(recorded.runs[i].place), records[i]);
+    EXPECT_LT(peak_of_all, 2 * of_one.Peak());
+  }
+}
+
+TEST_F(RecordLogTest, ALogThatIsNotWhatItWasIsNamed) {
+  Add(channel::kRunRecord, Encode(Record("a")));
+  const RecordedSession recorded = Read();
+  const EventPlace& place = recorded.runs.at(0).place;
+  std::fstream(file_, std::ios::binary | std::ios::in | std::ios::out)
+      .seekp(static_cast<std::streamoff>(place.offset))
+      .write("another", 8);
+  ExpectInputError([&] { ReadRecord(place); },
+                   {file_.string(), "was changed", channel::kRunRecord});
+  std::filesystem::resize_file(file_, place.offset);
+  ExpectInputError([&] { ReadRecord(place); }, {file_.string(), "was shortened"});
 }
 
 TEST_F(RecordLogTest, TornLastEventIsNoError) {

@@ -417,7 +417,8 @@ TEST_F(MergeSessionsTest, PartsMakeTheSessionThatTheyAreOf) {
   const RecordedSession recorded = ReadRecords(log);
   ASSERT_EQ(recorded.sessions.size(), 1u);
   ASSERT_EQ(recorded.runs.size(), 4u);
-  for (const RunRecordMessage& run : recorded.runs) {
+  for (const RecordedRun& recorded_run : recorded.runs) {
+    const RunRecordMessage run = ReadRecord(recorded_run.place);
     EXPECT_EQ(run.run_id, "early");
     EXPECT_TRUE(run.request_id.starts_with("early/")) << run.request_id;
     EXPECT_EQ(run.request.request_id, run.request_id);
