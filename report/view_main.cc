@@ -41,7 +41,7 @@ Json ViewOfRun(const Flags& flags) {
   if (!flags.run) {
     throw InputError(flags.session + ": give --run ID: the id of a run in its table runs");
   }
-  for (const StoredSession& session : ReadSessions(flags.session).sessions) {
+  for (const StoredSession& session : ReadSessions(flags.session, flags.run).sessions) {
     for (const StoredRun& run : session.runs) {
       if (run.id != *flags.run) continue;
       const RecordedViews views(session, flags.robot.folder, flags.robot.Packages());

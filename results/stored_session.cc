@@ -195,9 +195,9 @@ class Reader {
     }
   }
 
-  StoredSessions Read() {
+  StoredSessions Read(std::optional<std::int64_t> only_run) {
     ReadDescriptions();
-    ReadRuns();
+    ReadRuns(only_run);
     ReadProgress();
     ReadOddTimes();
     const std::optional<BusRecord> bus =
@@ -272,7 +272,7 @@ class Reader {
     }
   }
 
-  void ReadRuns() {
+  void ReadRuns(std::optional<std::int64_t> only_run) {
     const std::vector<Field> fields = Fields();
     std::vector<std::string> present;
     SqliteStatement columns = connection_.Prepare("PRAGMA table_info(runs)");
@@ -283,10 +283,9 @@ class Reader {
           std::find(present.begin(), present.end(), field.column) != present.end();
       sql += is_present ? ", runs." + field.column : ", NULL";
     }
-    SqliteStatement select = connection_.Prepare(
-        sql +
-        " FROM runs JOIN plannerConfigs p ON p.id = plannerid WHERE run_id IS NOT NULL "
-        "ORDER BY runs.id");
+    sql += " FROM runs JOIN plannerConfigs p ON p.id = plannerid WHERE run_id IS NOT NULL";
+    if (only_run) sql += fmt::format(" AND runs.id = {}", *only_run);
+    SqliteStatement select = connection_.Prepare(sql + " ORDER BY runs.id");
     while (select.Step()) {
       StoredSession& session = Session(select.Text(0));
       const std::set<std::string>& told = told_contestants_[session.run_id];
@@ -373,7 +372,8 @@ std::map<std::string, std::string> ParseSettings(const std::string& settings) {
   return by_name;
 }
 
-StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
+StoredSessions ReadSessions(const std::filesystem::path& folder_or_file,
+                            std::optional<std::int64_t> only_run) {
   std::filesystem::path file = folder_or_file;
   if (IsFolder(file)) file /= "results.sqlite";
   if (!IsFile(file)) {
@@ -383,7 +383,7 @@ StoredSessions ReadSessions(const std::filesystem::path& folder_or_file) {
                                           : " does not exist"));
   }
   try {
-    return Reader(file).Read();
+    return Reader(file).Read(only_run);
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   } catch (const SqliteError& error) {

@@ -113,7 +113,8 @@ struct StoredSessions {
 /// All that a session folder's results.sqlite, or such a file itself, holds; also while a logger
 /// writes it, and of earlier versions, whose columns are read as far as there are any. Throws
 /// InputError with one line that names the file if it is missing, damaged, empty, or no results
-/// database.
-StoredSessions ReadSessions(const std::filesystem::path& folder_or_file);
+/// database. `only_run`: of runs that of this id alone.
+StoredSessions ReadSessions(const std::filesystem::path& folder_or_file,
+                            std::optional<std::int64_t> only_run = {});
 
 }  // namespace planbench

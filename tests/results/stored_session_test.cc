@@ -78,6 +78,23 @@ TEST_F(ReadSessionsTest, ReadsWhatTheLoggerWrote) {
   EXPECT_EQ(silent.roundtrip_time_s, 3.5);
 }
 
+TEST_F(ReadSessionsTest, OneRunCanBeReadWithoutTheOthers) {
+  WriteSession(folder_ / "one",
+               {{.contestant = "A", .problem = 7},
+                {.contestant = "B", .problem = 8, .progress = {{1, 2, 3, 4}}},
+                {.contestant = "A", .status = PlanStatus::kNoAnswer, .asked = false}});
+  const StoredSessions stored = ReadSessions(folder_ / "one", 2);
+  ASSERT_EQ(stored.sessions.size(), 1u);
+  const StoredSession& session = stored.sessions.front();
+  EXPECT_TRUE(session.described);
+  ASSERT_EQ(session.runs.size(), 1u);
+  EXPECT_EQ(session.runs[0].id, 2);
+  EXPECT_EQ(session.runs[0].problem_index, 8);
+  EXPECT_EQ(session.runs[0].progress.size(), 1u);
+  EXPECT_TRUE(ReadSessions(folder_ / "one", 3).sessions.front().runs.empty());
+  EXPECT_TRUE(ReadSessions(folder_ / "one", 4).sessions.front().runs.empty());
+}
+
 TEST_F(ReadSessionsTest, OfARejectedSimplifiedPathNothingCounts) {
   WriteSession(folder_ / "one",
                {{.contestant = "A", .simplified_valid = false, .mesh_valid_simplified = true},
