@@ -166,7 +166,8 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
     Keep(record);
   });
   std::erase_if(schedule_, [&](const ScheduledRun& run) {
-    return known.done.contains(run.request_id) && !repeats_.contains(run.request_id);
+    const bool is_needed = NeedOf(run) != Need::kDrop && !known.done.contains(run.request_id);
+    return !is_needed && !repeats_.contains(run.request_id);
   });
   awaited_shards_ = AwaitedShards(known.last, known.plan);
   AddEarlier(earlier.sessions, &options_.conditions);

@@ -543,6 +543,23 @@ TEST_F(DriverTest, AnAttemptWhoseProblemCouldNotBeHadLeavesTheOtherToTheResumedS
                                    "run/cans/2/arm/backward/1"}));
 }
 
+TEST_F(DriverTest, NoProblemIsAskedForOfWhichNothingIsLeftToDo) {
+  const FakePlanner planner(&bus_);
+  FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  DriverOptions options = Options();
+  options.directions = Directions::kAuto;
+  Driver first(&bus_, options, LineUp({"arm"}), {});
+  MakeAll(&first);
+  const HeldSession earlier = {logger.sessions().messages(), logger.records().messages()};
+  const std::set<std::string> requests = Ids(server.problem_requests());
+  Driver driver(&bus_, options, LineUp({"arm"}), {}, earlier.Earlier());
+  MakeAll(&driver);
+  EXPECT_EQ(Ids(server.problem_requests()), requests);
+  EXPECT_EQ(driver.num_runs(), 2);
+  EXPECT_TRUE(logger.sessions().messages().back().finished);
+}
+
 TEST_F(DriverTest, AProblemThatIsAnotherThanInTheSessionsRunsEndsIt) {
   const FakePlanner planner(&bus_);
   FakeSceneServer server(&bus_);
