@@ -141,6 +141,9 @@ void RefuseUtf16(std::string_view text, const std::string& file) {
 }
 
 std::string Escaped(std::string_view text) {
+  // So are almost all texts of messages, every one of which is looked at.
+  const auto is_plain = [](char c) { return ' ' <= c && c <= '~'; };
+  if (std::all_of(text.begin(), text.end(), is_plain)) return std::string(text);
   std::string line;
   for (std::size_t at = 0; at < text.size();) {
     const std::string_view rest = text.substr(at);
