@@ -96,6 +96,14 @@ void Supervisor::StartAgain(const std::string& name) {
   Kill(child);
 }
 
+void Supervisor::Renew(const std::string& name, std::chrono::milliseconds patience) {
+  const std::scoped_lock lock(mutex_);
+  Child* child = Find(name);
+  if (child == nullptr || child->pid < 0) return;
+  kill(-child->pid, SIGTERM);
+  child->renew_by = Clock::now() + patience;
+}
+
 int Supervisor::NumFailuresAtWork(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   const Child* child = Find(name);
@@ -148,6 +156,7 @@ void Supervisor::Supervise() {
       for (Child& child : children_) {
         if (child.pid > 0) Reap(&child);
         if (child.pid > 0) KillIfSilent(&child);
+        if (child.pid > 0) KillIfItStays(&child);
         if (child.pid < 0 && child.wanted && Clock::now() >= child.restart_at) Spawn(&child);
       }
     }
@@ -171,6 +180,10 @@ void Supervisor::Reap(Child* child) {
   if (!child->wanted) return;
   const bool was_at_work = std::exchange(child->came_up, false);
   const bool was_killed = std::exchange(child->killed_here, false);
+  if (std::exchange(child->renew_by, std::nullopt)) {
+    child->restart_at = Clock::now();
+    return;
+  }
   child->num_failures_at_work += was_at_work && !was_killed && !WasToldToEnd(status);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 2) {
     child->wanted = false;
@@ -208,6 +221,13 @@ void Supervisor::KillIfSilent(Child* child) const {
   spdlog::error("{} has been silent for {:g} s; killing it", child->spec.name,
                 std::chrono::duration<double>(most_silence_).count());
   child->num_failures_at_work += child->came_up;
+  Kill(child);
+}
+
+void Supervisor::KillIfItStays(Child* child) {
+  if (!child->wanted || !child->renew_by || child->killed_here) return;
+  if (Clock::now() < *child->renew_by) return;
+  spdlog::error("{} does not end, to be started anew; killing it", child->spec.name);
   Kill(child);
 }
 

@@ -58,6 +58,10 @@ class Supervisor {
   void ThrowIfHopeless(const std::set<std::string>& spared = {}) const;
   /// Kills that child, which is started again.
   void StartAgain(const std::string& name);
+  /// Asks that child to end (SIGTERM), kills it after `patience`, and starts it anew as soon as it
+  /// has ended: no failure of its, however it ends. Returns at once.
+  void Renew(const std::string& name,
+             std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// How often that child, after it had come up, died, unless it was told to end, or fell silent.
   int NumFailuresAtWork(const std::string& name);
 
@@ -79,6 +83,8 @@ class Supervisor {
     /// Since this process was last heard; nothing if it never was.
     std::optional<std::chrono::milliseconds> silence;
     bool killed_here = false;  // this process
+    /// When this process is killed if it has not ended, to be started anew.
+    std::optional<std::chrono::steady_clock::time_point> renew_by;
     int num_failures_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
@@ -90,6 +96,7 @@ class Supervisor {
   void Supervise();
   void Reap(Child* child);
   void KillIfSilent(Child* child) const;
+  static void KillIfItStays(Child* child);
   static void Kill(Child* child);
   void Spawn(Child* child);
 

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -195,6 +196,38 @@ TEST_F(SupervisorTest, WhatIsToBeStartedAgainHasNotFailed) {
   supervisor.StartAgain("child");
   AwaitOutput(2);
   EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 0);
+}
+
+TEST_F(SupervisorTest, WhatIsRenewedIsToldToEndAndHasNotFailed) {
+  testing::internal::CaptureStdout();  // Where messages go.
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "trap 'echo told >> $OUT; exit 3' TERM; echo up >> $OUT\n"
+                          "while :; do sleep 0.01; done"));
+  constexpr std::size_t kRenewals = Supervisor::kMaxQuickDeaths + 1;
+  for (std::size_t time = 1; time <= kRenewals; ++time) {
+    AwaitOutput(2 * time - 1);
+    if (time == kRenewals) supervisor.CameUp("child");
+    supervisor.Renew("child");
+  }
+  const std::vector<std::string> lines = AwaitOutput(2 * kRenewals + 1);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "told"), static_cast<std::ptrdiff_t>(kRenewals));
+  EXPECT_FALSE(Hopeless(supervisor));
+  EXPECT_EQ(supervisor.NumFailuresAtWork("child"), 0);
+}
+
+TEST_F(SupervisorTest, WhatStaysThoughItIsToBeRenewedIsKilled) {
+  Supervisor supervisor;
+  supervisor.Start(Script("child", "trap '' TERM; echo $$ >> $OUT; while :; do sleep 0.05; done"));
+  const pid_t first = std::stoi(AwaitOutput(1).at(0));
+  supervisor.Renew("child", milliseconds(50));
+  const pid_t second = std::stoi(AwaitOutput(2).at(1));
+  EXPECT_FALSE(IsRunning(first));
+  supervisor.Renew("child");
+  supervisor.StopAll({}, milliseconds(50));
+  EXPECT_FALSE(IsRunning(second));
+  EXPECT_EQ(Lines(out_).size(), 2u) << "what is stopped is not started anew";
 }
 
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
