@@ -17,6 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::milliseconds kAbsencePoll{100};
+/// How long one that was told to end may be away before it is said what is waited for.
+constexpr std::chrono::milliseconds kShortAbsence{5000};
 
 /// Whether the process runs on this machine, as far as its id can be seen from here.
 bool IsSeenHere(const NodeStatusMessage& process) {
@@ -119,9 +121,18 @@ bool PlannerClient::HasEnded(const NodeStatusMessage& process) const {
   return process.instance == seen_here_ && !IsSeenHere(process);
 }
 
+bool PlannerClient::IsOver(const NodeStatusMessage& process) const {
+  return process.instance == told_to_end_ || HasEnded(process);
+}
+
+void PlannerClient::ExpectAnother() {
+  if (const auto node = Live()) told_to_end_ = node->status.instance;
+  unanswered_limit_ = std::chrono::milliseconds(0);
+}
+
 std::optional<NodeRegistry::Node> PlannerClient::Live() const {
   for (NodeRegistry::Node& node : registry_->LiveNodes(NodeKind::kPlanner)) {
-    if (node.status.name == planner_ && !HasEnded(node.status)) return std::move(node);
+    if (node.status.name == planner_ && !IsOver(node.status)) return std::move(node);
   }
   return std::nullopt;
 }
@@ -134,13 +145,21 @@ std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
   std::chrono::milliseconds waited{0};
   while (!interrupted() && WhyGivenUp().empty()) {
     if (auto node = Live()) return node;
+    const auto heard = registry_->Find(planner_, NodeKind::kPlanner);
+    if (heard && HasEnded(*heard)) registry_->Forget(*heard);
     if (waited >= patience) {
-      const std::string why = fmt::format("it was not on the bus for {:g} s", patience_s);
+      const std::string why =
+          heard && heard->instance == told_to_end_
+              ? fmt::format(
+                    "its process (pid {}) was told to end, to be started anew, and is on "
+                    "the bus {:g} s later",
+                    heard->pid, patience_s)
+              : fmt::format("it was not on the bus for {:g} s", patience_s);
       given_up_ = "given up: " + why;
       terms_.on_absence(why);
       break;
     }
-    if (waited == waited.zero()) {
+    if (waited == (told_to_end_ ? kShortAbsence : waited.zero())) {
       spdlog::warn("waiting for the planner '{}' to come (back) to the bus, {:g} s at most",
                    planner_, patience_s);
     }

@@ -42,6 +42,9 @@ class PlannerClient {
   /// Waits until the planner is live, or given up, or the caller interrupts. Of one that is not
   /// live it says once for how long.
   void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
+  /// The process that is live has been told to end, so that another comes in its place: it is not
+  /// asked any more, and of the wait for the other nothing is said while that is short.
+  void ExpectAnother();
   /// Waits until the planner is live and asks it until the request has come to its end. Only what
   /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
   /// restarts meanwhile, is given up, or is another than the terms say, gives none; `interrupted`
@@ -56,6 +59,8 @@ class PlannerClient {
   std::string WhyGivenUp() const { return given_up_.empty() ? terms_.given_up() : given_up_; }
   /// Of a process that has been seen on this machine, at once: whether it has ended.
   bool HasEnded(const NodeStatusMessage& process) const;
+  /// Whether it has, or is about to.
+  bool IsOver(const NodeStatusMessage& process) const;
   /// Why that process is not to be asked; "" if it is.
   std::string ReasonNotToAsk(const NodeStatusMessage& process) const;
   void OnAck(const PlanAckMessage& ack, const Origin& origin);
@@ -74,7 +79,8 @@ class PlannerClient {
   PlannerChannels channels_;
   Terms terms_;
   std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
-  std::string given_up_;   // why, if for its absence
+  std::optional<std::string> told_to_end_;  // instance of the process that another comes after
+  std::string given_up_;                    // why, if for its absence
   /// Of the last request, if it had no answer and the process may be at it still.
   std::chrono::milliseconds unanswered_limit_{0};
 

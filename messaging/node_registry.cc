@@ -143,6 +143,20 @@ bool NodeRegistry::Believes(const PacketSender& sender, NodeKind kind, const std
   return false;
 }
 
+void NodeRegistry::Forget(const NodeStatusMessage& process) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = nodes_.find(KeyOf(process.kind, process.name, process.instance));
+  if (found == nodes_.end()) return;
+  Entry& entry = found->second;
+  if (entry.holder.node.status.instance != process.instance) return;
+  if (entry.rival) {
+    entry.holder = *std::exchange(entry.rival, std::nullopt);
+  } else {
+    nodes_.erase(found);
+  }
+  changed_.notify_all();
+}
+
 void NodeRegistry::Discover(const std::string& sender) {
   bus_->Publish(channel::kDiscover, DiscoverMessage{sender});
 }

@@ -20,7 +20,8 @@ namespace planbench {
 /// A node is the process that sends its announcements, whatever these say: while it is live nobody
 /// else takes its name (for the scene server, of which there is one: its place). One who announces
 /// himself under it is a rival, who takes it once the other has been silent for kRivalPatience
-/// though everybody was asked: a process that was started again. Loggers do not stand in each
+/// though everybody was asked: a process that was started again. Of one that is known to have ended
+/// nobody need wait for that. Loggers do not stand in each
 /// other's way. Thread-safe.
 class NodeRegistry {
  public:
@@ -51,6 +52,10 @@ class NodeRegistry {
   /// believed. Where it is neither that node nor its rival, that is noted as a contradiction.
   bool Believes(const PacketSender& sender, NodeKind kind, const std::string& name,
                 const std::string& channel) const;
+
+  /// That process is known to have ended: who comes in its place has its name at once. What it sent
+  /// before may still bring it back, until it has been silent for kLostAfter.
+  void Forget(const NodeStatusMessage& process);
 
   /// Asks every node to announce itself.
   void Discover(const std::string& sender);

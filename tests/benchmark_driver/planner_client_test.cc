@@ -1,5 +1,6 @@
 #include "benchmark_driver/planner_client.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -319,6 +320,35 @@ TEST_F(PlannerClientTest, OneThatStaysAwayIsGivenUpWhenItCannotBeAtItsRequestAny
   Reannounce(&registry_, &planner);
   EXPECT_EQ(solve("c").message, answer.message);
   EXPECT_EQ(told, (std::vector<std::string>{"it was not on the bus for 0.5 s"}));
+}
+
+TEST_F(PlannerClientTest, OneThatWasToldToEndIsNotAskedThoughItIsLive) {
+  FakePlanner planner(&bus_);
+  EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
+  client_.ExpectAnother();
+  std::future<PlannerClient::Answer> answer = BeginToSolve("b");
+  EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(200)), std::future_status::timeout);
+  EXPECT_EQ(planner.requests().Count([](const auto& r) { return r.request_id == "b"; }), 0u);
+  planner.Restart();
+  EXPECT_EQ(answer.get().outcome, PlannerClient::Outcome::kResult);
+}
+
+TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
+  FakePlanner planner(&bus_);
+  Reannounce(&registry_, &planner);
+  PlannerClient::Terms terms;
+  terms.patience = std::chrono::milliseconds(200);
+  PlannerClient client(&bus_, &registry_, "arm", terms);
+  client.ExpectAnother();
+  testing::internal::CaptureStdout();  // Where messages go.
+  const PlannerClient::Answer answer = client.Solve(Request("a"), [] { return false; });
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << "it may be short";
+  EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
+  EXPECT_EQ(answer.message,
+            fmt::format("given up: its process (pid {}) was told to end, to be started anew, and "
+                        "is on the bus 0.2 s later",
+                        getpid()));
+  EXPECT_EQ(answer.roundtrip_time_s, 0);
 }
 
 TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {

@@ -159,6 +159,22 @@ TEST_F(RivalsTest, WhatWasStartedAgainTakesItsNameBeforeTheOldOneIsGivenUp) {
   EXPECT_EQ(bus_.contradictions().count(), 0);
 }
 
+TEST_F(RivalsTest, WhoComesInThePlaceOfAProcessThatIsKnownToHaveEndedHasItsNameAtOnce) {
+  MessageCollector<DiscoverMessage> questions(&other_bus_, channel::kDiscover);
+  node_bus_.Publish(channel::kNodeStatus, Arm("old"));
+  ASSERT_TRUE(Await([&] { return Holder() == "old"; }));
+  registry_.Forget(Arm("another"));
+  EXPECT_EQ(Holder(), "old");
+  registry_.Forget(Arm("old"));
+  EXPECT_EQ(Holder(), "");
+  node_bus_.Publish(channel::kNodeStatus, Arm("old"));
+  ASSERT_TRUE(Await([&] { return Holder() == "old"; }));
+  other_bus_.Publish(channel::kNodeStatus, Arm("new"));
+  ASSERT_EQ(questions.WaitFor(1).size(), 1u) << "whether the old one is live";
+  registry_.Forget(Arm("old"));
+  EXPECT_EQ(Holder(), "new");
+}
+
 TEST_F(RivalsTest, OnlyTheNodeItselfIsBelieved) {
   const NodeAnnouncer node(&node_bus_, [] { return Arm("true"); });
   ASSERT_TRUE(Await([&] { return Holder() == "true"; }));
