@@ -30,9 +30,6 @@
 namespace planbench {
 namespace {
 
-// What a planner does only once takes well below that.
-constexpr double kWarmUpLimit = 1;  // s
-
 /// Planbench's own, not one that a command starts, or somebody else's.
 bool IsOwn(const LineUpEntry& entry) {
   return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
@@ -94,7 +91,8 @@ std::string Driver::Missing(bool need_logger) const {
 }
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch,
-                      std::optional<SupervisedServer> server, ServerPatience patience) {
+                      std::optional<SupervisedServer> server, ServerPatience patience,
+                      std::function<void(const std::string&)> start_anew) {
   AwaitNodes(
       &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
@@ -117,9 +115,12 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   const Known known = TakeUp(std::exchange(earlier_, {}), call);
   const std::chrono::milliseconds to_come = options_.TimeToComeBack();
   patience.until_passed_over = std::max(patience.until_passed_over, to_come);
-  absence_patience_ = patience.until_given_up = std::max(patience.until_given_up, to_come);
+  patience.until_given_up = std::max(patience.until_given_up, to_come);
   executor_ = std::make_unique<RunExecutor>(bus_, &registry_, options_.conditions, options_.kernel,
                                             first_planners_, std::move(server), patience);
+  asked_ = std::make_unique<SessionPlanners>(bus_, &registry_, executor_.get(), planners_,
+                                             patience.until_given_up, options_.problems_per_process,
+                                             std::move(start_anew));
   CheckProblems(known.met, watch);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes
@@ -425,51 +426,18 @@ const RunRow& Driver::Keep(const RunRecordMessage& record) {
   return runs_.Add(record, needs_other, repeats_.contains(record.request_id));
 }
 
-void Driver::GiveUp(const std::string& planner, const std::string& reason) {
-  const std::scoped_lock lock(mutex_);
-  if (!given_up_.emplace(planner, reason).second) return;
-  spdlog::error("the planner '{}' is given up, the others go on: {}", planner, reason);
-}
-
-std::map<std::string, std::string> Driver::given_up() const {
-  const std::scoped_lock lock(mutex_);
-  return given_up_;
-}
-
-PlannerClient::Terms Driver::TermsOf(const std::string& planner) {
-  PlannerClient::Terms terms;
-  terms.expected = planners_.at(planner);
-  terms.given_up = [this, planner]() -> std::string {
-    const std::scoped_lock lock(mutex_);
-    const auto found = given_up_.find(planner);
-    return found == given_up_.end() ? "" : "given up: " + found->second;
-  };
-  terms.patience = absence_patience_;
-  terms.on_absence = [this, planner](const std::string& why) { GiveUp(planner, why); };
-  return terms;
-}
-
-std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run, Clients* clients,
+std::optional<RunRecordMessage> Driver::Make(const ScheduledRun& run,
                                              const std::function<bool()>& interrupted) {
-  const std::vector<ScheduledRun> requests = executor_->RequestsOf(run);
-  std::vector<PlannerClient*> asked;
-  for (const ScheduledRun& request : requests) {
-    std::unique_ptr<PlannerClient>& client = (*clients)[request.planner];
-    if (!client) {
-      client = std::make_unique<PlannerClient>(bus_, &registry_, request.planner,
-                                               TermsOf(request.planner));
-      if (!executor_->WarmUp(request, kWarmUpLimit, client.get(), interrupted)) return std::nullopt;
-    }
-    asked.push_back(client.get());
-  }
-  std::optional<RunRecordMessage> record = executor_->Execute(run, asked, interrupted);
+  const auto asked = asked_->ReadyFor(run, interrupted);
+  if (!asked) return std::nullopt;
+  std::optional<RunRecordMessage> record = executor_->Execute(run, *asked, interrupted);
   if (!record) return std::nullopt;
   const NodeStatusMessage& planner = planners_.at(run.planner);
   record->algorithm = planner.algorithm;
   record->planner_class = planner.planner_class;
   record->settings = planner.settings;
-  if (requests.size() > 1) {
-    const std::string& first = requests.front().planner;
+  if (asked->size() > 1) {
+    const std::string& first = asked->front()->planner();
     record->settings.merge(FirstPathSettings(first, planners_.at(first).settings));
   }
   return record;
@@ -507,7 +475,6 @@ bool Driver::TakeIn(RunRecordMessage* record) {
 
 void Driver::RunLane(const std::vector<ScheduledRun>& lane,
                      const std::function<bool()>& interrupted) {
-  Clients clients;
   std::vector<ScheduledRun> left = lane;
   while (!left.empty()) {
     std::vector<ScheduledRun> again;
@@ -522,7 +489,7 @@ void Driver::RunLane(const std::vector<ScheduledRun>& lane,
         }
         if (need != Need::kMake) continue;
       }
-      std::optional<RunRecordMessage> record = Make(run, &clients, interrupted);
+      std::optional<RunRecordMessage> record = Make(run, interrupted);
       if (!record) return;
       if (!TakeIn(&*record)) continue;
       recorder_.Record(*record);

@@ -19,6 +19,7 @@
 #include "benchmark_driver/run_executor.h"
 #include "benchmark_driver/run_rows.h"
 #include "benchmark_driver/schedule.h"
+#include "benchmark_driver/session_planners.h"
 #include "messaging/asked_runs.h"
 #include "messaging/bus.h"
 #include "messaging/node_registry.h"
@@ -39,10 +40,11 @@ class Driver {
   /// it, so that bad ones, at which the scene server fails included, are known before the first
   /// run. `watch` is called while waiting and may throw. `server`: RunExecutor's. `patience`: also
   /// without a live planner; a process that has gone is given as long to come back as it had to
-  /// come. Throws InputError naming what is missing or does not fit, std::runtime_error when the
-  /// scene server is given up.
+  /// come. `start_anew`: PlannerRenewal's, where the options ask for it. Throws InputError naming
+  /// what is missing or does not fit, std::runtime_error when the scene server is given up.
   void Discover(bool need_logger, const std::function<void()>& watch,
-                std::optional<SupervisedServer> server = {}, ServerPatience patience = {});
+                std::optional<SupervisedServer> server = {}, ServerPatience patience = {},
+                std::function<void(const std::string& planner)> start_anew = {});
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded; a session that was to make others before it was resumed, or to repeat them, in which
   /// one was not asked (num_not_asked), or which awaits shards, is not finished by that.
@@ -50,7 +52,9 @@ class Driver {
 
   /// Whatever is left to that planner is recorded as NO_ANSWER for that reason, until the session
   /// is resumed. Thread-safe.
-  void GiveUp(const std::string& planner, const std::string& reason);
+  void GiveUp(const std::string& planner, const std::string& reason) {
+    asked_->GiveUp(planner, reason);
+  }
 
   /// All runs that have a record so far, those of the resumed session included, but for what this
   /// call has yet to make.
@@ -79,7 +83,7 @@ class Driver {
   /// What is not recorded and why, in lines.
   std::vector<std::string> Shortcomings() const { return recorder_.Shortcomings(); }
   /// Planners that were given up, and why.
-  std::map<std::string, std::string> given_up() const;
+  std::map<std::string, std::string> given_up() const { return asked_->given_up(); }
   /// SessionMessage's.
   const std::map<std::string, std::string>& left_out() const { return left_out_; }
   /// Complete once the processes are found.
@@ -135,10 +139,8 @@ class Driver {
   /// Every attempt is recorded at once, a repeat's record in the place of the one before, so that a
   /// session that is interrupted lacks no run for having been disturbed, as long ones are sooner.
   void RunLane(const std::vector<ScheduledRun>& lane, const std::function<bool()>& interrupted);
-  PlannerClient::Terms TermsOf(const std::string& planner);
-  using Clients = std::map<std::string, std::unique_ptr<PlannerClient>>;
   /// The record of a run, nothing if interrupted.
-  std::optional<RunRecordMessage> Make(const ScheduledRun& run, Clients* clients,
+  std::optional<RunRecordMessage> Make(const ScheduledRun& run,
                                        const std::function<bool()>& interrupted);
   const RunRow& Keep(const RunRecordMessage& record);
 
@@ -162,14 +164,13 @@ class Driver {
   std::map<std::string, std::string> left_out_;  // SessionMessage's
   std::vector<Contestant> first_planners_;       // who find paths for contestants and are none
   std::unique_ptr<RunExecutor> executor_;
-  std::chrono::milliseconds absence_patience_{0};
 
   /// By name, as found: processes that are described otherwise are not asked.
   std::map<std::string, NodeStatusMessage> planners_;
   std::map<std::string, NodeStatusMessage> earlier_planners_;  // as the resumed session told
+  std::unique_ptr<SessionPlanners> asked_;                     // once discovered
 
-  mutable std::mutex mutex_;
-  std::map<std::string, std::string> given_up_;
+  std::mutex mutex_;
   RunRows runs_;
   int num_not_asked_ = 0;
   int num_unjudgeable_ = 0;  // of them

@@ -122,6 +122,10 @@ void AddLaunchFlags(CLI::App* app, CLI::Option* resume, DriverOptions* options) 
   with_launch(app->add_option_function<std::string>(
       "--pin", [=](const std::string& text) { options->pinned = ParsePin(text); },
       "processors of the planners, e.g. 2-3: all else keeps off them; default: no matter which"));
+  with_launch(app->add_option("--problems-per-process", options->problems_per_process,
+                              "start each planner anew after so many problems, so that no process "
+                              "is faster by chance on all of them; default: never"))
+      ->check(CLI::Range(1, kMostPlanned));
   with_launch(
       app->add_option("--out", options->out, "session folder; default: sessions/<date and time>"))
       ->excludes(resume);

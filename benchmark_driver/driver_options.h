@@ -44,6 +44,8 @@ struct DriverOptions {
   /// one.
   double max_disturbance = 0.1;
   bool repeat_disturbed = false;  ///< At the end, in the place of what was disturbed.
+  /// After which a planner's process makes room for a new one, with launch only; nothing: never.
+  std::optional<int> problems_per_process;
   KernelFolders kernel;
 
   /// Results from elsewhere to stand in the tables: name, file (results/imported_results.h).

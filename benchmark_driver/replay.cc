@@ -112,12 +112,15 @@ std::vector<std::string> MissingRuns(const std::string& log, const RecordedSessi
 
 Replay::Replay(Bus* bus, NodeRegistry* registry, std::string run_id,
                std::vector<RunRecordMessage> runs, std::map<std::string, Scene> scenes,
-               const std::vector<std::string>& planners, std::chrono::milliseconds patience)
+               const std::vector<std::string>& planners, std::chrono::milliseconds patience,
+               std::optional<int> problems_per_process,
+               std::function<void(const std::string&)> start_anew)
     : bus_(bus),
       registry_(registry),
       run_id_(std::move(run_id)),
       scenes_(std::move(scenes)),
-      patience_(patience) {
+      patience_(patience),
+      renewal_(problems_per_process, std::move(start_anew)) {
   for (const std::string& planner : planners) tallies_[planner];
   for (RunRecordMessage& run : runs) {
     const auto tally = tallies_.find(run.planner);
@@ -190,6 +193,7 @@ bool Replay::Run(const std::function<bool()>& interrupted,
     PlanRequest request = run.request;
     request.run_id = run_id_;
     request.request_id = UniqueId(run.request_id);
+    renewal_.Renew(run.problem_set, run.problem_index, client.get());
     const PlannerClient::Answer answer = client->Solve(request, interrupted);
     if (answer.outcome == PlannerClient::Outcome::kInterrupted) return false;
 

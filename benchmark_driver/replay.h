@@ -3,10 +3,12 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmark_driver/planner_client.h"
+#include "benchmark_driver/planner_renewal.h"
 #include "messaging/bus.h"
 #include "messaging/messages.h"
 #include "messaging/node_registry.h"
@@ -32,9 +34,12 @@ class Replay {
   /// `run_id`: under which they are asked. `runs`: of those that `planners` were asked. Throws
   /// InputError if one of these was asked nothing, or a scene is lacking. `patience`: with a
   /// planner that is not live any more (PlannerClient::Terms); then its requests are not made.
+  /// `problems_per_process` and `start_anew`: PlannerRenewal's.
   Replay(Bus* bus, NodeRegistry* registry, std::string run_id, std::vector<RunRecordMessage> runs,
          std::map<std::string, Scene> scenes, const std::vector<std::string>& planners,
-         std::chrono::milliseconds patience = PlannerClient::Terms().patience);
+         std::chrono::milliseconds patience = PlannerClient::Terms().patience,
+         std::optional<int> problems_per_process = {},
+         std::function<void(const std::string& planner)> start_anew = {});
 
   /// Asks and compares everything; `tell` gets a line for each answer that differs. Returns early
   /// if `interrupted` (asked every 50 ms; may throw). True if all was asked and all answers agree.
@@ -64,6 +69,7 @@ class Replay {
   std::map<std::string, Scene> scenes_;
   std::map<std::string, Tally> tallies_;  // by planner
   std::chrono::milliseconds patience_;
+  PlannerRenewal renewal_;
   Subscription scene_requests_;  // last: it uses the rest
 };
 

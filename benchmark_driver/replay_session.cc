@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -21,6 +22,7 @@
 #include "common/error.h"
 #include "common/exit_codes.h"
 #include "common/file_kind.h"
+#include "common/lookup.h"
 #include "common/sibling_program.h"
 #include "common/standard_output.h"
 #include "messaging/lcm_url.h"
@@ -46,6 +48,18 @@ void Complete(const std::vector<SessionMessage>& sessions, const std::vector<std
       flags->commands.emplace_back(contestant.planner, contestant.command);
     }
   }
+}
+
+/// Of the session that the log tells of last; nothing if it does not tell, or of all.
+std::optional<int> ProblemsPerProcess(const RecordedSession& recorded) {
+  if (recorded.sessions.empty()) return std::nullopt;
+  const std::string text =
+      Lookup(recorded.sessions.back().settings, "problems-per-process").value_or("");
+  const char* const end = text.data() + text.size();
+  int problems = 0;
+  const auto [last, error] = std::from_chars(text.data(), end, problems);
+  const bool is_number = error == std::errc() && last == end && problems > 0;
+  return is_number ? std::optional(problems) : std::nullopt;
 }
 
 }  // namespace
@@ -94,12 +108,14 @@ int ReplaySession(const DriverOptions& given_options, const std::string& run_id,
   }
   Bus bus(url);
   NodeRegistry registry(&bus);
-  Replay replay(&bus, &registry, run_id, std::move(runs), std::move(scenes), planners,
-                std::max(PlannerClient::Terms().patience, options.TimeToComeBack()));
   // Declared before what uses the processes, so that they are stopped last, whatever is thrown.
   std::optional<NewSessionFolder> new_folder;
-  if (options.launch) new_folder.emplace(folder);
   std::optional<Supervisor> supervisor;
+  Replay replay(&bus, &registry, run_id, std::move(runs), std::move(scenes), planners,
+                std::max(PlannerClient::Terms().patience, options.TimeToComeBack()),
+                options.launch ? ProblemsPerProcess(recorded) : std::nullopt,
+                [&](const std::string& planner) { supervisor->Renew(planner); });
+  if (options.launch) new_folder.emplace(folder);
   std::optional<ProcessStopper> stopper;
   Subscription children;
   bus.Start();

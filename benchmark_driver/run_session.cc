@@ -205,7 +205,8 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
     server = SceneServerOf(supervisor.get());
   }
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  driver.Discover(options.launch, watch, std::move(server));
+  driver.Discover(options.launch, watch, std::move(server), {},
+                  [&](const std::string& planner) { supervisor->Renew(planner); });
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();
@@ -230,9 +231,9 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
-  const SessionTables tables =
-      MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing,
-                 driver.left_out(), driver.num_owed(), driver.num_to_repeat());
+  const SessionTables tables = MakeTables(driver.conditions(), driver.runs(), reference_attempts,
+                                          num_missing, driver.left_out(), driver.num_owed(),
+                                          driver.num_to_repeat(), options.problems_per_process);
   if (stopper) {
     stopper->Stop();
     WriteTables(session_folder / "tables.txt", tables.full);

@@ -306,7 +306,7 @@ std::string EdgesOf(const Contestant& contestant, const SessionResults& results)
 
 /// What the contestants are, and what holds of all the figures.
 std::string Preface(const SessionConditions& conditions, const SessionResults& results,
-                    int num_to_repeat) {
+                    int num_to_repeat, std::optional<int> problems_per_process) {
   std::string text = "Contestants\n";
   const std::map<std::string, std::string> classes = ClassesIfSeveral(results);
   for (const Contestant& one : results.contestants()) {
@@ -323,6 +323,11 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   if (conditions.parallel) {
     text += BreakLines(
         "All times were measured UNDER LOAD: the planners worked at once (--parallel).\n");
+  }
+  if (problems_per_process) {
+    text += BreakLines(fmt::format(
+        "The planners were started anew after so many problems (--problems-per-process {}).\n",
+        *problems_per_process));
   }
   return text + Remarks(results) + Disturbances(results, num_to_repeat) + "\n";
 }
@@ -378,12 +383,13 @@ std::string LeftOut(const std::map<std::string, std::string>& left_out) {
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing,
                          const std::map<std::string, std::string>& left_out, int num_owed,
-                         int num_to_repeat) {
+                         int num_to_repeat, std::optional<int> problems_per_process) {
   const SessionResults results(conditions, runs, references);
   const std::string missing =
       Missing(static_cast<int>(runs.size()), num_missing, num_owed, results) + LeftOut(left_out);
   if (results.sets().empty()) return {missing + "No runs.\n", missing + "No runs.\n"};
-  const std::string begin = missing + Preface(conditions, results, num_to_repeat) +
+  const std::string begin = missing +
+                            Preface(conditions, results, num_to_repeat, problems_per_process) +
                             SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results);
   return {begin + PairTable(results, false) + meshes + FailureSummary(results),

@@ -20,7 +20,8 @@
 namespace planbench {
 namespace {
 
-const std::set<std::string> kFlagsThatCount = {"directions", "max-disturbance", "repeat-disturbed"};
+const std::set<std::string> kFlagsThatCount = {"directions", "max-disturbance",
+                                               "problems-per-process", "repeat-disturbed"};
 
 /// The number that a text is; nothing if it is none, or one that a double may not tell from its
 /// neighbours, a seed or a hash.

@@ -244,8 +244,8 @@ std::string HowSure(const ComparedSessions& compared,
   }
   if (!near.empty()) {
     text += fmt::format(
-        "; {} within 5 % of it, which may be of the processes rather than of the planners: "
-        "several sessions tell",
+        "; {} within 5 % of it, which may be of the processes rather than of the planners, unless "
+        "each problem had its own (--problems-per-process 1): several sessions tell",
         Named(near) + (near.size() == 1 ? " is" : " are"));
   }
   if (compared.outcomes().size() > 1) {
@@ -518,6 +518,12 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
       cautions.push_back(fmt::format(
           "{}: the planners worked at once (--parallel): all times were measured under load.",
           name));
+    }
+    if (const auto problems = Lookup(session.flags, "problems-per-process").value_or("");
+        !problems.empty()) {
+      cautions.push_back(fmt::format(
+          "{}: the planners were started anew after so many problems (--problems-per-process {}).",
+          name, problems));
     }
   }
   for (const std::string& name : compared.without_runs()) {

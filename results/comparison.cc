@@ -145,7 +145,8 @@ bool IsNearOne(const PairedComparison& pair) {
 std::string NearRatiosNote(const std::vector<PairedComparison>& rows) {
   if (std::none_of(rows.begin(), rows.end(), IsNearOne)) return "";
   return " Ratios within 5 % of 1, and their p, may be of these processes rather than of the "
-         "planners: several sessions tell.";
+         "planners, unless each problem had its own (--problems-per-process 1): several sessions "
+         "tell.";
 }
 
 }  // namespace planbench

@@ -337,6 +337,19 @@ TEST(DriverFlagsTest, RefusesBadLaunchFlags) {
   ExpectRefused(Launch({"--set", "x.=1"}), {"--set", "x.=1"});
 }
 
+TEST(DriverFlagsTest, ProcessesThatAreLaunchedMayHaveSoManyProblems) {
+  std::map<std::string, std::string> flags;
+  EXPECT_FALSE(ParseFlags(kLaunch, &flags).problems_per_process);
+  EXPECT_EQ(flags.at("problems-per-process"), "");
+  const std::vector<std::string> ten = {"--problems-per-process", "10"};
+  EXPECT_EQ(ParseFlags(Launch(ten), &flags).problems_per_process, 10);
+  EXPECT_EQ(flags.at("problems-per-process"), "10");
+  ExpectRefused(ten, {"--problems-per-process", "--launch"});
+  ExpectRefused(Launch({"--problems-per-process", "0"}), {"--problems-per-process"});
+  ExpectRefused(Launch({"--problems-per-process", "10", "--replay", "a.lcmlog"}),
+                {"--problems-per-process", "--replay"});
+}
+
 TEST(DriverFlagsTest, AReplayTakesItsRequestsFromTheLog) {
   EXPECT_EQ(ParseFlags({"--replay", "a.lcmlog", "--planners", "x"}).replay, "a.lcmlog");
   // Without --problems.

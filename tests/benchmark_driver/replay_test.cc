@@ -142,6 +142,20 @@ TEST_F(ReplayTest, WhatAPlannerThatHasGoneIsNotAskedDoesNotDiffer) {
   EXPECT_THAT(lines, testing::IsEmpty());
 }
 
+TEST_F(ReplayTest, StartsPlannersAnewAfterSoManyProblems) {
+  std::vector<RunRecordMessage> runs = {Recorded("then/a"), Recorded("then/b"), Recorded("then/c")};
+  runs[2].problem_index = 2;
+  std::vector<std::string> started;
+  Replay replay(&bus_, &registry_, "run", runs, {{SceneId(OneBox()), OneBox()}}, {"arm"},
+                PlannerClient::Terms().patience, 1, [&](const std::string& planner) {
+                  started.push_back(planner);
+                  planner_.Restart();
+                });
+  EXPECT_TRUE(
+      replay.Run([] { return false; }, [](const std::string& line) { ADD_FAILURE() << line; }));
+  EXPECT_THAT(started, ElementsAre("arm"));
+}
+
 TEST_F(ReplayTest, HandsOutTheScenes) {
   const Replay replay = Make({Recorded("then/a")});
   MessageCollector<SceneMessage> scenes(&bus_, channel::kScene);

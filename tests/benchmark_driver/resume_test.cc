@@ -238,7 +238,8 @@ TEST(DescribeInstructionDifferenceTest, OfWhatProcessorsTell) {
 }
 
 TEST(RequireSameConditionsTest, FlagsThatChangeWhatRunsCountForMayNotChange) {
-  for (const char* flag : {"directions", "max-disturbance", "repeat-disturbed"}) {
+  for (const char* flag :
+       {"directions", "max-disturbance", "problems-per-process", "repeat-disturbed"}) {
     SessionMessage before;
     SessionMessage now;
     before.settings[flag] = "a";

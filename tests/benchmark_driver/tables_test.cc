@@ -385,6 +385,9 @@ TEST(TablesTest, ContestantsAreExplained) {
   EXPECT_THAT(text, Not(HasSubstr("UNDER LOAD")));
   conditions.parallel = true;
   EXPECT_THAT(MakeTables(conditions, Rows(FourProblems())).brief, HasSubstr("UNDER LOAD"));
+  EXPECT_THAT(text, Not(HasSubstr("started anew")));
+  EXPECT_THAT(MakeTables(conditions, Rows(FourProblems()), {}, 0, {}, 0, 0, 10).brief,
+              HasSubstr("started anew after so many problems (--problems-per-process 10)."));
 }
 
 TEST(TablesTest, DisturbedRunsAreCounted) {

@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "messaging/channels.h"
+#include "messaging/codec.h"
+#include "messaging/event_log_reader.h"
 #include "messaging/node_registry.h"
 #include "messaging/record_log.h"
 #include "tests/pipeline/pipeline_fixture.h"
+#include "tests/support/message_collector.h"
 
 namespace planbench {
 namespace {
@@ -263,6 +269,119 @@ TEST_F(LaunchedSession, ARunWhosePlannerIsToldToEndBeforeTheDriverIsNotRecorded)
   EXPECT_EQ(resumed->Wait(), 0) << resumed->Errors();
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 5);
   EXPECT_EQ(Query(session, not_timed_out), 0);
+}
+
+TEST_F(LaunchedSession, PlannersAreStartedAnewAfterSoManyProblems) {
+  const auto session = folder() / "session";
+  const auto line_up = folder() / "lineup.yaml";
+  std::ofstream(line_up)
+      << "contestants: {a: {name: A, program: rrtc}, b: {name: B, program: rrtc}}";
+  std::vector<std::string> flags = {
+      "--lineup", line_up.string(), "--problems-range", "1-4", "--trials", "2", "--time", "30"};
+  std::vector<std::string> anew = flags;
+  anew.insert(anew.end(), {"--problems-per-process", "2"});
+  ChildProcess* driver = StartLaunchedDriver(session, anew);
+  ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
+  EXPECT_TRUE(LeftRunning().empty());
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved"), 4 * 2 * 2);
+  EXPECT_THAT(driver->Output(), testing::HasSubstr("(--problems-per-process 2)"));
+  for (const char* trouble : {"starting it again", "waiting for the planner", "warm-up"}) {
+    EXPECT_THAT(driver->Errors(), testing::Not(testing::HasSubstr(trouble)));
+  }
+  const auto run_json = nlohmann::json::parse(std::ifstream(session / "run.json"));
+  EXPECT_NE(run_json.dump().find("\"problems-per-process\":\"2\""), std::string::npos);
+
+  // Each has answered a request before it made a run.
+  std::map<std::string, std::set<std::string>> processes, warm_ups;
+  ReadEventLog(session / "session.lcmlog", [&](const ReceivedMessage& message) {
+    if (message.channel == channel::kNodeStatus) {
+      const auto status = Decode<NodeStatusMessage>(message.bytes, message.channel);
+      processes[status.name].insert(status.instance);
+    }
+    for (const char* name : {"a", "b"}) {
+      if (message.channel != PlannerChannels(name).request) continue;
+      const auto request = Decode<PlanRequest>(message.bytes, message.channel);
+      if (request.request_id.ends_with("/warm-up")) warm_ups[name].insert(request.request_id);
+    }
+  });
+  for (const char* name : {"a", "b"}) {
+    EXPECT_EQ(processes[name].size(), 2u);
+    EXPECT_EQ(warm_ups[name].size(), 2u);
+  }
+  EXPECT_EQ(processes["scene_server"].size(), 1u);
+
+  ExpectBadInput(Start(Resuming(session, flags)), "setting[problems-per-process]");
+  {
+    Bus bus(url());
+    MessageCollector<NodeStatusMessage> statuses(&bus, channel::kNodeStatus);
+    bus.Start();
+    ChildProcess* replay =
+        Start({Program("benchmark_driver"), "--launch", "--robot", RobotFolder(), "--lineup",
+               line_up.string(), "--replay", (session / "session.lcmlog").string(), "--out",
+               (folder() / "replay").string(), "--lcm-url", url()});
+    EXPECT_EQ(replay->Wait(), 0) << replay->Output() << replay->Errors();
+    std::set<std::string> instances;
+    for (const NodeStatusMessage& status : statuses.messages()) {
+      if (status.kind == NodeKind::kPlanner) instances.insert(status.instance);
+    }
+    EXPECT_EQ(instances.size(), 4u);
+  }
+}
+
+/// A planner `mine` that does `next` in the place of coming to the bus when there is that file,
+/// which it makes.
+std::string OnceOnlyCommand(const std::string& program, const std::string& robot,
+                            const std::filesystem::path& begun, const std::string& next) {
+  return fmt::format("mine=[ -e {0} ] && {{ {1}; }}; touch {0}; exec {2} --robot {3} --name mine",
+                     begun.string(), next, program, robot);
+}
+
+TEST_F(LaunchedSession, OneThatIsNotToBeStartedAnewIsGivenUpAndItsRunsAreMissing) {
+  const auto session = folder() / "session";
+  ChildProcess* driver = StartLaunchedDriver(
+      session, {"--problems-range", "1-3", "--time", "30", "--directions", "forward",
+                "--problems-per-process", "1", "--planners", "rrtc,mine", "--planner-command",
+                OnceOnlyCommand(Program("planner_rrtc"), RobotFolder(), folder() / "begun",
+                                "echo no licence; exit 2")});
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  EXPECT_TRUE(LeftRunning().empty());
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved"), 3 + 1);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE message LIKE 'given up: %licence'"), 2);
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM sessions WHERE finished"), 0);
+  EXPECT_THAT(driver->Output(), testing::HasSubstr("2 OF 6 RUNS ARE MISSING"));
+  EXPECT_THAT(driver->Errors(),
+              testing::HasSubstr("the planner 'mine' was given up: mine: no licence"));
+}
+
+TEST_F(LaunchedSession, InterruptedWhilePlannersAreStartedAnewLeavesNothingRunningAndResumes) {
+  const auto session = folder() / "session";
+  const auto begun = folder() / "begun", again = folder() / "again";
+  const std::vector<std::string> flags = {
+      "--problems-range",
+      "1-2",
+      "--time",
+      "30",
+      "--directions",
+      "forward",
+      "--problems-per-process",
+      "1",
+      "--planners",
+      "mine",
+      "--planner-command",
+      OnceOnlyCommand(Program("planner_rrtc"), RobotFolder(), begun,
+                      fmt::format("touch {}; exec sleep 1000", again.string()))};
+  ChildProcess* driver = StartLaunchedDriver(session, flags);
+  ASSERT_TRUE(WaitUntil([&] { return std::filesystem::exists(again); })) << driver->Errors();
+  driver->Signal(SIGINT);
+  EXPECT_EQ(driver->Wait(), 1) << driver->Errors();
+  EXPECT_TRUE(LeftRunning().empty());
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 1);
+  EXPECT_THAT(driver->Output(), testing::HasSubstr("--problems-per-process 1"));
+
+  std::filesystem::remove(begun);
+  ChildProcess* resumed = Start(Resuming(session, flags));
+  EXPECT_EQ(resumed->Wait(), 0) << resumed->Errors();
+  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE solved"), 2);
 }
 
 TEST_F(LaunchedSession, KilledLeavesNothingRunningNotEvenChildrenOfAPlannersScript) {

@@ -356,6 +356,22 @@ TEST_F(ReportTest, RunsThatNoResumedSessionMakesAreTold) {
                                 "larger --referee-step makes it."));
 }
 
+TEST_F(ReportTest, PlannersThatWereStartedAnewAreTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  for (const char* problems : {"", "10"}) {
+    session.settings["problems-per-process"] = problems;
+    const std::string name = fmt::format("example{}", problems);
+    WriteSession(folder / name, {{.contestant = "A"}}, session);
+    const std::vector<StoredSession> sessions = ReadSessions(folder / name).sessions;
+    const std::vector<std::string> cautions = Cautions(ComparedSessions(sessions));
+    EXPECT_EQ(std::count(cautions.begin(), cautions.end(),
+                         name + ": the planners were started anew after so many problems "
+                                "(--problems-per-process 10)."),
+              *problems == '\0' ? 0 : 1);
+  }
+}
+
 TEST_F(ReportTest, RepeatsThatAreOwedAreTold) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();

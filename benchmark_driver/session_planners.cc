@@ -1,0 +1,80 @@
+#include "benchmark_driver/session_planners.h"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "common/lookup.h"
+
+namespace planbench {
+namespace {
+
+// What a planner does only once takes well below that.
+constexpr double kWarmUpLimit = 1;  // s
+
+}  // namespace
+
+SessionPlanners::SessionPlanners(Bus* bus, NodeRegistry* registry, RunExecutor* executor,
+                                 std::map<std::string, NodeStatusMessage> found,
+                                 std::chrono::milliseconds patience,
+                                 std::optional<int> problems_per_process,
+                                 std::function<void(const std::string&)> start_anew)
+    : bus_(bus),
+      registry_(registry),
+      executor_(executor),
+      found_(std::move(found)),
+      patience_(patience),
+      renewal_(problems_per_process, std::move(start_anew)) {}
+
+std::optional<std::vector<PlannerClient*>> SessionPlanners::ReadyFor(
+    const ScheduledRun& run, const std::function<bool()>& interrupted) {
+  std::vector<PlannerClient*> ready;
+  for (const ScheduledRun& request : executor_->RequestsOf(run)) {
+    bool is_cold = false;
+    {
+      const std::scoped_lock lock(mutex_);
+      std::unique_ptr<PlannerClient>& client = clients_[request.planner];
+      is_cold = !client;
+      if (!client) {
+        client = std::make_unique<PlannerClient>(bus_, registry_, request.planner,
+                                                 TermsOf(request.planner));
+      }
+      ready.push_back(client.get());
+    }
+    if (WhyGivenUp(request.planner).empty()) {
+      is_cold |= renewal_.Renew(request.problem_set, request.problem_index, ready.back());
+    }
+    if (is_cold && !executor_->WarmUp(request, kWarmUpLimit, ready.back(), interrupted)) {
+      return std::nullopt;
+    }
+  }
+  return ready;
+}
+
+void SessionPlanners::GiveUp(const std::string& planner, const std::string& reason) {
+  const std::scoped_lock lock(mutex_);
+  if (!given_up_.emplace(planner, reason).second) return;
+  spdlog::error("the planner '{}' is given up, the others go on: {}", planner, reason);
+}
+
+std::map<std::string, std::string> SessionPlanners::given_up() const {
+  const std::scoped_lock lock(mutex_);
+  return given_up_;
+}
+
+std::string SessionPlanners::WhyGivenUp(const std::string& planner) const {
+  const std::scoped_lock lock(mutex_);
+  const std::optional<std::string> reason = Lookup(given_up_, planner);
+  return reason ? "given up: " + *reason : "";
+}
+
+PlannerClient::Terms SessionPlanners::TermsOf(const std::string& planner) {
+  PlannerClient::Terms terms;
+  terms.expected = found_.at(planner);
+  terms.given_up = [this, planner] { return WhyGivenUp(planner); };
+  terms.patience = patience_;
+  terms.on_absence = [this, planner](const std::string& why) { GiveUp(planner, why); };
+  return terms;
+}
+
+}  // namespace planbench

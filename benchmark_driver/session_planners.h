@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmark_driver/planner_client.h"
+#include "benchmark_driver/planner_renewal.h"
+#include "benchmark_driver/run_executor.h"
+#include "benchmark_driver/schedule.h"
+#include "messaging/bus.h"
+#include "messaging/messages.h"
+#include "messaging/node_registry.h"
+
+namespace planbench {
+
+/// The planners of a session while its runs are made: ready to be asked, each by one client, or
+/// given up. Thread-safe for different planners.
+class SessionPlanners {
+ public:
+  /// `found`: by name, as they are described: what is described otherwise is not asked. `patience`:
+  /// with one that is not live (PlannerClient::Terms). `problems_per_process` and `start_anew`:
+  /// PlannerRenewal's.
+  SessionPlanners(Bus* bus, NodeRegistry* registry, RunExecutor* executor,
+                  std::map<std::string, NodeStatusMessage> found,
+                  std::chrono::milliseconds patience, std::optional<int> problems_per_process,
+                  std::function<void(const std::string& planner)> start_anew);
+
+  /// Of whom a run asks (RunExecutor::RequestsOf), in that order. Before a process makes its first
+  /// run it answers one request that is not recorded, so that what it does only once is no part of
+  /// any; so does the next one, where a process has had its problems. Nothing if `interrupted`.
+  std::optional<std::vector<PlannerClient*>> ReadyFor(const ScheduledRun& run,
+                                                      const std::function<bool()>& interrupted);
+
+  /// Driver's. Thread-safe.
+  void GiveUp(const std::string& planner, const std::string& reason);
+  std::map<std::string, std::string> given_up() const;
+
+ private:
+  PlannerClient::Terms TermsOf(const std::string& planner);
+  /// "" if it is not.
+  std::string WhyGivenUp(const std::string& planner) const;
+
+  Bus* bus_;
+  NodeRegistry* registry_;
+  RunExecutor* executor_;
+  const std::map<std::string, NodeStatusMessage> found_;
+  const std::chrono::milliseconds patience_;
+  PlannerRenewal renewal_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::string> given_up_;  // and why
+  std::map<std::string, std::unique_ptr<PlannerClient>> clients_;
+};
+
+}  // namespace planbench
