@@ -107,8 +107,8 @@ HWY_INLINE V SquaredBetweenEdges(const InFrame& t, const Points& a, const Points
     const M inside = hn::And(beside, hn::And(hn::Ge(side_1, Zero()), hn::Ge(side_2, Zero())));
     least = hn::IfThenZeroElse(hn::And(through, inside), least);
   }
-  // Of lines closer to parallel than this ends are as near as anything, up to 1e-4 of a length.
-  const V parallel = SquaredNorm(v) * Fill(1e-8f);
+  // Of lines closer to parallel than this ends are as near as anything, up to 3e-6 of a length.
+  const V parallel = SquaredNorm(v) * Fill(1e-11f);
   const V zero = Zero();
   for (int edge = 0; edge < 3; ++edge) {
     const V ux = edge == 0 ? Fill(1.0f) : t.along[edge == 0 ? 0 : edge - 1][0];

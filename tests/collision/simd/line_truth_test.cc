@@ -242,5 +242,21 @@ TEST(LineTruthTest, ThroughBoxesBesideCylindersAndPosts) {
   }
 }
 
+/// The ends of rods that cross in their middles are the nearer the longer these are.
+TEST(LineTruthTest, RodsThatCrossAndAreNearlyParallel) {
+  LineCarrier carrier;
+  for (const double half : {0.5, 1.0, 2.5}) {
+    for (const double angle : {1e-3, 9e-5, 5e-5, 1e-5}) {
+      SCOPED_TRACE(std::to_string(half) + " " + std::to_string(angle));
+      const auto rod = [&](double turned, double height) -> Lines {
+        const Eigen::Vector3d along(half * std::cos(turned), half * std::sin(turned), 0);
+        return {{along + Eigen::Vector3d(0, 0, height), Eigen::Vector3d(0, 0, height) - along}};
+      };
+      EXPECT_FALSE(carrier.IsFree(MeshShape(LineMesh(rod(0.3, 0))), rod(0.3 + angle, 0)));
+      EXPECT_TRUE(carrier.IsFree(MeshShape(LineMesh(rod(0.3, 0))), rod(0.3 + angle, 0.0002)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace planbench
