@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "collision/at.h"
+#include "collision/balls.h"
 
 namespace planbench {
 namespace {
@@ -103,6 +106,25 @@ class Builder {
   std::vector<int> order_;          ///< Of triangles.
 };
 
+/// Points (balls of no radius), in the order of balls around few of them.
+void AddPoints(std::span<Ball> points, kernels::TriangleTree* tree) {
+  if (points.size() > static_cast<std::size_t>(kWide)) {
+    const std::size_t half = Halve(points);
+    AddPoints(points.first(half), tree);
+    AddPoints(points.subspan(half), tree);
+    return;
+  }
+  const Ball ball = EnclosingBall(points);
+  kernels::PointBall& around = tree->point_balls.emplace_back();
+  around.radius = static_cast<float>(ball.radius + kBoxPadding);
+  around.first = static_cast<std::int32_t>(tree->points.size());
+  around.num = static_cast<std::int32_t>(points.size());
+  Eigen::Vector3f::Map(around.center) = ball.center.cast<float>();
+  for (const Ball& point : points) {
+    Eigen::Vector3f::Map(tree->points.emplace_back().data()) = point.center.cast<float>();
+  }
+}
+
 }  // namespace
 
 BoxGroup MakeBoxGroup() {
@@ -175,12 +197,11 @@ void SetTriangle(const Corners& triangle, std::size_t i, TriangleGroup* group) {
 MeshTree::MeshTree(const SharedMesh& mesh) : solid_(mesh) {
   Builder(&tree_).Build(mesh);
   tree_.solid = &solid_;
+  std::vector<Ball> points;
   for (const Vector3d& point : solid_.component_points()) {
-    auto& p = tree_.points.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = static_cast<float>(point[static_cast<Eigen::Index>(k)] - tree_.origin[k]);
-    }
+    points.push_back({point - Vector3d::Map(tree_.origin), 0});
   }
+  AddPoints(points, &tree_);
 }
 
 namespace kernels {

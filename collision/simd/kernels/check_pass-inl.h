@@ -208,20 +208,33 @@ class CheckPass {
     return false;
   }
 
-  bool TestMeshInside(const Inside& inside, const WorldMesh& mesh) {
-    for (const auto& point : mesh.tree->points) {
+  /// Parts of a mesh that may be inside of one that the node encloses.
+  bool TestMeshInside(int node, const Inside& inside, const WorldMesh& mesh) {
+    const auto in_W = [&](const float* p_M) -> Points {
       float p_W[3];
       for (int k = 0; k < 3; ++k) {
-        p_W[k] = mesh.position[k] + mesh.rotation[k] * point[0] + mesh.rotation[3 + k] * point[1] +
-                 mesh.rotation[6 + k] * point[2];
+        p_W[k] = mesh.position[k] + mesh.rotation[k] * p_M[0] + mesh.rotation[3 + k] * p_M[1] +
+                 mesh.rotation[6 + k] * p_M[2];
       }
-      if (TestInside(inside, Fill(p_W), 0, alive_, false)) return true;
+      return Fill(p_W);
+    };
+    for (const PointBall& ball : mesh.tree->point_balls) {
+      const V reach = Fill(placement_.node(node).radius + ball.radius + kMeshPadding);
+      const V squared = SquaredNorm(in_W(ball.center) - placement_.Position(node));
+      const M near = hn::Le(squared, Squared(reach));
+      for (int i = ball.first; i < ball.first + ball.num; ++i) {
+        const M lanes = hn::And(alive_, near);
+        if (None(lanes)) break;
+        const Points p = in_W(mesh.tree->points[static_cast<std::size_t>(i)].data());
+        if (TestInside(inside, p, 0, lanes, false)) return true;
+      }
     }
     return false;
   }
 
   /// Solids of a list that may be inside of the meshes that a node encloses.
-  bool TestInsides(const Node& node, const std::int32_t* list, int num) {
+  bool TestInsides(int index, const std::int32_t* list, int num) {
+    const Node& node = placement_.node(index);
     for (int k = 0; k < node.num_insides; ++k) {
       const Inside& inside = InsideAt(node.first_inside + k);
       for (int i = 0; i < num; ++i) {
@@ -229,7 +242,7 @@ class CheckPass {
         if (solid.mesh >= 0 && !solid.doubtful) {
           const WorldMesh& mesh = world_.meshes[static_cast<std::size_t>(solid.mesh)];
           const bool may_fit = solid.extent <= inside.extent || mesh.tree->points.size() > 1;
-          if (may_fit && TestMeshInside(inside, mesh)) return true;
+          if (may_fit && TestMeshInside(index, inside, mesh)) return true;
           continue;
         }
         if (solid.extent > inside.extent) continue;
@@ -273,7 +286,7 @@ class CheckPass {
     if (node.num_children == 0) {
       const bool stops = node.patch >= 0 ? TestPatch(index, body, p, list, num)
                                          : TestLeaf(node, p, motion, list, num);
-      return stops || TestInsides(node, list, num);
+      return stops || TestInsides(index, list, num);
     }
     const V grown = Grown(node.radius, motion);
     const V reach = Squared(grown);
@@ -294,7 +307,7 @@ class CheckPass {
         return true;
       }
     }
-    return TestInsides(node, free_list, num_near);
+    return TestInsides(index, free_list, num_near);
   }
 
   /// A patch, where its ball comes near a solid.

@@ -37,12 +37,20 @@ struct alignas(64) TriangleGroup {
   std::int32_t count;         ///< Of those there are.
 };
 
+/// A ball around points that stand next to each other, up to kWide of them.
+struct PointBall {
+  float center[3];  ///< In M, m.
+  float radius;     ///< m
+  std::int32_t first, num;
+};
+
 /// A bounding-volume hierarchy over the triangles of a mesh, in its frame M: parallel to the mesh's
 /// own, in the middle of its bounding box.
 struct TriangleTree {
   std::vector<BoxGroup> boxes;  ///< [0] is the root.
   std::vector<TriangleGroup> triangles;
   std::vector<std::array<float, 3>> points;  ///< One of every connected part.
+  std::vector<PointBall> point_balls;        ///< Around all of them.
   double origin[3] = {0, 0, 0};              ///< Of M in the mesh's frame, m.
   const SolidMesh* solid = nullptr;          ///< What is inside, in the mesh's frame.
 };

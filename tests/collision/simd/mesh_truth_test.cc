@@ -368,5 +368,26 @@ TEST(MeshTreeTest, HoldsEveryTriangleOnce) {
   }
 }
 
+TEST(MeshTreeTest, BallsHoldAPointOfEveryPartOnce) {
+  std::mt19937_64 random(8);
+  const MeshTree built(SharedMesh(LineMesh(RandomLines(1000, 2, &random))));
+  const kernels::TriangleTree& tree = built.tree();
+  ASSERT_EQ(tree.points.size(), 1000u);
+  std::int32_t next = 0;
+  double radii = 0;
+  for (const kernels::PointBall& ball : tree.point_balls) {
+    EXPECT_EQ(ball.first, next);
+    next += ball.num;
+    radii += ball.radius;
+    for (std::int32_t i = ball.first; i < next; ++i) {
+      const auto& point = tree.points[static_cast<std::size_t>(i)];
+      const Eigen::Vector3f center = Eigen::Vector3f::Map(ball.center);
+      EXPECT_LE((Eigen::Vector3f::Map(point.data()) - center).norm(), ball.radius);
+    }
+  }
+  EXPECT_EQ(next, 1000);
+  EXPECT_LT(radii / static_cast<double>(tree.point_balls.size()), 0.5);  // those nearby share one
+}
+
 }  // namespace
 }  // namespace planbench

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <random>
 #include <span>
 #include <string>
@@ -383,9 +384,21 @@ TEST(RobotMeshTruthTest, APartOfALargeMeshIsInsideALink) {
   const Robot robot = MakeFlyer(folder, BoxMesh({0.4, 0.4, 0.4}));
   MeshComparison comparison(robot);
   const TriangleMesh crumb = BoxMesh({0.01, 0.01, 0.01});
+  const std::vector<double> origin(6, 0.0);
   comparison.SetScene(SceneWith("crumbs", MeshFrom(Joined(crumb, crumb, {3, 0, 0}))));
-  EXPECT_FALSE(comparison.exact().IsFree(std::vector<double>(6, 0.0)));
-  EXPECT_FALSE(comparison.fast().IsFree(std::vector<double>(6, 0.0)));
+  EXPECT_FALSE(comparison.exact().IsFree(origin));
+  EXPECT_FALSE(comparison.fast().IsFree(origin));
+
+  TriangleMesh ring;  // of many crumbs, none of them in the link
+  for (int i = 0; i < 60; ++i) {
+    const double angle = i * std::numbers::pi / 30;
+    ring = Joined(ring, crumb, 2 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
+  }
+  comparison.SetScene(SceneWith("crumbs", MeshFrom(ring)));
+  EXPECT_TRUE(comparison.fast().IsFree(origin));
+  comparison.SetScene(SceneWith("crumbs", MeshFrom(Joined(ring, crumb, {0.1, 0.1, 0}))));
+  EXPECT_FALSE(comparison.exact().IsFree(origin));
+  EXPECT_FALSE(comparison.fast().IsFree(origin));
 }
 
 TEST(RobotMeshTruthTest, AllowedPairsStandingContactsAndAttachedObjects) {
