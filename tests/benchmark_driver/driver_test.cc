@@ -288,7 +288,7 @@ TEST_F(DriverTest, PathsThatTheRefereeRefusesAreToldFromWhatAResumedSessionMakes
   DriverOptions options = Options();
   options.problem_indices = {1};
   Driver of_others(&bus_, options, LineUp({"arm"}), {},
-                   {logger.sessions().messages(), logger.records().messages()});
+                   {logger.sessions().messages(), Held(logger.records().messages())});
   MakeAll(&of_others);
   EXPECT_EQ(of_others.num_unjudgeable(), 0);
   EXPECT_EQ(of_others.num_owed_unjudgeable(), 2);
