@@ -12,6 +12,8 @@ namespace {
 constexpr double kClockError = 1e-3;
 /// So much untold time, s, is told.
 constexpr double kMuch = 1;
+/// So much of what a failed attempt leaves untold, s, may be a slow bus's or a busy machine's.
+constexpr double kLittle = 0.05;
 
 /// Whether a time is beyond one that it has to be within.
 bool IsBeyond(double time_s, double limit_s) {
@@ -61,6 +63,25 @@ void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
   KeepWithinTotal(result);
 }
 
+/// A failed attempt counts to the end of its search. Where the limit came, or no time is told at
+/// all, and less is told than is left of the round trip, that stands in its place, the limit at
+/// most. What other failures leave untold may be loading, which does not count.
+void CountFailedAttempt(double roundtrip_time_s, double time_limit_s, bool is_overdue,
+                        PlanResult* result) {
+  if (result->Solves() && !is_overdue) return;
+  double& total_s = result->total_time_s;
+  result->planning_time_s = total_s;
+  const bool limit_came = is_overdue || result->status == PlanStatus::kTimedOut;
+  const bool tells_nothing = total_s == 0 && result->status != PlanStatus::kInvalidRequest;
+  if (!limit_came && !tells_nothing) return;
+  const double passed_s =
+      std::min(roundtrip_time_s - result->phases.simplification_s, time_limit_s);
+  const double untold_s = passed_s - total_s;
+  if (untold_s <= std::max(total_s, kLittle)) return;
+  result->counters[kUntoldFailure] = untold_s;
+  result->planning_time_s = total_s = passed_s;
+}
+
 /// What an answer that came after the time limit does not tell of, though it tells of less.
 void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
   const double simplification_s = result->phases.simplification_s;
@@ -72,10 +93,12 @@ void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* re
 
 }  // namespace
 
-void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
+void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, bool is_overdue,
+                       PlanResult* result) {
   for (const OddTimes& odd : kOddTimes) result->counters.erase(odd.counter);
   KeepTogether(result);
   KeepWithinRoundTrip(roundtrip_time_s, result);
+  CountFailedAttempt(roundtrip_time_s, time_limit_s, is_overdue, result);
   NoteUntoldTime(roundtrip_time_s, time_limit_s, result);
 }
 

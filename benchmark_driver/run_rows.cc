@@ -37,7 +37,8 @@ const RunRow& RunRows::Add(const RunRecordMessage& record, bool needs_other, boo
   for (std::size_t i = 0; i < kNumOddTimes; ++i) {
     row.odd_times_s[i] = counter(kOddTimes[i].counter);
   }
-  row.answer_times = {.told_s = result.total_time_s + result.phases.simplification_s,
+  row.answer_times = {.status = record.status,
+                      .told_s = result.total_time_s + result.phases.simplification_s,
                       .roundtrip_s = record.roundtrip_time_s,
                       .waited_s = counter("waiting_time") + counter("steal_time")};
   if (mesh_verdict) row.mesh_valid = mesh_verdict->valid;

@@ -275,8 +275,8 @@ std::string Remarks(const SessionResults& results) {
       const std::string& name = one.contestant->name;
       for (const RunRow* run : one.runs) {
         odd_times[name].push_back(run->odd_times_s);
-        if (!run->confirmed()) continue;
         answer_times[name].push_back(run->answer_times);
+        if (!run->confirmed()) continue;
         simplified[name].push_back(run->simplified_valid);
       }
     }

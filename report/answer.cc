@@ -385,9 +385,9 @@ std::map<std::string, std::string> UntoldTimes(const ComparedSessions& compared)
   for (const ComparedContestant& contestant : compared.contestants()) {
     if (compared.sessions()[contestant.session].imported) continue;
     for (const StoredRun* run : contestant.runs) {
-      if (!run->confirmed()) continue;
       by_session[contestant.session][contestant.name].push_back(
-          {.told_s = run->total_time_s + run->phases.simplification_s,
+          {.status = run->status,
+           .told_s = run->total_time_s + run->phases.simplification_s,
            .roundtrip_s = run->roundtrip_time_s,
            .waited_s = run->waiting_s.value_or(0) + run->steal_s.value_or(0)});
     }

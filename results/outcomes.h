@@ -42,6 +42,8 @@ inline constexpr char kToldTime[] = "told_time";
 inline constexpr char kContradictoryTime[] = "contradictory_time";
 /// What is left of the round trip of an answer that came after the time limit.
 inline constexpr char kUntoldTime[] = "untold_time";
+/// What a failed attempt did not tell of, and counts all the same.
+inline constexpr char kUntoldFailure[] = "untold_failure";
 inline constexpr OddTimes kOddTimes[] = {
     {kToldTime,
      "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
@@ -52,6 +54,9 @@ inline constexpr OddTimes kOddTimes[] = {
     {kUntoldTime,
      "were answered after the time limit though less time was told; up to {:.3g} s are not "
      "accounted for"},
+    {kUntoldFailure,
+     "failed in more time than was told, up to {:.3g} s more: the round trip counts in its place, "
+     "the limit at most"},
 };
 inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
 /// Largest of each of kOddTimes; 0 if there is none.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 
 #include "common/numbers.h"
@@ -48,27 +49,50 @@ std::optional<double> OfOthers(const std::map<std::string, Medians>& medians,
 
 std::string Milliseconds(double time_s) { return fmt::format("{:.3g} ms", kMsPerS * time_s); }
 
-}  // namespace
+using TimesByContestant = std::map<std::string, std::vector<AnswerTimes>>;
 
-std::map<std::string, std::string> DescribeUntoldTimes(
-    const std::map<std::string, std::vector<AnswerTimes>>& by_contestant) {
-  std::map<std::string, Medians> medians;
-  for (const auto& [name, runs] : by_contestant) {
-    if (!runs.empty()) medians[name] = MediansOf(runs);
+/// The runs that ended in one of these ways.
+TimesByContestant WithStatus(const TimesByContestant& all,
+                             std::initializer_list<PlanStatus> statuses) {
+  TimesByContestant selected;
+  for (const auto& [name, runs] : all) {
+    for (const AnswerTimes& run : runs) {
+      if (std::ranges::find(statuses, run.status) == statuses.end()) continue;
+      selected[name].push_back(run);
+    }
   }
-  std::map<std::string, std::string> lines;
+  return selected;
+}
+
+/// Adds to the lines; `runs`: in words, which they are.
+void AddUntoldTimes(const TimesByContestant& by_contestant, const char* runs,
+                    std::map<std::string, std::string>* lines) {
+  std::map<std::string, Medians> medians;
+  for (const auto& [name, times] : by_contestant) medians[name] = MediansOf(times);
   for (const auto& [name, own] : medians) {
     const std::optional<double> others_s = OfOthers(medians, name);
     const double typical_s = others_s ? std::max(*others_s, kLeastOfOthers_s) : kWithoutOthers_s;
     if (own.untold_s <= kMuchOfOthers * typical_s || own.untold_s <= kMuchOfTold * own.told_s) {
       continue;
     }
-    lines[name] = fmt::format(
+    std::string& line = (*lines)[name];
+    if (!line.empty()) line += " ";
+    line += fmt::format(
         "{}: its answers tell of {}, and {} more passed until they came{}: its times may be too "
-        "short. Medians over the confirmed runs, without waiting for a processor.",
+        "short. Medians over the {} runs, without waiting for a processor.",
         name, Milliseconds(own.told_s), Milliseconds(own.untold_s),
-        others_s ? fmt::format(" (others: {})", Milliseconds(*others_s)) : "");
+        others_s ? fmt::format(" (others: {})", Milliseconds(*others_s)) : "", runs);
   }
+}
+
+}  // namespace
+
+std::map<std::string, std::string> DescribeUntoldTimes(const TimesByContestant& by_contestant) {
+  using enum PlanStatus;
+  std::map<std::string, std::string> lines;
+  AddUntoldTimes(WithStatus(by_contestant, {kSolved}), "confirmed", &lines);
+  AddUntoldTimes(WithStatus(by_contestant, {kTimedOut, kExhausted, kMemoryLimit, kInvalidPath}),
+                 "failed", &lines);
   return lines;
 }
 

@@ -35,6 +35,27 @@ TEST(UntoldTimesTest, MuchMoreThanOthersAndThanIsToldIsTold) {
       << "a busy machine";
 }
 
+TEST(UntoldTimesTest, FailedRunsAreComparedWithFailedOnes) {
+  const auto failed = [](PlanStatus status, double told_ms, double untold_ms) {
+    std::vector<AnswerTimes> runs = Runs(3, told_ms, untold_ms);
+    for (AnswerTimes& run : runs) run.status = status;
+    return runs;
+  };
+  std::vector<AnswerTimes> a = failed(PlanStatus::kExhausted, 1, 300);
+  const std::vector<AnswerTimes> confirmed = Runs(5, 10, 1);
+  a.insert(a.end(), confirmed.begin(), confirmed.end());
+  EXPECT_THAT(
+      DescribeUntoldTimes({{"A", a}, {"B", failed(PlanStatus::kTimedOut, 900, 1)}}),
+      ElementsAre(Pair("A",
+                       "A: its answers tell of 1 ms, and 300 ms more passed until they came "
+                       "(others: 1 ms): its times may be too short. Medians over the failed "
+                       "runs, without waiting for a processor.")));
+  EXPECT_THAT(DescribeUntoldTimes({{"A", failed(PlanStatus::kNoAnswer, 0, 300)},
+                                   {"B", failed(PlanStatus::kInvalidRequest, 0, 300)}}),
+              IsEmpty())
+      << "they tell of no attempt";
+}
+
 TEST(UntoldTimesTest, OneOfTwoOthersDoesNotHideAnother) {
   EXPECT_THAT(
       DescribeUntoldTimes({{"A", Runs(3, 1, 300)}, {"B", Runs(3, 1, 300)}, {"C", Runs(3, 1, 1)}}),

@@ -1,0 +1,73 @@
+#include "benchmark_driver/possible_times.h"
+
+#include <gtest/gtest.h>
+
+#include "results/outcomes.h"
+
+namespace planbench {
+namespace {
+
+constexpr double kLimit = 2;  ///< s
+
+PlanResult EndedAs(PlanStatus status, double total_time_s) {
+  PlanResult result;
+  result.status = status;
+  result.planning_time_s = result.total_time_s = total_time_s;
+  if (status == PlanStatus::kSolved) result.path = {{0}, {1}};
+  return result;
+}
+
+PlanResult KeptPossible(PlanResult result, double roundtrip_time_s, bool is_overdue = false) {
+  KeepTimesPossible(roundtrip_time_s, kLimit, is_overdue, &result);
+  return result;
+}
+
+TEST(PossibleTimesTest, AFailureThatTellsNoTimeTakesTheRoundTrip) {
+  for (const PlanStatus status : {PlanStatus::kTimedOut, PlanStatus::kExhausted}) {
+    const PlanResult kept = KeptPossible(EndedAs(status, 0), 1.9);
+    EXPECT_EQ(kept.planning_time_s, 1.9);
+    EXPECT_EQ(kept.total_time_s, 1.9);
+    EXPECT_EQ(kept.counters.at(kUntoldFailure), 1.9);
+  }
+  const PlanResult refused = KeptPossible(EndedAs(PlanStatus::kInvalidRequest, 0), 1.9);
+  EXPECT_EQ(refused.planning_time_s, 0) << "no attempt: it may have waited for a scene";
+}
+
+TEST(PossibleTimesTest, TimedOutTellsThatTheLimitCame) {
+  const PlanResult kept = KeptPossible(EndedAs(PlanStatus::kTimedOut, 0.001), 1.9);
+  EXPECT_EQ(kept.planning_time_s, 1.9);
+  EXPECT_DOUBLE_EQ(kept.counters.at(kUntoldFailure), 1.899);
+  // What comes beyond it may be loading.
+  const PlanResult late = KeptPossible(EndedAs(PlanStatus::kTimedOut, 0), 9);
+  EXPECT_EQ(late.planning_time_s, kLimit);
+  EXPECT_EQ(late.counters.at(kUntoldTime), 9 - kLimit);
+  const PlanResult overdue = KeptPossible(EndedAs(PlanStatus::kSolved, 0.001), 17.5, true);
+  EXPECT_EQ(overdue.planning_time_s, kLimit) << "though a path, it is none";
+}
+
+TEST(PossibleTimesTest, AnHonestFailureTakesWhatItTells) {
+  const auto expect_told = [](PlanStatus status, double told_s, double roundtrip_time_s) {
+    SCOPED_TRACE(told_s);
+    const PlanResult kept = KeptPossible(EndedAs(status, told_s), roundtrip_time_s);
+    EXPECT_EQ(kept.planning_time_s, told_s);
+    EXPECT_FALSE(kept.counters.contains(kUntoldFailure));
+  };
+  expect_told(PlanStatus::kTimedOut, 2.1, 3.5);     // its memory had to be freed
+  expect_told(PlanStatus::kTimedOut, 0.001, 0.05);  // it gave up at once, on a slow bus
+  expect_told(PlanStatus::kTimedOut, 0.9, 1.7);     // early, on a busy machine
+  expect_told(PlanStatus::kExhausted, 0.001, 1.9);  // meshes had to be loaded
+  expect_told(PlanStatus::kExhausted, 0, 0.05);     // a clock that read the same twice
+  expect_told(PlanStatus::kMemoryLimit, 0.5, 1.9);
+}
+
+TEST(PossibleTimesTest, AFailureCountsToTheEndOfItsSearch) {
+  PlanResult failed = EndedAs(PlanStatus::kTimedOut, 2);
+  failed.planning_time_s = 0;
+  EXPECT_EQ(KeptPossible(failed, 2).planning_time_s, 2);
+  PlanResult solved = EndedAs(PlanStatus::kSolved, 2);
+  solved.planning_time_s = 0.1;
+  EXPECT_EQ(KeptPossible(solved, 2).planning_time_s, 0.1);
+}
+
+}  // namespace
+}  // namespace planbench
