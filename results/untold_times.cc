@@ -47,7 +47,11 @@ std::optional<double> OfOthers(const std::map<std::string, Medians>& medians,
   return untold_s[(untold_s.size() - 1) / 2];
 }
 
-std::string Milliseconds(double time_s) { return fmt::format("{:.3g} ms", kMsPerS * time_s); }
+/// In ms, as far as three digits hold them.
+std::string WithUnit(double time_s) {
+  return time_s < 0.9995 ? fmt::format("{:.3g} ms", kMsPerS * time_s)
+                         : fmt::format("{:.3g} s", time_s);
+}
 
 using TimesByContestant = std::map<std::string, std::vector<AnswerTimes>>;
 
@@ -80,8 +84,8 @@ void AddUntoldTimes(const TimesByContestant& by_contestant, const char* runs,
     line += fmt::format(
         "{}: its answers tell of {}, and {} more passed until they came{}: its times may be too "
         "short. Medians over the {} runs, without waiting for a processor.",
-        name, Milliseconds(own.told_s), Milliseconds(own.untold_s),
-        others_s ? fmt::format(" (others: {})", Milliseconds(*others_s)) : "", runs);
+        name, WithUnit(own.told_s), WithUnit(own.untold_s),
+        others_s ? fmt::format(" (others: {})", WithUnit(*others_s)) : "", runs);
   }
 }
 

@@ -35,6 +35,12 @@ TEST(UntoldTimesTest, MuchMoreThanOthersAndThanIsToldIsTold) {
       << "a busy machine";
 }
 
+TEST(UntoldTimesTest, LongTimesAreInSeconds) {
+  EXPECT_THAT(DescribeUntoldTimes({{"A", Runs(3, 999.7, 4712)}, {"B", Runs(3, 1, 1e-2)}}),
+              ElementsAre(Pair("A", HasSubstr("tell of 1 s, and 4.71 s more passed until they came "
+                                              "(others: 0.01 ms)"))));
+}
+
 TEST(UntoldTimesTest, FailedRunsAreComparedWithFailedOnes) {
   const auto failed = [](PlanStatus status, double told_ms, double untold_ms) {
     std::vector<AnswerTimes> runs = Runs(3, told_ms, untold_ms);
