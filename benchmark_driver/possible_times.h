@@ -13,8 +13,9 @@ inline constexpr std::array<double PhaseTimes::*, 4> kPartsOfTotal = {
 /// Brings the times that a planner tells of within each other and within the round trip (s) that
 /// the driver saw, and a failed attempt's to what it must have taken; notes in counters (kOddTimes
 /// of results/outcomes.h; a planner's own of these names are dropped) by how much they were not so,
-/// and what an answer that came after the time limit (s) does not tell of. `is_overdue`: the
-/// request had been cancelled by then, so that a path is a failure, too.
+/// how long a search went on beyond the time limit (s) with a path in hand, and what an answer that
+/// came after the limit does not tell of. `is_overdue`: the request had been cancelled by then, so
+/// that a path is a failure, too.
 void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, bool is_overdue,
                        PlanResult* result);
 

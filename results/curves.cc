@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "common/numbers.h"
@@ -32,6 +33,17 @@ std::map<int, double> BestTimes(const std::map<std::string, Outcomes>& contestan
   return best;
 }
 
+/// The improvements of a run by its time limit, if that is known. A path in hand when that came may
+/// have been told of later: the first one is.
+std::span<const PlanProgress> InTime(const StoredRun& run) {
+  const std::span<const PlanProgress> all = run.progress;
+  if (run.time_limit_s == 0) return all;
+  const auto is_late = [&](const PlanProgress& one) {
+    return &one != all.data() && IsLate(one.elapsed_s, run.time_limit_s);
+  };
+  return {all.begin(), std::ranges::find_if(all, is_late)};
+}
+
 /// A contestant's trial at a problem.
 struct ImprovingTrial {
   const StoredRun* run = nullptr;  ///< That of the confirmed path; null without one.
@@ -41,7 +53,7 @@ struct ImprovingTrial {
   double InHand(double time_s, double PlanProgress::*value) const {
     double found = kInfinity;
     if (run == nullptr) return found;
-    for (const PlanProgress& one : run->progress) {
+    for (const PlanProgress& one : InTime(*run)) {
       if (delay_s + one.elapsed_s > time_s) break;
       if (one.*value > 0) found = one.*value;
     }
@@ -160,7 +172,7 @@ LowestCosts FindLowestCosts(const std::vector<const StoredRun*>& runs) {
   LowestCosts lowest;
   for (const StoredRun* run : runs) {
     if (!run->confirmed()) continue;
-    for (const PlanProgress& one : run->progress) {
+    for (const PlanProgress& one : InTime(*run)) {
       if (!(one.cost > 0)) continue;
       double& cost = lowest.try_emplace(run->problem_index, one.cost).first->second;
       cost = std::min(cost, one.cost);
@@ -177,8 +189,9 @@ AnytimeCurves ImprovementOverTime(const std::vector<const StoredRun*>& runs,
   for (const auto& [problem, trials] : by_problem) {
     for (const ImprovingTrial& trial : trials) {
       if (trial.run == nullptr) continue;
-      improved = improved || trial.run->progress.size() > 1;
-      for (const PlanProgress& one : trial.run->progress) {
+      const std::span<const PlanProgress> progress = InTime(*trial.run);
+      improved = improved || progress.size() > 1;
+      for (const PlanProgress& one : progress) {
         const double time_s = trial.delay_s + one.elapsed_s;
         if (time_s > 0) first_s = std::min(first_s, time_s);
         last_s = std::max(last_s, time_s);

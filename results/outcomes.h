@@ -44,6 +44,8 @@ inline constexpr char kContradictoryTime[] = "contradictory_time";
 inline constexpr char kUntoldTime[] = "untold_time";
 /// What a failed attempt did not tell of, and counts all the same.
 inline constexpr char kUntoldFailure[] = "untold_failure";
+/// How long a search went on beyond the limit with a path in hand.
+inline constexpr char kOverrunTime[] = "overrun_time";
 inline constexpr OddTimes kOddTimes[] = {
     {kToldTime,
      "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
@@ -57,6 +59,9 @@ inline constexpr OddTimes kOddTimes[] = {
     {kUntoldFailure,
      "failed in more time than was told, up to {:.3g} s more: the round trip counts in its place, "
      "the limit at most"},
+    {kOverrunTime,
+     "searched on after the time limit, for up to {:.3g} s: what they improved then is in no curve "
+     "over time, but their paths may owe to it"},
 };
 inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
 /// Largest of each of kOddTimes; 0 if there is none.

@@ -69,5 +69,17 @@ TEST(PossibleTimesTest, AFailureCountsToTheEndOfItsSearch) {
   EXPECT_EQ(KeptPossible(solved, 2).planning_time_s, 0.1);
 }
 
+TEST(PossibleTimesTest, ASearchThatGoesOnAfterTheLimitIsNoted) {
+  const auto overrun_of = [](double planning_time_s, double total_time_s, PlanStatus status) {
+    PlanResult result = EndedAs(status, total_time_s);
+    result.planning_time_s = planning_time_s;
+    return KeptPossible(result, total_time_s).counters[kOverrunTime];
+  };
+  EXPECT_EQ(overrun_of(0.001, 5, PlanStatus::kSolved), 5 - kLimit);
+  EXPECT_EQ(overrun_of(0.001, 2.6, PlanStatus::kSolved), 0) << "it looked seldom at the clock";
+  EXPECT_EQ(overrun_of(5, 5, PlanStatus::kSolved), 0) << "its path comes too late";
+  EXPECT_EQ(overrun_of(5, 5, PlanStatus::kTimedOut), 0) << "which its time tells";
+}
+
 }  // namespace
 }  // namespace planbench

@@ -212,6 +212,17 @@ TEST(ImprovementOverTimeTest, AnAttemptThatFailedBeforeTakesItsTime) {
   EXPECT_EQ(CurvesOf(runs).cost.back().median, 1.5) << "over the lowest of either direction";
 }
 
+TEST(ImprovementOverTimeTest, WhatComesAfterTheLimitIsNotInHand) {
+  std::vector<StoredRun> runs = {AnytimeRun(1, {{1, 0, 20, 1}, {2, 0, 10, 1}, {2.1, 0, 5, 1}}),
+                                 AnytimeRun(2, {{2.1, 0, 9, 1}, {2.2, 0, 3, 1}})};
+  EXPECT_EQ(CurvesOf(runs).cost.back().time_s, 2.2) << "the limit is not known";
+  for (StoredRun& run : runs) run.time_limit_s = 2;
+  EXPECT_EQ(FindLowestCosts(PointersTo(runs)), (LowestCosts{{1, 10}, {2, 9}}));
+  const AnytimeStep last = CurvesOf(runs).cost.back();
+  EXPECT_EQ(last.time_s, 2.1) << "of the path that was in hand";
+  EXPECT_EQ(last.upper, 1);
+}
+
 TEST(ImprovementOverTimeTest, IsNothingWhereNothingImproved) {
   EXPECT_TRUE(CurvesOf({}).cost.empty());
   EXPECT_TRUE(CurvesOf({AnytimeRun(1, {}), AnytimeRun(2, {{1, 2, 3, 4}})}).cost.empty());
