@@ -1,6 +1,7 @@
 #include "benchmark_driver/possible_times.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "results/outcomes.h"
 
@@ -10,6 +11,8 @@ namespace {
 /// What clocks of two machines may differ by over a round trip, and what a planner rounds to: the
 /// share of it, and s.
 constexpr double kClockError = 1e-3;
+/// What costs that are summed or written otherwise differ by, the share of it.
+constexpr double kRounding = 1e-6;
 /// So much time, s, that is untold or beyond the limit is told. Searches of ours that look seldom
 /// at the clock have gone on for 0.6 s.
 constexpr double kMuch = 1;
@@ -51,6 +54,26 @@ void KeepTogether(PlanResult* result) {
   }
   result->total_time_s = std::max(result->total_time_s, result->planning_time_s);
   KeepWithinTotal(result);
+}
+
+/// A path was not there before the first improvement that is told of (unless the limit came with it
+/// in hand), and does not cost more than the last.
+void KeepToProgress(double time_limit_s, PlanResult* result) {
+  if (!result->Solves() || result->progress.empty()) return;
+  double& planning_time_s = result->planning_time_s;
+  const double first_s = result->progress.front().elapsed_s;
+  if (planning_time_s < time_limit_s && IsBeyond(first_s, planning_time_s)) {
+    double& contradiction_s = result->counters[kContradictoryTime];
+    contradiction_s = std::max(contradiction_s, first_s - planning_time_s);
+    planning_time_s = first_s;
+  }
+  const double last_cost = result->progress.back().cost, excess = result->cost - last_cost;
+  const bool are_told = last_cost != 0 && result->cost != 0;
+  if (!are_told || excess <= kRounding * std::abs(last_cost)) return;
+  result->counters[kContradictoryCost] = excess;
+  for (PlanProgress& progress : result->progress) {
+    if (progress.cost != 0) progress.cost = std::max(progress.cost, result->cost);
+  }
 }
 
 /// No time is longer than that which passed until the answer came.
@@ -106,6 +129,7 @@ void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, bool is_ove
                        PlanResult* result) {
   for (const OddTimes& odd : kOddTimes) result->counters.erase(odd.counter);
   KeepTogether(result);
+  KeepToProgress(time_limit_s, result);
   KeepWithinRoundTrip(roundtrip_time_s, result);
   NoteOverrun(time_limit_s, result);
   CountFailedAttempt(roundtrip_time_s, time_limit_s, is_overdue, result);

@@ -30,15 +30,17 @@ inline bool IsLate(double time_s, double time_limit_s) {
   return time_s > (1 + 1e-9) * time_limit_s;
 }
 
-/// Times that a planner told and that cannot be, or that leave much untold: counters of its run, s,
-/// and what is to be said of runs that have them, with the largest.
+/// Times that a planner told and that cannot be, or that leave much untold, and a cost that cannot
+/// be: counters of its run, s or in the planner's unit, and what is to be said of runs that have
+/// them, with the largest.
 struct OddTimes {
   const char* counter;
   const char* text;
 };
 /// The longest that was told, where it is more than passed until the answer came.
 inline constexpr char kToldTime[] = "told_time";
-/// By how much planning time, phases or progress go beyond the total time.
+/// By how much planning time, phases or progress go beyond the total time, or the first improvement
+/// beyond the planning time.
 inline constexpr char kContradictoryTime[] = "contradictory_time";
 /// What is left of the round trip of an answer that came after the time limit.
 inline constexpr char kUntoldTime[] = "untold_time";
@@ -46,13 +48,16 @@ inline constexpr char kUntoldTime[] = "untold_time";
 inline constexpr char kUntoldFailure[] = "untold_failure";
 /// How long a search went on beyond the limit with a path in hand.
 inline constexpr char kOverrunTime[] = "overrun_time";
+/// By how much a path costs more than the last improvement.
+inline constexpr char kContradictoryCost[] = "contradictory_cost";
 inline constexpr OddTimes kOddTimes[] = {
     {kToldTime,
      "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
      "round trip counts in its place"},
     {kContradictoryTime,
-     "were told times of which a part is longer than the total, by up to {:.3g} s: planning time "
-     "and total are taken as the longer of them, parts as shares of it"},
+     "were told times of which a part is longer than the total, or a first improvement later than "
+     "the planning time, by up to {:.3g} s: planning time and total are taken as the longer of "
+     "them, parts as shares of it"},
     {kUntoldTime,
      "were answered after the time limit though less time was told; up to {:.3g} s are not "
      "accounted for"},
@@ -62,6 +67,9 @@ inline constexpr OddTimes kOddTimes[] = {
     {kOverrunTime,
      "searched on after the time limit, for up to {:.3g} s: what they improved then is in no curve "
      "over time, but their paths may owe to it"},
+    {kContradictoryCost,
+     "were told improvements that cost less than the path that came of them, by up to {:.3g}: none "
+     "counts as cheaper than that"},
 };
 inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
 /// Largest of each of kOddTimes; 0 if there is none.

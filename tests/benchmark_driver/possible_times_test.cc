@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "results/outcomes.h"
 
 namespace planbench {
@@ -67,6 +69,41 @@ TEST(PossibleTimesTest, AFailureCountsToTheEndOfItsSearch) {
   PlanResult solved = EndedAs(PlanStatus::kSolved, 2);
   solved.planning_time_s = 0.1;
   EXPECT_EQ(KeptPossible(solved, 2).planning_time_s, 0.1);
+}
+
+TEST(PossibleTimesTest, APathIsNotThereBeforeItsFirstImprovement) {
+  PlanResult solved = EndedAs(PlanStatus::kSolved, 0.5);
+  solved.planning_time_s = 0.001;
+  solved.progress = {{0.4, 0, 2, 1}, {0.45, 0, 1, 2}};
+  const PlanResult kept = KeptPossible(solved, 0.5);
+  EXPECT_EQ(kept.planning_time_s, 0.4);
+  EXPECT_EQ(kept.counters.at(kContradictoryTime), 0.4 - 0.001);
+  solved.planning_time_s = 0.399;
+  EXPECT_TRUE(KeptPossible(solved, 0.5).counters.empty()) << "two looks at the clock";
+  // A path in hand when the limit came is told of when the search ends.
+  solved.planning_time_s = kLimit;
+  solved.total_time_s = 2.2;
+  solved.progress = {{2.2, 0, 2, 1}};
+  const PlanResult in_hand = KeptPossible(solved, 2.2);
+  EXPECT_EQ(in_hand.planning_time_s, kLimit);
+  EXPECT_TRUE(in_hand.counters.empty());
+}
+
+TEST(PossibleTimesTest, NoImprovementIsCheaperThanThePath) {
+  PlanResult solved = EndedAs(PlanStatus::kSolved, 0.5);
+  solved.planning_time_s = 0.1;
+  solved.progress = {{0.1, 0, 4, 1}, {0.2, 0, 2, 2}, {0.3, 0, 1, 3}};
+  for (const double cost : {1 + 1e-9, 1.0, 0.5, 0.0}) {  // the last: none is told
+    solved.cost = cost;
+    const PlanResult kept = KeptPossible(solved, 0.5);
+    EXPECT_TRUE(kept.counters.empty()) << cost;
+    EXPECT_EQ(kept.progress, solved.progress) << cost;
+  }
+  solved.cost = 3;
+  const PlanResult kept = KeptPossible(solved, 0.5);
+  EXPECT_EQ(kept.counters.at(kContradictoryCost), 2);
+  EXPECT_EQ(kept.progress,
+            (std::vector<PlanProgress>{{0.1, 0, 4, 1}, {0.2, 0, 3, 2}, {0.3, 0, 3, 3}}));
 }
 
 TEST(PossibleTimesTest, ASearchThatGoesOnAfterTheLimitIsNoted) {
