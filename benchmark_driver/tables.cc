@@ -15,6 +15,7 @@
 #include "benchmark_driver/text_table.h"
 #include "planning/told_edges.h"
 #include "results/comparison.h"
+#include "results/disputed_ends.h"
 #include "results/quality.h"
 #include "results/training.h"
 #include "results/untold_times.h"
@@ -265,14 +266,22 @@ std::string Disturbances(const SessionResults& results, int num_to_repeat) {
   return BreakLines(text + ".\n");
 }
 
-/// Whose times are odd and whose simplified paths were rejected, a line each; "" if nobody's.
+/// Whose times are odd, whose word on start or goal is disputed and whose simplified paths were
+/// rejected, a line each; "" if nobody's.
 std::string Remarks(const SessionResults& results) {
   std::map<std::string, std::vector<OddTimesFound>> odd_times;
   std::map<std::string, std::vector<AnswerTimes>> answer_times;
   std::map<std::string, std::vector<std::optional<bool>>> simplified;
+  std::map<std::string, std::vector<JudgedOutcomes>> judged;
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       const std::string& name = one.contestant->name;
+      JudgedOutcomes& of_set = judged[set.name].emplace_back();
+      of_set.contestant = name;
+      if (const auto model = one.contestant->collision_model) {
+        of_set.collision_model = EnumName(*model);
+      }
+      of_set.outcomes = &one.outcomes;
       for (const RunRow* run : one.runs) {
         odd_times[name].push_back(run->odd_times_s);
         answer_times[name].push_back(run->answer_times);
@@ -286,6 +295,7 @@ std::string Remarks(const SessionResults& results) {
     for (const std::string& line : DescribeOddTimes(name, of_runs)) text += BreakLines(line);
   }
   for (const auto& [name, line] : DescribeUntoldTimes(answer_times)) text += BreakLines(line);
+  for (const auto& [name, line] : DescribeDisputedEnds(judged)) text += BreakLines(line);
   for (const auto& [name, verdicts] : simplified) {
     text += BreakLines(RejectedSimplifiedNote(name, verdicts));
   }

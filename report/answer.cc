@@ -14,6 +14,7 @@
 #include "collision/collision_model.h"
 #include "common/lookup.h"
 #include "messaging/asked_runs.h"
+#include "results/disputed_ends.h"
 #include "results/quality.h"
 #include "results/reproduce.h"
 #include "results/untold_times.h"
@@ -399,6 +400,19 @@ std::map<std::string, std::string> UntoldTimes(const ComparedSessions& compared)
   return lines;
 }
 
+/// DescribeDisputedEnds, by contestant.
+std::map<std::string, std::string> DisputedEnds(const ComparedSessions& compared) {
+  std::map<std::string, std::vector<JudgedOutcomes>> judged;
+  for (const auto& [set, by_contestant] : compared.outcomes()) {
+    for (const auto& [name, outcomes] : by_contestant) {
+      const ComparedContestant& one = ContestantCalled(compared, name);
+      const auto model = Lookup(ParseSettings(one.settings), "collision_model").value_or("");
+      judged[set].push_back({name, one.session, model, &outcomes});
+    }
+  }
+  return DescribeDisputedEnds(judged);
+}
+
 }  // namespace
 
 std::vector<std::string> Answer(const ComparedSessions& compared,
@@ -530,6 +544,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     cautions.push_back(name + ": no run counts.");
   }
   const std::map<std::string, std::string> untold_times = UntoldTimes(compared);
+  const std::map<std::string, std::string> disputed_ends = DisputedEnds(compared);
   for (const ComparedContestant& contestant : compared.contestants()) {
     if (std::string trained = Trained(compared, contestant); !trained.empty()) {
       cautions.push_back(std::move(trained));
@@ -539,8 +554,8 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     for (std::string& line : DescribeOddTimes(contestant.name, odd_times)) {
       cautions.push_back(std::move(line));
     }
-    if (const auto untold = untold_times.find(contestant.name); untold != untold_times.end()) {
-      cautions.push_back(untold->second);
+    for (const auto* lines : {&untold_times, &disputed_ends}) {
+      if (auto line = Lookup(*lines, contestant.name)) cautions.push_back(*std::move(line));
     }
     std::vector<std::optional<bool>> simplified;
     for (const StoredRun* run : contestant.runs) {

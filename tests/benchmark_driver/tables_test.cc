@@ -320,6 +320,13 @@ TEST(TablesTest, AnswersThatCameMuchLaterThanTheyTellAreNamed) {
   EXPECT_THAT(Brief(records), Not(HasSubstr("RRT-Connect: its answers")));
 }
 
+TEST(TablesTest, WhoCallsAGoalInvalidThatAPathReachesIsNamed) {
+  std::vector<RunRecordMessage> records = FourProblems();
+  EXPECT_THAT(Brief(records), Not(HasSubstr("called start")));
+  records.push_back(OfProblem(4, OfRrtConnect(AttemptOf(PlanStatus::kSolved, 1))));
+  EXPECT_THAT(Brief(records), HasSubstr("ARA*: called start or goal invalid on 1 problem of"));
+}
+
 TEST(TablesTest, LongTextsAreShortened) {
   std::vector<RunRecordMessage> records = FourProblems();
   for (const std::string& reason :

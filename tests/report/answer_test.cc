@@ -139,6 +139,14 @@ TEST_F(ReportTest, TimesThatAreNotAccountedForAreToldOfWhoRanksFirst) {
   EXPECT_EQ(Cautions(ComparedSessions(sessions)).size(), 1u) << "it waited for a processor";
 }
 
+TEST_F(ReportTest, WhoCallsAGoalInvalidThatAPathReachesIsNamed) {
+  const ComparedSessions compared =
+      Read({{.contestant = "A", .status = PlanStatus::kGoalInvalid}, {.contestant = "B"}});
+  EXPECT_THAT(Cautions(compared),
+              testing::Contains("A: called start or goal invalid on 1 problem of which a path is "
+                                "confirmed by the same collision model (shelf 1)."));
+}
+
 TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {
   const std::vector<std::string> answer = Answer(compared_, pairs_);
   ASSERT_EQ(answer.size(), 3u);
