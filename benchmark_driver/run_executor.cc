@@ -72,6 +72,15 @@ void AddBefore(const PlanResult& first, PlanResult* result) {
   result->peak_memory_mb = std::max(result->peak_memory_mb, first.peak_memory_mb);
 }
 
+/// How much of its time, s, whoever was to improve a path left unused, as by its own clock or the
+/// driver's; 0 if that may be what clocks and a careful planner make of the limit.
+double LeftUnused(const PlannerClient::Answer& answer, double time_limit_s) {
+  constexpr double kShare = 0.1, kLeast_s = 0.05;
+  const double used_s = std::max(answer.result.result.planning_time_s, answer.roundtrip_time_s);
+  const double unused_s = time_limit_s - used_s;
+  return unused_s > kShare * time_limit_s + kLeast_s ? unused_s : 0;
+}
+
 /// In the place of a path that was not improved before the limit came: as in hand by then. What it
 /// costs whoever was to improve it is left open, and with it what is proven.
 void TakePath(const PlanResultMessage& first, double time_limit_s, PlanResultMessage* answer) {
@@ -371,10 +380,17 @@ RunExecutor::Asked RunExecutor::Ask(const ScheduledRun& run, const ProblemMessag
     answer = AnswerOf(planners[1], rest, interrupted);
     // A planner that could not be asked for its part was not asked for the run (asked_runs.h).
     if (answer.roundtrip_time_s == 0) return {answer, false};
+    const double unused_s = LeftUnused(answer, rest.time_limit_s);
     answer.roundtrip_time_s += first.roundtrip_time_s;
     if (answer.outcome != PlannerClient::Outcome::kResult) return {answer, false};
     AddBefore(found, &result);
     if (result.status != PlanStatus::kTimedOut) return {answer, false};
+    if (unused_s > 0) {
+      result.message =
+          fmt::format("'{}' ended with {:.3g} of {:.3g} s unused{}{}", improver, unused_s,
+                      rest.time_limit_s, result.message.empty() ? "" : ": ", result.message);
+      return {answer, false};
+    }
   } else {
     result.status = PlanStatus::kTimedOut;
     result.planning_time_s = HandedOverAfter(found);

@@ -29,7 +29,8 @@ class FirstPathTest : public RunExecutorTest {
   static constexpr double kTick = 1 / 64.0;  ///< s
 
   /// By the conditions of "arm", changed.
-  void FirstSearchesBy(const std::function<void(Contestant*)>& change) {
+  void FirstSearchesBy(const std::function<void(Contestant*)>& change,
+                       double time_limit_s = 7 * kTick) {
     SessionConditions conditions = Conditions();
     conditions.contestants[0].first_path_of = "first";
     conditions.contestants[0].edge_check = EdgeCheck::kFixed;
@@ -39,7 +40,7 @@ class FirstPathTest : public RunExecutorTest {
     change(&first);
     conditions.contestants.push_back(first);
     conditions.request.simplify = conditions.request.anytime = true;
-    conditions.request.time_limit_s = 7 * kTick;
+    conditions.request.time_limit_s = time_limit_s;
     executor_.emplace(&bus_, &registry_, conditions);
   }
 
@@ -186,6 +187,20 @@ TEST_F(FirstPathTest, IsTheAnswerIfThereIsNoOtherWhenTheLimitComes) {
   ExpectFirstPath(*record);
   EXPECT_EQ(record->message, "the path of 'first': 'arm' had 0.0156 s left, and no path by then");
   EXPECT_EQ(record->result.result.total_time_s, 8 * kTick);
+}
+
+TEST_F(FirstPathTest, IsNoAnswerIfWhoImprovesItGivesUpBeforeTheLimit) {
+  FirstSearchesBy([](Contestant*) {}, 100);
+  FirstAnswers(Found(kTick));
+  PlanResult early;
+  early.status = PlanStatus::kTimedOut;
+  early.message = "no wish to";
+  AnswerWith(early);
+  const auto record = Execute();
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
+  EXPECT_EQ(record->message, "'arm' ended with 100 of 100 s unused: no wish to");
+  EXPECT_TRUE(record->result.result.path.empty());
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {
