@@ -83,8 +83,8 @@ class Supervisor {
     /// Since this process was last heard; nothing if it never was.
     std::optional<std::chrono::milliseconds> silence;
     bool killed_here = false;  // this process
-    /// When this process is killed if it has not ended, to be started anew.
-    std::optional<std::chrono::steady_clock::time_point> renew_by;
+    /// Until this process is killed if it has not ended, to be started anew; nothing if it is not.
+    std::optional<std::chrono::milliseconds> time_to_end;
     int num_failures_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is

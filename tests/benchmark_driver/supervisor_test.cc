@@ -230,6 +230,31 @@ TEST_F(SupervisorTest, WhatStaysThoughItIsToBeRenewedIsKilled) {
   EXPECT_EQ(Lines(out_).size(), 2u) << "what is stopped is not started anew";
 }
 
+TEST_F(SupervisorTest, WhileThisProcessIsStoppedNoTimeToEndRunsOut) {
+  const std::filesystem::path told = folder_ / "told", seen = folder_ / "seen";
+  const pid_t supervising = fork();
+  ASSERT_GE(supervising, 0);
+  if (supervising == 0) {
+    Supervisor supervisor;
+    supervisor.Start(
+        Script("child", "trap '' TERM; echo $$ >> $OUT; while :; do sleep 0.05; done"));
+    WaitUntil([&] { return !Lines(out_).empty(); });
+    supervisor.Renew("child", milliseconds(1000));
+    std::ofstream(told) << "";
+    WaitUntil([&] { return std::filesystem::exists(seen); });
+    supervisor.StopAll({}, milliseconds(50));
+    _exit(0);
+  }
+  EXPECT_TRUE(WaitUntil([&] { return std::filesystem::exists(told); }));
+  kill(supervising, SIGSTOP);
+  std::this_thread::sleep_for(milliseconds(1100));
+  kill(supervising, SIGCONT);
+  std::this_thread::sleep_for(milliseconds(100));
+  EXPECT_TRUE(IsRunning(std::stoi(AwaitOutput(1).at(0))));
+  folder_.Write("seen", "");
+  waitpid(supervising, nullptr, 0);
+}
+
 TEST_F(SupervisorTest, WhatADeadChildHasStartedEndsWithIt) {
   Supervisor supervisor;
   supervisor.Start(Script("child", "sleep 1000 & echo \"$$ $!\" >> $OUT; wait"));
