@@ -15,9 +15,10 @@ namespace planbench {
 /// The example's session, read back from what the logger wrote.
 class ReportTest : public testing::Test {
  protected:
-  static ComparedSessions Read(const std::vector<MadeRun>& runs) {
+  static ComparedSessions Read(const std::vector<MadeRun>& runs,
+                               const SessionMessage& session = ExampleSession()) {
     const TemporaryFolder folder;
-    WriteSession(folder / "example", runs, ExampleSession());
+    WriteSession(folder / "example", runs, session);
     return ComparedSessions(ReadSessions(folder / "example").sessions);
   }
 
