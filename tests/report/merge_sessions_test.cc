@@ -180,6 +180,19 @@ TEST_F(MergeSessionsTest, DirectionsOfAPlannerAreAConditionOfParts) {
   ExpectRefused({"one", "broken"}, "broken: the setting plan");
 }
 
+TEST_F(MergeSessionsTest, HowManyProblemsAProcessHadIsAConditionOfParts) {
+  int number = 0;
+  for (const char* problems : {"10", "10", "1", ""}) {
+    ++number;
+    SessionMessage part = Session(fmt::format("part{}", number), 1000 * number, 1);
+    part.settings["problems-per-process"] = problems;
+    Write(part.run_id, part, {{.contestant = "A", .problem = number}});
+  }
+  ExpectRefused({"part1", "part3"}, "setting[problems-per-process].value is \"10\" in ");
+  ExpectRefused({"part1", "part4"}, "setting[problems-per-process].value is \"10\" in ");
+  EXPECT_EQ(Merge({"part1", "part2"}), kExitOk) << errors_;
+}
+
 TEST_F(MergeSessionsTest, WhatTheFirstPartLacksIsComparedToo) {
   for (const int number : {1, 2, 3}) {
     SessionMessage part = Session(fmt::format("part{}", number), 1000 * number, 1);
