@@ -444,6 +444,7 @@ bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerCl
   if (!problem->ok) return true;  // the run will say so
   PlanRequest request = RequestOf(run, *problem);
   request.request_id += "/warm-up";
+  request.seed = RunSeed(run.seed, run.problem_set, run.problem_index, run.direction, run.trial);
   request.anytime = false;  // of which who finds first paths need not be capable
   request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
   const PlannerClient::Answer answer = planner->Solve(request, interrupted);
