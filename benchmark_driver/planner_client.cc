@@ -125,9 +125,19 @@ bool PlannerClient::IsOver(const NodeStatusMessage& process) const {
   return process.instance == told_to_end_ || HasEnded(process);
 }
 
-void PlannerClient::ExpectAnother() {
-  if (const auto node = Live()) told_to_end_ = node->status.instance;
+bool PlannerClient::IsCold() const {
+  if (!WhyGivenUp().empty()) return false;
+  const auto node = Live();
+  return node && node->status.instance != warm_ && ReasonNotToAsk(node->status).empty();
+}
+
+bool PlannerClient::ExpectAnother() {
+  if (!WhyGivenUp().empty()) return false;
+  const auto node = Live();
+  if (!node) return false;
+  told_to_end_ = node->status.instance;
   unanswered_limit_ = std::chrono::milliseconds(0);
+  return true;
 }
 
 std::optional<NodeRegistry::Node> PlannerClient::Live() const {
@@ -144,7 +154,10 @@ std::optional<NodeRegistry::Node> PlannerClient::WaitUntilLive(
   // Not by the clock, which goes on while this process is stopped.
   std::chrono::milliseconds waited{0};
   while (!interrupted() && WhyGivenUp().empty()) {
-    if (auto node = Live()) return node;
+    if (auto node = Live()) {
+      told_to_end_.reset();
+      return node;
+    }
     const auto heard = registry_->Find(planner_, NodeKind::kPlanner);
     if (heard && HasEnded(*heard)) registry_->Forget(*heard);
     if (waited >= patience) {
@@ -211,6 +224,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     RequestExchange::Step step = exchange.Take(Clock::now(), event);
     if (step.answer) {
       unanswered_limit_ = std::chrono::milliseconds(0);
+      if (step.answer->outcome == Outcome::kResult) warm_ = process->status.instance;
       if (step.answer->outcome == Outcome::kNoAnswer) {
         if (!HasEnded(process->status)) {
           unanswered_limit_ = std::chrono::ceil<std::chrono::milliseconds>(

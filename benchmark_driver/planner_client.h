@@ -42,9 +42,12 @@ class PlannerClient {
   /// Waits until the planner is live, or given up, or the caller interrupts. Of one that is not
   /// live it says once for how long.
   void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
-  /// The process that is live has been told to end, so that another comes in its place: it is not
-  /// asked any more, and of the wait for the other nothing is said while that is short.
-  void ExpectAnother();
+  /// Whether the process that is live is to be asked and has given this client no result yet.
+  bool IsCold() const;
+  /// The process that is live is to be told to end, so that another comes in its place: it is not
+  /// asked any more, and of the wait for the other nothing is said while that is short. False if
+  /// nobody is to be told: none is live, so that whoever comes is another, or it is given up.
+  bool ExpectAnother();
   /// Waits until the planner is live and asks it until the request has come to its end. Only what
   /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
   /// restarts meanwhile, is given up, or is another than the terms say, gives none; `interrupted`
@@ -79,7 +82,8 @@ class PlannerClient {
   PlannerChannels channels_;
   Terms terms_;
   std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
-  std::optional<std::string> told_to_end_;  // instance of the process that another comes after
+  std::string warm_;       // instance of the process whose result came last
+  std::optional<std::string> told_to_end_;  // instance of the process, until another has come
   std::string given_up_;                    // why, if for its absence
   /// Of the last request, if it had no answer and the process may be at it still.
   std::chrono::milliseconds unanswered_limit_{0};

@@ -12,7 +12,8 @@
 namespace planbench {
 
 /// Has each planner's process make room for a new one after every so many problems: what a process
-/// is faster or slower by for as long as it lives is then drawn anew. Thread-safe.
+/// is faster or slower by for as long as it lives is then drawn anew. One that came in the place of
+/// another that died has what is left of that one's problems. Thread-safe.
 class PlannerRenewal {
  public:
   /// `problems`: of one process; nothing: all. `start_anew`: ends the process of a planner, by
@@ -20,9 +21,9 @@ class PlannerRenewal {
   explicit PlannerRenewal(std::optional<int> problems = {},
                           std::function<void(const std::string& planner)> start_anew = {});
 
-  /// To be called before each request. Whether the planner's process had its problems and this is
-  /// another: then a new one is on its way, and the one that it had is not asked any more.
-  bool Renew(const std::string& problem_set, int problem_index, PlannerClient* planner);
+  /// To be called before each request. Where the planner's process had its problems and this is
+  /// another, a new one is on its way, and whoever is live is not asked any more.
+  void Renew(const std::string& problem_set, int problem_index, PlannerClient* planner);
 
  private:
   struct Asked {

@@ -30,25 +30,23 @@ std::optional<std::vector<PlannerClient*>> SessionPlanners::ReadyFor(
     const ScheduledRun& run, const std::function<bool()>& interrupted) {
   std::vector<PlannerClient*> ready;
   for (const ScheduledRun& request : executor_->RequestsOf(run)) {
-    bool is_cold = false;
-    {
-      const std::scoped_lock lock(mutex_);
-      std::unique_ptr<PlannerClient>& client = clients_[request.planner];
-      is_cold = !client;
-      if (!client) {
-        client = std::make_unique<PlannerClient>(bus_, registry_, request.planner,
-                                                 TermsOf(request.planner));
-      }
-      ready.push_back(client.get());
-    }
-    if (WhyGivenUp(request.planner).empty()) {
-      is_cold |= renewal_.Renew(request.problem_set, request.problem_index, ready.back());
-    }
-    if (is_cold && !executor_->WarmUp(request, kWarmUpLimit, ready.back(), interrupted)) {
+    PlannerClient* const planner = ready.emplace_back(ClientOf(request.planner));
+    renewal_.Renew(request.problem_set, request.problem_index, planner);
+    planner->AwaitPlanner(interrupted);
+    if (planner->IsCold() && !executor_->WarmUp(request, kWarmUpLimit, planner, interrupted)) {
       return std::nullopt;
     }
   }
   return ready;
+}
+
+PlannerClient* SessionPlanners::ClientOf(const std::string& planner) {
+  const std::scoped_lock lock(mutex_);
+  std::unique_ptr<PlannerClient>& client = clients_[planner];
+  if (!client) {
+    client = std::make_unique<PlannerClient>(bus_, registry_, planner, TermsOf(planner));
+  }
+  return client.get();
 }
 
 void SessionPlanners::GiveUp(const std::string& planner, const std::string& reason) {

@@ -31,9 +31,9 @@ class SessionPlanners {
                   std::chrono::milliseconds patience, std::optional<int> problems_per_process,
                   std::function<void(const std::string& planner)> start_anew);
 
-  /// Of whom a run asks (RunExecutor::RequestsOf), in that order. Before a process makes its first
-  /// run it answers one request that is not recorded, so that what it does only once is no part of
-  /// any; so does the next one, where a process has had its problems. Nothing if `interrupted`.
+  /// Of whom a run asks (RunExecutor::RequestsOf), in that order. A process that has given no
+  /// result yet, whatever it came after, is first asked for one that is not recorded, so that what
+  /// it does only once is no part of a run. Nothing if `interrupted`.
   std::optional<std::vector<PlannerClient*>> ReadyFor(const ScheduledRun& run,
                                                       const std::function<bool()>& interrupted);
 
@@ -42,6 +42,7 @@ class SessionPlanners {
   std::map<std::string, std::string> given_up() const;
 
  private:
+  PlannerClient* ClientOf(const std::string& planner);
   PlannerClient::Terms TermsOf(const std::string& planner);
   /// "" if it is not.
   std::string WhyGivenUp(const std::string& planner) const;

@@ -78,6 +78,23 @@ class DriverTest : public testing::Test {
     ExpectInputError([&] { driver.Discover(false, Idle); }, parts);
   }
 
+  /// What a planner was asked in a session of problems of "cans", each once, in order: "1
+  /// forward/2" is problem 1's second trial.
+  static std::vector<std::string> AskedOf(FakePlanner* planner) {
+    const std::string& name = planner->status.name;
+    std::vector<std::string> asked;
+    std::set<std::string> seen;
+    for (const PlanRequest& request : planner->requests().messages()) {
+      if (!seen.insert(request.request_id).second) continue;
+      std::string id = request.request_id.substr(0, request.request_id.find('@'));
+      id.erase(0, std::string("run/cans/").size());
+      id.replace(id.find('/'), name.size() + 2, " ");
+      if (request.request_id.ends_with("/warm-up")) id += ", not recorded";
+      asked.push_back(id);
+    }
+    return asked;
+  }
+
   void Reannounce(FakePlanner* planner) {
     NodeRegistry registry(&bus_);
     planbench::Reannounce(&registry, planner);

@@ -110,16 +110,6 @@ TEST_F(DriverTest, OfBothDirectionsAFailureNeedsTheOther) {
   for (const RunRow& run : driver.runs().rows()) EXPECT_EQ(run.needs_other, !run.confirmed());
 }
 
-TEST_F(DriverTest, EveryPlannerAnswersARequestBeforeItsFirstRun) {
-  FakePlanner planner(&bus_);
-  const FakeSceneServer server(&bus_);
-  FakeLogger logger(&bus_);
-  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
-  MakeAll(&driver);
-  EXPECT_EQ(Ids(planner.requests()).size(), 5u);  // one more than runs
-  EXPECT_EQ(Ids(logger.records()).size(), 4u);
-}
-
 TEST_F(DriverTest, ContestantsOfOneAlgorithmAreToldApart) {
   const FakePlanner arm(&bus_, "arm");
   const FakePlanner leg(&bus_, "leg");

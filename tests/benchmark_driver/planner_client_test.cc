@@ -45,6 +45,21 @@ class PlannerClientTest : public testing::Test {
   std::atomic<bool> interrupted_ = false;
 };
 
+/// One that does nothing.
+pid_t StartProcess() {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    pause();
+    _exit(0);
+  }
+  return pid;
+}
+
+void EndProcess(pid_t pid) {
+  kill(pid, SIGKILL);
+  waitpid(pid, nullptr, 0);
+}
+
 /// The planner and somebody else have connections of their own.
 class PlannerClientOnASharedBusTest : public PlannerClientTest {
  protected:
@@ -219,21 +234,15 @@ TEST_F(PlannerClientTest, PlannerThatWasRestartedGivesNoAnswer) {
 }
 
 TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
-  const pid_t pid = fork();
-  if (pid == 0) {
-    pause();
-    _exit(0);
-  }
+  const pid_t pid = StartProcess();
   FakePlanner planner(&bus_);  // goes on to be announced, as if its end were to be noticed yet
   planner.status.pid = pid;
   Reannounce(&registry_, &planner);
-  planner.OnRequest([&](const PlanRequest&) {
-    kill(pid, SIGKILL);
-    waitpid(pid, nullptr, 0);
-  });
+  planner.OnRequest([&](const PlanRequest&) { EndProcess(pid); });
   const PlannerClient::Answer answer = Solve("a");
   EXPECT_EQ(answer.message, "the process ended");
   EXPECT_EQ(planner.requests().messages().size(), 1u) << "its successor would die of it too";
+  EXPECT_FALSE(client_.ExpectAnother()) << "its successor, which may be there, is new";
   // Nor is it asked again.
   auto next = BeginToSolve("b");
   planner.status.pid = getpid();
@@ -243,18 +252,11 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
 }
 
 TEST_F(PlannerClientTest, OneThatHasEndedIsNotAtItsRequestAnyMore) {
-  const pid_t pid = fork();
-  if (pid == 0) {
-    pause();
-    _exit(0);
-  }
+  const pid_t pid = StartProcess();
   FakePlanner planner(&bus_);
   planner.status.pid = pid;
   Reannounce(&registry_, &planner);
-  planner.OnRequest([&](const PlanRequest&) {
-    kill(pid, SIGKILL);
-    waitpid(pid, nullptr, 0);
-  });
+  planner.OnRequest([&](const PlanRequest&) { EndProcess(pid); });
   PlannerClient::Terms terms;
   terms.patience = std::chrono::milliseconds(200);
   PlannerClient client(&bus_, &registry_, "arm", terms);
@@ -263,6 +265,22 @@ TEST_F(PlannerClientTest, OneThatHasEndedIsNotAtItsRequestAnyMore) {
   };
   EXPECT_EQ(solve("a").message, "the process ended");
   EXPECT_EQ(solve("b").message, "given up: it was not on the bus for 0.2 s");
+}
+
+TEST_F(PlannerClientTest, AProcessIsColdUntilItHasGivenAResult) {
+  EXPECT_FALSE(client_.IsCold()) << "there is none";
+  FakePlanner planner(&bus_);
+  for (const char* time : {"first", "second"}) {
+    Reannounce(&registry_, &planner);
+    EXPECT_TRUE(client_.IsCold());
+    planner.OnRequest(
+        [&](const PlanRequest& request) { planner.Acknowledge(request, Verdict::kRefused, "no"); });
+    EXPECT_EQ(Solve(fmt::format("{} a", time)).outcome, PlannerClient::Outcome::kRefused);
+    EXPECT_TRUE(client_.IsCold());
+    planner.OnRequest([&](const PlanRequest& request) { planner.Solve(request); });
+    EXPECT_EQ(Solve(fmt::format("{} b", time)).outcome, PlannerClient::Outcome::kResult);
+    EXPECT_FALSE(client_.IsCold());
+  }
 }
 
 TEST_F(PlannerClientTest, APlannerThatComesBackAsAnotherIsNotAsked) {
@@ -278,6 +296,7 @@ TEST_F(PlannerClientTest, APlannerThatComesBackAsAnotherIsNotAsked) {
   EXPECT_EQ(answer.outcome, PlannerClient::Outcome::kNoAnswer);
   EXPECT_THAT(answer.message, HasSubstr("node[arm].setting[step].value is \"6\", was \"5\""));
   EXPECT_EQ(planner.requests().messages().size(), 1u);
+  EXPECT_FALSE(client.IsCold()) << "it is not to be asked to warm up either";
   planner.status.settings["step"] = "5";
   Reannounce(&registry_, &planner);
   EXPECT_EQ(solve("c").outcome, PlannerClient::Outcome::kResult);
@@ -294,6 +313,11 @@ TEST_F(PlannerClientTest, APlannerThatIsGivenUpIsNotWaitedFor) {
   EXPECT_EQ(answer.get().message, "given up: it died");
   EXPECT_EQ(client.Solve(Request("b"), [] { return false; }).outcome,
             PlannerClient::Outcome::kNoAnswer);
+  FakePlanner planner(&bus_);
+  Reannounce(&registry_, &planner);
+  EXPECT_FALSE(client.IsCold() || client.ExpectAnother()) << "though it has come";
+  given_up = false;
+  EXPECT_TRUE(client.IsCold() && client.ExpectAnother());
 }
 
 TEST_F(PlannerClientTest, OneThatStaysAwayIsGivenUpWhenItCannotBeAtItsRequestAnyMore) {
@@ -325,7 +349,7 @@ TEST_F(PlannerClientTest, OneThatStaysAwayIsGivenUpWhenItCannotBeAtItsRequestAny
 TEST_F(PlannerClientTest, OneThatWasToldToEndIsNotAskedThoughItIsLive) {
   FakePlanner planner(&bus_);
   EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
-  client_.ExpectAnother();
+  EXPECT_TRUE(client_.ExpectAnother());
   std::future<PlannerClient::Answer> answer = BeginToSolve("b");
   EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(200)), std::future_status::timeout);
   EXPECT_EQ(planner.requests().Count([](const auto& r) { return r.request_id == "b"; }), 0u);
@@ -339,7 +363,7 @@ TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
   PlannerClient::Terms terms;
   terms.patience = std::chrono::milliseconds(200);
   PlannerClient client(&bus_, &registry_, "arm", terms);
-  client.ExpectAnother();
+  EXPECT_TRUE(client.ExpectAnother());
   testing::internal::CaptureStdout();  // Where messages go.
   const PlannerClient::Answer answer = client.Solve(Request("a"), [] { return false; });
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << "it may be short";
@@ -349,6 +373,26 @@ TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
                         "is on the bus 0.2 s later",
                         getpid()));
   EXPECT_EQ(answer.roundtrip_time_s, 0);
+}
+
+TEST_F(PlannerClientTest, OnceAnotherHasComeALaterAbsenceIsToldAtOnce) {
+  FakePlanner planner(&bus_);
+  Reannounce(&registry_, &planner);
+  PlannerClient::Terms terms;
+  terms.patience = std::chrono::milliseconds(200);
+  PlannerClient client(&bus_, &registry_, "arm", terms);
+  EXPECT_TRUE(client.ExpectAnother());
+  const pid_t pid = StartProcess();
+  planner.status.pid = pid;
+  Reannounce(&registry_, &planner);
+  planner.OnRequest([&](const PlanRequest&) { EndProcess(pid); });
+  const auto solve = [&](const std::string& id) {
+    return client.Solve(Request(id), [] { return false; });
+  };
+  EXPECT_EQ(solve("a").message, "the process ended");
+  testing::internal::CaptureStdout();  // Where messages go.
+  EXPECT_EQ(solve("b").message, "given up: it was not on the bus for 0.2 s");
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("waiting for the planner 'arm'"));
 }
 
 TEST_F(PlannerClientTest, BusyCountsIfThePlannerAnnouncesAnotherRequest) {

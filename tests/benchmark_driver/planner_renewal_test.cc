@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,50 +14,49 @@ namespace {
 
 using testing::ElementsAre;
 
-class PlannerRenewalTest : public DriverTest {
- protected:
-  /// What a planner was asked in a session of problems of "cans", each once, in order: "1
-  /// forward/2" is problem 1's second trial.
-  static std::vector<std::string> AskedOf(FakePlanner* planner) {
-    const std::string& name = planner->status.name;
-    std::vector<std::string> asked;
-    std::set<std::string> seen;
-    for (const PlanRequest& request : planner->requests().messages()) {
-      if (!seen.insert(request.request_id).second) continue;
-      std::string id = request.request_id.substr(0, request.request_id.find('@'));
-      id.erase(0, std::string("run/cans/").size());
-      id.replace(id.find('/'), name.size() + 2, " ");
-      if (request.request_id.ends_with("/warm-up")) id += ", not recorded";
-      asked.push_back(id);
-    }
-    return asked;
-  }
-};
+using PlannerRenewalTest = DriverTest;
 
 TEST_F(PlannerRenewalTest, EachPlannersProcessHasSoManyProblems) {
   NodeRegistry registry(&bus_);
+  FakePlanner live_arm(&bus_, "arm"), live_leg(&bus_, "leg");
+  for (FakePlanner* planner : {&live_arm, &live_leg}) planbench::Reannounce(&registry, planner);
   PlannerClient arm(&bus_, &registry, "arm"), leg(&bus_, &registry, "leg");
   std::vector<std::string> started;
-  PlannerRenewal renewal(2, [&](const std::string& planner) { started.push_back(planner); });
-  EXPECT_FALSE(renewal.Renew("cans", 1, &arm));
-  EXPECT_FALSE(renewal.Renew("cans", 1, &arm));
-  EXPECT_FALSE(renewal.Renew("cans", 2, &arm));
-  EXPECT_FALSE(renewal.Renew("cans", 2, &leg));
-  EXPECT_TRUE(renewal.Renew("tins", 2, &arm)) << "another set's";
-  EXPECT_FALSE(renewal.Renew("tins", 2, &arm));
-  EXPECT_FALSE(renewal.Renew("tins", 3, &arm));
-  EXPECT_FALSE(renewal.Renew("tins", 3, &leg));
-  EXPECT_TRUE(renewal.Renew("cans", 1, &arm)) << "as for a repeat";
+  PlannerRenewal renewal(2, [&](const std::string& planner) {
+    started.push_back(planner);
+    planbench::Reannounce(&registry, planner == "arm" ? &live_arm : &live_leg);
+  });
+  const auto renews = [&](const std::string& set, int problem, PlannerClient* planner) {
+    const std::size_t before = started.size();
+    renewal.Renew(set, problem, planner);
+    return started.size() > before;
+  };
+  EXPECT_FALSE(renews("cans", 1, &arm));
+  EXPECT_FALSE(renews("cans", 1, &arm));
+  EXPECT_FALSE(renews("cans", 2, &arm));
+  EXPECT_FALSE(renews("cans", 2, &leg));
+  EXPECT_TRUE(renews("tins", 2, &arm)) << "another set's";
+  EXPECT_FALSE(renews("tins", 2, &arm));
+  EXPECT_FALSE(renews("tins", 3, &arm));
+  EXPECT_FALSE(renews("tins", 3, &leg));
+  EXPECT_TRUE(renews("cans", 1, &arm)) << "as for a repeat";
   EXPECT_THAT(started, ElementsAre("arm", "arm"));
+}
+
+TEST_F(PlannerRenewalTest, WhereNobodyIsLiveNobodyIsToldToEnd) {
+  NodeRegistry registry(&bus_);
+  PlannerClient arm(&bus_, &registry, "arm");
+  PlannerRenewal renewal(1, [](const std::string&) { ADD_FAILURE() << "it is new, or to come"; });
+  for (const int problem : {1, 2, 3}) renewal.Renew("cans", problem, &arm);
 }
 
 TEST_F(PlannerRenewalTest, WithoutANumberAProcessHasThemAll) {
   NodeRegistry registry(&bus_);
+  FakePlanner live(&bus_, "arm");
+  planbench::Reannounce(&registry, &live);
   PlannerClient arm(&bus_, &registry, "arm");
-  PlannerRenewal renewal;
-  for (int problem = 1; problem <= 100; ++problem) {
-    EXPECT_FALSE(renewal.Renew("cans", problem, &arm));
-  }
+  PlannerRenewal renewal({}, [](const std::string&) { ADD_FAILURE(); });
+  for (int problem = 1; problem <= 100; ++problem) renewal.Renew("cans", problem, &arm);
 }
 
 TEST_F(PlannerRenewalTest, ASessionsNewProcessesAnswerARequestThatIsNotRecordedFirst) {
