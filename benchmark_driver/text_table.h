@@ -6,7 +6,8 @@
 namespace planbench {
 
 /// A table as text: columns aligned, the first `num_left` to the left, the others to the right.
-/// Where the last is to the left, too, it is broken into lines, so that all are at most kTextWidth.
+/// Where the last is to the left, too, it is broken into lines, so that all are at most kTextWidth
+/// but for words, such as paths, that are longer.
 class TextTable {
  public:
   TextTable(std::string title, std::vector<std::string> header, int num_left);
