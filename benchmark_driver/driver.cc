@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "benchmark_driver/await_nodes.h"
+#include "benchmark_driver/contestant_names.h"
 #include "benchmark_driver/earlier_plan.h"
 #include "common/error.h"
 #include "common/file_kind.h"
@@ -20,6 +21,7 @@
 #include "common/sibling_program.h"
 #include "common/utime.h"
 #include "messaging/asked_runs.h"
+#include "messaging/codec.h"
 #include "messaging/node_announcer.h"
 #include "messaging/session_conditions.h"
 #include "planning/path_judge.h"
@@ -48,6 +50,18 @@ void TellChecks(const SessionConditions& conditions, const std::vector<Contestan
                       DescribeEdges(one.edge_check, one.edge_resolution_m, node.settings));
     }
   }
+}
+
+/// Throws InputError for a planner that says more of itself than every record can hold: messages
+/// that are not much larger do not come.
+void RequireModest(const NodeStatusMessage& planner) {
+  constexpr std::size_t kMost = 1'000'000;
+  const std::size_t size = Encode(planner).size();
+  if (size <= kMost) return;
+  throw InputError(fmt::format(
+      "the planner '{}' announces itself in {} bytes (algorithm, class, settings), most of which "
+      "every record repeats: {} at most",
+      planner.name, size, kMost));
 }
 
 std::set<std::string> IdsOf(const std::vector<ScheduledRun>& runs) {
@@ -309,6 +323,10 @@ void Driver::CompleteConditions() {
   }
   conditions.referee_robot_id = served_.referee_robot_id;
   for (const LineUpEntry& entry : line_up_) AddContestant(entry);
+  const std::map<std::string, std::string> names = ContestantNames(line_up_, planners_);
+  for (std::vector<Contestant>* contestants : {&conditions.contestants, &first_planners_}) {
+    for (Contestant& one : *contestants) one.name = names.at(one.planner);
+  }
 }
 
 void Driver::AddContestant(const LineUpEntry& entry) {
@@ -323,6 +341,7 @@ void Driver::AddContestant(const LineUpEntry& entry) {
         "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
         name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
   }
+  RequireModest(*planner);
   contestant.collision_model = options_.ModelOf(entry);
   if (!contestant.edge_resolution_m) contestant.edge_resolution_m = request.edge_resolution_m;
   if (!contestant.edge_check) contestant.edge_check = request.edge_check;
@@ -349,30 +368,9 @@ void Driver::AddContestant(const LineUpEntry& entry) {
   if (!contestant.first_path_of.empty() && !planner->can_improve) {
     throw InputError(fmt::format("first_path_of: the planner '{}' does not improve paths", name));
   }
-  // Of planners that would have one name, each also has the one that tells it apart.
-  if (contestant.name.empty()) {
-    const std::string own = contestant.name = NameOf(contestant);
-    for (const LineUpEntry& other : line_up_) {
-      if (other.contestant.planner != name && NameOf(other.contestant) == own) {
-        contestant.name = fmt::format("{} [{}]", own, name);
-      }
-    }
-  }
   (entry.finds_first_paths_only ? first_planners_ : options_.conditions.contestants)
       .push_back(std::move(contestant));
   planners_[name] = *planner;
-}
-
-std::string Driver::NameOf(const Contestant& contestant) const {
-  if (!contestant.name.empty()) return contestant.name;
-  const auto planner = registry_.Find(contestant.planner, NodeKind::kPlanner);
-  std::string name = planner ? planner->algorithm : "";
-  for (const LineUpEntry& other : line_up_) {
-    if (other.contestant.planner == contestant.first_path_of) {
-      name = fmt::format("{} after {}", name, NameOf(other.contestant));
-    }
-  }
-  return name;
 }
 
 std::vector<PlannedPlanner> Driver::PlannedPlanners() const {

@@ -99,10 +99,9 @@ class Driver {
   void CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
                      const std::function<void()>& watch);
   void CompleteConditions();
-  /// Contestants with their conditions; throws InputError for planners that do not fit.
+  /// With its conditions, but for its name in tables; throws InputError for planners that do not
+  /// fit.
   void AddContestant(const LineUpEntry& entry);
-  /// In tables: the line-up's, or what the planner says of itself and whose path it improves.
-  std::string NameOf(const Contestant& contestant) const;
   std::vector<PlannedPlanner> PlannedPlanners() const;
   /// What is known of the session when this call goes on with it; of a new one that is the call.
   struct Known {

@@ -13,6 +13,7 @@
 #include "benchmark_driver/published_study.h"
 #include "benchmark_driver/session_results.h"
 #include "benchmark_driver/text_table.h"
+#include "common/lookup.h"
 #include "planning/told_edges.h"
 #include "results/comparison.h"
 #include "results/disputed_ends.h"
@@ -323,8 +324,8 @@ std::string Preface(const SessionConditions& conditions, const SessionResults& r
   const std::map<std::string, std::string> classes = ClassesIfSeveral(results);
   for (const Contestant& one : results.contestants()) {
     std::string line = results.LabelOf(one);
-    if (const auto found = classes.find(one.name); found != classes.end()) {
-      line += ", " + found->second;
+    if (const std::string own = Lookup(classes, one.name).value_or(""); !own.empty()) {
+      line += ", " + own;
     }
     if (!one.about.empty()) line += ": " + one.about;
     if (one.collision_model) {

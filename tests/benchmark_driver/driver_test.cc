@@ -121,6 +121,18 @@ TEST_F(DriverTest, ContestantsOfOneAlgorithmAreToldApart) {
   EXPECT_EQ(driver.conditions().contestants[1].name, "Fake* [leg]");
 }
 
+TEST_F(DriverTest, RunsOfOneWithoutAnAlgorithmAreRecordedByItsNameOnTheBus) {
+  FakePlanner planner(&bus_);
+  planner.status.algorithm = planner.status.planner_class = "";
+  planner.Restart();
+  const FakeSceneServer server(&bus_);
+  FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  MakeAll(&driver);
+  EXPECT_EQ(logger.records().messages().at(0).contestant, "arm");
+  EXPECT_EQ(logger.sessions().messages().at(0).conditions.contestants.at(0).name, "arm");
+}
+
 TEST_F(DriverTest, ContestantsHaveConditionsOfTheirOwn) {
   FakePlanner planner(&bus_);
   const FakeSceneServer server(&bus_);
@@ -335,6 +347,10 @@ TEST_F(DriverTest, PlannersMustFitTheSession) {
   options.sets = {"boxes"};
   ExpectNotDiscovered(options, {"'boxes'", "cans"});
 
+  planner.status.settings["about"] = std::string(1'000'000, 'x');
+  Reannounce(&planner);
+  ExpectNotDiscovered(Options(), {"'arm' announces itself in", "1000000 at most"});
+  planner.status.settings.erase("about");
   planner.status.can_backward = false;
   Reannounce(&planner);
   ExpectNotDiscovered(Options(), {"--directions", "'arm'"});

@@ -1,0 +1,64 @@
+#include "benchmark_driver/contestant_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <utility>
+
+#include "common/text.h"
+
+namespace planbench {
+namespace {
+
+using NamesByPlanner = std::map<std::string, std::string>;
+
+/// Of a planner as it announces itself. Words stand one blank apart, as a page shows them.
+std::string OwnName(const NodeStatusMessage& planner) {
+  constexpr std::size_t kMost = 80;  // bytes; tables cut at 100
+  std::istringstream words(planner.algorithm);
+  std::string name;
+  for (std::string word; words >> word;) {
+    if (!name.empty()) name += ' ';
+    name += word;
+  }
+  return name.empty() ? planner.name : Abridged(std::move(name), kMost);
+}
+
+bool IsNameOfAnother(const std::string& name, const std::string& planner,
+                     const NamesByPlanner& names) {
+  return std::any_of(names.begin(), names.end(), [&](const auto& other) {
+    return other.first != planner && other.second == name;
+  });
+}
+
+}  // namespace
+
+std::map<std::string, std::string> ContestantNames(
+    const std::vector<LineUpEntry>& line_up,
+    const std::map<std::string, NodeStatusMessage>& planners) {
+  NamesByPlanner without_first;
+  for (const LineUpEntry& entry : line_up) {
+    const Contestant& one = entry.contestant;
+    without_first[one.planner] = one.name.empty() ? OwnName(planners.at(one.planner)) : one.name;
+  }
+  NamesByPlanner wanted = without_first;
+  for (const LineUpEntry& entry : line_up) {
+    const Contestant& one = entry.contestant;
+    if (!one.name.empty() || one.first_path_of.empty()) continue;
+    wanted[one.planner] += fmt::format(" after {}", without_first.at(one.first_path_of));
+  }
+  NamesByPlanner names = wanted;
+  for (const LineUpEntry& entry : line_up) {
+    if (!entry.contestant.name.empty()) continue;
+    const std::string& planner = entry.contestant.planner;
+    std::string& name = names[planner];
+    while (IsNameOfAnother(name, planner, wanted) || IsNameOfAnother(name, planner, names)) {
+      name += fmt::format(" [{}]", planner);
+    }
+  }
+  return names;
+}
+
+}  // namespace planbench
