@@ -367,7 +367,8 @@ std::map<std::string, std::string> ParseSettings(const std::string& settings) {
   std::istringstream lines(settings);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t end = line.find(between);
-    if (end != std::string::npos) by_name[line.substr(0, end)] = line.substr(end + between.size());
+    if (end == std::string::npos) continue;
+    by_name.emplace(line.substr(0, end), line.substr(end + between.size()));
   }
   return by_name;
 }

@@ -65,7 +65,8 @@ struct StoredContestant {
   std::string settings;  ///< "key = value", one a line.
 };
 
-/// Such settings, by key; lines of other forms are left out.
+/// Such settings, by key; lines of other forms are left out. Of a key the first: what the session
+/// asked for stands before what a planner calls its settings.
 std::map<std::string, std::string> ParseSettings(const std::string& settings);
 
 /// What was odd on the bus while a session folder was written, as its logger tells.

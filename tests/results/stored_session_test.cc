@@ -194,5 +194,12 @@ TEST_F(ReadSessionsTest, AFileThatWasCutShortIsRefused) {
   ExpectInputError([&] { ReadSessions(folder_ / "one"); }, {"results.sqlite", "malformed"});
 }
 
+TEST(ParseSettingsTest, WhatTheSessionAskedForStandsWhateverAPlannerCallsItsSettings) {
+  const auto settings =
+      ParseSettings("collision_model = spheres\ncollision_model = meshes\na = b\n");
+  EXPECT_EQ(settings.at("collision_model"), "spheres");
+  EXPECT_EQ(settings.at("a"), "b");
+}
+
 }  // namespace
 }  // namespace planbench
