@@ -50,12 +50,14 @@ void Recorder::OnAck(const AckMessage& ack, const Origin& origin) {
   const auto last = awaited_.upper_bound(ack.ok ? ack.id : ack.id + "#:");
   const auto record = std::find_if(awaited_.lower_bound(ack.id), last,
                                    [&](const auto& one) { return !logger.Has(one.second); });
-  if (session_ && ack.id == SessionAckId(*session_)) {
-    if (logger.session == ack.id) return;
-    if (!ack.ok) {
-      spdlog::error("the logger '{}' refuses the session: {}", logger.name, ack.message);
+  const std::string session = session_ ? SessionAckId(*session_) : "";
+  // One that cannot be decoded is refused without its time.
+  if (session_ && (ack.id == session || (!ack.ok && ack.id == session_->run_id))) {
+    if (std::exchange(logger.session, session) == session) return;
+    const auto refusal = ack.ok ? std::nullopt : std::optional(ack.message);
+    if (std::exchange(logger.session_refusal, refusal) != refusal && refusal) {
+      spdlog::error("the logger '{}' refuses the session: {}", logger.name, *refusal);
     }
-    logger.session = ack.id;
   } else if (record == last) {
     return;  // what it knows, or nobody sent: whoever says no more than that is silent
   } else {
@@ -87,8 +89,10 @@ void Recorder::Record(const SessionMessage& session) {
 bool Recorder::Complete() {
   std::unique_lock lock(mutex_);
   Deliver(&lock, true);
-  const Logger* best = Best();
-  return best != nullptr && best->Count() == spool_.size() && !Lacks(*best);
+  return std::any_of(loggers_.begin(), loggers_.end(), [this](const auto& entry) {
+    const Logger& logger = entry.second;
+    return logger.Count() == spool_.size() && !Lacks(logger) && !logger.session_refusal;
+  });
 }
 
 bool Recorder::Lacks(const Logger& logger) const {
@@ -207,6 +211,10 @@ std::vector<std::string> Recorder::Shortcomings() const {
         fmt::format("none of {} run records is stored: no logger was live", spool_.size()));
   }
   for (const auto& [place, logger] : loggers_) {
+    if (logger.session_refusal) {
+      lines.push_back(fmt::format("the session is not stored by the logger '{}' ({}): {}",
+                                  logger.name, logger.place, *logger.session_refusal));
+    }
     const std::size_t missing = spool_.size() - logger.Count();
     if (missing == 0) continue;
     const std::string why = !logger.refused.empty()   ? logger.refused.begin()->second

@@ -43,7 +43,7 @@ class Recorder {
 
   /// Records that the logger with the most of them does not have; for tests.
   std::size_t num_unrecorded() const;
-  /// What is not recorded and why, in a line for each logger that lacks something; empty if nothing
+  /// What is not recorded and why, in lines for each logger that lacks something; empty if nothing
   /// is. In records, of which a run that was repeated has several.
   std::vector<std::string> Shortcomings() const;
 
@@ -62,7 +62,8 @@ class Recorder {
     std::size_t next = 0;          ///< It has all records before, ...
     std::set<std::size_t> beyond;  ///< ... and these.
     std::map<std::size_t, std::string> refused;
-    std::string session;  ///< SessionAckId of the last that it has.
+    std::string session;  ///< SessionAckId of the last that it has, or has refused.
+    std::optional<std::string> session_refusal;  ///< Why, if it has.
 
     bool Takes() const { return live && trouble.empty(); }
     bool Has(std::size_t index) const { return index < next || beyond.contains(index); }

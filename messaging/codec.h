@@ -17,8 +17,8 @@ class MessageError : public InputError {
  public:
   MessageError(const std::string& message, std::string request_id)
       : InputError(message), request_id_(std::move(request_id)) {}
-  /// The request_id of the message, if it could be read that far; else empty. Lets a server refuse
-  /// by id.
+  /// The request_id of the message, of a session its run_id, if it could be read that far; else
+  /// empty. Lets a server refuse by id.
   const std::string& request_id() const { return request_id_; }
 
  private:

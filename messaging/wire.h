@@ -26,11 +26,16 @@ std::vector<std::uint8_t> Pack(const Wire& message) {
   return bytes;
 }
 
-/// The request_id of an lcmt_ struct, printable; "" if it has none.
+/// The request_id of an lcmt_ struct, of a session its run_id, printable; "" if it has none.
 template <typename Wire>
 std::string RequestIdOf(const Wire& message) {
-  if constexpr (requires { message.request_id; }) return Escaped(message.request_id);
-  return "";
+  if constexpr (requires { message.request_id; }) {
+    return Escaped(message.request_id);
+  } else if constexpr (requires { message.run_id; }) {
+    return Escaped(message.run_id);
+  } else {
+    return "";
+  }
 }
 
 /// The lcmt_ struct in `bytes`; throws MessageError for another type, truncation, excess. The

@@ -80,6 +80,43 @@ TEST_F(RecorderTest, RefusalCountsAsNotRecorded) {
               ElementsAre(AllOf(HasSubstr("1 of 2"), HasSubstr("'logger'"), HasSubstr("odd"))));
 }
 
+TEST_F(RecorderTest, ARefusedSessionIsToldOnceAndIsNotRecorded) {
+  FakeLogger logger(&bus_);
+  logger.refuse = true;
+  AwaitLogger();
+  testing::internal::CaptureStdout();  // Where messages go.
+  recorder_.Record(Session());
+  SessionMessage end = Session();
+  end.total_time_s = 1;
+  recorder_.Record(end);
+  EXPECT_FALSE(recorder_.Complete());
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(said, HasSubstr("the logger 'logger' refuses the session: it is odd"));
+  EXPECT_EQ(said.find("refuses"), said.rfind("refuses")) << said;
+  EXPECT_THAT(recorder_.Shortcomings(),
+              ElementsAre(AllOf(HasSubstr("the session is not stored"), HasSubstr("it is odd"))));
+  logger.refuse = false;
+  end.total_time_s = 2;
+  recorder_.Record(end);
+  EXPECT_TRUE(recorder_.Complete());
+}
+
+TEST_F(RecorderTest, ALoggerThatCannotDecodeTheSessionAnswers) {
+  FakeLogger logger(&bus_);
+  logger.num_to_ignore = 1'000'000;
+  const Subscription refusals =
+      bus_.Subscribe<SessionMessage>(channel::kSession, [this](const SessionMessage& session) {
+        bus_.Publish(channel::kSessionAck,
+                     AckMessage{session.run_id, "logger", false, "cannot be decoded"});
+      });
+  AwaitLogger();
+  testing::internal::CaptureStdout();  // Where messages go.
+  recorder_.Record(Session());
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(said, HasSubstr("the logger 'logger' refuses the session: cannot be decoded"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("NOBODY RECORDS")));
+}
+
 TEST_F(RecorderTest, WithoutLoggerIsPublishedAndSaidOnce) {
   MessageCollector<RunRecordMessage> watched(&bus_, channel::kRunRecord);
   testing::internal::CaptureStdout();  // Where messages go.

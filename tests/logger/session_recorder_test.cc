@@ -136,9 +136,17 @@ TEST_F(SessionRecorderTest, RefusesWhatItCannotDecode) {
   EXPECT_NE(acks_[0].ack.message.find("roundtrip_time_s"), std::string::npos)
       << acks_[0].ack.message;
   recorder->Record({channel::kSession, {}, 0});
-  EXPECT_EQ(recorder->tally().failures, 3);
+  EXPECT_EQ(acks_.size(), 1);
+  SessionMessage session = SampleSession();
+  session.conditions.contestants.emplace_back().planner = "nameless";
+  recorder->Record(Received(channel::kSession, session));
+  ASSERT_EQ(acks_.size(), 2);
+  EXPECT_EQ(acks_[1].ack.id, session.run_id);
+  EXPECT_FALSE(acks_[1].ack.ok);
+  EXPECT_NE(acks_[1].ack.message.find("name: is empty"), std::string::npos) << acks_[1].ack.message;
+  EXPECT_EQ(recorder->tally().failures, 4);
   EXPECT_EQ(Count("runs"), 0);
-  EXPECT_EQ(Events().size(), 3);  // the event log has them all the same
+  EXPECT_EQ(Events().size(), 4);  // the event log has them all the same
   recorder->Record(Received(channel::kRunRecord, SampleRecord()));
   EXPECT_TRUE(acks_.back().ack.ok);
 }
