@@ -73,8 +73,8 @@ void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& orig
   RequestExchange::Event event = RequestExchange::ArrivedResult{result, origin.arrival};
   {
     const std::scoped_lock lock(mutex_);
-    if (last_result_ && last_result_->request_id == result.request_id) {
-      if (*last_result_ == result) return;
+    if (first_result_ && first_result_->request_id == result.request_id) {
+      if (*first_result_ == result) return;
       bus_->contradictions().Note(origin.sender, channels_.result,
                                   "another result of " + result.request_id + " than before");
       return;
@@ -83,7 +83,9 @@ void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& orig
       event = RequestExchange::UnusableResult{result.request_id, std::move(why)};
     }
   }
-  Add(std::move(event), origin.sender, channels_.result);
+  if (!Add(std::move(event), origin.sender, channels_.result)) return;
+  const std::scoped_lock lock(mutex_);
+  if (result.request_id == request_id_) first_result_ = result;
 }
 
 void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin) {
@@ -92,20 +94,22 @@ void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin)
   throw error;  // for the bus to log
 }
 
-void PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
+bool PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
                         const std::string& channel) {
   const bool is_believed = registry_->Believes(sender, NodeKind::kPlanner, planner_, channel);
   const std::scoped_lock lock(mutex_);
-  if (!asked_) return;
-  if (!is_believed || !(*asked_ == sender)) {
+  if (!asked_) return false;
+  const bool is_its = is_believed && *asked_ == sender;
+  if (!is_its) {
     // Once: however much a stranger sends, the planner is listened to.
-    if (std::exchange(has_refused_, true)) return;
+    if (std::exchange(has_refused_, true)) return false;
     event = RequestExchange::RefusedMessage{
         fmt::format("what came on {} from {}, as '{}', which was asked, sends from {}", channel,
                     sender.Text(), planner_, asked_->Text())};
   }
   messages_.push_back(std::move(event));
   changed_.notify_all();
+  return is_its;
 }
 
 std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until) {
@@ -215,6 +219,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
     const std::scoped_lock lock(mutex_);
     asked_ = process->sender;
     run_id_ = request.run_id;
+    request_id_ = request.request_id;
     messages_.clear();
     has_refused_ = false;
   }
@@ -235,7 +240,6 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
       }
       const std::scoped_lock lock(mutex_);
       asked_.reset();
-      if (step.answer->outcome == Outcome::kResult) last_result_ = step.answer->result;
       return *std::move(step.answer);
     }
     if (step.send_request) bus_->Publish(channels_.request, request);

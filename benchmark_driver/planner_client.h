@@ -71,8 +71,9 @@ class PlannerClient {
   std::string WhyUnusable(const PlanResultMessage& result) const;
   void OnResult(const PlanResultMessage& result, const Origin& origin);
   void OnBadResult(const MessageError& error, const Origin& origin);
-  /// For the request under way; of what is from another than the process asked, only that.
-  void Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel);
+  /// For the request under way; of what is from another than the process asked, only that. Whether
+  /// it is from that process.
+  bool Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel);
   /// The next message; nothing if none has come by then.
   std::optional<RequestExchange::Event> NextMessage(TimePoint until);
 
@@ -91,9 +92,10 @@ class PlannerClient {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<PacketSender> asked_;  // while a request is under way
-  std::string run_id_;                 // its
+  std::string run_id_, request_id_;    // its
   bool has_refused_ = false;           // somebody else's message to it
-  std::optional<PlanResultMessage> last_result_;
+  /// To the last request that had one, as it came: what differs from it contradicts it.
+  std::optional<PlanResultMessage> first_result_;
   std::deque<RequestExchange::Event> messages_;  // since the request under way began
   Subscription acks_;
   Subscription results_;

@@ -165,6 +165,27 @@ TEST_F(PlannerClientTest, AnotherResultThanBeforeIsNoted) {
   EXPECT_EQ(Solve("b").outcome, PlannerClient::Outcome::kResult);
 }
 
+TEST_F(PlannerClientTest, OfTwoResultsSentAtOnceTheFirstCountsAndTheOtherIsNoted) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest([](const PlanRequest&) {});
+  PlanResult other;
+  other.status = PlanStatus::kExhausted;
+  std::atomic<bool> sent = false;
+  // Both have come before either is taken: the client asks this while it waits.
+  const auto send_both = [&] {
+    if (planner.requests().messages().empty() || sent.exchange(true)) return false;
+    planner.SendResult("a", FakePlanner::SolvedResult());
+    planner.SendResult("a", FakePlanner::SolvedResult());
+    planner.SendResult("a", other);
+    bus_.Publish(PlannerChannels("arm").cancel, PlanCancelMessage{"a"});
+    EXPECT_EQ(planner.cancels().WaitFor(1).size(), 1u) << "what was sent before has been handled";
+    return false;
+  };
+  const PlannerClient::Answer answer = client_.Solve(Request("a"), send_both);
+  EXPECT_EQ(answer.result.result.status, PlanStatus::kSolved);
+  EXPECT_EQ(bus_.contradictions().count(), 1);
+}
+
 TEST_F(PlannerClientOnASharedBusTest, OnlyTheProcessAskedIsListenedTo) {
   std::atomic<int> num_requests = 0;
   FakePlanner planner(&planner_bus_);
