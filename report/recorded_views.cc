@@ -82,9 +82,14 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
           fmt::format("{}: no 3D views: {}.", compared.session_names()[s], error.what()));
     }
   }
+  struct NotShown {
+    int number = 0;
+    std::string first;  ///< Why that is not.
+  };
+  std::vector<NotShown> not_shown(sessions.size());
   std::size_t num_bytes = 0;
   for (const Candidate& candidate : candidates) {
-    auto& session = sessions[candidate.session];
+    const auto& session = sessions[candidate.session];
     if (!session) continue;
     try {
       Json view = session->View(*candidate.run, kFramesEmbedded);
@@ -99,10 +104,15 @@ EmbeddedViews EmbedViews(const ComparedSessions& compared, std::size_t most_byte
       embedded.meshes.merge(new_meshes);
       embedded.by_attempt.emplace(candidate.attempt, std::move(view));
     } catch (const InputError& error) {
-      embedded.notes.push_back(fmt::format(
-          "{}: no 3D views: {}.", compared.session_names()[candidate.session], error.what()));
-      session.reset();
+      NotShown& others = not_shown[candidate.session];
+      if (others.number++ == 0) others.first = error.what();
     }
+  }
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    if (not_shown[s].number == 0) continue;
+    embedded.notes.push_back(fmt::format("{}: attempts without a 3D view: {}; the first: {}.",
+                                         compared.session_names()[s], not_shown[s].number,
+                                         not_shown[s].first));
   }
   if (embedded.by_attempt.size() < candidates.size()) {
     embedded.extent = fmt::format(

@@ -82,7 +82,18 @@ class View {
     json_["motions"] = Json::array();
   }
 
-  /// Joints of the path by name.
+  /// Why a path of such joints cannot be shown; "" if it can.
+  std::string WhyNotShown(const std::vector<std::string>& joint_names) const {
+    for (const JointSpace::Joint& joint : group_.space.joints()) {
+      if (std::find(joint_names.begin(), joint_names.end(), joint.name) != joint_names.end()) {
+        continue;
+      }
+      return fmt::format("it has no joint '{}' of group {}", joint.name, group_.name);
+    }
+    return "";
+  }
+
+  /// Joints of the path by name, those of the group among them.
   void AddMotion(const std::string& name, const Path& path,
                  const std::vector<std::string>& joint_names, const PathCheckReplyMessage& check,
                  int num_frames) {
@@ -230,9 +241,6 @@ class View {
     std::vector<std::size_t> places;
     for (const JointSpace::Joint& joint : group_.space.joints()) {
       const auto found = std::find(joint_names.begin(), joint_names.end(), joint.name);
-      if (found == joint_names.end()) {
-        throw InputError("the path has no joint '" + joint.name + "' of group " + group_.name);
-      }
       places.push_back(static_cast<std::size_t>(found - joint_names.begin()));
     }
     Path ordered;
@@ -294,16 +302,21 @@ Json RunView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMe
              int num_frames) {
   View view = ViewOfRequest(shown, scene, run);
   const PlanResult& result = run.result.result;
-  view.AddGoals(result.path, run.result.joint_names);
-  view.AddMotion("raw", result.path, run.result.joint_names, run.path_check, num_frames);
-  view.AddMotion("simplified", result.simplified_path, run.result.joint_names, run.simplified_check,
-                 num_frames);
+  const std::vector<std::string>& joint_names = run.result.joint_names;
+  const std::string why_not = result.path.empty() ? "" : view.WhyNotShown(joint_names);
+  view.AddGoals(why_not.empty() ? result.path : Path(), joint_names);
+  if (why_not.empty()) {
+    view.AddMotion("raw", result.path, joint_names, run.path_check, num_frames);
+    view.AddMotion("simplified", result.simplified_path, joint_names, run.simplified_check,
+                   num_frames);
+  }
   std::vector<std::string> facts = {fmt::format("{}: {}{}{}.", AttemptOf(run), EnumName(run.status),
                                                 run.message.empty() ? "" : ": ", run.message)};
   if (run.status != PlanStatus::kNoAnswer) {
     facts.push_back(
         fmt::format("Planning time {} ms.", FormatNumber(1e3 * result.planning_time_s)));
   }
+  if (!why_not.empty()) facts.push_back(fmt::format("Its path is not shown: {}.", why_not));
   return view.Take(TitleOf(run), std::move(facts));
 }
 

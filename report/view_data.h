@@ -31,7 +31,8 @@ Json ProblemView(const ShownRobot& shown, const Problem& problem,
                  CollisionModel model = CollisionModel::kSpheres);
 
 /// The same of a run, by the model of its request, with its raw and simplified paths, each in about
-/// `num_frames` frames, every waypoint among them; the referee's finding is the collision.
+/// `num_frames` frames, every waypoint among them; the referee's finding is the collision. Paths of
+/// other joints than the group's are left out, and a fact says so.
 Json RunView(const ShownRobot& shown, const ShownScene& scene, const RunRecordMessage& run,
              int num_frames);
 

@@ -301,9 +301,17 @@ TEST_F(ViewDataTest, OfSeveralGoalsThatAtThePathsEndIsShown) {
 TEST_F(ViewDataTest, WhatDoesNotFitTheRobotIsRefused) {
   run_.request.robot_id = "other";
   ExpectInputError([&] { RunView(robot_, scene_, run_, 10); }, {"planar3", "is not the robot"});
-  run_.request.robot_id = "";
+}
+
+TEST_F(ViewDataTest, APathThatLacksJointsIsLeftOutAndToldOf) {
   run_.result.joint_names = {"elbow", "shoulder", "thumb"};
-  ExpectInputError([&] { RunView(robot_, scene_, run_, 10); }, {"no joint 'wrist'"});
+  run_.message = "the referee's reason";
+  const Json view = RunView(robot_, scene_, run_, 10);
+  EXPECT_TRUE(view["motions"].empty());
+  EXPECT_EQ(view["goals"].size(), 1u);
+  ASSERT_EQ(view["facts"].size(), 3u);
+  EXPECT_THAT(view["facts"][0].get<std::string>(), testing::HasSubstr(run_.message));
+  EXPECT_EQ(view["facts"][2], "Its path is not shown: it has no joint 'wrist' of group arm.");
 }
 
 TEST_F(ViewDataTest, TheViewDrawsAndTheRobotMoves) {
