@@ -106,7 +106,7 @@ std::string Driver::Missing(bool need_logger) const {
 
 void Driver::Discover(bool need_logger, const std::function<void()>& watch,
                       std::optional<SupervisedServer> server, ServerPatience patience,
-                      std::function<void(const std::string&)> start_anew) {
+                      SupervisedPlanners supervised) {
   AwaitNodes(
       &registry_, options_.DiscoveryTimeout(), [&] { return Missing(need_logger); }, watch);
   for (const NodeKind kind : {NodeKind::kSceneServer, NodeKind::kLogger}) {
@@ -134,7 +134,7 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
                                             first_planners_, std::move(server), patience);
   asked_ = std::make_unique<SessionPlanners>(bus_, &registry_, executor_.get(), planners_,
                                              patience.until_given_up, options_.problems_per_process,
-                                             std::move(start_anew));
+                                             std::move(supervised));
   CheckProblems(known.met, watch);
   Owe(known);  // not before it is known which problems are left out
   // A resumed session may be given other sets or problems than before. What a first attempt makes

@@ -40,11 +40,11 @@ class Driver {
   /// it, so that bad ones, at which the scene server fails included, are known before the first
   /// run. `watch` is called while waiting and may throw. `server`: RunExecutor's. `patience`: also
   /// without a live planner; a process that has gone is given as long to come back as it had to
-  /// come. `start_anew`: PlannerRenewal's, where the options ask for it. Throws InputError naming
-  /// what is missing or does not fit, std::runtime_error when the scene server is given up.
+  /// come. `supervised`: SessionPlanners'. Throws InputError naming what is missing or does not
+  /// fit, std::runtime_error when the scene server is given up.
   void Discover(bool need_logger, const std::function<void()>& watch,
                 std::optional<SupervisedServer> server = {}, ServerPatience patience = {},
-                std::function<void(const std::string& planner)> start_anew = {});
+                SupervisedPlanners supervised = {});
   /// Makes all runs; `interrupted` and `watch` are asked often. True if every run was made and
   /// recorded; a session that was to make others before it was resumed, or to repeat them, in which
   /// one was not asked (num_not_asked), or which awaits shards, is not finished by that.

@@ -150,6 +150,13 @@ SupervisedServer SceneServerOf(Supervisor* supervisor) {
           [supervisor] { supervisor->StartAgain(kSceneServer); }};
 }
 
+SupervisedPlanners PlannersOf(Supervisor* supervisor) {
+  return {[supervisor](const std::string& planner) { supervisor->Renew(planner); },
+          [supervisor](const std::string& planner, auto since) {
+            return supervisor->HowEnded(planner, since);
+          }};
+}
+
 void LaunchProcesses(const DriverOptions& options, const std::vector<LineUpEntry>& line_up,
                      const std::filesystem::path& session_folder, const std::string& lcm_url,
                      Supervisor* supervisor) {

@@ -8,6 +8,7 @@
 
 #include "benchmark_driver/driver_options.h"
 #include "benchmark_driver/run_executor.h"
+#include "benchmark_driver/session_planners.h"
 #include "benchmark_driver/supervisor.h"
 #include "messaging/bus.h"
 
@@ -39,8 +40,9 @@ void LaunchPlanners(const DriverOptions& options, const std::vector<LineUpEntry>
 void LaunchSceneServer(const DriverOptions& options, const std::filesystem::path& logs,
                        const std::string& lcm_url, Supervisor* supervisor);
 
-/// What was launched by that, while `supervisor` lasts.
+/// What was launched by these, while `supervisor` lasts.
 SupervisedServer SceneServerOf(Supervisor* supervisor);
+SupervisedPlanners PlannersOf(Supervisor* supervisor);
 
 /// The same for scene server, planners and logger, with their output in <session>/logs/, which
 /// exists.

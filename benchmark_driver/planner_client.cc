@@ -207,7 +207,12 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   const auto look_around = [&]() -> RequestExchange::Event {
     if (interrupted()) return RequestExchange::Interruption{};
     // Before it is asked again: what it died of would reach its successor.
-    if (HasEnded(process->status)) return RequestExchange::PlannerLost{"the process ended"};
+    if (HasEnded(process->status)) {
+      // That of a shell in which it ran is known a little later.
+      const std::string how = terms_.how_ended(process->since);
+      return RequestExchange::PlannerLost{how.empty() ? "the process ended"
+                                                      : fmt::format("the process ended {}", how)};
+    }
     const auto now = Live();
     if (!now) return RequestExchange::PlannerLost{"the process died or fell silent"};
     if (now->status.instance != process->status.instance) {

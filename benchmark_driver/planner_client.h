@@ -32,6 +32,9 @@ class PlannerClient {
     /// be at still; then it is given up, and `on_absence` told why, once.
     std::chrono::milliseconds patience = std::chrono::seconds(60);
     std::function<void(const std::string& why)> on_absence = [](const std::string&) {};
+    /// Supervisor::HowEnded of the planner.
+    std::function<std::string(std::chrono::steady_clock::time_point since)> how_ended =
+        [](std::chrono::steady_clock::time_point) { return std::string(); };
   };
 
   PlannerClient(Bus* bus, NodeRegistry* registry, const std::string& planner);

@@ -52,6 +52,9 @@ std::optional<RequestExchange::Answer> RequestExchange::Hear(TimePoint now, cons
     }
     if (lost_) return End(Outcome::kInterrupted, "", now);
   } else if (lost_ && (has_cancelled_ || !std::holds_alternative<ArrivedResult>(event))) {
+    const auto* lost = std::get_if<PlannerLost>(&event);
+    // More is known of the same.
+    if (lost != nullptr && lost->why.starts_with(why_lost_)) why_lost_ = lost->why;
     return std::nullopt;
   } else if (const auto* ack = std::get_if<Acknowledgement>(&event)) {
     if (Ours(ack->message.request_id)) return HearAck(now, *ack);

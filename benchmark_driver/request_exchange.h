@@ -64,7 +64,8 @@ class RequestExchange {
   /// The caller wants no result any more.
   struct Interruption {};
   /// The process that had the request is gone; only what it sent before may still come. So counts
-  /// a result CANCELLED to a request that was not cancelled, which no other result can follow.
+  /// a result CANCELLED to a request that was not cancelled, which no other result can follow. May
+  /// be told again when more is known, with that behind `why`.
   struct PlannerLost {
     std::string why;
   };

@@ -200,13 +200,14 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   for (const LineUpEntry& entry : line_up) planners.insert(entry.contestant.planner);
   Subscription children;
   std::optional<SupervisedServer> server;
+  SupervisedPlanners supervised;
   if (supervisor) {
     children = WatchChildren(&bus, line_up, supervisor.get());
     server = SceneServerOf(supervisor.get());
+    supervised = PlannersOf(supervisor.get());
   }
   Driver driver(&bus, options, line_up, flags, std::move(earlier));
-  driver.Discover(options.launch, watch, std::move(server), {},
-                  [&](const std::string& planner) { supervisor->Renew(planner); });
+  driver.Discover(options.launch, watch, std::move(server), {}, std::move(supervised));
   const std::vector<Attempt> reference_attempts =
       AttemptsOf(options, std::move(references), driver.conditions());
   if (new_folder) new_folder->Keep();

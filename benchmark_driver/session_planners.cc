@@ -18,13 +18,14 @@ SessionPlanners::SessionPlanners(Bus* bus, NodeRegistry* registry, RunExecutor* 
                                  std::map<std::string, NodeStatusMessage> found,
                                  std::chrono::milliseconds patience,
                                  std::optional<int> problems_per_process,
-                                 std::function<void(const std::string&)> start_anew)
+                                 SupervisedPlanners supervised)
     : bus_(bus),
       registry_(registry),
       executor_(executor),
       found_(std::move(found)),
       patience_(patience),
-      renewal_(problems_per_process, std::move(start_anew)) {}
+      supervised_(std::move(supervised)),
+      renewal_(problems_per_process, supervised_.start_anew) {}
 
 std::optional<std::vector<PlannerClient*>> SessionPlanners::ReadyFor(
     const ScheduledRun& run, const std::function<bool()>& interrupted) {
@@ -72,6 +73,9 @@ PlannerClient::Terms SessionPlanners::TermsOf(const std::string& planner) {
   terms.given_up = [this, planner] { return WhyGivenUp(planner); };
   terms.patience = patience_;
   terms.on_absence = [this, planner](const std::string& why) { GiveUp(planner, why); };
+  if (supervised_.how_ended) {
+    terms.how_ended = [this, planner](auto since) { return supervised_.how_ended(planner, since); };
+  }
   return terms;
 }
 

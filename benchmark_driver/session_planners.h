@@ -19,17 +19,26 @@
 
 namespace planbench {
 
+/// Planners whose processes are this one's to start, by name.
+struct SupervisedPlanners {
+  /// PlannerRenewal's.
+  std::function<void(const std::string& planner)> start_anew = {};
+  /// Supervisor::HowEnded.
+  std::function<std::string(const std::string& planner,
+                            std::chrono::steady_clock::time_point since)>
+      how_ended = {};
+};
+
 /// The planners of a session while its runs are made: ready to be asked, each by one client, or
 /// given up. Thread-safe for different planners.
 class SessionPlanners {
  public:
   /// `found`: by name, as they are described: what is described otherwise is not asked. `patience`:
-  /// with one that is not live (PlannerClient::Terms). `problems_per_process` and `start_anew`:
-  /// PlannerRenewal's.
+  /// with one that is not live (PlannerClient::Terms). `problems_per_process`: PlannerRenewal's.
   SessionPlanners(Bus* bus, NodeRegistry* registry, RunExecutor* executor,
                   std::map<std::string, NodeStatusMessage> found,
                   std::chrono::milliseconds patience, std::optional<int> problems_per_process,
-                  std::function<void(const std::string& planner)> start_anew);
+                  SupervisedPlanners supervised);
 
   /// Of whom a run asks (RunExecutor::RequestsOf), in that order. A process that has given no
   /// result yet, whatever it came after, is first asked for one that is not recorded, so that what
@@ -52,6 +61,7 @@ class SessionPlanners {
   RunExecutor* executor_;
   const std::map<std::string, NodeStatusMessage> found_;
   const std::chrono::milliseconds patience_;
+  const SupervisedPlanners supervised_;
   PlannerRenewal renewal_;
   mutable std::mutex mutex_;
   std::map<std::string, std::string> given_up_;  // and why

@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kExitPoll{20};
 constexpr std::chrono::milliseconds kRestartDelay{200};
 constexpr std::size_t kMostLastWords = 200;  // bytes
+constexpr std::size_t kEndsKept = 8;
 
 /// Of what a log holds from byte `begin` on: before it are others' words. Printable: a child may
 /// have said anything.
@@ -52,12 +53,17 @@ int OpenLog(const ChildSpec& spec) {
   return open("/dev/null", O_WRONLY | O_CLOEXEC);
 }
 
+std::string DescribeSignal(int number) {
+  return fmt::format("signal {} ({})", number, strsignal(number));
+}
+
 std::string DescribeEnd(int status) {
-  if (WIFSIGNALED(status)) {
-    return std::string("by signal ") + std::to_string(WTERMSIG(status)) + " (" +
-           strsignal(WTERMSIG(status)) + ")";
-  }
-  return "with exit code " + std::to_string(WEXITSTATUS(status));
+  if (WIFSIGNALED(status)) return fmt::format("by {}", DescribeSignal(WTERMSIG(status)));
+  const int code = WEXITSTATUS(status);
+  // So a shell tells of what it runs, and by shells commands are run.
+  const int number = code - 128;
+  if (number < 1 || number >= SIGRTMIN) return fmt::format("with exit code {}", code);
+  return fmt::format("with exit code {}, as by {}", code, DescribeSignal(number));
 }
 
 /// By somebody, as who ends a job tells all its processes: so end our programs, and whatever does
@@ -108,6 +114,15 @@ int Supervisor::NumFailuresAtWork(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   const Child* child = Find(name);
   return child == nullptr ? 0 : child->num_failures_at_work;
+}
+
+std::string Supervisor::HowEnded(const std::string& name, Clock::time_point since) {
+  const std::scoped_lock lock(mutex_);
+  const Child* child = Find(name);
+  if (child == nullptr) return "";
+  const auto is_since = [&](const auto& end) { return end.first >= since; };
+  const auto first = std::find_if(child->ends.begin(), child->ends.end(), is_since);
+  return first == child->ends.end() ? "" : first->second;
 }
 
 void Supervisor::CameUp(const std::string& name, std::optional<pid_t> pid) {
@@ -180,6 +195,9 @@ void Supervisor::Reap(Child* child) {
   if (!child->wanted) return;
   const bool was_at_work = std::exchange(child->came_up, false);
   const bool was_killed = std::exchange(child->killed_here, false);
+  child->ends.emplace_back(Clock::now(),
+                           DescribeEnd(status) + (was_killed ? ", sent by the driver" : ""));
+  if (child->ends.size() > kEndsKept) child->ends.pop_front();
   if (std::exchange(child->time_to_end, std::nullopt)) {
     child->restart_at = Clock::now();
     return;

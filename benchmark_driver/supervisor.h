@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace planbench {
@@ -64,6 +66,9 @@ class Supervisor {
              std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// How often that child, after it had come up, died, unless it was told to end, or fell silent.
   int NumFailuresAtWork(const std::string& name);
+  /// How that child ended the first time since then (of the last times): "with exit code 3"; "" if
+  /// it has not.
+  std::string HowEnded(const std::string& name, std::chrono::steady_clock::time_point since);
 
   /// How long a child that was killed may take to be gone.
   std::chrono::milliseconds death_patience{10'000};
@@ -88,7 +93,9 @@ class Supervisor {
     int num_failures_at_work = 0;
     bool bad_input = false;
     std::string hopeless;  // why, if it is
-    off_t log_begin = 0;   // of the log, where this process began to write
+    /// When and how it ended, the last times.
+    std::deque<std::pair<std::chrono::steady_clock::time_point, std::string>> ends;
+    off_t log_begin = 0;  // of the log, where this process began to write
     std::chrono::steady_clock::time_point started;
     std::chrono::steady_clock::time_point restart_at;
   };

@@ -272,6 +272,30 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
   EXPECT_EQ(next.get().outcome, PlannerClient::Outcome::kResult);
 }
 
+TEST_F(PlannerClientTest, HowAProcessEndedIsToldAlsoIfThatIsKnownALittleLater) {
+  const pid_t pid = fork();
+  if (pid == 0) {
+    pause();
+    _exit(0);
+  }
+  FakePlanner planner(&bus_);
+  planner.status.pid = pid;
+  Reannounce(&registry_, &planner);
+  planner.OnRequest([&](const PlanRequest&) {
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+  });
+  PlannerClient::Terms terms;
+  int num_asked = 0;
+  terms.how_ended = [&](auto since) {
+    EXPECT_LE(since, std::chrono::steady_clock::now());
+    return ++num_asked < 3 ? "" : "by signal 9";
+  };
+  PlannerClient client(&bus_, &registry_, "arm", terms);
+  const PlannerClient::Answer answer = client.Solve(Request("a"), [] { return false; });
+  EXPECT_EQ(answer.message, "the process ended by signal 9");
+}
+
 TEST_F(PlannerClientTest, OneThatHasEndedIsNotAtItsRequestAnyMore) {
   const pid_t pid = StartProcess();
   FakePlanner planner(&bus_);

@@ -70,7 +70,7 @@ TEST_F(PlannerRenewalTest, ASessionsNewProcessesAnswerARequestThatIsNotRecordedF
   options.problems_per_process = 2;
   Driver driver(&bus_, options, LineUp({"arm", "leg"}), {});
   driver.Discover(true, Idle, {}, {},
-                  [&](const std::string& planner) { (planner == "arm" ? arm : leg).Restart(); });
+                  {[&](const std::string& planner) { (planner == "arm" ? arm : leg).Restart(); }});
   EXPECT_TRUE(driver.Run(Never, Idle));
   for (FakePlanner* planner : {&arm, &leg}) {
     EXPECT_THAT(
@@ -91,7 +91,7 @@ TEST_F(PlannerRenewalTest, WhoIsGivenUpIsNotStartedAnew) {
   options.problems_per_process = 1;
   Driver driver(&bus_, options, LineUp({"arm"}), {});
   std::atomic<int> num_started = 0;
-  driver.Discover(true, Idle, {}, {}, [&](const std::string&) { ++num_started; });
+  driver.Discover(true, Idle, {}, {}, {[&](const std::string&) { ++num_started; }});
   driver.GiveUp("arm", "it died");
   EXPECT_TRUE(driver.Run(Never, Idle));
   EXPECT_EQ(driver.num_not_asked(), 2);

@@ -166,6 +166,13 @@ TEST(RequestExchange, PlannerThatIsLostGivesNoAnswer) {
         {1.25, kTick, "no answer after 0.20: the process died"}});
 }
 
+TEST(RequestExchange, WhatIsKnownALittleLaterOfALossIsToldWithIt) {
+  Play({{0, kTick, "request"},
+        {0.2, kLost, ""},
+        {0.25, Event(Exchange::PlannerLost{"the process died of hunger"}), ""},
+        {1.25, kTick, "no answer after 0.20: the process died of hunger"}});
+}
+
 TEST(RequestExchange, WhatALostPlannerSentBeforeCounts) {
   Play({{0, kTick, "request"}, {0.2, kLost, ""}, {0.3, Result(0.19), "result after 0.19"}});
 }

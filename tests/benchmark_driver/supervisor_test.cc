@@ -322,6 +322,22 @@ TEST_F(SupervisorTest, WhatDiesAgainAndAgainIsHopeless) {
   EXPECT_EQ(Lines(out_).size(), static_cast<std::size_t>(Supervisor::kMaxQuickDeaths));
 }
 
+TEST_F(SupervisorTest, HowAChildEndedFirstSinceATimeIsKnown) {
+  const auto begin = std::chrono::steady_clock::now();
+  Supervisor supervisor;
+  supervisor.Start(Script("child",
+                          "echo run >> $OUT\n"
+                          "case $(wc -l < $OUT) in 1) kill -SEGV $$;; 2) exit 3;; esac\n"
+                          "exec sleep 1000"));
+  supervisor.Start(
+      {"other", {"/bin/sh", "-c", "sh -c 'kill -KILL $$'; exit $?"}, {}, Log("other")});
+  AwaitOutput(3);
+  EXPECT_EQ(supervisor.HowEnded("child", begin), "by signal 11 (Segmentation fault)");
+  EXPECT_EQ(supervisor.HowEnded("child", std::chrono::steady_clock::now()), "");
+  ASSERT_TRUE(WaitUntil([&] { return !supervisor.HowEnded("other", begin).empty(); }));
+  EXPECT_EQ(supervisor.HowEnded("other", begin), "with exit code 137, as by signal 9 (Killed)");
+}
+
 TEST_F(SupervisorTest, LastWordsAreShortAndPrintableHoweverMuchWasSaid) {
   Supervisor supervisor;
   supervisor.Start(Script("child",

@@ -213,7 +213,11 @@ TEST_F(LaunchedSession, PlannerThatDiesIsRestartedAndTheRunIsNoAnswer) {
   kill(victim, SIGKILL);
   ASSERT_EQ(driver->Wait(), 0) << driver->Errors();
   EXPECT_EQ(Query(session, "SELECT count(*) FROM runs"), 4);
-  EXPECT_EQ(Query(session, "SELECT count(*) FROM runs WHERE status = 7"), 1) << driver->Errors();
+  EXPECT_EQ(Query(session,
+                  "SELECT count(*) FROM runs WHERE status = 7 AND "
+                  "message = 'the process ended by signal 9 (Killed)'"),
+            1)
+      << driver->Errors();
 }
 
 TEST_F(LaunchedSession, RunsThatAreNotMadeAreAFailure) {
