@@ -147,7 +147,9 @@ std::string EffortTables(const SessionResults& results) {
                      "told.\n\n") +
          MedianTable(results, "Path quality of confirmed runs, medians over problems", true,
                      "length: joint space, L2, rad and m, of the raw path; simplified: of the "
-                     "simplified one. tip: travel of the tip link from sample to sample of the "
+                     "simplified one, as each planner simplifies (alike those of planbench and "
+                     "those built on its library alone). tip: travel of the tip link from sample "
+                     "to sample of the "
                      "referee, on the raw path. clearance: least at these samples. -: not "
                      "measured.\n\n");
 }

@@ -382,8 +382,9 @@ Table QualityTable(const ComparedSessions& compared) {
               "set; geometric mean over the problems that both have values of (both), with "
               "Student's 95 % interval. Problems at which either's is 0, as the smoothness of a "
               "straight path, have no ratio and are none of them. Medians over different "
-              "problems do not compare. Rejected: confirmed runs whose simplified path the referee "
-              "rejected, which are left out.",
+              "problems do not compare. Simplified: as each planner does it, which is alike for "
+              "planbench's and those that are built on its library alone. Rejected: confirmed runs "
+              "whose simplified path the referee rejected, which are left out.",
               {{"set", "set"},
                {"contestant", "contestant"},
                {"measure", "measure"},

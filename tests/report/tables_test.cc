@@ -63,6 +63,7 @@ TEST_F(ReportTest, Pairs) {
 
 TEST_F(ReportTest, Quality) {
   const Table table = QualityTable(compared_);
+  EXPECT_THAT(table.note, testing::HasSubstr("Simplified: as each planner does it"));
   ASSERT_EQ(table.rows.size(), 8u);  // two sets, raw and simplified, two contestants
   const Row raw = Texts(table, 5);
   EXPECT_EQ(raw, (Row{"shelf", kScriptName, "path_length", "rad, m", "raw", "10", "4.00", "4.00",
