@@ -36,11 +36,11 @@ std::optional<Segment> AsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
   std::vector<std::array<Corner, 3>> triangles;
   std::map<Ends, EdgeOfSlivers> edges;
-  std::set<std::size_t> open;  // Slivers that may have to go.
+  std::set<std::pair<int, std::size_t>> open;  // Slivers that may have to go, by rank.
   for (const auto& t : mesh.triangles) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     if (AsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) {
-      open.insert(triangles.size());
+      open.emplace(0, triangles.size());
       for (const Ends& ends : EdgesOf(t)) edges[ends].slivers.push_back(triangles.size());
     }
     triangles.push_back(t);
@@ -53,19 +53,34 @@ std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
     }
   }
   std::set<std::size_t> gone;
+  // Whatever is closed, no sliver is part of it that has an odd edge for itself. Of several that
+  // share one any may be the one too many: rather that with three such edges.
+  constexpr int kStays = 3;
+  const auto rank_of = [&](std::size_t sliver) {
+    if (gone.contains(sliver)) return kStays;
+    int num_odd = 0;
+    for (const Ends& ends : EdgesOf(triangles[sliver])) {
+      const EdgeOfSlivers& edge = edges[ends];
+      if (!edge.is_odd) continue;
+      if (edge.slivers.size() == 1) return 0;
+      ++num_odd;
+    }
+    return num_odd < 2 ? kStays : 4 - num_odd;
+  };
   while (!open.empty()) {
-    const std::size_t sliver = *open.begin();
+    const auto [rank, sliver] = *open.begin();
     open.erase(open.begin());
-    const std::array<Ends, 3> all_ends = EdgesOf(triangles[sliver]);
-    const auto num_odd =
-        std::ranges::count_if(all_ends, [&](const Ends& ends) { return edges[ends].is_odd; });
-    if (num_odd < 2) continue;
+    if (const int now = rank_of(sliver); now > rank) {
+      if (now < kStays) open.emplace(now, sliver);
+      continue;
+    }
     gone.insert(sliver);
-    for (const Ends& ends : all_ends) {
+    for (const Ends& ends : EdgesOf(triangles[sliver])) {
       EdgeOfSlivers& edge = edges[ends];
       edge.is_odd = !edge.is_odd;
       std::erase(edge.slivers, sliver);
-      if (edge.is_odd) open.insert(edge.slivers.begin(), edge.slivers.end());
+      if (!edge.is_odd) continue;
+      for (const std::size_t other : edge.slivers) open.emplace(0, other);
     }
   }
   std::vector<std::array<Corner, 3>> kept;

@@ -77,14 +77,22 @@ TEST(SolidMeshTest, SliversCloseAPartAndOpenNone) {
     EXPECT_TRUE(solid.Contains(kHere));
   };
   expect_cube(1);
+  // From its short edges outwards, behind it in the file, and from theirs.
+  const Eigen::Vector3d from = mesh.vertices[a];
+  const Eigen::Vector3d along = mesh.vertices[b] - from;
+  for (const double share : {2, 3, 4, 5}) mesh.vertices.emplace_back(from + share * along);
+  mesh.triangles.insert(mesh.triangles.end(), {{a, 8, 9}, {8, b, 10}});
+  expect_cube(1);
+  mesh.triangles.insert(mesh.triangles.end(), {{8, 9, 11}, {b, 10, 12}});
+  expect_cube(1);
   mesh.triangles.push_back({a, b, 8});  // once more
   expect_cube(1);
   // From a corner outwards, three that share edges; and one apart.
   for (const double share : {2, 3, 4, 5}) mesh.vertices.emplace_back(share * corner);
-  mesh.triangles.insert(mesh.triangles.end(), {{c, 9, 10}, {9, 10, 11}, {c, 9, 12}});
+  mesh.triangles.insert(mesh.triangles.end(), {{c, 13, 14}, {13, 14, 15}, {c, 13, 16}});
   expect_cube(1);
   mesh.vertices.insert(mesh.vertices.end(), {{7, 0, 0}, {8, 0, 0}, {9, 0, 0}});
-  mesh.triangles.push_back({13, 14, 15});
+  mesh.triangles.push_back({17, 18, 19});
   expect_cube(2);
 }
 
