@@ -181,7 +181,7 @@ std::vector<std::string> ReadEventLog(const std::filesystem::path& event_log,
 }
 
 std::vector<std::uint8_t> ReadEventBytes(const EventPlace& place) {
-  FileBytes file(*place.file);
+  FileBytes file(*place.file, place.bytes);
   const auto bytes = file.Exactly(place.offset, place.bytes);
   return {bytes.begin(), bytes.end()};
 }

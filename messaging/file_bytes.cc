@@ -13,13 +13,9 @@
 #include "common/file_kind.h"
 
 namespace planbench {
-namespace {
 
-constexpr std::size_t kBytesInMemory = std::size_t{1} << 16;
-
-}  // namespace
-
-FileBytes::FileBytes(std::filesystem::path file) : file_(std::move(file)) {
+FileBytes::FileBytes(std::filesystem::path file, std::size_t at_once)
+    : file_(std::move(file)), at_once_(at_once) {
   descriptor_ = open(file_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) {
     throw InputError(file_.string() + ": cannot be opened: " + std::strerror(errno));
@@ -33,7 +29,7 @@ FileBytes::~FileBytes() { close(descriptor_); }
 
 std::span<const std::uint8_t> FileBytes::From(std::uint64_t offset, std::size_t count) {
   if (InMemory(offset).size() < count) {
-    bytes_.resize(std::max(count, kBytesInMemory));
+    bytes_.resize(std::max(count, at_once_));
     bytes_.resize(Read(offset, bytes_));
     begin_ = offset;
   }

@@ -12,8 +12,9 @@ namespace planbench {
 /// thread-safe.
 class FileBytes {
  public:
-  /// Throws InputError if it cannot be opened, or is a pipe, say, which is read but once.
-  explicit FileBytes(std::filesystem::path file);
+  /// Throws InputError if it cannot be opened, or is a pipe, say, which is read but once. Reads
+  /// `at_once` bytes together, or those that are asked for if they are more.
+  explicit FileBytes(std::filesystem::path file, std::size_t at_once = std::size_t{1} << 16);
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
@@ -35,6 +36,7 @@ class FileBytes {
   std::size_t Read(std::uint64_t offset, std::span<std::uint8_t> bytes) const;
 
   std::filesystem::path file_;
+  std::size_t at_once_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;           ///< When it was last looked at.
   std::uint64_t begin_ = 0;          ///< Of what is in memory.

@@ -343,6 +343,29 @@ TEST(EventLog, MessagesCanBeReadAnewWhereTheyAre) {
   ExpectInputError([&] { ReadEventBytes(messages[3].place); }, {"a.lcmlog.02", "was shortened"});
 }
 
+TEST(EventLog, AMessageIsReadAnewWithoutItsNeighbours) {
+  // What this process had read from files so far.
+  const auto bytes_read = [] {
+    std::ifstream counts("/proc/self/io");
+    std::string name;
+    std::int64_t bytes = -1;
+    counts >> name >> bytes;
+    return name == "rchar:" ? bytes : -1;
+  };
+  if (bytes_read() <= 0) GTEST_SKIP() << "this kernel does not count";
+  const TemporaryFolder folder;
+  {
+    EventLog log(folder / "a.lcmlog", EventLog::Mode::kNew);
+    for (int i = 0; i < 20; ++i) log.Write(Message("A", std::string(5000, 'a'), i));
+  }
+  std::vector<EventPlace> places;
+  ReadEventLog(folder / "a.lcmlog",
+               [&](const LoggedMessage& message) { places.push_back(message.place); });
+  const std::int64_t before = bytes_read();
+  for (const EventPlace& place : places) EXPECT_EQ(ReadEventBytes(place).size(), 5000u);
+  EXPECT_LT(bytes_read() - before, 20 * 10'000);
+}
+
 TEST(EventLog, AFileThatIsMissingAtTheEndIsNamed) {
   const TemporaryFolder folder;
   const auto file = folder / "a.lcmlog";
