@@ -196,8 +196,9 @@ class Reader {
   }
 
   StoredSessions Read(std::optional<std::int64_t> only_run) {
+    if (only_run) chosen_ = fmt::format("= {}", *only_run);
     ReadDescriptions();
-    ReadRuns(only_run);
+    ReadRuns();
     ReadProgress();
     ReadOddTimes();
     const std::optional<BusRecord> bus =
@@ -272,7 +273,7 @@ class Reader {
     }
   }
 
-  void ReadRuns(std::optional<std::int64_t> only_run) {
+  void ReadRuns() {
     const std::vector<Field> fields = Fields();
     std::vector<std::string> present;
     SqliteStatement columns = connection_.Prepare("PRAGMA table_info(runs)");
@@ -284,8 +285,8 @@ class Reader {
       sql += is_present ? ", runs." + field.column : ", NULL";
     }
     sql += " FROM runs JOIN plannerConfigs p ON p.id = plannerid WHERE run_id IS NOT NULL";
-    if (only_run) sql += fmt::format(" AND runs.id = {}", *only_run);
-    SqliteStatement select = connection_.Prepare(sql + " ORDER BY runs.id");
+    sql += fmt::format(" AND runs.id {} ORDER BY runs.id", chosen_);
+    SqliteStatement select = connection_.Prepare(sql);
     while (select.Step()) {
       StoredSession& session = Session(select.Text(0));
       const std::set<std::string>& told = told_contestants_[session.run_id];
@@ -315,8 +316,9 @@ class Reader {
   void ReadProgress() {
     if (CountTables("'progress'") == 0) return;
     SqliteStatement select = connection_.Prepare(
-        "SELECT runid, time, epsilon, cost, expansions FROM progress "
-        "ORDER BY runid, time, rowid");
+        fmt::format("SELECT runid, time, epsilon, cost, expansions FROM progress "
+                    "WHERE runid {} ORDER BY runid, time, rowid",
+                    chosen_));
     while (select.Step()) {
       const auto place = places_.find(select.Int(0));
       const auto time_s = Real(select.Value(1));
@@ -331,7 +333,8 @@ class Reader {
     if (CountTables("'counters'") == 0) return;
     for (std::size_t i = 0; i < kNumOddTimes; ++i) {
       SqliteStatement select = connection_.Prepare(
-          fmt::format("SELECT runid, value FROM counters WHERE name = '{}'", kOddTimes[i].counter));
+          fmt::format("SELECT runid, value FROM counters WHERE name = '{}' AND runid {}",
+                      kOddTimes[i].counter, chosen_));
       while (select.Step()) {
         const auto place = places_.find(select.Int(0));
         if (place == places_.end()) continue;
@@ -343,6 +346,7 @@ class Reader {
 
   std::filesystem::path file_;
   SqliteConnection connection_;
+  std::string chosen_ = "IS NOT NULL";  ///< Said of a run's id.
   std::map<std::string, StoredSession> sessions_;
   /// Names by session; none where it does not tell, as those of before.
   std::map<std::string, std::set<std::string>> told_contestants_;

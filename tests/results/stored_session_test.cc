@@ -95,6 +95,26 @@ TEST_F(ReadSessionsTest, OneRunCanBeReadWithoutTheOthers) {
   EXPECT_TRUE(ReadSessions(folder_ / "one", 4).sessions.front().runs.empty());
 }
 
+TEST_F(ReadSessionsTest, OfTheOtherRunsNothingIsReadThen) {
+  const std::string counter = kOddTimes[0].counter;
+  WriteSession(folder_ / "one",
+               {{.contestant = "A", .counters = {{counter, 3}}, .progress = {{1, 2, 3, 4}}},
+                {.contestant = "A", .counters = {{counter, 5}}, .progress = {{1, 2, 3, 4}}}});
+  // Who reads those of another run overflows.
+  for (const auto& [table, columns] :
+       {std::pair("progress", "rowid, *"), std::pair("counters", "*")}) {
+    Execute(
+        fmt::format("ALTER TABLE {0} RENAME TO all_{0}; CREATE VIEW {0} AS SELECT {1} FROM "
+                    "all_{0} WHERE abs(CASE runid WHEN 2 THEN 0 ELSE -9223372036854775808 "
+                    "END) = 0",
+                    table, columns));
+    ExpectInputError([&] { ReadSessions(folder_ / "one"); }, {"overflow"});
+    const StoredRun run = ReadSessions(folder_ / "one", 2).sessions.front().runs.front();
+    EXPECT_EQ(run.odd_times_s[0], 5);
+    EXPECT_EQ(run.progress.size(), 1u);
+  }
+}
+
 TEST_F(ReadSessionsTest, OfARejectedSimplifiedPathNothingCounts) {
   WriteSession(folder_ / "one",
                {{.contestant = "A", .simplified_valid = false, .mesh_valid_simplified = true},
