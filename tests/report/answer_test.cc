@@ -459,19 +459,19 @@ TEST_F(ReportTest, AttemptsThatAwaitTheOtherDirectionAreMissing) {
 }
 
 TEST_F(ReportTest, WhatPathsAreWorthOnTheMeshesDependsOnWhatTheyWerePlannedWith) {
-  const auto told = [](const std::vector<std::string>& models) {
+  const auto told = [](const std::vector<CollisionModel>& models) {
     std::vector<MadeRun> runs;
-    for (const std::string& model : models) {
-      runs.push_back({.contestant = "by " + model, .settings = {{"collision_model", model}}});
+    for (const CollisionModel model : models) {
+      runs.push_back({.contestant = "by " + std::string(EnumName(model)), .model = model});
     }
     return WithoutMeshRobot(Read(runs));
   };
   using testing::HasSubstr;
-  EXPECT_THAT(told({"spheres", "voxels"}),
+  EXPECT_THAT(told({CollisionModel::kSpheres, CollisionModel::kVoxels}),
               HasSubstr("those of all are worth on the true geometry is not known"));
-  EXPECT_THAT(told({"meshes"}),
+  EXPECT_THAT(told({CollisionModel::kMeshes}),
               AllOf(HasSubstr("Of all it is the robot's own meshes"), Not(HasSubstr("not known"))));
-  EXPECT_THAT(told({"meshes", "enclosing", "spheres"}),
+  EXPECT_THAT(told({CollisionModel::kMeshes, CollisionModel::kEnclosing, CollisionModel::kSpheres}),
               AllOf(HasSubstr("Of by meshes it is"), HasSubstr("Of by enclosing it is"),
                     HasSubstr("those of by spheres are")));
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/collision_model.h"
 #include "logger/results_database.h"
 #include "messaging/messages.h"
 
@@ -33,6 +34,7 @@ struct MadeRun {
   std::map<std::string, double> counters = {};
   std::vector<PlanProgress> progress = {};
   std::map<std::string, std::string> settings = {};
+  CollisionModel model = CollisionModel::kSpheres;
   bool asked = true;         ///< Else there is no round trip, nor an answer.
   bool unjudgeable = false;  ///< Then, for `reason`.
 };
@@ -52,6 +54,7 @@ inline RunRecordMessage MakeRecord(const MadeRun& run, const std::string& run_id
   record.message = run.reason;
   record.roundtrip_time_s = run.time_s + 0.5;
   record.request.direction = run.direction;
+  record.request.collision_model = run.model;
   record.request.time_limit_s = 10;
   if (!run.asked) {
     record.roundtrip_time_s = 0;
