@@ -48,8 +48,8 @@ class ReportCapture : private console_bridge::OutputHandler {
 };
 
 // Notes where links and joints are defined, and refuses what urdfdom passes over in silence, a
-// second element where it takes the first, and what it reports without a place, links of which
-// each is a child.
+// second element where it takes the first, and links that are children of each other, which it
+// passes over, too, or reports without a place.
 class ElementFinder {
  public:
   ElementFinder(std::string_view text, const std::string& origin, UrdfDocument* document)
@@ -64,7 +64,7 @@ class ElementFinder {
       CheckOnlyOne(*tag);
       if (!tag->empty) open_.push_back({*tag, {}});
     }
-    CheckRoot();
+    CheckLoops();
   }
 
  private:
@@ -136,33 +136,39 @@ class ElementFinder {
     before.push_back(tag.element);
   }
 
-  void CheckRoot() const {
-    const auto& links = document_.link_lines;
+  void CheckLoops() const {
     std::map<std::string, const JointEnds*> joint_to;
     for (const JointEnds& joint : joints_) joint_to.try_emplace(joint.child, &joint);
-    const auto is_child = [&](const auto& link) { return joint_to.contains(link.first); };
-    if (links.empty() || !std::ranges::all_of(links, is_child)) return;
-    // From any link towards the root, until a joint comes again.
-    std::vector<const JointEnds*> way;
-    std::string link = links.begin()->first;
-    while (joint_to.contains(link)) {  // urdfdom names parents that are no links.
-      const JointEnds* const joint = joint_to.at(link);
-      const auto again = std::ranges::find(way, joint);
-      if (again != way.end()) FailLoop({again, way.end()});
-      way.push_back(joint);
-      link = joint->parent;
+    std::map<const JointEnds*, std::string> met_from;
+    for (const auto& [link, line] : document_.link_lines) {
+      // Towards the root, until a joint comes again. urdfdom names parents that are no links.
+      auto joint = joint_to.find(link);
+      while (joint != joint_to.end() && met_from.try_emplace(joint->second, link).second) {
+        joint = joint_to.find(joint->second->parent);
+      }
+      if (joint == joint_to.end() || met_from.at(joint->second) != link) continue;
+      std::vector<const JointEnds*> loop = {joint->second};
+      while (loop.back()->parent != joint->first) {
+        loop.push_back(joint_to.at(loop.back()->parent));
+      }
+      const bool has_root = std::ranges::any_of(
+          document_.link_lines, [&](const auto& one) { return !joint_to.contains(one.first); });
+      FailLoop(loop, has_root);
     }
   }
 
-  [[noreturn]] void FailLoop(const std::vector<const JointEnds*>& loop) const {
-    const JointEnds& last =
-        **std::ranges::max_element(loop, {}, [](const JointEnds* joint) { return joint->line; });
+  // Of a robot in the order of its links the joint that made the root a child is the last one of
+  // the loop, the one that left the tree the first.
+  [[noreturn]] void FailLoop(const std::vector<const JointEnds*>& loop, bool has_root) const {
+    const auto line = [](const JointEnds* joint) { return joint->line; };
+    const JointEnds& wrong = **(has_root ? std::ranges::min_element(loop, {}, line)
+                                         : std::ranges::max_element(loop, {}, line));
     std::string links;
     for (const JointEnds* joint : loop) links += joint->child + ", ";
     throw InputError(fmt::format(
         "{}:{}: joint '{}': the links are children of each other in a loop ({}{}), and none is the "
         "root; a robot must be a tree",
-        origin_, last.line, last.name, links, loop.front()->child));
+        origin_, wrong.line, wrong.name, links, loop.front()->child));
   }
 
   const std::string& origin_;

@@ -138,10 +138,11 @@ const MalformedUrdf kMalformed[] = {
      "<joint name='j' type='fixed'><parent link='a'/><child link='a'/></joint></robot>",
      {":2:", "joint 'j'", "loop (a, a)", "root"}},
     {"LoopBesideTheTree",
-     "<robot name='r'><link name='a'/>\n<link name='b'/><link name='c'/>"
-     "<joint name='j' type='fixed'><parent link='b'/><child link='c'/></joint>"
-     "<joint name='k' type='fixed'><parent link='c'/><child link='b'/></joint></robot>",
-     {":2:", "link 'b'", "not connected"}},
+     "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>\n"
+     "<joint name='j' type='fixed'><parent link='d'/><child link='b'/></joint>\n"
+     "<joint name='k' type='fixed'><parent link='b'/><child link='d'/></joint>\n"
+     "<joint name='l' type='fixed'><parent link='d'/><child link='c'/></joint></robot>",
+     {":2:", "joint 'j'", "loop (b, d, b)", "tree"}},
     {"TwoParents",
      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
      "<joint name='i' type='fixed'><parent link='a'/><child link='b'/></joint>\n"
