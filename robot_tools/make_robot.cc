@@ -143,7 +143,11 @@ class RobotMaker {
   void ReadSrdf() {
     if (flags_.srdf.empty()) return;
     srdf_ = ParseSrdf(ReadText(flags_.srdf), flags_.srdf.string(), robot().model);
-    if (srdf_->groups.empty()) throw InputError(NoGroupFault(*srdf_, flags_.srdf.string()));
+    if (srdf_->groups.empty()) {
+      throw InputError(fmt::format("{}; groups are proposed without --srdf{}",
+                                   NoGroupFault(*srdf_, flags_.srdf.string()),
+                                   srdf_->spheres.empty() ? "" : ": give it by --spheres instead"));
+    }
     SayAll(srdf_->warnings);
   }
 
@@ -256,11 +260,10 @@ class RobotMaker {
     std::vector<std::vector<Ball>> sets;
     double protrusion_m = 0;
     std::string worst;
-    std::size_t enclosed = 0;
     const std::vector<OuterSet> fitted = Fit(links.bodies, goal);
     for (std::size_t i = 0; i < fitted.size(); ++i) {
       sets.push_back(fitted[i].balls);
-      if (links.bodies[i].has_solids()) ++enclosed;
+      if (links.bodies[i].has_solids()) fitted_.insert(links.links[i]);
       const double here = GreatestProtrusion(links.bodies[i], sets.back());
       if (here <= protrusion_m) continue;
       protrusion_m = here;
@@ -268,11 +271,11 @@ class RobotMaker {
     }
     robot().spheres = ToLinkSpheres(links, sets);
     SayWhatSpheresLeave("the URDF's collision geometry");
-    if (enclosed == 0) return;
+    if (fitted_.empty()) return;
     Say("  they enclose the meshes, boxes and cylinders of {}, and reach up to {:.3f} m beyond "
         "them "
         "(at {})",
-        Count(enclosed, "link"), protrusion_m, worst);
+        Count(fitted_.size(), "link"), protrusion_m, worst);
     if (protrusion_m > flags_.protrusion_m) {
       Say("  that is further than --protrusion {}: no link gets more than {} spheres",
           flags_.protrusion_m, kMostSpheresOfALink);
@@ -430,13 +433,16 @@ class RobotMaker {
     }
     if (2 * samples.free_if_moved > samples.samples) return;
     std::vector<std::string> worst;
+    bool is_fitted = false;
     for (const PairSamples::Pair& pair : samples.MostOften(kWorstPairs)) {
+      is_fitted = is_fitted || fitted_.contains(pair.link_a) || fitted_.contains(pair.link_b);
       worst.push_back(fmt::format("{} ({:.0f} %)", PairName({pair.link_a, pair.link_b}),
                                   100.0 * pair.contacts / samples.samples));
     }
     Say("    most often in contact: {}; what overlaps by construction belongs in allowed_pairs of "
-        "robot.yaml, and a smaller --protrusion makes closer spheres",
-        fmt::join(worst, "; "));
+        "robot.yaml{}",
+        fmt::join(worst, "; "),
+        is_fitted ? ", and a smaller --protrusion makes closer spheres" : "");
   }
 
   void CheckStates() {
@@ -486,6 +492,7 @@ class RobotMaker {
   const SayLine& say_;
   RobotDraft draft_;
   std::optional<Srdf> srdf_;
+  std::set<int> fitted_;  // Links whose meshes, boxes and cylinders spheres were made to enclose.
   std::set<std::pair<int, int>> enabled_overlaps_;
 };
 

@@ -129,7 +129,11 @@ TEST_F(MakeRobotTest, AGroupThatIsNoneIsLeftOutAndSaid) {
   EXPECT_EQ(LoadRobot(flags_.out).groups.size(), 1u);
   flags_.out = folder_.path() / "nothing";
   Srdf("<robot name='crane'>\n<group name='none'/></robot>");
-  ExpectRefused({"crane.srdf has no group", "crane.srdf:2", "'none'"});
+  ExpectRefused({"crane.srdf has no group", "crane.srdf:2", "'none'", "proposed without --srdf"});
+  Srdf(
+      "<robot name='crane'><link_sphere_approximation link='hook'>"
+      "<sphere center='0 0 0' radius='0.1'/></link_sphere_approximation></robot>");
+  ExpectRefused({"crane.srdf has no group", "give it by --spheres instead"});
 }
 
 TEST_F(MakeRobotTest, TheWrittenRobotIsTheOneThatItWasMadeFrom) {
@@ -294,6 +298,7 @@ TEST_F(MakeRobotTest, SelfCollisionIsThatOfTheGroupsJointsAndNamesItsPairs) {
   EXPECT_THAT(report,
               testing::ContainsRegex("foot: [0-9]+ of 1000 random configurations are free"));
   EXPECT_THAT(report, HasSubstr("most often in contact: base and boom ("));
+  EXPECT_THAT(report, testing::Not(HasSubstr("--protrusion"))) << "of spheres that were given";
   // With the boom held elsewhere nothing is in its way.
   Srdf(
       "<robot name='crane'><group name='reel'><joint name='reel'/></group>"
@@ -303,6 +308,24 @@ TEST_F(MakeRobotTest, SelfCollisionIsThatOfTheGroupsJointsAndNamesItsPairs) {
   flags_.replace = true;
   EXPECT_THAT(Make(), AllOf(HasSubstr("reel: 1000 of 1000 random"),
                             testing::Not(HasSubstr("most often in contact"))));
+}
+
+// A ball of the base's holds the hand in most directions.
+constexpr char kBallUrdf[] = R"(<robot name='crane'><link name='mast'/><link name='base'>
+  <collision><origin xyz='1 0 0'/><geometry><sphere radius='1.2'/></geometry></collision></link>
+  <link name='hand'><collision><origin xyz='0.5 0 0'/><geometry>{}</geometry></collision></link>
+  <joint name='a' type='continuous'><parent link='base'/><child link='mast'/></joint>
+  <joint name='b' type='continuous'><parent link='mast'/><child link='hand'/><axis xyz='0 0 1'/>
+  </joint></robot>)";
+
+TEST_F(MakeRobotTest, CloserSpheresAreProposedWhereSpheresWereFitted) {
+  const auto contact = HasSubstr("most often in contact: base and hand (");
+  const auto proposal = HasSubstr("--protrusion makes closer");
+  folder_.Write("in/crane.urdf", fmt::format(kBallUrdf, "<box size='0.1 0.1 0.1'/>"));
+  EXPECT_THAT(Make(), AllOf(contact, proposal));
+  folder_.Write("in/crane.urdf", fmt::format(kBallUrdf, "<sphere radius='0.1'/>"));
+  flags_.replace = true;
+  EXPECT_THAT(Make(), AllOf(contact, testing::Not(proposal)));
 }
 
 TEST_F(MakeRobotTest, MeshesAreEnclosedAndCopied) {
