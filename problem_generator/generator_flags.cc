@@ -80,6 +80,7 @@ int RunGenerator(const GeneratorFlags& flags) {
   const Robot robot = LoadRobot(flags.robot);
   for (const std::string& warning : robot.warnings) fmt::print(stderr, "{}\n", warning);
   const ProblemSpec spec = LoadProblemSpec(flags.spec, robot);
+  for (const std::string& warning : spec.warnings) fmt::print(stderr, "{}\n", warning);
   RequireProblemFolder(flags.out, flags.replace);
   CertifierOptions certifier;
   std::optional<ScratchFolder> sessions;

@@ -232,6 +232,9 @@ void ReadJoints(const YamlNode& map, const RobotModel& model, const PlanningGrou
     if (position < joint.lower || position > joint.upper) {
       node.Fail(fmt::format("outside the joint's limits, {} to {}", joint.lower, joint.upper));
     }
+    // Who reads the problems asks, too, but of every one.
+    const auto doubt = JointSpace({SpaceJoint(joint)}).FindTurnsDoubt(0, position);
+    if (doubt) node.Warn(*doubt);
     (*full_positions)[static_cast<std::size_t>(joint.position_index)] = position;
   }
 }
@@ -406,7 +409,9 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
   ProblemSpec spec;
   spec.name = file.stem().string();
   const NamedFile named = ReadNamedFile(root.At("setup"), file.parent_path());
-  const Setup setup = ReadSetup(YamlNode::Parse(named.text, named.path.string()), robot, &spec);
+  const YamlNode setup_root = YamlNode::Parse(named.text, named.path.string());
+  const Setup setup = ReadSetup(setup_root, robot, &spec);
+  spec.warnings = setup_root.warnings();
   spec.clearance_m = NonNegative(root.At("clearance"));
   spec.object_gap_m = NonNegative(root.At("object_gap"));
   spec.min_joint_distance = NonNegative(root.At("min_joint_distance"));

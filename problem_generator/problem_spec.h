@@ -107,6 +107,7 @@ struct ProblemSpec {
   Effort effort;
   std::vector<ObjectSpec> objects;
   std::vector<QuerySpec> queries;
+  std::vector<std::string> warnings;  ///< What is odd about the setup, one line each.
 };
 
 /// Reads a specification for a robot. Throws InputError naming file, line and key.

@@ -1,8 +1,10 @@
 #include "problem_generator/problem_spec.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <regex>
 
 #include "common/read_text.h"
 #include "common/write_file.h"
@@ -78,6 +80,23 @@ TEST(ProblemSpec, LinksThatAJointConnectsMayTouchThoughOthersOfThemAreNamed) {
   fetch.checked_pairs = {
       {fetch.model.FindLink("base_link"), fetch.model.FindLink("torso_lift_link")}};
   EXPECT_EQ(load().Entry("base_link", "torso_lift_link"), std::nullopt);
+}
+
+TEST(ProblemSpec, JointsThatTheSetupHasTurnedTooFarAreTold) {
+  const Robot fetch = LoadFetch();
+  const SpecFolder folder;
+  EXPECT_TRUE(folder.Load(kCanOnTable, fetch).warnings.empty());
+  const std::string setup = ReadText(folder.path() / "fetch_setup.yaml");
+  const auto warnings = [&](const std::string& position) {
+    const std::string line = "wrist_roll_joint: " + position;
+    WriteFile(folder.path() / "fetch_setup.yaml",
+              std::regex_replace(setup, std::regex("wrist_roll_joint: *[-0-9.]+"), line));
+    return folder.Load(kCanOnTable, fetch).warnings;
+  };
+  EXPECT_THAT(warnings("9"), testing::Contains(testing::ContainsRegex(
+                                 "fetch_setup.yaml:[0-9]+: .*wrist_roll_joint: is at 9 rad, 1.43 "
+                                 "turns; degrees[?]$")));
+  EXPECT_THAT(warnings("6"), testing::IsEmpty());
 }
 
 struct BadSpec {
