@@ -24,6 +24,7 @@ class RecordedViews {
   /// robot is another.
   Json View(const StoredRun& run, int num_frames) const;
 
+  const Robot& robot() const { return robot_.robot(); }
   /// Of the log, as RecordedSession tells it.
   const std::vector<std::string>& passed_over() const { return passed_over_; }
 

@@ -1,6 +1,7 @@
 #include "report/view_data.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -168,7 +169,13 @@ class View {
   /// What the robot was, or is to be, checked by, or else what there is.
   void ChooseGeometry(const ShownRobot& shown, CollisionModel model) {
     spheres_ = ModelSpheres(robot_, model);
-    if (model != CollisionModel::kMeshes && !spheres_.empty()) return;
+    if (model != CollisionModel::kMeshes && !spheres_.empty()) {
+      if (model != CollisionModel::kEnclosing && !robot_.unchecked_links.empty()) {
+        notes_.push_back(fmt::format("Neither checked nor shown, as they have no spheres: {}.",
+                                     fmt::join(robot_.unchecked_links, ", ")));
+      }
+      return;
+    }
     const ShownBodies& bodies = shown.bodies();
     if (bodies.why_not.empty()) {
       spheres_ = {};

@@ -33,7 +33,7 @@ struct Flags {
 /// Frames of a path.
 constexpr int kFrames = 120;
 
-void TellPassedOver(const std::vector<std::string>& lines) {
+void Tell(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) std::cerr << "view: " << line << "\n";
 }
 
@@ -45,7 +45,8 @@ Json ViewOfRun(const Flags& flags) {
     for (const StoredRun& run : session.runs) {
       if (run.id != *flags.run) continue;
       const RecordedViews views(session, flags.robot.folder, flags.robot.Packages());
-      TellPassedOver(views.passed_over());
+      Tell(views.passed_over());
+      Tell(views.robot().warnings);
       return views.View(run, kFrames);
     }
   }
@@ -57,7 +58,7 @@ Json ViewOfRun(const Flags& flags) {
 Json ViewOfLog(const Flags& flags) {
   RecordedSession recorded = ReadRecords(flags.log);
   const auto scenes = ReadScenes(flags.log, &recorded.passed_over);
-  TellPassedOver(recorded.passed_over);
+  Tell(recorded.passed_over);
   const auto num_runs = static_cast<std::int64_t>(recorded.runs.size());
   const std::int64_t number = flags.run.value_or(num_runs);
   if (num_runs == 0) throw InputError(flags.log + ": no run is recorded in it");
@@ -74,6 +75,7 @@ Json ViewOfLog(const Flags& flags) {
   const SessionMessage session = LastTold(recorded, run.run_id);
   const ShownRobot shown(LoadSessionRobot(session, flags.robot.folder, flags.robot.Packages()),
                          session.conditions.mesh_robot_id);
+  Tell(shown.robot().warnings);
   return RunView(shown, scene->second, run, kFrames);
 }
 
@@ -91,6 +93,7 @@ Json ViewOfProblem(const Flags& flags) {
   const ProblemFiles* files = set.Find(index);
   if (files == nullptr) throw InputError(fmt::format("{}: no problem {}", set.name, index));
   const ShownRobot shown(flags.robot.Load());
+  Tell(shown.robot().warnings);
   return ProblemView(shown, ReadProblem(files->scene, files->request, shown.robot()), flags.model);
 }
 

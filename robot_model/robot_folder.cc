@@ -248,12 +248,12 @@ void WarnOfUncheckedLinks(const YamlNode& root, const std::string& spheres, Robo
     }
   }
   if (robot->spheres.empty()) return;
-  const std::vector<std::string> unchecked = LinksWithout(robot->spheres, meant, robot->model);
-  if (unchecked.empty()) return;
+  robot->unchecked_links = LinksWithout(robot->spheres, meant, robot->model);
+  if (robot->unchecked_links.empty()) return;
   robot->warnings.push_back(fmt::format(
       "{}: no spheres for {}, which have bodies in the URDF: they are not checked; if that is "
       "meant, name them in links_without_spheres",
-      spheres, fmt::join(unchecked, ", ")));
+      spheres, fmt::join(robot->unchecked_links, ", ")));
 }
 
 VoxelSettings ReadVoxels(const YamlNode& node) {

@@ -60,6 +60,7 @@ struct Robot {
   std::map<std::string, std::string> why_no_group;  ///< Srdf::why_no_group, if the groups are its.
   std::vector<VirtualJoint> virtual_joints;
   std::vector<LinkSphere> spheres;            ///< Sorted by link.
+  std::vector<std::string> unchecked_links;   ///< With a body and no sphere, not by intention.
   std::filesystem::path spheres_file;         ///< That took the place of the folder's, absolute.
   std::vector<LinkSphere> enclosing_spheres;  ///< Those of the enclosing model, likewise.
   std::vector<std::pair<int, int>> allowed_pairs;  ///< Link indices.

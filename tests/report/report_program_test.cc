@@ -309,6 +309,9 @@ TEST_F(ReportProgramTest, ViewFindsMeshesAndSpheresOfAProblemWhereItIsTold) {
   EXPECT_THAT(page, HasSubstr("\"low\":[0.0,0.0,0.0],\"size\":[1.0,1.0,0.125],"
                               "\"vertices\":\"AAAAAAAA//8AAAAAAAD/////\""));
   EXPECT_THAT(page, HasSubstr("\"spheres\":[[0.0625,0.0,0.0,0.25]]"));
+  EXPECT_THAT(errors_, HasSubstr("one.yaml: no spheres for column, upper_arm, forearm"));
+  EXPECT_THAT(page, HasSubstr("Neither checked nor shown, as they have no spheres: column, "
+                              "upper_arm, forearm."));
 }
 
 TEST_F(ReportProgramTest, ASessionByHandIsShownWithItsSceneServersRobot) {
@@ -345,6 +348,19 @@ TEST_F(ReportProgramTest, ASessionByHandIsShownWithItsSceneServersRobot) {
         << errors_;
     EXPECT_EQ(Run({Path(name), "--out", Path("page.html")}), kExitOk) << errors_;
     EXPECT_THAT(ReadText(folder_ / "page.html"), testing::Not(HasSubstr("3D views of 0 of 1")));
+  }
+  // What the robot's files leave open is told.
+  by_hand.session.settings["spheres"] =
+      folder_.Write("one.yaml", "links: {hand: [{center: [0, 0, 0], radius: 0.25}]}\n").string();
+  write("bare", robot, "");
+  by_hand.session.settings.erase("spheres");
+  for (const std::vector<std::string>& of :
+       {std::vector<std::string>{"--session", Path("bare"), "--run", "1"},
+        std::vector<std::string>{"--log", Path("bare/bare.lcmlog")}}) {
+    std::vector<std::string> view = of;
+    view.insert(view.end(), {"--out", Path("view.html")});
+    EXPECT_EQ(Run(view, "view"), kExitOk) << errors_;
+    EXPECT_THAT(errors_, HasSubstr("one.yaml: no spheres for column, upper_arm, forearm"));
   }
   // A log that has lost the session's message: the database has the flags.
   write("torn", robot, "");

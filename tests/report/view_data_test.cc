@@ -179,6 +179,16 @@ TEST_F(ViewDataTest, WhatStandsForAnotherGeometryIsToldAsSuch) {
   EXPECT_EQ(view["links"][1]["shapes"].size(), 9u);
 }
 
+TEST_F(ViewDataTest, LinksThatGoUncheckedAreTold) {
+  Robot robot = MeshArm();
+  robot.unchecked_links = {"hand", "column"};
+  const ShownRobot shown(std::move(robot));
+  const std::string fact = "Neither checked nor shown, as they have no spheres: hand, column.";
+  EXPECT_EQ(RunView(shown, scene_, run_, 10)["facts"].back(), fact);
+  run_.request.collision_model = CollisionModel::kMeshes;
+  EXPECT_NE(RunView(shown, scene_, run_, 10)["facts"].back(), fact);
+}
+
 TEST_F(ViewDataTest, MoreTrianglesThanAPageCanHoldAreMadeFewer) {
   run_.request.collision_model = CollisionModel::kMeshes;
   const Json view = RunView(ShownRobot(MeshArm(), "", 1000), scene_, run_, 10);

@@ -367,9 +367,11 @@ TEST(LoadRobot, WarnsOfBodiesWithoutSpheres) {
   const auto others = folder.Write("mine.yaml", "links: {arm: [{center: [0, 0, 0], radius: 2}]}");
   EXPECT_THAT(LoadRobot(folder.path(), {}, others).warnings,
               testing::ElementsAre(testing::HasSubstr("mine.yaml: no spheres for base, which")));
+  EXPECT_THAT(LoadRobot(folder.path()).unchecked_links, testing::ElementsAre("base"));
 
   folder.Write("robot.yaml", yaml + "links_without_spheres: [base]\n");
   EXPECT_TRUE(LoadRobot(folder.path()).warnings.empty());
+  EXPECT_TRUE(LoadRobot(folder.path()).unchecked_links.empty());
   folder.Write("robot.yaml", yaml + "links_without_spheres: [basis]\n");
   ExpectInputError([&] { LoadRobot(folder.path()); }, {"robot.yaml:5", "'basis'"});
 }
