@@ -17,6 +17,7 @@
 #include "benchmark_driver/earlier_plan.h"
 #include "common/error.h"
 #include "common/file_kind.h"
+#include "common/lookup.h"
 #include "common/random_id.h"
 #include "common/sibling_program.h"
 #include "common/utime.h"
@@ -28,6 +29,7 @@
 #include "planning/told_edges.h"
 #include "results/reason_count.h"
 #include "results/training.h"
+#include "robot_model/referee_misfits.h"
 
 namespace planbench {
 namespace {
@@ -113,6 +115,9 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
     for (const NodeStatusMessage& node : registry_.Live(kind)) RequireSameBuild(node);
   }
   served_ = *registry_.ProblemSets();
+  if (const auto found = registry_.Find(served_.server, NodeKind::kSceneServer)) {
+    referee_misfits_ = Lookup(found->settings, kRefereeMisfits).value_or("");
+  }
   CompleteConditions();
   const PlannedCall call = PlanCall(options_, PlannedPlanners(), served_);
   for (const std::string& line : ShortOfRange(options_, call)) spdlog::warn("{}", line);

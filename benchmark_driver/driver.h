@@ -88,6 +88,8 @@ class Driver {
   const std::map<std::string, std::string>& left_out() const { return left_out_; }
   /// Complete once the processes are found.
   const SessionConditions& conditions() const { return options_.conditions; }
+  /// In what the scene server says that its mesh robot is another one (RefereeMisfits).
+  const std::string& referee_misfits() const { return referee_misfits_; }
 
  private:
   std::string Missing(bool need_logger) const;
@@ -154,6 +156,7 @@ class Driver {
   NodeRegistry registry_;
   Recorder recorder_;
   ProblemSetsMessage served_;
+  std::string referee_misfits_;
   std::vector<ScheduledRun> schedule_;  // what is left to do
   int num_runs_ = 0;                    // of the session, those done earlier included
   int num_owed_ = 0;                    // of those the resumed session's that are not to do

@@ -154,7 +154,7 @@ std::string EffortTables(const SessionResults& results) {
                      "measured.\n\n");
 }
 
-std::string MeshTable(const SessionResults& results) {
+std::string MeshTable(const SessionResults& results, const std::string& referee_misfits) {
   TextTable table("Paths judged with the robot's meshes",
                   {"set", "contestant", "confirmed", "mesh-valid", "simplified", "mesh-valid"}, 2);
   MeshVerdicts raw_of_all;
@@ -162,6 +162,9 @@ std::string MeshTable(const SessionResults& results) {
   std::string notes =
       "Runs confirmed with the planners' own collision model, by what the mesh robot says of "
       "them.\n";
+  if (!referee_misfits.empty()) {
+    notes += fmt::format("The mesh robot differs from the planners': {}.\n", referee_misfits);
+  }
   for (const SetResults& set : results.sets()) {
     for (const ContestantResults& one : set.contestants) {
       MeshVerdicts raw;

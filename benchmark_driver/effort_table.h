@@ -14,7 +14,8 @@ std::vector<double> EffortValues(const RunRecordMessage& record);
 /// each counts by the median of its runs.
 std::string EffortTables(const SessionResults& results);
 
-/// What the mesh robot says of confirmed paths; empty if it did not judge.
-std::string MeshTable(const SessionResults& results);
+/// What the mesh robot says of confirmed paths, and in what it is another robot than the planners'
+/// (RefereeMisfits); empty if it did not judge.
+std::string MeshTable(const SessionResults& results, const std::string& referee_misfits);
 
 }  // namespace planbench

@@ -232,9 +232,10 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   }
 
   const int num_missing = driver.num_runs() - static_cast<int>(driver.runs().size());
-  const SessionTables tables = MakeTables(driver.conditions(), driver.runs(), reference_attempts,
-                                          num_missing, driver.left_out(), driver.num_owed(),
-                                          driver.num_to_repeat(), options.problems_per_process);
+  const SessionTables tables =
+      MakeTables(driver.conditions(), driver.runs(), reference_attempts, num_missing,
+                 driver.left_out(), driver.num_owed(), driver.num_to_repeat(),
+                 options.problems_per_process, driver.referee_misfits());
   if (stopper) {
     stopper->Stop();
     WriteTables(session_folder / "tables.txt", tables.full);

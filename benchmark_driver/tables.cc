@@ -396,7 +396,8 @@ std::string LeftOut(const std::map<std::string, std::string>& left_out) {
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references, int num_missing,
                          const std::map<std::string, std::string>& left_out, int num_owed,
-                         int num_to_repeat, std::optional<int> problems_per_process) {
+                         int num_to_repeat, std::optional<int> problems_per_process,
+                         const std::string& referee_misfits) {
   const SessionResults results(conditions, runs, references);
   const std::string missing =
       Missing(static_cast<int>(runs.size()), num_missing, num_owed, results) + LeftOut(left_out);
@@ -404,7 +405,7 @@ SessionTables MakeTables(const SessionConditions& conditions, const RunRows& run
   const std::string begin = missing +
                             Preface(conditions, results, num_to_repeat, problems_per_process) +
                             SuccessTable(results) + TimeTable(results);
-  const std::string meshes = MeshTable(results);
+  const std::string meshes = MeshTable(results, referee_misfits);
   const bool process_per_problem = problems_per_process == 1;
   return {begin + PairTable(results, false, process_per_problem) + meshes + FailureSummary(results),
           begin + DirectionTable(results) + PairTable(results, true, process_per_problem) +

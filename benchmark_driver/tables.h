@@ -27,11 +27,13 @@ struct SessionTables {
 /// left out (SessionMessage::left_out), are told of before everything else; of those that are
 /// missing, how many an earlier call was to make and this one is not (`num_owed`). Where disturbed
 /// runs are told of, so is how many are still to be made again (`num_to_repeat`); before the tables
-/// it stands how many problems a planner's process had (`problems_per_process`), if not all.
+/// it stands how many problems a planner's process had (`problems_per_process`), if not all, and
+/// below what the mesh robot says in what it is another one (`referee_misfits`).
 /// Definitions stand below each table and in docs/lineups.md.
 SessionTables MakeTables(const SessionConditions& conditions, const RunRows& runs,
                          const std::vector<Attempt>& references = {}, int num_missing = 0,
                          const std::map<std::string, std::string>& left_out = {}, int num_owed = 0,
-                         int num_to_repeat = 0, std::optional<int> problems_per_process = {});
+                         int num_to_repeat = 0, std::optional<int> problems_per_process = {},
+                         const std::string& referee_misfits = "");
 
 }  // namespace planbench

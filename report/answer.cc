@@ -524,10 +524,11 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
           "too, not as failed.",
           name, Count(num_awaiting, "more run")));
     }
-    if (!session.left_out.empty()) {
-      cautions.push_back(LeftOut(name, session.left_out));
-    }
+    if (!session.left_out.empty()) cautions.push_back(LeftOut(name, session.left_out));
     if (session.finished && session.bus) cautions.push_back(name + ": " + OnTheBus(*session.bus));
+    if (!session.referee_misfits.empty()) {
+      cautions.push_back(fmt::format("{}: --referee-robot: {}.", name, session.referee_misfits));
+    }
     if (Lookup(session.flags, "parallel") == "true") {
       cautions.push_back(fmt::format(
           "{}: the planners worked at once (--parallel): all times were measured under load.",

@@ -19,6 +19,7 @@
 #include "results/bus_json.h"
 #include "results/database_version.h"
 #include "results/outcomes.h"
+#include "robot_model/referee_misfits.h"
 
 namespace planbench {
 namespace {
@@ -268,6 +269,9 @@ class Reader {
       for (const auto& node : details.value("nodes", nlohmann::json::array())) {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);
+        } else if (node.value("kind", "") == "scene server") {
+          session.referee_misfits =
+              node.value("settings", nlohmann::json::object()).value(kRefereeMisfits, "");
         }
       }
     }

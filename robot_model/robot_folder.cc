@@ -16,6 +16,7 @@
 #include "common/yaml.h"
 #include "robot_model/group_kinematics.h"
 #include "robot_model/link_spheres.h"
+#include "robot_model/referee_misfits.h"
 #include "robot_model/shipped_robots.h"
 #include "robot_model/srdf.h"
 
@@ -360,6 +361,13 @@ void AddPlanningGroups(const Robot& planning_robot, Robot* referee) {
   }
 }
 
+void WarnOfMisfits(const Robot& planning_robot, Robot* referee) {
+  const std::string misfits = RefereeMisfits(planning_robot, *referee);
+  if (misfits.empty()) return;
+  referee->warnings.push_back(
+      fmt::format("{}: as the referee's robot: {}", referee->folder.string(), misfits));
+}
+
 }  // namespace
 
 bool Robot::NeverChecks(int link_a, int link_b) const {
@@ -464,6 +472,7 @@ Robot LoadRefereeRobot(const fs::path& folder_or_name, const Robot& planning_rob
     Robot referee = LoadRobot(folder, packages);
     AddPlanningGroups(planning_robot, &referee);
     RequireCommonBase(planning_robot, referee);
+    WarnOfMisfits(planning_robot, &referee);
     return referee;
   }
 
@@ -480,6 +489,7 @@ Robot LoadRefereeRobot(const fs::path& folder_or_name, const Robot& planning_rob
     referee.groups.push_back(MatchGroup(group, planning_robot, referee.model, urdf_file.string()));
   }
   RequireCommonBase(planning_robot, referee);
+  WarnOfMisfits(planning_robot, &referee);
   // What the planning robot checks, and what it never does, holds for its judge, too.
   ContentHash hash;
   hash.Add(urdf_text);

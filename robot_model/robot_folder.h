@@ -101,7 +101,7 @@ Robot LoadRobot(const std::filesystem::path& folder_or_name,
 /// by joint and link names); if there is no such folder it is the robot of that name that ships.
 /// The folder also serves package:// URIs. Throws InputError if it has neither, or lacks a joint or
 /// link of the planning groups, or if neither robot has the other's root link, held by joints
-/// outside the groups: scenes are in the planning robot's base frame.
+/// outside the groups: scenes are in the planning robot's base frame. Warns of RefereeMisfits.
 Robot LoadRefereeRobot(const std::filesystem::path& folder_or_name, const Robot& planning_robot,
                        const std::map<std::string, std::filesystem::path>& packages = {});
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "messaging/channels.h"
+#include "robot_model/referee_misfits.h"
 
 namespace planbench {
 namespace {
@@ -24,6 +25,8 @@ NodeStatusMessage StatusOf(const std::string& name, const SceneService& service)
   }
   if (service.mesh_robot()) {
     status.settings["referee_robot"] = service.mesh_robot()->folder.string();
+    const std::string misfits = RefereeMisfits(service.robot(), *service.mesh_robot());
+    if (!misfits.empty()) status.settings[kRefereeMisfits] = misfits;
   }
   return status;
 }

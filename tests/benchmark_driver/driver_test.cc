@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "robot_model/referee_misfits.h"
 #include "tests/benchmark_driver/driver_fixture.h"
 
 namespace planbench {
@@ -79,6 +80,15 @@ TEST_F(DriverTest, MakesAndRecordsEveryRun) {
   EXPECT_EQ(contestant.edge_check, EdgeCheck::kFixed);
   EXPECT_EQ(sessions[0].settings.at("key"), "value");
   EXPECT_EQ(sessions[0].nodes.size(), 3u);
+}
+
+TEST_F(DriverTest, InWhatTheRefereesRobotIsAnotherOneTheSceneServerTells) {
+  const FakePlanner planner(&bus_);
+  const FakeSceneServer server(&bus_, {{kRefereeMisfits, "its link 'hand' is elsewhere"}});
+  const FakeLogger logger(&bus_);
+  Driver driver(&bus_, Options(), LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  EXPECT_EQ(driver.referee_misfits(), "its link 'hand' is elsewhere");
 }
 
 TEST_F(DriverTest, AutoGoesBackwardWhereForwardFailed) {

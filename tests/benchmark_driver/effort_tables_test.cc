@@ -156,6 +156,9 @@ TEST(EffortTablesTest, MeshVerdictsAreShownIfThereAreAny) {
   EXPECT_THAT(Brief(records), Not(HasSubstr("Simplified paths pass nearer")));
   records[0].simplified_check.mesh_verdict->valid = false;
   EXPECT_THAT(Brief(records), HasSubstr("Simplified paths pass nearer"));
+  EXPECT_THAT(Brief(records), Not(HasSubstr("differs from the planners'")));
+  EXPECT_THAT(MakeTables(Conditions(), Rows(records), {}, 0, {}, 0, 0, {}, "it is bent").brief,
+              HasSubstr("The mesh robot differs from the planners': it is bent.\n"));
 }
 
 }  // namespace

@@ -4,6 +4,15 @@
 
 #include "messaging/asked_runs.h"
 namespace planbench {
+namespace {
+
+NodeStatusMessage SceneServerStatus(const std::map<std::string, std::string>& settings) {
+  NodeStatusMessage status = MakeNodeStatus("scene_server", NodeKind::kSceneServer);
+  status.settings = settings;
+  return status;
+}
+
+}  // namespace
 
 Path FakePath() { return {{0, 0}, {1, 0.5}}; }
 
@@ -78,7 +87,7 @@ void Reannounce(NodeRegistry* registry, FakePlanner* planner) {
       kTestPatience));
 }
 
-FakeSceneServer::FakeSceneServer(Bus* bus)
+FakeSceneServer::FakeSceneServer(Bus* bus, const std::map<std::string, std::string>& settings)
     : before_answers_([](const ProblemRequestMessage&) {}),
       judge_([](const PathCheckRequestMessage&) { return Verdict(true); }),
       problem_requests_(bus, channel::kProblemRequest),
@@ -110,7 +119,7 @@ FakeSceneServer::FakeSceneServer(Bus* bus)
                     return judge_(request);
                   }),
       announcer_(
-          bus, [status = MakeNodeStatus("scene_server", NodeKind::kSceneServer)] { return status; },
+          bus, [status = SceneServerStatus(settings)] { return status; },
           [bus] {
             ProblemSetsMessage sets;
             sets.server = "scene_server";

@@ -64,7 +64,8 @@ void Reannounce(NodeRegistry* registry, FakePlanner* planner);
 /// A scene server of one set, "cans", problems 1 to 3; finds every path valid.
 class FakeSceneServer {
  public:
-  explicit FakeSceneServer(Bus* bus);
+  /// `settings`: what else its announcements say.
+  explicit FakeSceneServer(Bus* bus, const std::map<std::string, std::string>& settings = {});
 
   /// Refuses a problem from now on.
   void RefuseProblem(int index, const std::string& reason);

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "results/session_plan.h"
+#include "robot_model/referee_misfits.h"
 #include "tests/report/report_fixture.h"
 
 namespace planbench {
@@ -386,6 +387,21 @@ TEST_F(ReportTest, PlannersThatWereStartedAnewAreTold) {
                                 "(--problems-per-process 10)."),
               *problems == '\0' ? 0 : 1);
   }
+}
+
+TEST_F(ReportTest, AMeshRobotThatIsAnotherOneIsTold) {
+  const TemporaryFolder folder;
+  SessionMessage session = ExampleSession();
+  NodeStatusMessage& server = session.nodes.emplace_back();
+  server.kind = NodeKind::kSceneServer;
+  const auto cautions = [&](const std::string& name) {
+    WriteSession(folder / name, {{.contestant = "A"}}, session);
+    return Cautions(ComparedSessions(ReadSessions(folder / name).sessions));
+  };
+  const std::string told = ": --referee-robot";
+  EXPECT_THAT(cautions("same"), testing::Each(testing::Not(testing::HasSubstr(told))));
+  server.settings[kRefereeMisfits] = "it is bent";
+  EXPECT_THAT(cautions("other"), testing::Contains("other" + told + ": it is bent."));
 }
 
 TEST_F(ReportTest, RepeatsThatAreOwedAreTold) {

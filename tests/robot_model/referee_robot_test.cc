@@ -1,8 +1,13 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "robot_model/robot_folder.h"
 #include "tests/robot_model/small_robot.h"
@@ -14,6 +19,9 @@ namespace planbench {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 TEST(LoadRefereeRobot, TakesAFolderWithOneUrdf) {
   TemporaryFolder folder;
@@ -139,11 +147,110 @@ TEST(LoadRefereeRobot, MustHaveAPlaceRelativeToThePlanningRobot) {
       {"moves: cannot be placed"});
 }
 
+// An arm and two fingers, the second of which follows the first; no group moves them.
+constexpr char kHandUrdf[] = R"(<robot name="hand">
+  <link name="base"/><link name="upper"/><link name="lower"/><link name="left"/><link name="right"/>
+  <joint name="lift" type="prismatic"><parent link="base"/><child link="upper"/>
+    <axis xyz="0 0 1"/><limit lower="0.1" upper="0.5" velocity="1" effort="1"/></joint>
+  <joint name="turn" type="continuous"><parent link="upper"/><child link="lower"/>
+    <origin xyz="0.3 0 0"/><axis xyz="0 1 0"/></joint>
+  <joint name="grip" type="prismatic"><parent link="lower"/><child link="left"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
+  <joint name="other_grip" type="prismatic"><parent link="lower"/><child link="right"/>
+    <axis xyz="0 -1 0"/><limit lower="0" upper="0.08" velocity="1" effort="1"/>
+    <mimic joint="grip"/></joint>
+</robot>)";
+
+class OtherReferee : public testing::Test {
+ protected:
+  using Change = std::pair<std::string, std::string>;  // a part of the URDF, and what it is instead
+
+  static std::string Urdf(const std::vector<Change>& changes) {
+    std::string urdf = kHandUrdf;
+    for (const auto& [from, to] : changes) urdf.replace(urdf.find(from), from.size(), to);
+    return urdf;
+  }
+  // What is said of a referee of such a URDF, where the planning robot is of another.
+  std::string Warnings(const std::vector<Change>& changes,
+                       const std::vector<Change>& of_planning = {}) {
+    folder_.Write("hand/hand.urdf", Urdf(of_planning));
+    folder_.Write("hand/robot.yaml",
+                  "name: hand\nurdf: hand.urdf\n"
+                  "groups: [{name: arm, joints: [lift, turn], tip_link: lower}]\n");
+    folder_.Write("judge/judge.urdf", Urdf(changes));
+    const Robot referee = LoadRefereeRobot(folder_ / "judge", LoadRobot(folder_ / "hand"));
+    return fmt::format("{}", fmt::join(referee.warnings, "\n"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(OtherReferee, IsToldByTheFirstLinkThatIsElsewhere) {
+  EXPECT_EQ(Warnings({}), "");
+  EXPECT_THAT(Warnings({{"0.3 0 0", "0.4 0 0"}}),
+              AllOf(HasSubstr("judge: as the referee's robot: it is another robot: link 'lower', "
+                              "beyond joint 'turn', is up to 100.0 mm from where the robot 'hand'"),
+                    Not(HasSubstr("rad"))));
+  EXPECT_THAT(Warnings({{"0 1 0", "0 -1 0"}}), AllOf(HasSubstr("link 'lower', beyond joint 'turn'"),
+                                                     HasSubstr(" rad from"), Not(HasSubstr(" mm"))))
+      << "by default it is where it should be";
+  EXPECT_EQ(Warnings({{"0.3 0 0", "0.30005 0 0"}}), "") << "rounded otherwise";
+  // A frame may be laid otherwise into the same link, but for those that problems speak of.
+  EXPECT_EQ(Warnings({{"0 -1 0", "0 1 0"},
+                      {"\"other_grip\" type=\"prismatic\">",
+                       "'other_grip' type='prismatic'><origin rpy='0 0 3.14159265'/>"}}),
+            "");
+  EXPECT_THAT(Warnings({{"\"0.3 0 0\"", "'0.3 0 0' rpy='0 0.5 0'"}}),
+              HasSubstr("link 'lower', beyond joint 'turn', is up to 0.5 rad"));
+  // What is told of is where a root in common has it.
+  const std::string stand =
+      "<link name='world'/><joint name='stand' type='fixed'><parent link='world'/>"
+      "<child link='base'/><origin xyz='1 2 3' rpy='0 0 1'/></joint></robot>";
+  EXPECT_EQ(Warnings({{"</robot>", stand}}), "");
+  EXPECT_EQ(Warnings({}, {{"</robot>", stand}}), "");
+  EXPECT_THAT(Warnings({{"</robot>", stand}, {"0.3 0 0", "0.4 0 0"}}), HasSubstr("'lower'"));
+}
+
+TEST_F(OtherReferee, JointsThatFollowOthersCountWhereBothHaveThem) {
+  EXPECT_THAT(Warnings({{"<mimic joint=\"grip\"/>", "<mimic joint='grip' multiplier='2'/>"}}),
+              HasSubstr("link 'right', beyond joint 'other_grip'"));
+  const Change free = {"<mimic joint=\"grip\"/>", ""};
+  EXPECT_EQ(Warnings({free}), "");
+  EXPECT_EQ(Warnings({}, {free}), "");
+}
+
+TEST_F(OtherReferee, AJointThatItHasFixedIsWhereItHasIt) {
+  const auto fixed_at = [](const std::string& origin) {
+    const std::string fixed = "type='fixed'><origin xyz='";
+    return std::vector<Change>{
+        {"\"grip\" type=\"prismatic\">", "'grip' " + fixed + origin + "'/>"},
+        {"\"other_grip\" type=\"prismatic\">", "'other_grip' " + fixed + "0 -0.02 0'/>"}};
+  };
+  EXPECT_EQ(Warnings(fixed_at("0 0.02 0")), "");
+  EXPECT_EQ(Warnings({}, fixed_at("0 0.02 0")), "");
+  EXPECT_THAT(Warnings(fixed_at("0 0.02 0.005")),
+              HasSubstr("link 'left', beyond joint 'grip', is up to 5.0 mm"));
+}
+
+TEST_F(OtherReferee, LimitsOfItsJointsAreToldWherePathsMayBeBeyond) {
+  EXPECT_THAT(Warnings({{"lower=\"0.1\"", "lower='0.2'"}}),
+              AllOf(HasSubstr("other limits than those of the robot 'hand': lift [0.2, 0.5], not "
+                              "[0.1, 0.5]"),
+                    Not(HasSubstr("another robot"))));
+  EXPECT_EQ(Warnings({{"lower=\"0.1\"", "lower='0'"}}), "") << "wider";
+  EXPECT_THAT(Warnings({{"type=\"continuous\">",
+                         "type='revolute'><limit lower='-3' upper='3' "
+                         "velocity='1' effort='1'/>"}}),
+              HasSubstr("turn [-3, 3], not none"));
+  EXPECT_EQ(Warnings({{"upper=\"0.04\"", "upper='0.01'"}}), "") << "in no group";
+}
+
 TEST(LoadRefereeRobot, JudgesTheFetchByTheManufacturersDescription) {
   PLANBENCH_NEED_SHARED_DATA("fetch_description");
   const Robot fetch = LoadRobot(FetchFolder());
   const Robot referee = LoadRefereeRobot(SharedData("fetch_description"), fetch);
   EXPECT_EQ(referee.Group("").name, "arm_with_torso");
+  EXPECT_THAT(referee.warnings, testing::Each(Not(HasSubstr("as the referee's robot"))));
   int meshes = 0;
   for (const Link& link : referee.model.links()) {
     for (const PlacedShape& placed : link.collision) {

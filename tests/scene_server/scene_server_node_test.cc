@@ -11,13 +11,16 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "common/error.h"
+#include "common/read_text.h"
 #include "messaging/channels.h"
 #include "messaging/node_registry.h"
+#include "robot_model/referee_misfits.h"
 #include "tests/scene_server/tiny_world.h"
 #include "tests/support/expect_input_error.h"
 #include "tests/support/message_collector.h"
@@ -162,11 +165,12 @@ TEST_F(SceneServerNodeTest, AnnouncesItselfAndItsSetsWhenDiscovered) {
   const NodeStatusMessage status = *registry.Find("scene_server", NodeKind::kSceneServer);
   EXPECT_EQ(status.robot_name, "tiny");
   EXPECT_EQ(status.robot_id, world_.service().robot().content_id);
+  EXPECT_FALSE(status.settings.contains(kRefereeMisfits));
 }
 
-TEST_F(SceneServerNodeTest, TellsTheFilesItsRobotIsMadeOf) {
-  const auto settings_of = [&](Robot robot) {
-    SceneService service(std::move(robot), std::nullopt, {world_.folder() / "problems"});
+TEST_F(SceneServerNodeTest, TellsWhatItsRobotsAreMadeOf) {
+  const auto settings_of = [&](Robot robot, std::optional<Robot> mesh_robot = {}) {
+    SceneService service(std::move(robot), std::move(mesh_robot), {world_.folder() / "problems"});
     Bus bus("memq://");
     const SceneServerNode node(&bus, "scene_server", &service);
     bus.Start();
@@ -184,6 +188,13 @@ TEST_F(SceneServerNodeTest, TellsTheFilesItsRobotIsMadeOf) {
   const std::filesystem::path file = told.at("spheres");
   EXPECT_TRUE(file.is_absolute()) << file;
   EXPECT_TRUE(std::filesystem::equivalent(file, spheres)) << file;
+  // And in what its referee's is another robot.
+  std::string urdf = ReadText(world_.folder() / "tiny_meshes/tiny.urdf");
+  world_.folder().Write("taller/tiny.urdf", urdf.replace(urdf.find("0 0 0.1"), 7, "0 0 0.2"));
+  const Robot robot = LoadRobot(folder);
+  EXPECT_THAT(
+      settings_of(robot, LoadRefereeRobot(world_.folder() / "taller", robot)).at(kRefereeMisfits),
+      HasSubstr("link 'arm', beyond joint 'swing', is up to 100.0 mm"));
 }
 
 TEST_F(SceneServerNodeTest, AnnouncesItsSetsAgainAndAgainWhileItRuns) {

@@ -1,0 +1,184 @@
+#include "robot_model/referee_misfits.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "robot_model/full_positions.h"
+
+namespace planbench {
+namespace {
+
+// Descriptions of one robot differ by their rounding, which is less.
+constexpr double kSamePlace = 1e-3;  // m
+constexpr double kSameTurn = 1e-3;   // rad
+constexpr int kDraws = 8;
+
+// Puts the joints of `other` where `model` has those of the same names at full positions, those
+// that follow others among them.
+void PutAll(const RobotModel& model, const std::vector<double>& positions, const RobotModel& other,
+            std::vector<double>* positions_of_other) {
+  std::vector<std::string> names = model.position_names();
+  std::vector<double> values = positions;
+  for (const Joint& joint : model.joints()) {
+    if (joint.leader < 0 || joint.position_index < 0) continue;
+    names.push_back(joint.name);
+    values.push_back(joint.multiplier * positions[static_cast<std::size_t>(joint.position_index)] +
+                     joint.offset);
+  }
+  PutPositions(other, names, values, positions_of_other);
+}
+
+// Puts joints of `model` that only `other` has fixed where it shows them, whatever their limits.
+void PutWhereFixed(const RobotModel& other, const RobotModel& model,
+                   std::vector<double>* positions) {
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (const Joint& fixed : other.joints()) {
+    const int index = model.FindJoint(fixed.name);
+    if (fixed.type != JointType::kFixed || index < 0) continue;
+    const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
+    if (NumPositions(joint.type) != 1) continue;
+    const Eigen::Isometry3d X_JC = joint.X_PJ.inverse(Eigen::Isometry) * fixed.X_PJ;
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_JC.linear()));
+    names.push_back(joint.name);
+    values.push_back(joint.type == JointType::kPrismatic
+                         ? X_JC.translation().dot(joint.axis_J)
+                         : turn.angle() * turn.axis().dot(joint.axis_J));
+  }
+  PutPositions(model, names, values, positions);
+}
+
+// Full positions, the default ones first. Planar and floating joints stay there.
+std::vector<std::vector<double>> Configurations(const RobotModel& model) {
+  std::vector<std::vector<double>> configurations = {model.DefaultPositions()};
+  std::mt19937 engine(1);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<double> positions = configurations.front();
+    for (const Joint& joint : model.joints()) {
+      if (joint.leader >= 0 || NumPositions(joint.type) != 1) continue;
+      const JointSpace::Joint range = SpaceJoint(joint);
+      const double share = static_cast<double>(engine()) / std::mt19937::max();
+      positions[static_cast<std::size_t>(joint.position_index)] =
+          range.lower + share * (range.upper - range.lower);
+    }
+    configurations.push_back(std::move(positions));
+  }
+  return configurations;
+}
+
+std::vector<Eigen::Isometry3d> PosesFrom(int base, const RobotModel& model,
+                                         const std::vector<double>& positions) {
+  std::vector<Eigen::Isometry3d> poses = ComputeLinkPoses(model, positions);
+  const Eigen::Isometry3d X_RB = poses[static_cast<std::size_t>(base)].inverse(Eigen::Isometry);
+  for (Eigen::Isometry3d& pose : poses) pose = X_RB * pose;
+  return poses;
+}
+
+struct Offset {
+  double distance = 0;  // m
+  double angle = 0;     // rad
+  bool Counts() const { return distance > kSamePlace || angle > kSameTurn; }
+};
+
+// Of each link of the planning robot the greatest, zero of those that the referee does not have. A
+// link's frame may have another direction for the same body: but of a tip, the angle is by how much
+// that changes.
+std::vector<Offset> OffsetsOfLinks(const Robot& planning_robot, const RobotModel& other) {
+  const RobotModel& model = planning_robot.model;
+  std::set<int> tips;
+  for (const PlanningGroup& group : planning_robot.groups) {
+    for (const int tip : group.tips()) tips.insert(tip);
+  }
+  // As scenes are placed: where the one root is in the other robot.
+  const int root_in_other = other.FindLink(model.links().front().name);
+  const int base = root_in_other >= 0 ? 0 : model.FindLink(other.links().front().name);
+  std::vector<Offset> offsets(model.links().size());
+  std::map<int, Eigen::Matrix3d> directions;
+  for (const int tip : tips) directions.emplace(tip, Eigen::Matrix3d::Identity());
+  for (std::vector<double>& positions : Configurations(model)) {
+    std::vector<double> of_other = other.DefaultPositions();
+    PutWhereFixed(other, model, &positions);
+    PutWhereFixed(model, other, &of_other);
+    PutAll(model, positions, other, &of_other);
+    // What only there follows another joint is where that one has it.
+    PutAll(other, of_other, model, &positions);
+    const auto X_RL = PosesFrom(base, model, positions);
+    const auto X_RL_of_other = PosesFrom(std::max(root_in_other, 0), other, of_other);
+    for (int link = 0; link < model.num_links(); ++link) {
+      const auto i = static_cast<std::size_t>(link);
+      const int same = other.FindLink(model.links()[i].name);
+      if (same < 0) continue;
+      const Eigen::Isometry3d offset =
+          X_RL[i].inverse(Eigen::Isometry) * X_RL_of_other[static_cast<std::size_t>(same)];
+      const Eigen::Matrix3d& direction = directions.emplace(link, offset.linear()).first->second;
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(direction.transpose() * offset.linear()));
+      offsets[i].distance = std::max(offsets[i].distance, offset.translation().norm());
+      offsets[i].angle = std::max(offsets[i].angle, turn.angle());
+    }
+  }
+  return offsets;
+}
+
+// Wider limits are no matter: paths keep to the planning robot's.
+bool MovesOtherwise(const Joint& joint, const Joint& of_referee) {
+  return of_referee.lower > joint.lower + JointSpace::kLimitTolerance ||
+         of_referee.upper < joint.upper - JointSpace::kLimitTolerance ||
+         SpaceJoint(of_referee).continuous != SpaceJoint(joint).continuous;
+}
+
+std::string Range(const Joint& joint) {
+  return SpaceJoint(joint).continuous ? "none"
+                                      : fmt::format("[{:.6g}, {:.6g}]", joint.lower, joint.upper);
+}
+
+// Joints of the groups, in the order of the URDF, with their limits there and here.
+std::vector<std::string> OtherLimits(const Robot& planning_robot, const RobotModel& other) {
+  std::set<int> planned;
+  for (const PlanningGroup& group : planning_robot.groups) {
+    planned.insert(group.joints.begin(), group.joints.end());
+  }
+  std::vector<std::string> limits;
+  for (const int index : planned) {
+    const Joint& joint = planning_robot.model.joints()[static_cast<std::size_t>(index)];
+    const Joint& same = other.joints()[static_cast<std::size_t>(other.FindJoint(joint.name))];
+    if (!MovesOtherwise(joint, same)) continue;
+    limits.push_back(fmt::format("{} {}, not {}", joint.name, Range(same), Range(joint)));
+  }
+  return limits;
+}
+
+}  // namespace
+
+std::string RefereeMisfits(const Robot& planning_robot, const Robot& referee) {
+  const RobotModel& model = planning_robot.model;
+  std::vector<std::string> misfits;
+  const std::vector<Offset> offsets = OffsetsOfLinks(planning_robot, referee.model);
+  const auto first = std::ranges::find_if(offsets, &Offset::Counts);
+  if (first != offsets.end()) {
+    std::vector<std::string> by;
+    if (first->distance > kSamePlace) {
+      by.push_back(fmt::format("{:.1f} mm", 1000 * first->distance));
+    }
+    if (first->angle > kSameTurn) by.push_back(fmt::format("{:.3g} rad", first->angle));
+    const Link& link = model.links()[static_cast<std::size_t>(first - offsets.begin())];
+    misfits.push_back(fmt::format(
+        "it is another robot: link '{}', beyond joint '{}', is up to {} from where the robot '{}' "
+        "has it",
+        link.name, model.joints()[static_cast<std::size_t>(link.parent_joint)].name,
+        fmt::join(by, " and "), planning_robot.name));
+  }
+  const std::vector<std::string> limits = OtherLimits(planning_robot, referee.model);
+  if (!limits.empty()) {
+    misfits.push_back(fmt::format("its joints have other limits than those of the robot '{}': {}",
+                                  planning_robot.name, fmt::join(limits, ", ")));
+  }
+  return fmt::format("{}", fmt::join(misfits, "; "));
+}
+
+}  // namespace planbench
