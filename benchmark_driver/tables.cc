@@ -285,6 +285,7 @@ std::string Remarks(const SessionResults& results) {
         of_set.collision_model = EnumName(*model);
       }
       of_set.outcomes = &one.outcomes;
+      of_set.has_first_path = !one.contestant->first_path_of.empty();
       for (const RunRow* run : one.runs) {
         odd_times[name].push_back(run->odd_times_s);
         answer_times[name].push_back(run->answer_times);

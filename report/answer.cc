@@ -17,6 +17,7 @@
 #include "results/disputed_ends.h"
 #include "results/quality.h"
 #include "results/reproduce.h"
+#include "results/training.h"
 #include "results/untold_times.h"
 
 namespace planbench {
@@ -406,8 +407,9 @@ std::map<std::string, std::string> DisputedEnds(const ComparedSessions& compared
   for (const auto& [set, by_contestant] : compared.outcomes()) {
     for (const auto& [name, outcomes] : by_contestant) {
       const ComparedContestant& one = ContestantCalled(compared, name);
-      const auto model = Lookup(ParseSettings(one.settings), "collision_model").value_or("");
-      judged[set].push_back({name, one.session, model, &outcomes});
+      const auto settings = ParseSettings(one.settings);
+      judged[set].push_back({name, one.session, Lookup(settings, "collision_model").value_or(""),
+                             &outcomes, settings.contains(kFirstPathOf)});
     }
   }
   return DescribeDisputedEnds(judged);
@@ -431,9 +433,7 @@ std::vector<std::string> Answer(const ComparedSessions& compared,
     if (std::string trained = Trained(compared, contestant); !trained.empty()) {
       sentences.push_back(std::move(trained));
     }
-    if (const auto untold = untold_times.find(contestant.name); untold != untold_times.end()) {
-      sentences.push_back(untold->second);
-    }
+    if (auto untold = Lookup(untold_times, contestant.name)) sentences.push_back(*untold);
   };
   if (compared.common().empty()) {
     return {fmt::format("None of {} contestants ranks first: there is no problem that all of them "

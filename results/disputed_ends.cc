@@ -37,7 +37,8 @@ std::map<std::string, std::string> DescribeDisputedEnds(
       }
     }
     for (const JudgedOutcomes& one : contestants) {
-      if (one.collision_model.empty() || one.collision_model == EnumName(CollisionModel::kVoxels)) {
+      if (one.has_first_path || one.collision_model.empty() ||
+          one.collision_model == EnumName(CollisionModel::kVoxels)) {
         continue;
       }
       for (const auto& [problem, trials] : one.outcomes->by_problem) {

@@ -12,7 +12,6 @@ namespace planbench {
 namespace {
 
 constexpr char kFirstPath[] = "first_path_";
-constexpr char kFirstPathOf[] = "first_path_of";
 
 bool Lists(const std::string& list, const std::string& separator, const std::string& item) {
   return !list.empty() &&

@@ -20,7 +20,8 @@ inline constexpr char kTrainedOnNote[] =
     "test.";
 
 /// Settings of a contestant that is given the path of another, by which it tells whose
-/// (`first_path_of`) and, if that one, of such settings, has learned from something, from what.
+/// (kFirstPathOf) and, if that one, of such settings, has learned from something, from what.
+inline constexpr char kFirstPathOf[] = "first_path_of";
 std::map<std::string, std::string> FirstPathSettings(
     const std::string& first_planner, const std::map<std::string, std::string>& its_settings);
 

@@ -141,11 +141,13 @@ TEST_F(ReportTest, TimesThatAreNotAccountedForAreToldOfWhoRanksFirst) {
 }
 
 TEST_F(ReportTest, WhoCallsAGoalInvalidThatAPathReachesIsNamed) {
-  const ComparedSessions compared =
-      Read({{.contestant = "A", .status = PlanStatus::kGoalInvalid}, {.contestant = "B"}});
-  EXPECT_THAT(Cautions(compared),
-              testing::Contains("A: called start or goal invalid on 1 problem of which a path is "
-                                "confirmed by the same collision model (shelf 1)."));
+  MadeRun blocked = {.contestant = "A", .status = PlanStatus::kGoalInvalid};
+  const auto line = testing::Contains(
+      "A: called start or goal invalid on 1 problem of which a path is confirmed "
+      "by the same collision model (shelf 1).");
+  EXPECT_THAT(Cautions(Read({blocked, {.contestant = "B"}})), line);
+  blocked.settings["first_path_of"] = "b";
+  EXPECT_THAT(Cautions(Read({blocked, {.contestant = "B"}})), testing::Not(line));
 }
 
 TEST_F(ReportTest, TheAnswerIsThreeSentencesWithTheirUncertainty) {

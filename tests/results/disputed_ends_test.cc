@@ -50,5 +50,16 @@ TEST(DisputedEndsTest, WhatIsJudgedOtherwiseDisputesNothing) {
   }
 }
 
+TEST(DisputedEndsTest, WhoIsGivenAPathHasTheOthersWordOnEndsAndAPathOfItsOwn) {
+  using enum Outcome::Kind;
+  const Outcomes claims = Ended({kUnsolvable}), paths = Ended({kForward});
+  const auto disputed = [](const JudgedOutcomes& a, const JudgedOutcomes& b) {
+    return DescribeDisputedEnds({{"box", {a, b}}});
+  };
+  EXPECT_THAT(disputed({"A", 0, "spheres", &claims, true}, {"B", 0, "spheres", &paths}), IsEmpty());
+  EXPECT_THAT(disputed({"A", 0, "spheres", &claims}, {"B", 0, "spheres", &paths, true}),
+              ElementsAre(Pair("A", testing::_)));
+}
+
 }  // namespace
 }  // namespace planbench
