@@ -43,7 +43,7 @@ void KeepWithinTotal(PlanResult* result) {
   }
 }
 
-/// No part of a time is longer than the whole.
+/// No part of a time is longer than the whole, which holds the first improvement of a path.
 void KeepTogether(PlanResult* result) {
   double longest_s = std::max(result->planning_time_s, SumOfParts(result->phases));
   for (const PlanProgress& progress : result->progress) {
@@ -53,6 +53,9 @@ void KeepTogether(PlanResult* result) {
     result->counters[kContradictoryTime] = longest_s - result->total_time_s;
   }
   result->total_time_s = std::max(result->total_time_s, result->planning_time_s);
+  if (result->Solves() && !result->progress.empty()) {
+    result->total_time_s = std::max(result->total_time_s, result->progress.front().elapsed_s);
+  }
   KeepWithinTotal(result);
 }
 
@@ -90,17 +93,18 @@ void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
 /// What a search with a path in hand took beyond the limit. Of others that their time tells.
 void NoteOverrun(double time_limit_s, PlanResult* result) {
   const double overrun_s = result->total_time_s - time_limit_s;
-  if (result->Solves() && result->planning_time_s <= time_limit_s && overrun_s > kMuch) {
+  if (result->Solves() && !IsLate(result->planning_time_s, time_limit_s) && overrun_s > kMuch) {
     result->counters[kOverrunTime] = overrun_s;
   }
 }
 
-/// A failed attempt counts to the end of its search. Where the limit came, or no time is told at
-/// all, and less is told than is left of the round trip, that stands in its place, the limit at
-/// most. What other failures leave untold may be loading, which does not count.
+/// A failed attempt, as one whose path is late, counts to the end of its search. Where the limit
+/// came, or no time is told at all, and less is told than is left of the round trip, that stands in
+/// its place, the limit at most. What other failures leave untold may be loading, which does not
+/// count.
 void CountFailedAttempt(double roundtrip_time_s, double time_limit_s, bool is_overdue,
                         PlanResult* result) {
-  if (result->Solves() && !is_overdue) return;
+  if (result->Solves() && !is_overdue && !IsLate(result->planning_time_s, time_limit_s)) return;
   double& total_s = result->total_time_s;
   result->planning_time_s = total_s;
   const bool limit_came = is_overdue || result->status == PlanStatus::kTimedOut;

@@ -15,7 +15,8 @@ inline constexpr std::array<double PhaseTimes::*, 4> kPartsOfTotal = {
 /// came of them; notes in counters (kOddTimes of results/outcomes.h; a planner's own of these names
 /// are dropped) by how much they were not so, how long a search went on beyond the time limit (s)
 /// with a path in hand, and what an answer that came after the limit does not tell of.
-/// `is_overdue`: the request had been cancelled by then, so that a path is a failure, too.
+/// `is_overdue`: the request had been cancelled by then, so that a path is a failure,
+/// as is one that is late by its planner's word.
 void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, bool is_overdue,
                        PlanResult* result);
 

@@ -526,9 +526,9 @@ std::optional<RunRecordMessage> RunExecutor::Execute(const ScheduledRun& run,
   if (const double time_s = record.result.result.planning_time_s;
       IsLate(time_s, record.request.time_limit_s)) {
     record.status = PlanStatus::kTimedOut;
-    record.message =
-        fmt::format("the planner says that its path took {:.6g} s, the limit being {} s", time_s,
-                    record.request.time_limit_s);
+    record.message = fmt::format(
+        "the planner says that its path is late: the search took {:.6g} s, the limit being {} s",
+        time_s, record.request.time_limit_s);
     spdlog::warn("{}: {}", run.request_id, record.message);
     return record;
   }

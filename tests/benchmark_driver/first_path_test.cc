@@ -217,7 +217,7 @@ TEST_F(FirstPathTest, IsNoAnswerIfItTookLonger) {
   const auto record = Execute();
   ASSERT_TRUE(record);
   EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-  EXPECT_THAT(record->message, testing::HasSubstr("the planner says that its path took"));
+  EXPECT_THAT(record->message, testing::HasSubstr("the planner says that its path is late"));
 }
 
 TEST_F(FirstPathTest, IsNoAnswerIfItWasCheckedOtherwise) {

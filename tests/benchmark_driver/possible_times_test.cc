@@ -69,6 +69,9 @@ TEST(PossibleTimesTest, AFailureCountsToTheEndOfItsSearch) {
   PlanResult solved = EndedAs(PlanStatus::kSolved, 2);
   solved.planning_time_s = 0.1;
   EXPECT_EQ(KeptPossible(solved, 2).planning_time_s, 0.1);
+  solved.planning_time_s = 2.01;
+  solved.total_time_s = 9;
+  EXPECT_EQ(KeptPossible(solved, 9).planning_time_s, 9) << "late by its own word, it is a failure";
 }
 
 TEST(PossibleTimesTest, APathIsNotThereBeforeItsFirstImprovement) {
@@ -78,6 +81,12 @@ TEST(PossibleTimesTest, APathIsNotThereBeforeItsFirstImprovement) {
   const PlanResult kept = KeptPossible(solved, 0.5);
   EXPECT_EQ(kept.planning_time_s, 0.4);
   EXPECT_EQ(kept.counters.at(kContradictoryTime), 0.4 - 0.001);
+  solved.total_time_s = 0.001;
+  const PlanResult told_short = KeptPossible(solved, 0.5);
+  EXPECT_EQ(told_short.planning_time_s, 0.4);
+  EXPECT_EQ(told_short.total_time_s, 0.4);
+  EXPECT_EQ(told_short.counters.at(kContradictoryTime), 0.45 - 0.001);
+  solved.total_time_s = 0.5;
   solved.planning_time_s = 0.399;
   EXPECT_TRUE(KeptPossible(solved, 0.5).counters.empty()) << "two looks at the clock";
   // A path in hand when the limit came is told of when the search ends.
