@@ -122,7 +122,7 @@ std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until
 }
 
 bool PlannerClient::HasEnded(const NodeStatusMessage& process) const {
-  return process.instance == seen_here_ && !IsSeenHere(process);
+  return process.instance == seen_here_.instance && !IsSeenHere(process);
 }
 
 bool PlannerClient::IsOver(const NodeStatusMessage& process) const {
@@ -138,8 +138,9 @@ bool PlannerClient::IsCold() const {
 bool PlannerClient::ExpectAnother() {
   if (!WhyGivenUp().empty()) return false;
   const auto node = Live();
-  if (!node) return false;
-  told_to_end_ = node->status.instance;
+  // It may be silent only, and would then go on where it was.
+  if (!node && IsOver(seen_here_)) return false;
+  told_to_end_ = node ? node->status.instance : seen_here_.instance;
   unanswered_limit_ = std::chrono::milliseconds(0);
   return true;
 }
@@ -203,7 +204,7 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   const std::string reason = process ? ReasonNotToAsk(process->status) : WhyGivenUp();
   if (interrupted() || (!process && reason.empty())) return {.outcome = Outcome::kInterrupted};
   if (!reason.empty()) return {.outcome = Outcome::kNoAnswer, .message = reason};
-  seen_here_ = IsSeenHere(process->status) ? process->status.instance : "";
+  seen_here_ = IsSeenHere(process->status) ? process->status : NodeStatusMessage();
   const auto look_around = [&]() -> RequestExchange::Event {
     if (interrupted()) return RequestExchange::Interruption{};
     // Before it is asked again: what it died of would reach its successor.
@@ -233,9 +234,12 @@ PlannerClient::Answer PlannerClient::Solve(const PlanRequest& request,
   while (true) {
     RequestExchange::Step step = exchange.Take(Clock::now(), event);
     if (step.answer) {
+      const Outcome outcome = step.answer->outcome;
       unanswered_limit_ = std::chrono::milliseconds(0);
-      if (step.answer->outcome == Outcome::kResult) warm_ = process->status.instance;
-      if (step.answer->outcome == Outcome::kNoAnswer) {
+      if (outcome == Outcome::kResult || outcome == Outcome::kNoAnswer) {
+        warm_ = process->status.instance;
+      }
+      if (outcome == Outcome::kNoAnswer) {
         if (!HasEnded(process->status)) {
           unanswered_limit_ = std::chrono::ceil<std::chrono::milliseconds>(
               std::chrono::duration<double>(request.time_limit_s));

@@ -45,11 +45,13 @@ class PlannerClient {
   /// Waits until the planner is live, or given up, or the caller interrupts. Of one that is not
   /// live it says once for how long.
   void AwaitPlanner(const std::function<bool()>& interrupted) { WaitUntilLive(interrupted); }
-  /// Whether the process that is live is to be asked and has given this client no result yet.
+  /// Whether the process that is live is to be asked and has given this client no result yet, and
+  /// is not known to give none, however long it is waited for.
   bool IsCold() const;
   /// The process that is live is to be told to end, so that another comes in its place: it is not
   /// asked any more, and of the wait for the other nothing is said while that is short. False if
-  /// nobody is to be told: none is live, so that whoever comes is another, or it is given up.
+  /// nobody is to be told: it is given up, or none is live, nor, as far as is seen from here, only
+  /// silent, so that whoever comes is another.
   bool ExpectAnother();
   /// Waits until the planner is live and asks it until the request has come to its end. Only what
   /// comes from the process asked, and answers what was asked, is an answer. A planner that dies or
@@ -85,8 +87,8 @@ class PlannerClient {
   std::string planner_;
   PlannerChannels channels_;
   Terms terms_;
-  std::string seen_here_;  // instance of the process asked last, if it was seen on this machine
-  std::string warm_;       // instance of the process whose result came last
+  NodeStatusMessage seen_here_;  // the process asked last, if it was seen on this machine
+  std::string warm_;  // instance of the process that gave a result, or none, last: it is not cold
   std::optional<std::string> told_to_end_;  // instance of the process, until another has come
   std::string given_up_;                    // why, if for its absence
   /// Of the last request, if it had no answer and the process may be at it still.

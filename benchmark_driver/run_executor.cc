@@ -442,16 +442,20 @@ bool RunExecutor::WarmUp(const ScheduledRun& run, double time_limit_s, PlannerCl
   const std::optional<ProblemMessage> problem = ProblemOf(run, interrupted);
   if (!problem) return false;
   if (!problem->ok) return true;  // the run will say so
-  PlanRequest request = RequestOf(run, *problem);
-  request.request_id += "/warm-up";
-  request.seed = RunSeed(run.seed, run.problem_set, run.problem_index, run.direction, run.trial);
-  request.anytime = false;  // of which who finds first paths need not be capable
-  request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
-  const PlannerClient::Answer answer = planner->Solve(request, interrupted);
-  if (answer.outcome == PlannerClient::Outcome::kInterrupted) return false;
-  if (answer.outcome != PlannerClient::Outcome::kResult) {
+  for (int process = 0; process < 2; ++process) {
+    PlanRequest request = RequestOf(run, *problem);
+    request.request_id += "/warm-up";
+    request.seed = RunSeed(run.seed, run.problem_set, run.problem_index, run.direction, run.trial);
+    request.anytime = false;  // of which who finds first paths need not be capable
+    request.time_limit_s = std::min(request.time_limit_s, time_limit_s);
+    const PlannerClient::Answer answer = planner->Solve(request, interrupted);
+    if (answer.outcome == PlannerClient::Outcome::kInterrupted) return false;
+    if (answer.outcome == PlannerClient::Outcome::kResult) break;
     spdlog::warn("{}: no result to the warm-up request {}, which goes before its first run: {}",
                  run.planner, request.request_id, answer.message);
+    if (answer.outcome == PlannerClient::Outcome::kRefused) break;
+    planner->AwaitPlanner(interrupted);
+    if (!planner->IsCold()) break;
   }
   return true;
 }

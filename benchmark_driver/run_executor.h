@@ -85,7 +85,9 @@ class RunExecutor {
   /// Has a planner answer a first request, within `time_limit_s`, that is neither judged nor
   /// recorded: what a process does only once is then no part of any run. It is the run's but for
   /// its seed, so that where that counts the search is another. A line says so if there is no
-  /// result; of a problem that cannot be had the planner is not asked. False if `interrupted`.
+  /// result; of a problem that cannot be had the planner is not asked. One that comes in the place
+  /// of a process that dies of it answers another, but no third: it may be the problem's doing.
+  /// False if `interrupted`.
   bool WarmUp(const ScheduledRun& run, double time_limit_s, PlannerClient* planner,
               const std::function<bool()>& interrupted);
 

@@ -402,6 +402,15 @@ TEST_F(PlannerClientTest, OneThatWasToldToEndIsNotAskedThoughItIsLive) {
   EXPECT_EQ(answer.get().outcome, PlannerClient::Outcome::kResult);
 }
 
+TEST_F(PlannerClientTest, OneThatIsSilentAndRunsIsToBeToldToEnd) {
+  FakePlanner planner(&bus_);
+  EXPECT_EQ(Solve("a").outcome, PlannerClient::Outcome::kResult);
+  planner.FallSilent();
+  registry_.Forget(planner.status);  // as after a while
+  EXPECT_TRUE(client_.ExpectAnother()) << "it would go on where it was";
+  EXPECT_FALSE(client_.ExpectAnother()) << "it has been told";
+}
+
 TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
   FakePlanner planner(&bus_);
   Reannounce(&registry_, &planner);

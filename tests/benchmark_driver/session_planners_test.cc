@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,40 @@ TEST_F(SessionPlannersTest, OneThatComesInThePlaceOfAnotherAnswersOneToo) {
   EXPECT_THAT(AskedOf(&planner),
               ElementsAre("1 forward/1, not recorded", "1 forward/1", "1 forward/2",
                           "1 forward/3, not recorded", "1 forward/3"));
+}
+
+TEST_F(SessionPlannersTest, OneThatDiesOfItHasASuccessorThatAnswersOneAndNoThirdDies) {
+  std::set<std::string> died_of;
+  std::atomic<std::size_t> num_deaths = 0;
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    if (!request.request_id.ends_with("/warm-up")) return planner.Solve(request);
+    died_of.insert(request.request_id);
+    num_deaths = died_of.size();
+  });
+  Driver driver(&bus_, Forward({1}), LineUp({"arm"}), {});
+  driver.Discover(true, Idle);
+  std::size_t num_successors = 0;
+  EXPECT_TRUE(driver.Run(Never, [&] {
+    if (num_successors == num_deaths) return;
+    ++num_successors;
+    planner.Restart();
+  }));
+  EXPECT_THAT(AskedOf(&planner),
+              ElementsAre("1 forward/1, not recorded", "1 forward/1, not recorded", "1 forward/1"));
+}
+
+TEST_F(SessionPlannersTest, OneThatLivesAndGivesNoneIsNotAskedForAnother) {
+  FakePlanner planner(&bus_);
+  planner.OnRequest([&](const PlanRequest& request) {
+    PlanResult without_path = FakePlanner::SolvedResult();
+    without_path.path.clear();
+    planner.SendResult(request.request_id, without_path);
+  });
+  Driver driver(&bus_, Forward({1, 2}), LineUp({"arm"}), {});
+  MakeAll(&driver);
+  EXPECT_THAT(AskedOf(&planner),
+              ElementsAre("1 forward/1, not recorded", "1 forward/1", "2 forward/1"));
 }
 
 TEST_F(SessionPlannersTest, AFirstRequestWithoutAResultIsMadeUpFor) {
