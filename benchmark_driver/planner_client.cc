@@ -83,9 +83,7 @@ void PlannerClient::OnResult(const PlanResultMessage& result, const Origin& orig
       event = RequestExchange::UnusableResult{result.request_id, std::move(why)};
     }
   }
-  if (!Add(std::move(event), origin.sender, channels_.result)) return;
-  const std::scoped_lock lock(mutex_);
-  if (result.request_id == request_id_) first_result_ = result;
+  Add(std::move(event), origin.sender, channels_.result, &result);
 }
 
 void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin) {
@@ -94,22 +92,22 @@ void PlannerClient::OnBadResult(const MessageError& error, const Origin& origin)
   throw error;  // for the bus to log
 }
 
-bool PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
-                        const std::string& channel) {
+void PlannerClient::Add(RequestExchange::Event event, const PacketSender& sender,
+                        const std::string& channel, const PlanResultMessage* result) {
   const bool is_believed = registry_->Believes(sender, NodeKind::kPlanner, planner_, channel);
   const std::scoped_lock lock(mutex_);
-  if (!asked_) return false;
-  const bool is_its = is_believed && *asked_ == sender;
-  if (!is_its) {
+  if (!asked_) return;
+  if (!is_believed || *asked_ != sender) {
     // Once: however much a stranger sends, the planner is listened to.
-    if (std::exchange(has_refused_, true)) return false;
+    if (std::exchange(has_refused_, true)) return;
     event = RequestExchange::RefusedMessage{
         fmt::format("what came on {} from {}, as '{}', which was asked, sends from {}", channel,
                     sender.Text(), planner_, asked_->Text())};
+  } else if (result != nullptr && result->request_id == request_id_) {
+    first_result_ = *result;
   }
   messages_.push_back(std::move(event));
   changed_.notify_all();
-  return is_its;
 }
 
 std::optional<RequestExchange::Event> PlannerClient::NextMessage(TimePoint until) {

@@ -76,9 +76,10 @@ class PlannerClient {
   std::string WhyUnusable(const PlanResultMessage& result) const;
   void OnResult(const PlanResultMessage& result, const Origin& origin);
   void OnBadResult(const MessageError& error, const Origin& origin);
-  /// For the request under way; of what is from another than the process asked, only that. Whether
-  /// it is from that process.
-  bool Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel);
+  /// For the request under way; of what is from another than the process asked, only that.
+  /// `result`: which the event is of; null if of none.
+  void Add(RequestExchange::Event event, const PacketSender& sender, const std::string& channel,
+           const PlanResultMessage* result = nullptr);
   /// The next message; nothing if none has come by then.
   std::optional<RequestExchange::Event> NextMessage(TimePoint until);
 
