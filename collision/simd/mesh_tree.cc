@@ -107,11 +107,11 @@ class Builder {
 };
 
 /// Points (balls of no radius), in the order of balls around few of them.
-void AddPoints(std::span<Ball> points, kernels::TriangleTree* tree) {
+void AddPointBalls(std::span<Ball> points, kernels::TriangleTree* tree) {
   if (points.size() > static_cast<std::size_t>(kWide)) {
     const std::size_t half = Halve(points);
-    AddPoints(points.first(half), tree);
-    AddPoints(points.subspan(half), tree);
+    AddPointBalls(points.first(half), tree);
+    AddPointBalls(points.subspan(half), tree);
     return;
   }
   const Ball ball = EnclosingBall(points);
@@ -201,7 +201,7 @@ MeshTree::MeshTree(const SharedMesh& mesh) : solid_(mesh) {
   for (const Vector3d& point : solid_.component_points()) {
     points.push_back({point - Vector3d::Map(tree_.origin), 0});
   }
-  AddPoints(points, &tree_);
+  AddPointBalls(points, &tree_);
 }
 
 namespace kernels {
