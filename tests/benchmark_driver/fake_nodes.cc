@@ -1,8 +1,11 @@
 #include "tests/benchmark_driver/fake_nodes.h"
 
+#include <gtest/gtest.h>
+
 #include <utility>
 
 #include "messaging/asked_runs.h"
+
 namespace planbench {
 namespace {
 
