@@ -148,7 +148,7 @@ std::string TimeTable(const SessionResults& results) {
 
 /// Pairs of contestants that tried a problem in common: with the first one, or all. p-values are
 /// adjusted for all of them in either table, as in the report's.
-std::string PairTable(const SessionResults& results, bool all, bool process_per_problem) {
+std::string PairTable(const SessionResults& results, bool all) {
   TextTable table(
       "Problem by problem",
       {"contestant", "against", "problems", "won %", "both", "time ratio [95 %]", "p (Holm)"}, 2);
@@ -160,9 +160,7 @@ std::string PairTable(const SessionResults& results, bool all, bool process_per_
     std::vector<PairedComparison> of_set;
     for (std::size_t a = 0; a < contestants.size(); ++a) {
       for (std::size_t b = a + 1; b < contestants.size(); ++b) {
-        const bool from_elsewhere = contestants[a].is_reference || contestants[b].is_reference;
-        const PairedComparison pair = Compare(contestants[b].outcomes, contestants[a].outcomes,
-                                              process_per_problem && !from_elsewhere);
+        const PairedComparison pair = Compare(contestants[b].outcomes, contestants[a].outcomes);
         if (pair.num_problems == 0) continue;
         pairs.emplace_back(a, b);
         of_set.push_back(pair);
@@ -407,10 +405,9 @@ SessionTables MakeTables(const SessionConditions& conditions, const RunRows& run
                             Preface(conditions, results, num_to_repeat, problems_per_process) +
                             SuccessTable(results) + TimeTable(results);
   const std::string meshes = MeshTable(results, referee_misfits);
-  const bool process_per_problem = problems_per_process == 1;
-  return {begin + PairTable(results, false, process_per_problem) + meshes + FailureSummary(results),
-          begin + DirectionTable(results) + PairTable(results, true, process_per_problem) +
-              EffortTables(results) + meshes + FailureList(results)};
+  return {begin + PairTable(results, false) + meshes + FailureSummary(results),
+          begin + DirectionTable(results) + PairTable(results, true) + EffortTables(results) +
+              meshes + FailureList(results)};
 }
 
 }  // namespace planbench

@@ -247,7 +247,7 @@ std::string HowSure(const ComparedSessions& compared,
   if (!near.empty()) {
     text += fmt::format(
         "; {} within 5 % of it, which may be of the processes rather than of the planners: several "
-        "sessions tell, or one with --problems-per-process 1",
+        "sessions tell",
         Named(near) + (near.size() == 1 ? " is" : " are"));
   }
   if (compared.outcomes().size() > 1) {

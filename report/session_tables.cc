@@ -182,9 +182,7 @@ Table ChangeTable(const ComparedSessions& compared) {
       if (before == nullptr || !by_contestant.contains(after.name)) continue;
       const Outcomes& old_outcomes = by_contestant.at(before->name);
       const Outcomes& new_outcomes = by_contestant.at(after.name);
-      const PairedComparison result =
-          Compare(new_outcomes, old_outcomes,
-                  compared.HadProcessPerProblem(after) && compared.HadProcessPerProblem(*before));
+      const PairedComparison result = Compare(new_outcomes, old_outcomes);
       if (result.num_problems == 0) continue;
       table.rows.push_back(
           {set, after.own_name, compared.session_names()[before->session],

@@ -192,9 +192,7 @@ std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared) {
         const auto first = by_contestant.find(contestants[a].name);
         const auto second = by_contestant.find(contestants[b].name);
         if (first == by_contestant.end() || second == by_contestant.end()) continue;
-        of_set.push_back(Compare(first->second, second->second,
-                                 compared.HadProcessPerProblem(contestants[a]) &&
-                                     compared.HadProcessPerProblem(contestants[b])));
+        of_set.push_back(Compare(first->second, second->second));
         if (of_set.back().num_problems == 0) {
           of_set.pop_back();
           continue;

@@ -10,7 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "common/lookup.h"
 #include "common/numbers.h"
 #include "results/awaited_attempts.h"
 #include "results/comparison.h"
@@ -194,10 +193,6 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
     const bool is_alike = i > 0 && !is_better(contestants_[i - 1], contestants_[i]);
     contestants_[i].rank = is_alike ? contestants_[i - 1].rank : static_cast<int>(i) + 1;
   }
-}
-
-bool ComparedSessions::HadProcessPerProblem(const ComparedContestant& contestant) const {
-  return Lookup(sessions_[contestant.session].flags, "problems-per-process") == "1";
 }
 
 std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,

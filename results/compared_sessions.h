@@ -46,8 +46,6 @@ class ComparedSessions {
   const std::vector<StoredSession>& sessions() const { return sessions_; }
   /// Unique names: of their folders, or run ids where folders do not tell them apart.
   const std::vector<std::string>& session_names() const { return session_names_; }
-  /// Whether it had a process of its own for each problem (--problems-per-process 1).
-  bool HadProcessPerProblem(const ComparedContestant& contestant) const;
   /// Sets that have the name of an earlier session's, and other scenes: what they stand as.
   const std::vector<std::string>& other_sets() const { return other_sets_; }
   /// By penalised mean time over the problems that all of them tried, the best first; those of

@@ -92,9 +92,8 @@ std::optional<double> TrialSpread(const Outcomes& outcomes) {
   return Summarize(std::move(spreads)).median;
 }
 
-PairedComparison Compare(const Outcomes& first, const Outcomes& second, bool process_per_problem) {
+PairedComparison Compare(const Outcomes& first, const Outcomes& second) {
   PairedComparison comparison;
-  comparison.process_per_problem = process_per_problem;
   std::vector<double> times_first, times_second, differences;
   std::vector<double> divided_first, divided_second;
   for (const auto& [problem, trials] : first.by_problem) {
@@ -139,14 +138,14 @@ std::string ZeroTimesNote(const std::vector<PairedComparison>& rows) {
 
 bool IsNearOne(const PairedComparison& pair) {
   constexpr double kNear = 1.05;
-  return !pair.process_per_problem && pair.ratio && pair.ratio->interval &&
-         pair.ratio->mean <= kNear && 1 / pair.ratio->mean <= kNear;
+  return pair.ratio && pair.ratio->interval && pair.ratio->mean <= kNear &&
+         1 / pair.ratio->mean <= kNear;
 }
 
 std::string NearRatiosNote(const std::vector<PairedComparison>& rows) {
   if (std::none_of(rows.begin(), rows.end(), IsNearOne)) return "";
   return " Ratios within 5 % of 1, and their p, may be of these processes rather than of the "
-         "planners: several sessions tell, or one with --problems-per-process 1.";
+         "planners: several sessions tell.";
 }
 
 }  // namespace planbench

@@ -57,14 +57,10 @@ struct PairedComparison {
   std::optional<RatioEstimate> ratio;  ///< First / second, of problems that both so solved.
   int num_zero = 0;     ///< Others that both solved, left out of the ratio: a time is 0.
   SignedRankTest test;  ///< Of the logarithms' differences.
-  bool process_per_problem = false;  ///< Compare's.
 
   int num_in_ratio() const { return ratio ? ratio->num_pairs : 0; }  ///< Problems.
 };
-/// `process_per_problem`: whether each had a process of its own for each problem, so that what one
-/// is faster by than the next of the same planner is in the spread over problems.
-PairedComparison Compare(const Outcomes& first, const Outcomes& second,
-                         bool process_per_problem = false);
+PairedComparison Compare(const Outcomes& first, const Outcomes& second);
 
 /// The comparisons' p-values adjusted for all of them (AdjustPValues), in their order.
 std::vector<double> AdjustedPValues(const std::vector<PairedComparison>& family);
@@ -79,7 +75,7 @@ inline constexpr char kProblemTimeNote[] =
 std::string ZeroTimesNote(const std::vector<PairedComparison>& rows);
 
 /// Whether a ratio with an interval is so near 1 (5 %) that one process of a planner may be as far
-/// from the next of the same planner; none is where each problem had processes of its own.
+/// from the next of the same planner.
 bool IsNearOne(const PairedComparison& pair);
 /// What stands below a table with such ratios, a blank before it; "" if there are none.
 std::string NearRatiosNote(const std::vector<PairedComparison>& rows);

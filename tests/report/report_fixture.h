@@ -15,10 +15,9 @@ namespace planbench {
 /// The example's session, read back from what the logger wrote.
 class ReportTest : public testing::Test {
  protected:
-  static ComparedSessions Read(const std::vector<MadeRun>& runs,
-                               const SessionMessage& session = ExampleSession()) {
+  static ComparedSessions Read(const std::vector<MadeRun>& runs) {
     const TemporaryFolder folder;
-    WriteSession(folder / "example", runs, session);
+    WriteSession(folder / "example", runs, ExampleSession());
     return ComparedSessions(ReadSessions(folder / "example").sessions);
   }
 
