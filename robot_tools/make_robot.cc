@@ -310,7 +310,7 @@ class RobotMaker {
   }
 
   // Never to have met in samples is no more than a reason to look closer: a narrow way to contact
-  // is easily missed. What is found to meet stays checked.
+  // is easily missed. What is found to meet, or nearly, stays checked.
   void ExemptNever(const PairSamples& samples, const std::string& drawn) {
     LinkPairs apart;
     LinkPairs found;
@@ -318,14 +318,15 @@ class RobotMaker {
       const bool meet = FindContact(robot(), pair.first, pair.second, flags_.seed);
       (meet ? found : apart).push_back(pair);
     }
-    const std::string reason =
-        fmt::format("met in none of {}, nor where {} descents on the distance of the two ended",
-                    drawn, kDescents);
+    const std::string reason = fmt::format(
+        "met in none of {}, nor were brought within {:g} mm of each other by descents on their "
+        "distance",
+        drawn, 1e3 * kContactGap);
     Say("pairs: {} of {} {}, and are not checked", apart.size(), samples.pairs.size(), reason);
     if (!found.empty()) {
-      Say("  {} more met in no random configuration, but were brought together by descents, and "
-          "are checked: {}",
-          found.size(), FirstNames(found));
+      Say("  {} more met in no random configuration, but were brought within {:g} mm by descents, "
+          "and are checked: {}",
+          found.size(), 1e3 * kContactGap, FirstNames(found));
     }
     Exempt(reason, apart);
   }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/random.h"
 #include "robot_tools/joint_draw.h"
 #include "robot_tools/link_balls.h"
 #include "robot_tools/link_chain.h"
@@ -18,8 +19,12 @@
 namespace planbench {
 namespace {
 
-// m. Descents end a little short of the least distance.
-constexpr double kContactGap = 1e-3;
+// The first few bring together most pairs that touch. A pair is given the others if these bring it
+// nearer than a third of the radii that enclose the two links.
+constexpr int kFewDescents = 32;
+constexpr int kDescents = 128;
+constexpr double kNear = 1.0 / 3;
+constexpr int kDrawnSweeps = 2;
 constexpr int kSweeps = 100;
 // Of the gap; a descent whose sweeps gain less has ended.
 constexpr double kLeastGain = 1e-3;
@@ -64,31 +69,18 @@ class PairDescent {
 
   bool Meets(std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    std::vector<Drawn> drawn;
-    for (int i = 0; i < kDescentDraws; ++i) {
+    const double near = kNear * (balls_[0].around.radius + balls_[1].around.radius);
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kDescents && (i < kFewDescents || least < near); ++i) {
       DrawPositions(model_, joints_, &random, &positions_);
-      Place();
-      const double gap = Nearest().gap_m;
-      if (gap <= kContactGap) return true;
-      drawn.push_back({gap, positions_});
-    }
-    std::ranges::stable_sort(drawn, {}, &Drawn::gap);
-    for (int i = 0; i < kNearestDescents; ++i) {
-      positions_ = drawn[static_cast<std::size_t>(i)].positions;
-      if (DescendsToContact()) return true;
-    }
-    for (int i = 0; i < kRandomDescents; ++i) {
-      DrawPositions(model_, joints_, &random, &positions_);
-      if (DescendsToContact()) return true;
+      const std::size_t a = DrawBall(balls_[0], &random);
+      least = std::min(least, Descend(a, DrawBall(balls_[1], &random)));
+      if (least <= kContactGap) return true;
     }
     return false;
   }
 
  private:
-  struct Drawn {
-    double gap = 0;
-    std::vector<double> positions;
-  };
   // A joint between a link and the link C that carries both.
   struct Step {
     const Joint* joint = nullptr;
@@ -138,23 +130,37 @@ class PairDescent {
     return FindLeastGap(balls_[0], balls_[1], X_CL_[0].inverse() * X_CL_[1]);
   }
 
-  bool DescendsToContact() {
+  static std::size_t DrawBall(const LinkBalls& of_link, std::mt19937_64* random) {
+    return static_cast<std::size_t>(UniformFraction(random) *
+                                    static_cast<double>(of_link.balls.size()));
+  }
+
+  // How near the links come, m: first by bringing two given balls together, then whichever are
+  // nearest. With the nearest alone nearly all descents can end in one and the same minimum, and
+  // none in the small basin of another in which the links touch.
+  double Descend(std::size_t a, std::size_t b) {
+    for (int i = 0; i < kDrawnSweeps; ++i) {
+      Place();
+      Sweep(a, b);
+    }
     double gap = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kSweeps; ++i) {
       Place();
       const LeastGap nearest = Nearest();
-      if (nearest.gap_m <= kContactGap) return true;
-      if (gap - nearest.gap_m < kLeastGain * nearest.gap_m) return false;
-      gap = nearest.gap_m;
-      Sweep({balls_[0].balls[nearest.a].center, balls_[1].balls[nearest.b].center});
+      const double gain = gap - nearest.gap_m;
+      gap = std::min(gap, nearest.gap_m);
+      if (gap <= kContactGap || gain < kLeastGain * gap) break;
+      Sweep(nearest.a, nearest.b);
     }
-    return false;
+    return gap;
   }
 
-  // Brings a point of either link as near to the other as each joint can, one after the other.
+  // Brings two balls' centers as near to each other as each joint can, one after the other.
   // Outermost joints come first: they do not move the axes of those that follow. What is best for
   // a joint is known exactly, however long its travel.
-  void Sweep(const std::array<Eigen::Vector3d, 2>& points_L) {
+  void Sweep(std::size_t a, std::size_t b) {
+    const std::array<Eigen::Vector3d, 2> points_L = {balls_[0].balls[a].center,
+                                                     balls_[1].balls[b].center};
     std::array<Eigen::Vector3d, 2> points_C = {X_CL_[0] * points_L[0], X_CL_[1] * points_L[1]};
     for (std::size_t side = 0; side < steps_.size(); ++side) {
       for (const Step& step : steps_[side]) {

@@ -6,17 +6,15 @@
 
 namespace planbench {
 
-/// Configurations drawn for a pair of links, and descents on its distance: from those of these that
-/// are nearest, and from random ones.
-inline constexpr int kDescentDraws = 256;
-inline constexpr int kNearestDescents = 8;
-inline constexpr int kRandomDescents = 16;
-inline constexpr int kDescents = kNearestDescents + kRandomDescents;
+/// Links are found to touch where a search brings them this near to each other, m. What it misses
+/// of their least distance is rarely more, and to check a pair that only comes near costs little; a
+/// pair that is not checked is never seen to collide.
+inline constexpr double kContactGap = 5e-3;
 
-/// Whether configurations were found in which spheres of two links touch, or all but do (1 mm): by
-/// drawing the joints between them, and by descents on the distance of the two, joint after joint,
-/// within the limits. Planar and floating joints are at the identity. The same seed searches the
-/// same; what is found is so, that nothing is found is no proof.
+/// Whether configurations were found in which spheres of two links touch, or all but do
+/// (kContactGap): by descents on their distance, joint after joint, within the limits, from random
+/// positions of the joints between them. Planar and floating joints are at the identity. The same
+/// seed searches the same; what is found is so, that nothing is found is no proof.
 bool FindContact(const Robot& robot, int link_a, int link_b, std::uint64_t seed);
 
 }  // namespace planbench

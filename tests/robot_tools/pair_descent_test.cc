@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "robot_tools/joint_draw.h"
 #include "robot_tools/pair_sampling.h"
@@ -83,9 +84,27 @@ Robot PointerAndPeg(double lower, double upper) {
 
 TEST(PairDescentTest, KeepsToTheLimits) {
   EXPECT_TRUE(Meet(PointerAndPeg(0, 1.6), "floor", "pointer"));
-  EXPECT_FALSE(Meet(PointerAndPeg(0, 1.4), "floor", "pointer"));
+  EXPECT_FALSE(Meet(PointerAndPeg(0, 1.49), "floor", "pointer")) << "8 mm are left";
+  EXPECT_TRUE(Meet(PointerAndPeg(0, 1.494), "floor", "pointer")) << "4 mm, taken for contact";
   EXPECT_FALSE(Meet(PointerAndPeg(1.6, 7), "floor", "pointer"));
   EXPECT_TRUE(Meet(PointerAndPeg(1.6, 8), "floor", "pointer")) << "a turn later";
+}
+
+TEST(PairDescentTest, FindsContactWhereOtherSpheresAreNearestElsewhere) {
+  // The arm's tip is 3 cm off the globe wherever it points, and meets the peg in one place.
+  Robot robot = Make(
+      R"(<link name="turn"/><link name="arm"/>
+  <joint name="pan" type="revolute"><parent link="floor"/><child link="turn"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>
+  <joint name="lift" type="revolute"><parent link="turn"/><child link="arm"/>
+    <axis xyz="0 1 0"/><limit lower="-1.5" upper="1.5" velocity="1" effort="1"/></joint>)");
+  const int floor = robot.model.FindLink("floor");
+  robot.spheres = {{floor, {0, 0, 0}, 0.96},
+                   {floor, {0, 0.8, 0.6}, 0.01},
+                   {robot.model.FindLink("arm"), {1, 0, 0}, 0.01}};
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    EXPECT_TRUE(FindContact(robot, floor, robot.model.FindLink("arm"), seed)) << seed;
+  }
 }
 
 TEST(PairDescentTest, JointsThatFollowMoveAlong) {
