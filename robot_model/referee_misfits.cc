@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "common/random.h"
 #include "robot_model/full_positions.h"
 
 namespace planbench {
@@ -57,15 +58,14 @@ void PutWhereFixed(const RobotModel& other, const RobotModel& model,
 // Full positions, the default ones first. Planar and floating joints stay there.
 std::vector<std::vector<double>> Configurations(const RobotModel& model) {
   std::vector<std::vector<double>> configurations = {model.DefaultPositions()};
-  std::mt19937 engine(1);
+  std::mt19937_64 random(1);
   for (int draw = 0; draw < kDraws; ++draw) {
     std::vector<double> positions = configurations.front();
     for (const Joint& joint : model.joints()) {
       if (joint.leader >= 0 || NumPositions(joint.type) != 1) continue;
       const JointSpace::Joint range = SpaceJoint(joint);
-      const double share = static_cast<double>(engine()) / std::mt19937::max();
       positions[static_cast<std::size_t>(joint.position_index)] =
-          range.lower + share * (range.upper - range.lower);
+          range.lower + UniformFraction(&random) * (range.upper - range.lower);
     }
     configurations.push_back(std::move(positions));
   }

@@ -32,6 +32,11 @@ class PlannerClientTest : public testing::Test {
     request.time_limit_s = 3600;
     return request;
   }
+  static PlannerClient::Terms Impatient() {
+    PlannerClient::Terms terms;
+    terms.patience = std::chrono::milliseconds(200);
+    return terms;
+  }
   PlannerClient::Answer Solve(const std::string& id) {
     return client_.Solve(Request(id), [this] { return interrupted_.load(); });
   }
@@ -302,9 +307,7 @@ TEST_F(PlannerClientTest, OneThatHasEndedIsNotAtItsRequestAnyMore) {
   planner.status.pid = pid;
   Reannounce(&registry_, &planner);
   planner.OnRequest([&](const PlanRequest&) { EndProcess(pid); });
-  PlannerClient::Terms terms;
-  terms.patience = std::chrono::milliseconds(200);
-  PlannerClient client(&bus_, &registry_, "arm", terms);
+  PlannerClient client(&bus_, &registry_, "arm", Impatient());
   const auto solve = [&](const std::string& id) {
     return client.Solve(Request(id), [] { return false; });
   };
@@ -369,8 +372,7 @@ TEST_F(PlannerClientTest, OneThatStaysAwayIsGivenUpWhenItCannotBeAtItsRequestAny
   FakePlanner planner(&bus_);
   planner.OnRequest([&](const PlanRequest&) { planner.FallSilent(); });
   std::vector<std::string> told;
-  PlannerClient::Terms terms;
-  terms.patience = std::chrono::milliseconds(200);
+  PlannerClient::Terms terms = Impatient();
   terms.on_absence = [&](const std::string& why) { told.push_back(why); };
   PlannerClient client(&bus_, &registry_, "arm", terms);
   const auto solve = [&](const std::string& id) {
@@ -414,9 +416,7 @@ TEST_F(PlannerClientTest, OneThatIsSilentAndRunsIsToBeToldToEnd) {
 TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
   FakePlanner planner(&bus_);
   Reannounce(&registry_, &planner);
-  PlannerClient::Terms terms;
-  terms.patience = std::chrono::milliseconds(200);
-  PlannerClient client(&bus_, &registry_, "arm", terms);
+  PlannerClient client(&bus_, &registry_, "arm", Impatient());
   EXPECT_TRUE(client.ExpectAnother());
   testing::internal::CaptureStdout();  // Where messages go.
   const PlannerClient::Answer answer = client.Solve(Request("a"), [] { return false; });
@@ -432,9 +432,7 @@ TEST_F(PlannerClientTest, OneThatWasToldToEndAndStaysIsGivenUp) {
 TEST_F(PlannerClientTest, OnceAnotherHasComeALaterAbsenceIsToldAtOnce) {
   FakePlanner planner(&bus_);
   Reannounce(&registry_, &planner);
-  PlannerClient::Terms terms;
-  terms.patience = std::chrono::milliseconds(200);
-  PlannerClient client(&bus_, &registry_, "arm", terms);
+  PlannerClient client(&bus_, &registry_, "arm", Impatient());
   EXPECT_TRUE(client.ExpectAnother());
   const pid_t pid = StartProcess();
   planner.status.pid = pid;
