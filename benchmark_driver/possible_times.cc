@@ -59,16 +59,24 @@ void KeepTogether(PlanResult* result) {
   KeepWithinTotal(result);
 }
 
+/// The planning time is no shorter than that (s), by what else is told.
+void RaisePlanningTime(double least_s, PlanResult* result) {
+  double& planning_time_s = result->planning_time_s;
+  if (IsBeyond(least_s, planning_time_s)) {
+    double& contradiction_s = result->counters[kContradictoryTime];
+    contradiction_s = std::max(contradiction_s, least_s - planning_time_s);
+  }
+  planning_time_s = std::max(planning_time_s, least_s);
+}
+
 /// A path was not there before the first improvement that is told of (unless the limit came with it
 /// in hand), and does not cost more than the last.
 void KeepToProgress(double time_limit_s, PlanResult* result) {
   if (!result->Solves() || result->progress.empty()) return;
-  double& planning_time_s = result->planning_time_s;
   const double first_s = result->progress.front().elapsed_s;
+  const double planning_time_s = result->planning_time_s;
   if (planning_time_s < time_limit_s && IsBeyond(first_s, planning_time_s)) {
-    double& contradiction_s = result->counters[kContradictoryTime];
-    contradiction_s = std::max(contradiction_s, first_s - planning_time_s);
-    planning_time_s = first_s;
+    RaisePlanningTime(first_s, result);
   }
   const double last_cost = result->progress.back().cost, excess = result->cost - last_cost;
   const bool are_told = last_cost != 0 && result->cost != 0;
@@ -88,6 +96,13 @@ void KeepWithinRoundTrip(double roundtrip_time_s, PlanResult* result) {
   result->total_time_s = std::min(result->total_time_s, roundtrip_time_s);
   simplification_s = std::min(simplification_s, roundtrip_time_s - result->total_time_s);
   KeepWithinTotal(result);
+}
+
+/// Who is not asked for better paths has planned until the search ended, or the limit came: the
+/// path was handed over then.
+void CountToTheEnd(const PlanRequest& request, PlanResult* result) {
+  if (request.anytime || !result->Solves()) return;
+  RaisePlanningTime(std::min(result->total_time_s, request.time_limit_s), result);
 }
 
 /// What a search with a path in hand took beyond the limit. Of others that their time tells.
@@ -129,12 +144,14 @@ void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* re
 
 }  // namespace
 
-void KeepTimesPossible(double roundtrip_time_s, double time_limit_s, bool is_overdue,
+void KeepTimesPossible(double roundtrip_time_s, const PlanRequest& request, bool is_overdue,
                        PlanResult* result) {
+  const double time_limit_s = request.time_limit_s;
   for (const OddTimes& odd : kOddTimes) result->counters.erase(odd.counter);
   KeepTogether(result);
   KeepToProgress(time_limit_s, result);
   KeepWithinRoundTrip(roundtrip_time_s, result);
+  CountToTheEnd(request, result);
   NoteOverrun(time_limit_s, result);
   CountFailedAttempt(roundtrip_time_s, time_limit_s, is_overdue, result);
   NoteUntoldTime(roundtrip_time_s, time_limit_s, result);

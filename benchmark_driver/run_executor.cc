@@ -47,8 +47,7 @@ PlannerClient::Answer AnswerOf(PlannerClient* planner, const PlanRequest& reques
   PlannerClient::Answer answer = planner->Solve(request, interrupted);
   if (answer.outcome != PlannerClient::Outcome::kResult) return answer;
   answer.result.result.counters.erase(kFirstPathTime);
-  KeepTimesPossible(answer.roundtrip_time_s, request.time_limit_s, answer.overdue,
-                    &answer.result.result);
+  KeepTimesPossible(answer.roundtrip_time_s, request, answer.overdue, &answer.result.result);
   return answer;
 }
 

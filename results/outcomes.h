@@ -39,8 +39,8 @@ struct OddTimes {
 };
 /// The longest that was told, where it is more than passed until the answer came.
 inline constexpr char kToldTime[] = "told_time";
-/// By how much planning time, phases or progress go beyond the total time, or the first improvement
-/// beyond the planning time.
+/// By how much planning time, phases or progress go beyond the total time, or the first
+/// improvement, or the end of a search for one path alone, beyond the planning time.
 inline constexpr char kContradictoryTime[] = "contradictory_time";
 /// What is left of the round trip of an answer that came after the time limit.
 inline constexpr char kUntoldTime[] = "untold_time";
@@ -55,9 +55,9 @@ inline constexpr OddTimes kOddTimes[] = {
      "were told to have taken more time than passed until the answer came, up to {:.3g} s: the "
      "round trip counts in its place"},
     {kContradictoryTime,
-     "were told times of which a part is longer than the total, or a first improvement later than "
-     "the planning time, by up to {:.3g} s: planning time and total are taken as the longer of "
-     "them, parts as shares of it"},
+     "were told times of which a part is longer than the total, or a planning time that ends "
+     "before the first improvement, or, where none was asked for, before the search, by up to "
+     "{:.3g} s: planning time and total are taken as the longer of them, parts as shares of it"},
     {kUntoldTime,
      "were answered after the time limit though less time was told; up to {:.3g} s are not "
      "accounted for"},

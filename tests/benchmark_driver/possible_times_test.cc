@@ -19,8 +19,12 @@ PlanResult EndedAs(PlanStatus status, double total_time_s) {
   return result;
 }
 
-PlanResult KeptPossible(PlanResult result, double roundtrip_time_s, bool is_overdue = false) {
-  KeepTimesPossible(roundtrip_time_s, kLimit, is_overdue, &result);
+PlanResult KeptPossible(PlanResult result, double roundtrip_time_s, bool is_overdue = false,
+                        bool anytime = true) {
+  PlanRequest request;
+  request.time_limit_s = kLimit;
+  request.anytime = anytime;
+  KeepTimesPossible(roundtrip_time_s, request, is_overdue, &result);
   return result;
 }
 
@@ -96,6 +100,22 @@ TEST(PossibleTimesTest, APathIsNotThereBeforeItsFirstImprovement) {
   const PlanResult in_hand = KeptPossible(solved, 2.2);
   EXPECT_EQ(in_hand.planning_time_s, kLimit);
   EXPECT_TRUE(in_hand.counters.empty());
+}
+
+TEST(PossibleTimesTest, WhoIsNotAskedForBetterPathsPlansUntilTheSearchEnds) {
+  const auto planning_time_s = [](double told_s, double total_time_s, double contradiction_s,
+                                  bool anytime = false) {
+    PlanResult solved = EndedAs(PlanStatus::kSolved, total_time_s);
+    solved.planning_time_s = told_s;
+    PlanResult kept = KeptPossible(solved, total_time_s, false, anytime);
+    EXPECT_EQ(kept.counters[kContradictoryTime], contradiction_s);
+    return kept.planning_time_s;
+  };
+  EXPECT_EQ(planning_time_s(0.001, 0.5, 0.5 - 0.001), 0.5);
+  EXPECT_EQ(planning_time_s(0.001, 2.5, kLimit - 0.001), kLimit) << "in hand when the limit came";
+  EXPECT_EQ(planning_time_s(kLimit, 2.5, 0), kLimit) << "it wanted a better bound";
+  EXPECT_EQ(planning_time_s(0.4995, 0.5, 0), 0.5) << "two looks at the clock";
+  EXPECT_EQ(planning_time_s(0.001, 0.5, 0, /*anytime=*/true), 0.001);
 }
 
 TEST(PossibleTimesTest, NoImprovementIsCheaperThanThePath) {
