@@ -13,6 +13,7 @@
 #include "benchmark_driver/text_table.h"
 #include "common/lookup.h"
 #include "planning/path_measures.h"
+#include "results/outcomes.h"
 #include "results/quality.h"
 #include "results/reason_count.h"
 
@@ -62,7 +63,8 @@ std::vector<EffortColumn> MakeEffortColumns() {
       if (heading == nullptr) return;
       const auto read = [&measure, check](const Record& record) -> std::optional<double> {
         const auto& verdict = (record.*check).verdict;
-        const bool counts = verdict && verdict->valid;
+        const bool counts =
+            verdict && verdict->valid && !record.result.result.counters.contains(kOverrunTime);
         auto value = counts ? FindMeasure(verdict->measures, measure.name) : std::nullopt;
         if (value) *value *= measure.column.scale;
         return value;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planning/plan_status.h"
@@ -66,7 +67,7 @@ inline constexpr OddTimes kOddTimes[] = {
      "the limit at most"},
     {kOverrunTime,
      "searched on after the time limit, for up to {:.3g} s: what they improved then is in no curve "
-     "over time, but their paths may owe to it"},
+     "over time, and no measure of path quality counts their paths, which may owe to it"},
     {kContradictoryCost,
      "were told improvements that cost less than the path that came of them, by up to {:.3g}: none "
      "counts as cheaper than that"},
@@ -74,6 +75,16 @@ inline constexpr OddTimes kOddTimes[] = {
 inline constexpr std::size_t kNumOddTimes = std::size(kOddTimes);
 /// Largest of each of kOddTimes; 0 if there is none.
 using OddTimesFound = std::array<double, kNumOddTimes>;
+
+/// Whether a path may owe to a search that went on after the limit: no measure of it counts.
+inline bool OwesToOverrun(const OddTimesFound& run) {
+  constexpr std::size_t kIndex = [] {
+    std::size_t i = 0;
+    while (std::string_view(kOddTimes[i].counter) != kOverrunTime) ++i;
+    return i;
+  }();
+  return run[kIndex] > 0;
+}
 
 /// A line on each of kOddTimes that runs have, beginning with the contestant's name.
 std::vector<std::string> DescribeOddTimes(const std::string& contestant,

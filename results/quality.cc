@@ -52,6 +52,7 @@ ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
                                   bool raw) {
   ValuesByProblem values;
   for (const StoredRun* run : ConfirmedRuns(contestant, problem_set)) {
+    if (OwesToOverrun(run->odd_times_s)) continue;
     const auto value = FindMeasure(raw ? run->measures : run->measures_simple, measure);
     if (value) values[run->problem_index].push_back(*value);
   }

@@ -27,7 +27,8 @@ std::optional<RatioEstimate> CompareByProblem(const ValuesByProblem& first,
 std::vector<const StoredRun*> ConfirmedRuns(const ComparedContestant& contestant,
                                             const std::string& problem_set);
 
-/// A path measure of the confirmed runs of a contestant on a set, of the raw or simplified path.
+/// A path measure of the confirmed runs of a contestant on a set, of the raw or simplified path;
+/// without paths that owe to a search after the limit (OwesToOverrun).
 ValuesByProblem MeasuredByProblem(const ComparedContestant& contestant,
                                   const std::string& problem_set, const std::string& measure,
                                   bool raw);

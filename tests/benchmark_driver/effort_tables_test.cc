@@ -97,6 +97,19 @@ TEST(EffortTablesTest, MeasuresAreShownAsTheyDescribeThemselves) {
   EXPECT_EQ(" " + Row(Full(records), kQuality, "ARA*"), medians);
 }
 
+TEST(EffortTablesTest, PathsOfSearchesThatWentOnAfterTheLimitAreLeftOut) {
+  std::vector<RunRecordMessage> records;
+  for (int i = 1; i <= 2; ++i) {
+    records.push_back(OfProblem(i, AttemptOf(PlanStatus::kSolved, 1)));
+    records.back().path_check.verdict = Valid({{"path_length", 4 - i}});
+  }
+  const std::string without = Row(Full({records[0]}), kQuality, "ARA*");
+  EXPECT_NE(Row(Full(records), kQuality, "ARA*"), without);
+  records[1].result.result.counters[kOverrunTime] = 5;
+  EXPECT_EQ(Row(Full(records), kQuality, "ARA*"), without);
+  EXPECT_THAT(Full(records), HasSubstr("ARA*: 1 of 2 runs searched on after the time limit"));
+}
+
 TEST(EffortTablesTest, RejectedSimplifiedPathsAreLeftOutAndTold) {
   std::vector<RunRecordMessage> records;
   for (int i = 1; i <= 2; ++i) {

@@ -368,12 +368,23 @@ TEST(QualityTest, MeasuresAreOfConfirmedRuns) {
   solved.measures_simple["path_length"] = 2;
   StoredRun rejected = MakeRun(0, 1, 1, PlanStatus::kInvalidPath);
   rejected.measures["path_length"] = 100;
-  const ComparedSessions compared({Session("one", {{"A", ""}}, {solved, rejected})});
+  StoredRun searched_on = MakeRun(0, 2, 1);
+  searched_on.measures = searched_on.measures_simple = {{"path_length", 1}};
+  for (std::size_t i = 0; i < kNumOddTimes; ++i) {
+    searched_on.odd_times_s[i] = kOddTimes[i].counter == std::string(kOverrunTime) ? 5 : 0;
+  }
+  StoredRun untold = MakeRun(0, 3, 1);
+  untold.measures["path_length"] = 7;
+  untold.odd_times_s = searched_on.odd_times_s;
+  for (double& odd_s : untold.odd_times_s) odd_s = 5 - odd_s;
+  const ComparedSessions compared(
+      {Session("one", {{"A", ""}}, {solved, rejected, searched_on, untold})});
   const ComparedContestant& one = compared.contestants()[0];
-  EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", true), (ValuesByProblem{{1, {3}}}));
+  EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", true),
+            (ValuesByProblem{{1, {3}}, {3, {7}}}));
   EXPECT_EQ(MeasuredByProblem(one, "shelf", "path_length", false), (ValuesByProblem{{1, {2}}}));
   EXPECT_TRUE(MeasuredByProblem(one, "shelf", "clearance", true).empty());
-  EXPECT_EQ(ConfirmedRuns(one, "shelf").size(), 1u);
+  EXPECT_EQ(ConfirmedRuns(one, "shelf").size(), 3u);
 }
 
 TEST(QualityTest, PhasesAreMeans) {
