@@ -68,12 +68,14 @@ TimesByContestant WithStatus(const TimesByContestant& all,
   return selected;
 }
 
-/// Adds to the lines; `runs`: in words, which they are.
-void AddUntoldTimes(const TimesByContestant& by_contestant, const char* runs,
-                    std::map<std::string, std::string>* lines) {
+/// Adds to the lines; `of_all`: the runs of all with which others are compared; `runs`: in words,
+/// which they are.
+void AddUntoldTimes(const TimesByContestant& by_contestant, const TimesByContestant& of_all,
+                    const std::string& runs, std::map<std::string, std::string>* lines) {
   std::map<std::string, Medians> medians;
-  for (const auto& [name, times] : by_contestant) medians[name] = MediansOf(times);
-  for (const auto& [name, own] : medians) {
+  for (const auto& [name, times] : of_all) medians[name] = MediansOf(times);
+  for (const auto& [name, times] : by_contestant) {
+    const Medians own = MediansOf(times);
     const std::optional<double> others_s = OfOthers(medians, name);
     const double typical_s = others_s ? std::max(*others_s, kLeastOfOthers_s) : kWithoutOthers_s;
     if (own.untold_s <= kMuchOfOthers * typical_s || own.untold_s <= kMuchOfTold * own.told_s) {
@@ -83,7 +85,7 @@ void AddUntoldTimes(const TimesByContestant& by_contestant, const char* runs,
     if (!line.empty()) line += " ";
     line += fmt::format(
         "{}: its answers tell of {}, and {} more passed until they came{}: its times may be too "
-        "short. Medians over the {} runs, without waiting for a processor.",
+        "short. Medians over {}, without waiting for a processor.",
         name, WithUnit(own.told_s), WithUnit(own.untold_s),
         others_s ? fmt::format(" (others: {})", WithUnit(*others_s)) : "", runs);
   }
@@ -94,9 +96,13 @@ void AddUntoldTimes(const TimesByContestant& by_contestant, const char* runs,
 std::map<std::string, std::string> DescribeUntoldTimes(const TimesByContestant& by_contestant) {
   using enum PlanStatus;
   std::map<std::string, std::string> lines;
-  AddUntoldTimes(WithStatus(by_contestant, {kSolved}), "confirmed", &lines);
-  AddUntoldTimes(WithStatus(by_contestant, {kTimedOut, kExhausted, kMemoryLimit, kInvalidPath}),
-                 "failed", &lines);
+  const TimesByContestant confirmed = WithStatus(by_contestant, {kSolved});
+  AddUntoldTimes(confirmed, confirmed, "the confirmed runs", &lines);
+  const TimesByContestant failed =
+      WithStatus(by_contestant, {kTimedOut, kExhausted, kMemoryLimit, kInvalidPath});
+  // Who times out tells of half of the time, or is charged with it: that would hide the others.
+  AddUntoldTimes(WithStatus(by_contestant, {kExhausted, kMemoryLimit, kInvalidPath}), failed,
+                 "its failed runs but those that timed out, and the failed ones of others", &lines);
   return lines;
 }
 

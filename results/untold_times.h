@@ -19,8 +19,9 @@ struct AnswerTimes {
 /// Whose answers came much later than the times that they tell of, a line on each, by contestant.
 /// Loading and the bus are in no time told; what they take is what the round trips of the others
 /// leave. Medians over the runs of one session, so that single runs that were held up tell of
-/// nobody: over those that are confirmed, and over those whose time counts before such a one, the
-/// path having been rejected, or time, memory or search space having come to its end.
+/// nobody: over those that are confirmed, and over those whose time counts as told before such a
+/// one, the path having been rejected, or memory or search space having come to its end, beside all
+/// failed runs of the others.
 std::map<std::string, std::string> DescribeUntoldTimes(
     const std::map<std::string, std::vector<AnswerTimes>>& by_contestant);
 

@@ -54,8 +54,14 @@ TEST(UntoldTimesTest, FailedRunsAreComparedWithFailedOnes) {
       DescribeUntoldTimes({{"A", a}, {"B", failed(PlanStatus::kTimedOut, 900, 1)}}),
       ElementsAre(Pair("A",
                        "A: its answers tell of 1 ms, and 300 ms more passed until they came "
-                       "(others: 1 ms): its times may be too short. Medians over the failed "
-                       "runs, without waiting for a processor.")));
+                       "(others: 1 ms): its times may be too short. Medians over its failed "
+                       "runs but those that timed out, and the failed ones of others, without "
+                       "waiting for a processor.")));
+  const std::vector<AnswerTimes> honest = failed(PlanStatus::kTimedOut, 900, 1);
+  for (int i = 0; i < 2; ++i) a.insert(a.end(), honest.begin(), honest.end());
+  EXPECT_THAT(DescribeUntoldTimes({{"A", a}, {"B", honest}}),
+              ElementsAre(Pair("A", HasSubstr("300 ms more passed until they came"))))
+      << "hidden by those that timed out";
   EXPECT_THAT(DescribeUntoldTimes({{"A", failed(PlanStatus::kNoAnswer, 0, 300)},
                                    {"B", failed(PlanStatus::kInvalidRequest, 0, 300)}}),
               IsEmpty())
