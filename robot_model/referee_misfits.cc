@@ -4,10 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
-#include <vector>
+#include <utility>
 
 #include "common/random.h"
 #include "robot_model/full_positions.h"
@@ -20,6 +21,14 @@ constexpr double kSamePlace = 1e-3;  // m
 constexpr double kSameTurn = 1e-3;   // rad
 constexpr int kDraws = 8;
 
+// Position of a joint of one position at full positions of its robot; of one that follows another,
+// where that one puts it.
+double PlaceOf(const Joint& joint, const std::vector<double>& full) {
+  if (joint.position_index < 0) return joint.offset;
+  const double position = full[static_cast<std::size_t>(joint.position_index)];
+  return joint.leader < 0 ? position : joint.multiplier * position + joint.offset;
+}
+
 // Puts the joints of `other` where `model` has those of the same names at full positions, those
 // that follow others among them.
 void PutAll(const RobotModel& model, const std::vector<double>& positions, const RobotModel& other,
@@ -27,12 +36,19 @@ void PutAll(const RobotModel& model, const std::vector<double>& positions, const
   std::vector<std::string> names = model.position_names();
   std::vector<double> values = positions;
   for (const Joint& joint : model.joints()) {
-    if (joint.leader < 0 || joint.position_index < 0) continue;
+    if (joint.leader < 0) continue;
     names.push_back(joint.name);
-    values.push_back(joint.multiplier * positions[static_cast<std::size_t>(joint.position_index)] +
-                     joint.offset);
+    values.push_back(PlaceOf(joint, positions));
   }
   PutPositions(other, names, values, positions_of_other);
+}
+
+// Where a robot that has a joint fixed shows it, which here has one position.
+double ShownPosition(const Joint& joint, const Joint& fixed) {
+  const Eigen::Isometry3d X_JC = joint.X_PJ.inverse(Eigen::Isometry) * fixed.X_PJ;
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_JC.linear()));
+  return joint.type == JointType::kPrismatic ? X_JC.translation().dot(joint.axis_J)
+                                             : turn.angle() * turn.axis().dot(joint.axis_J);
 }
 
 // Puts joints of `model` that only `other` has fixed where it shows them, whatever their limits.
@@ -45,12 +61,8 @@ void PutWhereFixed(const RobotModel& other, const RobotModel& model,
     if (fixed.type != JointType::kFixed || index < 0) continue;
     const Joint& joint = model.joints()[static_cast<std::size_t>(index)];
     if (NumPositions(joint.type) != 1) continue;
-    const Eigen::Isometry3d X_JC = joint.X_PJ.inverse(Eigen::Isometry) * fixed.X_PJ;
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_JC.linear()));
     names.push_back(joint.name);
-    values.push_back(joint.type == JointType::kPrismatic
-                         ? X_JC.translation().dot(joint.axis_J)
-                         : turn.angle() * turn.axis().dot(joint.axis_J));
+    values.push_back(ShownPosition(joint, fixed));
   }
   PutPositions(model, names, values, positions);
 }
@@ -102,10 +114,8 @@ std::vector<Offset> OffsetsOfLinks(const Robot& planning_robot, const RobotModel
   std::map<int, Eigen::Matrix3d> directions;
   for (const int tip : tips) directions.emplace(tip, Eigen::Matrix3d::Identity());
   for (std::vector<double>& positions : Configurations(model)) {
-    std::vector<double> of_other = other.DefaultPositions();
     PutWhereFixed(other, model, &positions);
-    PutWhereFixed(model, other, &of_other);
-    PutAll(model, positions, other, &of_other);
+    const std::vector<double> of_other = RefereePositions(model, positions, other);
     // What only there follows another joint is where that one has it.
     PutAll(other, of_other, model, &positions);
     const auto X_RL = PosesFrom(base, model, positions);
@@ -153,7 +163,56 @@ std::vector<std::string> OtherLimits(const Robot& planning_robot, const RobotMod
   return limits;
 }
 
+// In words; "" for a joint that is not elsewhere in the referee's robot.
+std::string JointMisfit(const Joint& joint, const std::vector<double>& positions, const Joint& same,
+                        const RobotModel& referee, const std::vector<double>& of_referee) {
+  const bool is_fixed = same.type == JointType::kFixed;
+  if (NumPositions(joint.type) > 1) {
+    if (!is_fixed) return "";
+    const Eigen::Isometry3d offset =
+        (joint.X_PJ * JointMotion(joint, positions)).inverse() * same.X_PJ;
+    const double angle = Eigen::AngleAxisd(Eigen::Matrix3d(offset.linear())).angle();
+    if (offset.translation().norm() <= kSamePlace && angle <= kSameTurn) return "";
+    return fmt::format("joint '{}' is fixed there, at another pose", joint.name);
+  }
+  if (NumPositions(same.type) > 1 || (!is_fixed && same.leader < 0)) return "";
+  const double here = PlaceOf(joint, positions);
+  const double there = is_fixed ? ShownPosition(joint, same) : PlaceOf(same, of_referee);
+  const double offset = there - here;
+  if (joint.type == JointType::kPrismatic ? std::abs(offset) <= kSamePlace
+                                          : std::abs(WrapAngle(offset)) <= kSameTurn) {
+    return "";
+  }
+  const std::string why =
+      is_fixed ? "is fixed there"
+               : fmt::format("follows '{}' there",
+                             referee.joints()[static_cast<std::size_t>(same.leader)].name);
+  return fmt::format("joint '{}' {}, at {:.4f}, not at {:.4f}", joint.name, why, there, here);
+}
+
 }  // namespace
+
+std::vector<double> RefereePositions(const RobotModel& model, const std::vector<double>& positions,
+                                     const RobotModel& referee) {
+  std::vector<double> of_referee = referee.DefaultPositions();
+  PutWhereFixed(model, referee, &of_referee);
+  PutAll(model, positions, referee, &of_referee);
+  return of_referee;
+}
+
+std::string PostureMisfits(const RobotModel& model, const std::vector<double>& positions,
+                           const RobotModel& referee) {
+  const std::vector<double> of_referee = RefereePositions(model, positions, referee);
+  std::vector<std::string> misfits;
+  for (const Joint& joint : model.joints()) {
+    const int index = referee.FindJoint(joint.name);
+    if (joint.type == JointType::kFixed || index < 0) continue;
+    const Joint& same = referee.joints()[static_cast<std::size_t>(index)];
+    std::string misfit = JointMisfit(joint, positions, same, referee, of_referee);
+    if (!misfit.empty()) misfits.push_back(std::move(misfit));
+  }
+  return fmt::format("{}", fmt::join(misfits, ", "));
+}
 
 std::string RefereeMisfits(const Robot& planning_robot, const Robot& referee) {
   const RobotModel& model = planning_robot.model;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "robot_model/robot_folder.h"
 
@@ -18,5 +19,18 @@ inline constexpr char kRefereeMisfits[] = "referee_misfits";
 /// the groups that it lets move less, or of which one alone turns for ever. Empty if it is the
 /// same.
 std::string RefereeMisfits(const Robot& planning_robot, const Robot& referee);
+
+/// Full positions of the referee's robot where the planning robot (`model`) is at its full
+/// `positions`: joints of one name are at one place, those that follow others and those that only
+/// the planning robot has fixed among them; what it cannot follow does not count, and others are at
+/// their defaults.
+std::vector<double> RefereePositions(const RobotModel& model, const std::vector<double>& positions,
+                                     const RobotModel& referee);
+
+/// The joints that the referee's robot has elsewhere all the same, by more than a millimetre or a
+/// milliradian, a clause each: it has them fixed, or follow others ("joint 'lift' is fixed there,
+/// at 0.0000, not at 0.2000", m or rad). Empty if there are none.
+std::string PostureMisfits(const RobotModel& model, const std::vector<double>& positions,
+                           const RobotModel& referee);
 
 }  // namespace planbench

@@ -11,6 +11,7 @@
 #include "planning/path_judge.h"
 #include "planning/resolve.h"
 #include "robot_model/full_positions.h"
+#include "robot_model/referee_misfits.h"
 #include "scene_server/standing_contacts.h"
 
 namespace planbench {
@@ -91,8 +92,9 @@ std::shared_ptr<const Scene> PathReferee::InMeshRobotsFrame(
 std::vector<std::pair<std::string, std::string>> PathReferee::StandingContacts(
     const std::string& group, const JointState& start, const AllowedCollisionMatrix& allowed) {
   const std::scoped_lock lock(mutex_);
-  const std::vector<double> positions =
-      FullPositionsWherePossible(mesh_robot_->model, start.names, start.positions);
+  const std::vector<double> positions = RefereePositions(
+      robot_->model, FullPositionsWherePossible(robot_->model, start.names, start.positions),
+      mesh_robot_->model);
   CollisionChecker& checker =
       mesh_checkers_->Get(mesh_robot_->Group(group), CollisionModel::kMeshes, "standing contacts",
                           std::make_shared<const Scene>(), positions);
@@ -127,9 +129,8 @@ PathCheckReplyMessage PathReferee::Judge(const PathCheckRequestMessage& request,
   reply.verdict = JudgePath(&checker, path, query.start, query.goals, request.step_m,
                             request.with_clearance, query.base_positions);
   if (mesh_robot_ != nullptr) {
-    // Joints that only the planning robot has do not move anything of the mesh robot.
-    const std::vector<double> positions = FullPositionsWherePossible(
-        mesh_robot_->model, request.start.names, request.start.positions);
+    const std::vector<double> positions =
+        RefereePositions(robot_->model, query.base_positions, mesh_robot_->model);
     CollisionChecker& meshes = mesh_checkers_->Get(
         mesh_robot_->Group(group.name), CollisionModel::kMeshes, request.scene_id,
         InMeshRobotsFrame(request.scene_id, scene, query.base_positions, positions), positions);

@@ -12,6 +12,8 @@
 #include "messaging/channels.h"
 #include "messaging/codec.h"
 #include "messaging/packet_reader.h"
+#include "robot_model/full_positions.h"
+#include "robot_model/referee_misfits.h"
 #include "scene/moveit_object_reader.h"
 #include "scene/moveit_yaml.h"
 
@@ -130,8 +132,8 @@ std::string DescribeIndices(const std::vector<ProblemFiles>& problems) {
 }
 
 ProblemLibrary::ProblemLibrary(const Robot& robot, const std::vector<fs::path>& folders,
-                               std::size_t receive_buffer_bytes)
-    : robot_(&robot), receive_buffer_bytes_(receive_buffer_bytes) {
+                               std::size_t receive_buffer_bytes, const Robot* mesh_robot)
+    : robot_(&robot), mesh_robot_(mesh_robot), receive_buffer_bytes_(receive_buffer_bytes) {
   if (folders.empty()) throw InputError("--problems: at least one folder of problems is needed");
   try {
     for (const fs::path& folder : folders) {
@@ -260,6 +262,12 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
                     "and net.core.rmem_max, or make it smaller",
                     files.scene.string(), Megabytes(bytes), Megabytes(receive_buffer_bytes_)));
   }
+  // The first of them, which alone is told with the problem: verdicts depend on it.
+  if (std::string misfits = PostureMisfitsOf(problem); !misfits.empty()) {
+    problem.warnings.insert(problem.warnings.begin(),
+                            fmt::format("{}: --referee-robot judges it in another posture: {}",
+                                        files.request.string(), misfits));
+  }
   for (const std::string& warning : problem.warnings) spdlog::warn("{}", warning);
   served.message.message = Summary(problem.warnings);
   served.message.group = problem.group;
@@ -268,6 +276,14 @@ const ServedProblem& ProblemLibrary::Read(const ProblemSet& set, const ProblemFi
   served.message.time_limit_s = problem.time_limit_s;
   RequireDeliverable(served.message, channel::kProblem, files.request);
   return problems_.emplace(key, std::move(served)).first->second;
+}
+
+std::string ProblemLibrary::PostureMisfitsOf(const Problem& problem) const {
+  if (mesh_robot_ == nullptr) return "";
+  return PostureMisfits(
+      robot_->model,
+      FullPositionsWherePossible(robot_->model, problem.start.names, problem.start.positions),
+      mesh_robot_->model);
 }
 
 void ProblemLibrary::ReadAll() {

@@ -24,16 +24,17 @@ struct ServedProblem {
 
 /// The problem sets of some folders, their problems read when they are first asked for and kept
 /// from then on. One whose files have changed since ContentId was asked for is refused: it would be
-/// another than the id stands for. Thread-safe. Holds a reference to the robot.
+/// another than the id stands for. Thread-safe. Holds references to the robots.
 class ProblemLibrary {
  public:
   /// Each folder is a set, or, if it holds no problem itself, a folder of sets, at any depth. The
   /// first problem of every set is read: that it cannot be is logged, so that a set for another
   /// robot is noticed here. `receive_buffer_bytes`: of those who receive scenes; one that is larger
-  /// is served with a warning. Throws InputError: no such folder, no problem in it, two sets of one
-  /// name (both folders named).
+  /// is served with a warning. `mesh_robot`: the referee's, or null; a problem in which it stands
+  /// otherwise (PostureMisfits) is, too. Throws InputError: no such folder, no problem in it, two
+  /// sets of one name (both folders named).
   ProblemLibrary(const Robot& robot, const std::vector<std::filesystem::path>& folders,
-                 std::size_t receive_buffer_bytes);
+                 std::size_t receive_buffer_bytes, const Robot* mesh_robot = nullptr);
 
   /// By name.
   const std::map<std::string, ProblemSet>& sets() const { return sets_; }
@@ -58,8 +59,11 @@ class ProblemLibrary {
   std::string TextOf(const std::filesystem::path& file);
   const ServedProblem& Read(const ProblemSet& set, const ProblemFiles& files);
   void ReadAll();
+  /// Of the mesh robot at the problem's start; "" without one.
+  std::string PostureMisfitsOf(const Problem& problem) const;
 
   const Robot* robot_;
+  const Robot* mesh_robot_;
   std::size_t receive_buffer_bytes_;
   std::map<std::string, ProblemSet> sets_;
   std::mutex mutex_;

@@ -44,7 +44,8 @@ SceneService::SceneService(Robot robot, std::optional<Robot> mesh_robot,
                            bool allow_standing_contacts, std::size_t receive_buffer_bytes)
     : robot_(std::move(robot)),
       mesh_robot_(std::move(mesh_robot)),
-      library_(robot_, problem_folders, receive_buffer_bytes),
+      library_(robot_, problem_folders, receive_buffer_bytes,
+               mesh_robot_ ? &*mesh_robot_ : nullptr),
       collision_(robot_),
       referee_(robot_, mesh_robot_ ? &*mesh_robot_ : nullptr) {
   if (mesh_robot_) SettleStandingContacts(allow_standing_contacts);

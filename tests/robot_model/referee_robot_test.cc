@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "robot_model/full_positions.h"
+#include "robot_model/referee_misfits.h"
 #include "robot_model/robot_folder.h"
 #include "tests/robot_model/small_robot.h"
 #include "tests/support/expect_input_error.h"
@@ -170,16 +172,28 @@ class OtherReferee : public testing::Test {
     for (const auto& [from, to] : changes) urdf.replace(urdf.find(from), from.size(), to);
     return urdf;
   }
-  // What is said of a referee of such a URDF, where the planning robot is of another.
-  std::string Warnings(const std::vector<Change>& changes,
-                       const std::vector<Change>& of_planning = {}) {
+  // A planning robot of such a URDF, and a referee of another.
+  std::pair<Robot, Robot> Load(const std::vector<Change>& of_planning,
+                               const std::vector<Change>& changes) {
     folder_.Write("hand/hand.urdf", Urdf(of_planning));
     folder_.Write("hand/robot.yaml",
                   "name: hand\nurdf: hand.urdf\n"
                   "groups: [{name: arm, joints: [lift, turn], tip_link: lower}]\n");
     folder_.Write("judge/judge.urdf", Urdf(changes));
-    const Robot referee = LoadRefereeRobot(folder_ / "judge", LoadRobot(folder_ / "hand"));
-    return fmt::format("{}", fmt::join(referee.warnings, "\n"));
+    Robot hand = LoadRobot(folder_ / "hand");
+    Robot referee = LoadRefereeRobot(folder_ / "judge", hand);
+    return {std::move(hand), std::move(referee)};
+  }
+  // What is said of the referee.
+  std::string Warnings(const std::vector<Change>& changes,
+                       const std::vector<Change>& of_planning = {}) {
+    return fmt::format("{}", fmt::join(Load(of_planning, changes).second.warnings, "\n"));
+  }
+  // The fingers, fixed.
+  static std::vector<Change> FixedAt(const std::string& origin) {
+    const std::string fixed = "type='fixed'><origin xyz='";
+    return {{"\"grip\" type=\"prismatic\">", "'grip' " + fixed + origin + "'/>"},
+            {"\"other_grip\" type=\"prismatic\">", "'other_grip' " + fixed + "0 -0.02 0'/>"}};
   }
 
   TemporaryFolder folder_;
@@ -220,16 +234,49 @@ TEST_F(OtherReferee, JointsThatFollowOthersCountWhereBothHaveThem) {
 }
 
 TEST_F(OtherReferee, AJointThatItHasFixedIsWhereItHasIt) {
-  const auto fixed_at = [](const std::string& origin) {
-    const std::string fixed = "type='fixed'><origin xyz='";
-    return std::vector<Change>{
-        {"\"grip\" type=\"prismatic\">", "'grip' " + fixed + origin + "'/>"},
-        {"\"other_grip\" type=\"prismatic\">", "'other_grip' " + fixed + "0 -0.02 0'/>"}};
-  };
-  EXPECT_EQ(Warnings(fixed_at("0 0.02 0")), "");
-  EXPECT_EQ(Warnings({}, fixed_at("0 0.02 0")), "");
-  EXPECT_THAT(Warnings(fixed_at("0 0.02 0.005")),
+  EXPECT_EQ(Warnings(FixedAt("0 0.02 0")), "");
+  EXPECT_EQ(Warnings({}, FixedAt("0 0.02 0")), "");
+  EXPECT_THAT(Warnings(FixedAt("0 0.02 0.005")),
               HasSubstr("link 'left', beyond joint 'grip', is up to 5.0 mm"));
+}
+
+TEST_F(OtherReferee, StandsAsThePlanningRobotDoesWhereItsJointsCan) {
+  const auto misfits = [this](const std::vector<Change>& changes, double grip = 0.03) {
+    const auto robots = Load({}, changes);
+    const RobotModel& model = robots.first.model;
+    return PostureMisfits(model, FullPositionsWherePossible(model, {"lift", "grip"}, {0.3, grip}),
+                          robots.second.model);
+  };
+  EXPECT_EQ(misfits({}), "");
+  EXPECT_EQ(misfits({{"<mimic joint=\"grip\"/>", ""}}), "");
+  EXPECT_EQ(misfits({{"<mimic joint=\"grip\"/>", "<mimic joint='grip' multiplier='2'/>"}}),
+            "joint 'other_grip' follows 'grip' there, at 0.0600, not at 0.0300");
+  EXPECT_EQ(misfits(FixedAt("0 0.02 0")),
+            "joint 'grip' is fixed there, at 0.0200, not at 0.0300, "
+            "joint 'other_grip' is fixed there, at 0.0200, not at 0.0300");
+  EXPECT_EQ(misfits(FixedAt("0 0.02 0"), 0.0205), "") << "rounded otherwise";
+
+  const auto [hand, referee] = Load(FixedAt("0 0.02 0"), {});
+  const std::vector<double> positions =
+      RefereePositions(hand.model, hand.model.DefaultPositions(), referee.model);
+  EXPECT_THAT(referee.model.position_names(), testing::ElementsAre("lift", "turn", "grip"));
+  EXPECT_THAT(positions, testing::ElementsAre(0.1, 0, testing::DoubleNear(0.02, 1e-12)))
+      << "where that one has it fixed";
+}
+
+TEST_F(OtherReferee, ABaseThatItHasFixedIsWhereTheDefaultIs) {
+  const std::string cart =
+      "<link name='cart'/><joint name='drive' type='floating'><parent link='base'/>"
+      "<child link='cart'/></joint></robot>";
+  std::string fixed = cart;
+  fixed.replace(fixed.find("floating"), 8, "fixed");
+  const auto robots = Load({{"</robot>", cart}}, {{"</robot>", fixed}});
+  const RobotModel& model = robots.first.model;
+  std::vector<double> positions = model.DefaultPositions();
+  EXPECT_EQ(PostureMisfits(model, positions, robots.second.model), "");
+  PutPositions(model, {"drive/trans_x"}, {0.5}, &positions);
+  EXPECT_EQ(PostureMisfits(model, positions, robots.second.model),
+            "joint 'drive' is fixed there, at another pose");
 }
 
 TEST_F(OtherReferee, LimitsOfItsJointsAreToldWherePathsMayBeBeyond) {

@@ -2,7 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "common/read_text.h"
 #include "tests/scene_server/tiny_world.h"
 #include "tests/support/expect_input_error.h"
 
@@ -245,6 +250,46 @@ TEST_P(MeshPathCheck, RejectsWaypointsOfOtherJointsWithBoth) {
   EXPECT_FALSE(reply.verdict->valid);
   ASSERT_TRUE(reply.mesh_verdict);
   EXPECT_FALSE(reply.mesh_verdict->valid);
+}
+
+TEST(MeshRobot, StandsWhereThePlanningRobotHasJointsFixed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path planning = WriteTinyRobot(folder);
+  const auto urdf_with = [text = ReadText(planning / "tiny.urdf")](
+                             const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string urdf = text;
+    for (const auto& [from, to] : changes) urdf.replace(urdf.find(from), from.size(), to);
+    return urdf;
+  };
+  folder.Write("judge/judge.urdf",
+               urdf_with({{"<link name=\"finger\"/>",
+                           "<link name='finger'><collision><geometry><sphere radius='0.05'/>"
+                           "</geometry></collision></link>"}}));
+  // Extended, so that it reaches the post.
+  folder.Write("tiny/tiny.urdf",
+               urdf_with({{"\"finger_joint\" type=\"prismatic\"", "'finger_joint' type='fixed'"},
+                          {"0.5 0 0", "0.8 0 0"}}));
+  Problem problem = TinyProblem();
+  problem.start = {{"lift", "swing"}, {0, kStartSwing}};
+  WriteTinyProblem(problem, folder / "cans", 1);
+  const Robot robot = LoadRobot(planning);
+  SceneService service(robot, LoadRefereeRobot(folder / "judge", robot), {folder / "cans"});
+  const ProblemMessage served = service.AnswerProblem({"id", "cans", 1}).problem;
+  EXPECT_EQ(served.message, "");
+  PathCheckRequestMessage request;
+  request.scene_id = served.scene_id;
+  request.group = served.group;
+  request.start = served.start;
+  request.goal = served.goal;
+  request.joint_names = {"swing", "lift"};
+  request.path = {{kStartSwing, 0}, {-3, 0}, {3, 0}, {kGoalSwing, 0}};
+  request.step_m = 0.01;
+  const PathCheckReplyMessage reply = service.AnswerPathCheck(request);
+  ASSERT_TRUE(reply.ok) << reply.message;
+  ASSERT_TRUE(reply.mesh_verdict);
+  ASSERT_TRUE(reply.mesh_verdict->contact) << "the finger is drawn in";
+  EXPECT_EQ(reply.mesh_verdict->contact->body_a, "finger");
+  EXPECT_EQ(reply.mesh_verdict->contact->body_b, "post");
 }
 
 TEST(MeshRobot, WithoutItsMeshFailsAtStart) {

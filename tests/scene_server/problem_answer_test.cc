@@ -80,6 +80,15 @@ world: {collision_objects: [{id: ball, primitives: [{type: sphere, dimensions: [
   EXPECT_THAT(problem.message, AllOf(HasSubstr("scene0002.yaml:3"), HasSubstr("no rotation")));
 }
 
+TEST(ProblemAnswer, SaysInWhatPostureTheRefereesRobotStandsInstead) {
+  TinyWorld world(/*with_mesh_robot=*/true);
+  const ProblemMessage problem = world.service().AnswerProblem({"id", "cans", 2}).problem;
+  EXPECT_TRUE(problem.ok);
+  EXPECT_THAT(problem.message,
+              HasSubstr("request0002.yaml: --referee-robot judges it in another posture: joint "
+                        "'finger_joint' is fixed there, at 0.0000, not at 0.0500"));
+}
+
 TEST(ProblemAnswer, NamesTheGroupThatAnEmptyNameMeans) {
   const TemporaryFolder folder;
   Problem problem = TinyProblem();
