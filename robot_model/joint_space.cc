@@ -94,6 +94,19 @@ std::optional<std::string> JointSpace::FindTurnsDoubt(int j, double position) co
   return fmt::format("is at {} rad, {:.3g} turns; degrees?", position, position / (2 * kPi));
 }
 
+std::vector<std::string> JointSpace::TakeTurnsOut(std::span<double> q) const {
+  std::vector<std::string> doubts;
+  for (int j = 0; j < size(); ++j) {
+    double& position = q[static_cast<std::size_t>(j)];
+    if (const auto doubt = FindTurnsDoubt(j, position)) {
+      doubts.push_back(fmt::format("joint '{}' {}", joint(j).name, *doubt));
+    }
+    position = WithoutTurns(j, position);
+  }
+  if (auto fault = FindLimitFault(q)) doubts.push_back(*std::move(fault));
+  return doubts;
+}
+
 void JointSpace::ToNearestTurn(std::span<const double> to, std::span<double> q) const {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (int j = 0; j < size(); ++j) {

@@ -53,6 +53,9 @@ class JointSpace {
   /// What is odd about a position whose whole turns are taken out ("is at 90 rad, 14.3 turns;
   /// degrees?"): a continuous joint's that is more than one turn away from 0. Else nothing.
   std::optional<std::string> FindTurnsDoubt(int j, double position) const;
+  /// Takes the turns out of a whole configuration as a file gives it; what is odd about that, a
+  /// line each ("joint 'wheel' is at 90 rad, ..."): FindTurnsDoubt, and a joint outside its limits.
+  std::vector<std::string> TakeTurnsOut(std::span<double> q) const;
   /// Brings joints that may turn more than once round to the turn, within their limits, that is
   /// nearest to where they are at `to`.
   void ToNearestTurn(std::span<const double> to, std::span<double> q) const;

@@ -61,9 +61,9 @@ PlanningGroup ReadGroup(const YamlNode& node, const RobotModel& model,
   if (const auto states = node.Find("states")) {
     for (const std::string& key : states->Keys()) {
       const YamlNode state = states->At(key);
-      group.states[key] = state.Doubles(group.space.size());
-      if (const auto fault = group.space.FindLimitFault(group.states[key])) {
-        warnings->push_back(fmt::format("{}: {}", state.Where(), *fault));
+      std::vector<double>& q = group.states[key] = state.Doubles(group.space.size());
+      for (const std::string& doubt : group.space.TakeTurnsOut(q)) {
+        warnings->push_back(fmt::format("{}: {}", state.Where(), doubt));
       }
     }
   }

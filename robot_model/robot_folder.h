@@ -71,8 +71,9 @@ struct Robot {
   /// By planner name, the field that names a file of its settings, from the folder.
   std::map<std::string, YamlNode> planner_settings;
   ResourceResolver resources;  ///< For the collision meshes the URDF names.
-  /// What was taken otherwise than written, is missing, or cannot be used (states outside the
-  /// limits), one line each; whoever loads a robot for a user says it.
+  /// What was taken otherwise than written, is missing, in doubt (states turned more than once), or
+  /// cannot be used (states outside the limits), one line each; whoever loads a robot for a user
+  /// says it.
   std::vector<std::string> warnings;
 
   /// The group of that name; throws InputError naming the known ones, or why the SRDF's group of

@@ -102,7 +102,8 @@ struct PlanningGroup {
   std::vector<int> more_tips;     ///< Of further arms.
   std::vector<int> tips() const;  ///< All of them, tip_link first.
   JointSpace space;
-  std::map<std::string, std::vector<double>> states;  ///< Named configurations, in group order.
+  std::map<std::string, std::vector<double>> states;  ///< Named configurations, in group
+                                                      ///< order, without whole turns.
 };
 
 /// Immutable kinematic tree of a robot, rooted at its base link B. Links are ordered so that a

@@ -410,8 +410,8 @@ class SrdfReader {
     for (const std::string& contradiction : FindContradictions(model_, names, positions)) {
       srdf_.group_warnings.push_back(fmt::format("{}: {}", state, contradiction));
     }
-    if (const auto fault = group->space.FindLimitFault(q)) {
-      srdf_.group_warnings.push_back(fmt::format("{}: {}", state, *fault));
+    for (const std::string& doubt : group->space.TakeTurnsOut(q)) {
+      srdf_.group_warnings.push_back(fmt::format("{}: {}", state, doubt));
     }
     if (!filled.empty()) {
       srdf_.group_warnings.push_back(

@@ -160,6 +160,18 @@ TEST(JointSpace, AContinuousJointTurnedMoreThanOnceIsInDoubt) {
   EXPECT_FALSE(Space().FindTurnsDoubt(1, 90));
 }
 
+TEST(JointSpace, TurnsAreTakenOutOfAWholeConfiguration) {
+  std::vector<double> q = {0.1, 1, 3.5};
+  EXPECT_TRUE(Space().TakeTurnsOut(q).empty());
+  EXPECT_NEAR(q[2], 3.5 - 2 * kPi, 1e-15);
+  q = {7, 1, -90};
+  const std::vector<std::string> doubts = Space().TakeTurnsOut(q);
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_EQ(doubts[0], "joint 'roll' is at -90 rad, -14.3 turns; degrees?");
+  EXPECT_EQ(doubts[1], Space().FindLimitFault(q));
+  EXPECT_NEAR(q[2], -90 + 28 * kPi, 1e-12);
+}
+
 TEST(JointSpace, TellsTheLimitsThatHold) {
   const JointSpace space = Space();
   EXPECT_EQ(space.DescribeLimits(0), "[0, 0.4]");

@@ -210,6 +210,21 @@ TEST(MalformedFolder, TheUnchangedFilesAreFine) {
   EXPECT_TRUE(robot.voxels->walls);
 }
 
+TEST(MalformedFolder, NamesStatesThatAreTurnedMoreThanOnce) {
+  const TemporaryFolder folder;
+  folder.Write("arm.urdf",
+               "<robot name='arm'><link name='base'/><link name='tip'/><joint name='turn' "
+               "type='continuous'><parent link='base'/><child link='tip'/></joint></robot>");
+  folder.Write("robot.yaml",
+               "name: arm\nurdf: arm.urdf\ngroups:\n  - name: all\n    joints: [turn]\n"
+               "    tip_link: tip\n    states:\n      back: [3.5]\n      up: [90]\n");
+  const Robot robot = LoadRobot(folder.path());
+  EXPECT_THAT(robot.warnings,
+              testing::ElementsAre(testing::EndsWith("robot.yaml:9: groups[0].states.up: joint "
+                                                     "'turn' is at 90 rad, 14.3 turns; degrees?")));
+  EXPECT_EQ(robot.groups[0].states.at("back"), std::vector<double>{WrapAngle(3.5)});
+}
+
 TEST(MalformedFolder, NamesStatesOutsideTheLimitsThatAreLeft) {
   const TemporaryFolder folder;
   folder.Write("arm.urdf",

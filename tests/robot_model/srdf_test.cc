@@ -227,6 +227,22 @@ TEST(ParseSrdf, JointsOfAStateComeInTheFilesOrder) {
   EXPECT_THAT(state(followers).groups.at(0).states, ElementsAre(Pair("grip", ElementsAre(0.1))));
 }
 
+TEST(ParseSrdf, StatesAreTakenWithoutTurns) {
+  const RobotModel model = RobotModel::FromUrdf(
+      "<robot name='wheel'><link name='base'/><link name='rim'/><joint name='roll' "
+      "type='continuous'><parent link='base'/><child link='rim'/></joint></robot>",
+      "wheel.urdf");
+  const Srdf srdf = ParseSrdf(
+      "<robot name='wheel'><group name='all'><joint name='roll'/></group>\n"
+      "<group_state name='on' group='all'><joint name='roll' value='3.5'/></group_state>\n"
+      "<group_state name='over' group='all'><joint name='roll' value='90'/></group_state></robot>",
+      "wheel.srdf", model);
+  EXPECT_THAT(srdf.groups.at(0).states, ElementsAre(Pair("on", ElementsAre(WrapAngle(3.5))),
+                                                    Pair("over", ElementsAre(WrapAngle(90)))));
+  EXPECT_THAT(srdf.group_warnings, ElementsAre("wheel.srdf:3: state 'over': joint 'roll' is at 90 "
+                                               "rad, 14.3 turns; degrees?"));
+}
+
 TEST(ParseSrdf, UnknownJointsOfStatesAndPassiveOnesAreNamedAndDoNotCount) {
   const Srdf srdf = Parse(R"(
     <group name="left"><chain base_link="base" tip_link="l2"/></group>
