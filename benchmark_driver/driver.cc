@@ -27,6 +27,7 @@
 #include "messaging/session_conditions.h"
 #include "planning/path_judge.h"
 #include "planning/told_edges.h"
+#include "planning/told_warnings.h"
 #include "results/reason_count.h"
 #include "results/training.h"
 #include "robot_model/referee_misfits.h"
@@ -193,6 +194,10 @@ Driver::Known Driver::TakeUp(EarlierSession earlier, const PlannedCall& call) {
   AddEarlier(earlier.sessions, &options_.conditions);
   for (const SessionMessage& session : earlier.sessions) {
     for (const NodeStatusMessage& node : session.nodes) {
+      if (node.kind == NodeKind::kSceneServer) {
+        std::ranges::move(ToldWarnings(kProblemWarning, node.settings),
+                          std::back_inserter(problem_warnings_));
+      }
       if (node.kind != NodeKind::kPlanner || planners_.contains(node.name)) continue;
       earlier_planners_.insert_or_assign(node.name, node);
     }
@@ -300,6 +305,7 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
   if (warnings.size() > kMostWarnings) {
     spdlog::warn("{} more warnings; see the scene server's log", warnings.size() - kMostWarnings);
   }
+  std::ranges::move(warnings, std::back_inserter(problem_warnings_));
   for (const auto& [problem, reason] : left_out_) spdlog::error("{}: {}", problem, reason);
   if (!bad.empty() && !options_.skip_bad_problems) {
     throw InputError(
@@ -412,6 +418,11 @@ SessionMessage Driver::Session(bool finished) const {
   }
   for (const auto* planners : {&planners_, &earlier_planners_}) {
     for (const auto& [name, planner] : *planners) session.nodes.push_back(planner);
+  }
+  for (NodeStatusMessage& node : session.nodes) {
+    if (node.kind != NodeKind::kSceneServer) continue;
+    TellWarnings(kRobotWarning, options_.robot_warnings, &node.settings);
+    TellWarnings(kProblemWarning, problem_warnings_, &node.settings);
   }
   TellChecks(session.conditions, session.conditions.contestants, &session.nodes);
   TellChecks(session.conditions, first_planners_, &session.nodes);

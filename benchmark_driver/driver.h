@@ -164,6 +164,7 @@ class Driver {
   int num_owed_repeats_ = 0;
   std::vector<std::string> awaited_shards_;
   std::map<std::string, std::string> left_out_;  // SessionMessage's
+  std::vector<std::string> problem_warnings_;    // of the session's problems
   std::vector<Contestant> first_planners_;       // who find paths for contestants and are none
   std::unique_ptr<RunExecutor> executor_;
 

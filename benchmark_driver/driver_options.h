@@ -62,7 +62,8 @@ struct DriverOptions {
   RobotFlags robot;
   std::vector<std::filesystem::path> problems;
   std::optional<std::filesystem::path> referee_robot;
-  bool allow_standing_contacts = false;  ///< Of the referee's robot.
+  std::vector<std::string> robot_warnings;  ///< What the scene server does not find odd itself.
+  bool allow_standing_contacts = false;     ///< Of the referee's robot.
   std::vector<int> pinned;  ///< Processors of the planners, which nothing else uses; empty: all.
   std::optional<std::filesystem::path> out;  ///< None: sessions/<run id>; a replay's: none.
 };

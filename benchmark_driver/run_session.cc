@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -46,9 +47,12 @@ void Warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
 }
 
-/// Says what is odd about the robots, once for all the processes that load them. Throws InputError
-/// if the robot lacks the geometry of a contestant's collision model.
-void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& line_up) {
+/// Says what is odd about the robots, once for all the processes that load them, and returns what
+/// no other says, of the sizes of their geometry. Throws InputError if the robot lacks the geometry
+/// of a contestant's collision model.
+std::vector<std::string> CheckRobots(const DriverOptions& options,
+                                     const std::vector<LineUpEntry>& line_up) {
+  std::vector<std::string> odd_sizes;
   const Robot robot = options.robot.Load();
   Warn(robot.warnings);
   std::set<CollisionModel> checked;
@@ -58,7 +62,7 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
     try {
       if (model == CollisionModel::kMeshes) {
         // Without the time and the memory that a checker of it takes.
-        Warn(OddSizes(robot, LoadSolidGeometry(robot)));
+        odd_sizes = OddSizes(robot, LoadSolidGeometry(robot));
       } else {
         MakeCollisionChecker(robot, robot.Group(""), model);
       }
@@ -67,10 +71,13 @@ void CheckRobots(const DriverOptions& options, const std::vector<LineUpEntry>& l
                                    entry.contestant.planner, error.what()));
     }
   }
-  if (!options.referee_robot) return;
-  const Robot referee = LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages());
-  Warn(referee.warnings);
-  Warn(OddSizes(referee, LoadLinkGeometry(referee)));
+  if (options.referee_robot) {
+    const Robot referee = LoadRefereeRobot(*options.referee_robot, robot, options.robot.Packages());
+    Warn(referee.warnings);
+    std::ranges::move(OddSizes(referee, LoadLinkGeometry(referee)), std::back_inserter(odd_sizes));
+  }
+  Warn(odd_sizes);
+  return odd_sizes;
 }
 
 std::vector<StoredSession> ReadReferences(const DriverOptions& options) {
@@ -155,7 +162,7 @@ int RunSession(const DriverOptions& given_options, const std::map<std::string, s
   if (options.conditions.parallel) RequireNoFirstPaths(line_up);
   if (options.launch) {
     RequirePrograms(line_up, ProgramFolder());
-    CheckRobots(options, line_up);
+    options.robot_warnings = CheckRobots(options, line_up);
     if (!lcm_url_given) url = LcmUrl(FreeUdpPort());
     session_folder = options.resume ? *options.resume
                      : options.out  ? *options.out

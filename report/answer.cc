@@ -526,9 +526,7 @@ std::vector<std::string> Cautions(const ComparedSessions& compared) {
     }
     if (!session.left_out.empty()) cautions.push_back(LeftOut(name, session.left_out));
     if (session.finished && session.bus) cautions.push_back(name + ": " + OnTheBus(*session.bus));
-    if (!session.referee_misfits.empty()) {
-      cautions.push_back(fmt::format("{}: --referee-robot: {}.", name, session.referee_misfits));
-    }
+    for (const std::string& warning : session.warnings) cautions.push_back(name + ": " + warning);
     if (Lookup(session.flags, "parallel") == "true") {
       cautions.push_back(fmt::format(
           "{}: the planners worked at once (--parallel): all times were measured under load.",

@@ -25,6 +25,7 @@
 #include "messaging/event_log_reader.h"
 #include "messaging/record_log.h"
 #include "messaging/session_conditions.h"
+#include "planning/told_warnings.h"
 #include "report/session_shares.h"
 #include "results/bus_json.h"
 #include "results/reproduce.h"
@@ -437,6 +438,12 @@ class Merge {
     });
     AddNew(told.conditions.contestants, &Contestant::planner, &session_.conditions.contestants);
     AddNew(told.nodes, &NodeStatusMessage::name, &session_.nodes);
+    for (NodeStatusMessage& node : session_.nodes) {
+      if (node.kind != NodeKind::kSceneServer) continue;
+      for (const NodeStatusMessage& one : told.nodes) {
+        TellWarnings(kProblemWarning, ToldWarnings(kProblemWarning, one.settings), &node.settings);
+      }
+    }
   }
 
   template <typename Value>

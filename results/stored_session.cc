@@ -16,10 +16,10 @@
 #include "common/file_kind.h"
 #include "common/sqlite.h"
 #include "planning/asked_request.h"
+#include "planning/told_warnings.h"
 #include "results/bus_json.h"
 #include "results/database_version.h"
 #include "results/outcomes.h"
-#include "robot_model/referee_misfits.h"
 
 namespace planbench {
 namespace {
@@ -270,8 +270,14 @@ class Reader {
         if (node.value("kind", "") == "driver") {
           session.machine = node.value("settings", session.machine);
         } else if (node.value("kind", "") == "scene server") {
-          session.referee_misfits =
-              node.value("settings", nlohmann::json::object()).value(kRefereeMisfits, "");
+          const auto told = node.value("settings", std::map<std::string, std::string>());
+          for (const char* kind : {kRobotWarning, kProblemWarning}) {
+            for (std::string& warning : ToldWarnings(kind, told)) {
+              const bool is_new =
+                  std::ranges::find(session.warnings, warning) == session.warnings.end();
+              if (is_new) session.warnings.push_back(std::move(warning));
+            }
+          }
         }
       }
     }

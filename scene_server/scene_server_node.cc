@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "messaging/channels.h"
+#include "planning/told_warnings.h"
 #include "robot_model/referee_misfits.h"
 
 namespace planbench {
@@ -27,6 +28,10 @@ NodeStatusMessage StatusOf(const std::string& name, const SceneService& service)
     status.settings["referee_robot"] = service.mesh_robot()->folder.string();
     const std::string misfits = RefereeMisfits(service.robot(), *service.mesh_robot());
     if (!misfits.empty()) status.settings[kRefereeMisfits] = misfits;
+  }
+  TellWarnings(kRobotWarning, service.robot().warnings, &status.settings);
+  if (service.mesh_robot()) {
+    TellWarnings(kRobotWarning, service.mesh_robot()->warnings, &status.settings);
   }
   return status;
 }

@@ -69,7 +69,9 @@ void SceneService::SettleStandingContacts(bool allow) {
             "of a robot.yaml there, or let them with --allow-standing-contacts",
             mesh_robot_->folder.string(), a, b, kStandingDraws, name));
       }
-      spdlog::warn("--allow-standing-contacts: '{}' and '{}' of the referee's robot", a, b);
+      mesh_robot_->warnings.push_back(
+          fmt::format("--allow-standing-contacts: '{}' and '{}' of the referee's robot", a, b));
+      spdlog::warn("{}", mesh_robot_->warnings.back());
       // Checkers look the pairs up when a scene is set.
       mesh_robot_->allowed_pairs.emplace_back(mesh_robot_->model.FindLink(a),
                                               mesh_robot_->model.FindLink(b));

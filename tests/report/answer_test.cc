@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "planning/told_warnings.h"
 #include "results/session_plan.h"
-#include "robot_model/referee_misfits.h"
 #include "tests/report/report_fixture.h"
 
 namespace planbench {
@@ -383,19 +383,20 @@ TEST_F(ReportTest, PlannersThatWereStartedAnewAreTold) {
   }
 }
 
-TEST_F(ReportTest, AMeshRobotThatIsAnotherOneIsTold) {
+TEST_F(ReportTest, WhatWasOddAboutRobotsAndProblemsIsTold) {
   const TemporaryFolder folder;
   SessionMessage session = ExampleSession();
   NodeStatusMessage& server = session.nodes.emplace_back();
   server.kind = NodeKind::kSceneServer;
-  const auto cautions = [&](const std::string& name) {
-    WriteSession(folder / name, {{.contestant = "A"}}, session);
-    return Cautions(ComparedSessions(ReadSessions(folder / name).sessions));
-  };
-  const std::string told = ": --referee-robot";
-  EXPECT_THAT(cautions("same"), testing::Each(testing::Not(testing::HasSubstr(told))));
-  server.settings[kRefereeMisfits] = "it is bent";
-  EXPECT_THAT(cautions("other"), testing::Contains("other" + told + ": it is bent."));
+  TellWarnings(kProblemWarning, {"request0001.yaml: is odd"}, &server.settings);
+  TellWarnings(kRobotWarning, {"arm.urdf: is odd", "judge: it is bent"}, &server.settings);
+  session.nodes.push_back(server);  // as another part of the session has it
+  WriteSession(folder / "it", {{.contestant = "A"}}, session);
+  std::vector<std::string> told = Cautions(ComparedSessions(ReadSessions(folder / "it").sessions));
+  std::erase_if(told, [](const std::string& line) { return !line.starts_with("it: "); });
+  EXPECT_THAT(told, testing::IsSupersetOf({"it: arm.urdf: is odd", "it: judge: it is bent",
+                                           "it: request0001.yaml: is odd"}));
+  EXPECT_EQ(std::ranges::count(told, "it: judge: it is bent"), 1);
 }
 
 TEST_F(ReportTest, RepeatsThatAreOwedAreTold) {

@@ -5,6 +5,7 @@
 
 #include "common/read_text.h"
 #include "messaging/record_log.h"
+#include "planning/told_warnings.h"
 #include "results/compared_sessions.h"
 #include "results/comparison.h"
 #include "tests/report/merge_fixture.h"
@@ -85,6 +86,21 @@ TEST_F(MergeSessionsTest, WhatOnePartLeftOutAndAnotherDidNotIsToBeMade) {
   const StoredSession neither = ReadSessions(folder_ / "neither").sessions.front();
   EXPECT_EQ(neither.num_runs, 4) << "but for problem 3";
   EXPECT_EQ(neither.left_out, one.left_out);
+}
+
+TEST_F(MergeSessionsTest, WhatIsOddAboutTheProblemsOfAnyPartIsTold) {
+  for (const int index : {1, 2}) {
+    SessionMessage part = PartOf(index, 2);
+    NodeStatusMessage& server = part.nodes.emplace_back();
+    server.kind = NodeKind::kSceneServer;
+    server.name = "scene_server";
+    TellWarnings(kRobotWarning, {"is odd"}, &server.settings);
+    TellWarnings(kProblemWarning, {fmt::format("{} is odd", index)}, &server.settings);
+    Write(fmt::format("part{}", index), part, {{.contestant = "A", .problem = index}});
+  }
+  ASSERT_EQ(MergeTo("both", {"part1", "part2"}), kExitOk) << errors_;
+  EXPECT_EQ(ReadSessions(folder_ / "both").sessions.front().warnings,
+            (std::vector<std::string>{"is odd", "1 is odd", "2 is odd"}));
 }
 
 TEST_F(MergeSessionsTest, AWholeAndAPartOfItAreTheWhole) {

@@ -20,6 +20,7 @@
 #include "common/read_text.h"
 #include "messaging/channels.h"
 #include "messaging/node_registry.h"
+#include "planning/told_warnings.h"
 #include "robot_model/referee_misfits.h"
 #include "tests/scene_server/tiny_world.h"
 #include "tests/support/expect_input_error.h"
@@ -188,7 +189,14 @@ TEST_F(SceneServerNodeTest, TellsWhatItsRobotsAreMadeOf) {
   const std::filesystem::path file = told.at("spheres");
   EXPECT_TRUE(file.is_absolute()) << file;
   EXPECT_TRUE(std::filesystem::equivalent(file, spheres)) << file;
-  // And in what its referee's is another robot.
+  // What was odd when they were loaded,
+  Robot odd = LoadRobot(folder);
+  odd.warnings = {"tiny.urdf: is odd"};
+  Robot judge = LoadRefereeRobot(world_.folder() / "tiny_meshes", odd);
+  judge.warnings = {"it is even", "and odd"};
+  EXPECT_THAT(ToldWarnings(kRobotWarning, settings_of(odd, judge)),
+              testing::ElementsAre("tiny.urdf: is odd", "it is even", "and odd"));
+  // and in what its referee's is another robot.
   std::string urdf = ReadText(world_.folder() / "tiny_meshes/tiny.urdf");
   world_.folder().Write("taller/tiny.urdf", urdf.replace(urdf.find("0 0 0.1"), 7, "0 0 0.2"));
   const Robot robot = LoadRobot(folder);
