@@ -99,7 +99,7 @@ std::size_t ReadRuns(SqliteConnection* connection, OmplSession* session) {
     try {
       session->AddRun(
           contestant, experiment_id, rows.Text(2),
-          FindNumber({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
+          FindAmount({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
           statuses.Of(version), properties);
     } catch (const InputError& error) {
       throw InputError(

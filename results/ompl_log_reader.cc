@@ -84,10 +84,10 @@ class OmplLogReader {
         session->seed = line.substr(0, line.find(' '));
       } else if (line.ends_with(" seconds per run")) {
         time_limit_s_ =
-            FindNumber({{"time limit", line.substr(0, line.find(' '))}}, "time limit").value_or(0);
+            FindAmount({{"time limit", line.substr(0, line.find(' '))}}, "time limit").value_or(0);
       } else if (line.ends_with(" to collect the data")) {
         session->total_time_s =
-            FindNumber({{"total time", line.substr(0, line.find(' '))}}, "total time").value_or(0);
+            FindAmount({{"total time", line.substr(0, line.find(' '))}}, "total time").value_or(0);
       } else if (line.ends_with(" enum type") || line.ends_with(" enum types")) {
         for (int i = Count(line, "enum"); i > 0; --i) {
           std::vector<std::string> names = Split(Next(), "|");
@@ -158,7 +158,7 @@ class OmplLogReader {
     for (const std::string& sample : Split(series, ";")) {
       if (sample.empty()) continue;
       const OmplProperties properties = ReadValues(names, sample, ",");
-      const auto time_s = FindNumber(properties, "time");
+      const auto time_s = FindAmount(properties, "time");
       const auto cost = FindNumber(properties, "best_cost");
       // OMPL samples at intervals: only improvements count.
       const bool better = cost && (run->progress.empty() || *cost < run->progress.back().cost);

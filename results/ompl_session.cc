@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "common/error.h"
 #include "common/lookup.h"
@@ -28,8 +29,8 @@ PlanStatus StatusNamed(const std::string& text) {
 
 int Whole(const OmplProperties& properties, const std::string& name, int otherwise) {
   constexpr double kMost = 1e9;
-  const auto value = FindNumber(properties, name);
-  if (value && !(*value >= 0 && *value <= kMost)) {
+  const auto value = FindAmount(properties, name);
+  if (value && *value > kMost) {
     throw InputError(fmt::format("{}: {} is out of range", name, *value));
   }
   return value ? static_cast<int>(*value) : otherwise;
@@ -78,6 +79,12 @@ std::optional<double> FindNumber(const OmplProperties& properties, const std::st
   return value;
 }
 
+std::optional<double> FindAmount(const OmplProperties& properties, const std::string& name) {
+  const auto value = FindNumber(properties, name);
+  if (value && *value < 0) throw InputError(fmt::format("{}: {} is negative", name, *value));
+  return value;
+}
+
 OmplStatuses NumberStatuses(const std::vector<std::string>& names) {
   OmplStatuses statuses;
   for (const std::string& name : names) {
@@ -111,9 +118,13 @@ StoredRun& OmplSession::AddRun(std::size_t contestant, std::int64_t experiment_i
   SetTrial(experiment_id, properties, &run);
   SetStatus(statuses, properties, &run);
   run.time_limit_s = time_limit_s;
-  run.time_s = FindNumber(properties, "time");
+  run.time_s = FindAmount(properties, "time");
   const auto measure = [&](const std::string& property, const char* name, MeasuredValues* values) {
-    if (const auto value = FindNumber(properties, property)) (*values)[name] = *value;
+    // A clearance below zero is how deep a path goes.
+    const bool is_signed = std::string_view(name) == "clearance";
+    const auto value =
+        is_signed ? FindNumber(properties, property) : FindAmount(properties, property);
+    if (value) (*values)[name] = *value;
   };
   for (const auto& [property, name] :
        {std::pair("solution_length", "path_length"), std::pair("solution_smoothness", "smoothness"),
@@ -124,7 +135,7 @@ StoredRun& OmplSession::AddRun(std::size_t contestant, std::int64_t experiment_i
   if (properties.contains("simplified_correct_solution")) {
     run.JudgeSimplified(Whole(properties, "simplified_correct_solution", 1) != 0);
   }
-  run.phases.simplification_s = FindNumber(properties, "simplification_time").value_or(0);
+  run.phases.simplification_s = FindAmount(properties, "simplification_time").value_or(0);
   session_.runs.push_back(std::move(run));
   return session_.runs.back();
 }

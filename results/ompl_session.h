@@ -28,6 +28,8 @@ using OmplProperties = std::map<std::string, std::string>;
 
 /// Nothing if there is none, or one that is not finite. Throws InputError for what is no number.
 std::optional<double> FindNumber(const OmplProperties& properties, const std::string& name);
+/// Of what is never below zero, as times and lengths are: throws for what is, too.
+std::optional<double> FindAmount(const OmplProperties& properties, const std::string& name);
 
 /// Names of a program's statuses by their numbers.
 using OmplStatuses = std::map<std::int64_t, std::string>;

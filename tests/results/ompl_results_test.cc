@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -94,6 +95,39 @@ TEST_F(OmplResultsTest, ADamagedLogIsRefusedByLine) {
   ExpectInputError([&] { Log(text.replace(text.find("0.02; "), 6, "x; ")); },
                    {"own.log:31", "time: 'x' is no number"});
   ExpectInputError([&] { Log(text.replace(text.find("x; "), 3, "")); }, {"own.log:31", "5 values"});
+}
+
+TEST_F(OmplResultsTest, TimesAndLengthsBelowZeroAreRefused) {
+  const auto refused = [&](const std::string& text, const std::string& spoilt,
+                           const std::vector<std::string>& parts) {
+    SCOPED_TRACE(spoilt);
+    std::string log = kLog;
+    log.replace(log.find(text), text.size(), spoilt);
+    ExpectInputError([&] { Log(log); }, parts);
+  };
+  refused("1.5 seconds per run", "-5 seconds per run", {"own.log:12: time limit: -5 is negative"});
+  refused("0.02; 1", "-0.05; 1", {"own.log:31: time: -0.05 is negative"});
+  refused("6; 3.5;", "6; -4;", {"own.log:31: solution_length: -4 is negative"});
+  refused("0.2,6,;", "-0.2,6,;", {"own.log:39: time: -0.2 is negative"});
+  std::string log = kLog;
+  log.replace(log.find("solution length"), 15, "solution clearance");
+  log.replace(log.find("6; 3.5;"), 7, "6; -4;");
+  EXPECT_EQ(Log(log).runs[1].measures, (MeasuredValues{{"clearance", -4}}));
+
+  const auto fill = [&](const std::string& limit, const std::string& run) {
+    std::filesystem::remove(folder_ / "own.db");
+    Fill(
+        fmt::format("INSERT INTO experiments VALUES (2, 'box', {}, 'host', 'OMPL 1.6', 'today');"
+                    "INSERT INTO plannerConfigs VALUES (1, 'PRM', '');"
+                    "INSERT INTO runs VALUES (7, 2, 1, {}, NULL);",
+                    limit, run));
+  };
+  fill("5", "-0.05, 1, 6, 4");
+  ExpectInputError([&] { Database(); }, {"own.db: run 7 of experiment 2: time: -0.05 is negative"});
+  fill("5", "0.05, 1, 6, -4");
+  ExpectInputError([&] { Database(); }, {"run 7 of experiment 2: solution_length: -4 is negative"});
+  fill("-5", "0.05, 1, 6, 4");
+  ExpectInputError([&] { Database(); }, {"run 7 of experiment 2: timelimit: -5 is negative"});
 }
 
 TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
