@@ -72,6 +72,24 @@ std::set<std::int64_t> RepeatedExperiments(SqliteConnection* connection) {
   return repeated;
 }
 
+/// Samples of a run, which is to be bound; nothing where no planner told of its path.
+std::optional<SqliteStatement> PrepareProgress(SqliteConnection* connection) {
+  const std::vector<std::string> columns = ColumnsOf(connection, "progress");  // none without table
+  if (std::find(columns.begin(), columns.end(), "best_cost") == columns.end()) return std::nullopt;
+  return connection->Prepare(
+      "SELECT time, best_cost FROM progress WHERE runid = ? ORDER BY time, best_cost DESC");
+}
+
+void ReadProgress(std::int64_t id, SqliteStatement* samples, StoredRun* run) {
+  samples->Bind(1, id);
+  while (samples->Step()) {
+    OmplProperties sample;
+    if (auto time = TextOf(samples->Value(0))) sample["time"] = std::move(*time);
+    if (auto cost = TextOf(samples->Value(1))) sample["best_cost"] = std::move(*cost);
+    AddProgress(sample, run);
+  }
+}
+
 /// Returns the number of experiments that were left out because they are there twice.
 std::size_t ReadRuns(SqliteConnection* connection, OmplSession* session) {
   const std::vector<std::string> columns = ColumnsOf(connection, "runs");
@@ -83,6 +101,7 @@ std::size_t ReadRuns(SqliteConnection* connection, OmplSession* session) {
                   "e.id, r.id, r.* FROM runs r JOIN plannerConfigs p ON p.id = r.plannerid "
                   "JOIN experiments e ON e.id = r.experimentid ") +
       (is_planbench ? "WHERE r.run_id IS NULL " : "") + "ORDER BY r.id");
+  std::optional<SqliteStatement> progress = PrepareProgress(connection);
   constexpr int kFirst = 9;
   while (rows.Step()) {
     const std::int64_t experiment_id = rows.Int(7);
@@ -97,10 +116,11 @@ std::size_t ReadRuns(SqliteConnection* connection, OmplSession* session) {
     const std::size_t contestant = session->Contestant(rows.Text(0), settings);
     const std::string version = TextOf(rows.Value(5)).value_or("");
     try {
-      session->AddRun(
+      StoredRun& run = session->AddRun(
           contestant, experiment_id, rows.Text(2),
           FindAmount({{"timelimit", TextOf(rows.Value(3)).value_or("0")}}, "timelimit").value_or(0),
           statuses.Of(version), properties);
+      if (progress) ReadProgress(rows.Int(8), &*progress, &run);
     } catch (const InputError& error) {
       throw InputError(
           fmt::format("run {} of experiment {}: {}", rows.Int(8), experiment_id, error.what()));

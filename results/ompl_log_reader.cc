@@ -146,28 +146,13 @@ class OmplLogReader {
     const int num_series = Count(Next(), "runs");
     for (int i = 0; i < num_series; ++i) {
       const std::string series = Next();
-      if (i < num_runs) {
-        ReadProgress(progress_names, series, &session->session().runs[first + i]);
+      if (i >= num_runs) continue;
+      for (const std::string& sample : Split(series, ";")) {
+        if (sample.empty()) continue;
+        AddProgress(ReadValues(progress_names, sample, ","), &session->session().runs[first + i]);
       }
     }
     if (Next() != ".") throw InputError("a planner's results end with '.'");
-  }
-
-  void ReadProgress(const std::vector<std::string>& names, const std::string& series,
-                    StoredRun* run) const {
-    for (const std::string& sample : Split(series, ";")) {
-      if (sample.empty()) continue;
-      const OmplProperties properties = ReadValues(names, sample, ",");
-      const auto time_s = FindAmount(properties, "time");
-      const auto cost = FindNumber(properties, "best_cost");
-      // OMPL samples at intervals: only improvements count.
-      const bool better = cost && (run->progress.empty() || *cost < run->progress.back().cost);
-      if (!time_s || !better) continue;
-      PlanProgress progress;
-      progress.elapsed_s = *time_s;
-      progress.cost = *cost;
-      run->progress.push_back(progress);
-    }
   }
 
   std::filesystem::path file_;

@@ -99,6 +99,17 @@ OmplStatuses StatusesOfOmpl() {
                          "Crash", "Abort", "Infeasible"});
 }
 
+void AddProgress(const OmplProperties& sample, StoredRun* run) {
+  const auto time_s = FindAmount(sample, "time");
+  const auto cost = FindNumber(sample, "best_cost");
+  const bool better = cost && (run->progress.empty() || *cost < run->progress.back().cost);
+  if (!time_s || !better) return;
+  PlanProgress progress;
+  progress.elapsed_s = *time_s;
+  progress.cost = *cost;
+  run->progress.push_back(progress);
+}
+
 std::size_t OmplSession::Contestant(const std::string& planner, const std::string& settings) {
   for (std::size_t i = 0; i < session_.contestants.size(); ++i) {
     const StoredContestant& known = session_.contestants[i];

@@ -39,6 +39,10 @@ OmplStatuses NumberStatuses(const std::vector<std::string>& names);
 /// OMPL's own, which its logs name; databases may not.
 OmplStatuses StatusesOfOmpl();
 
+/// Adds what a planner told of its path while it searched, `time` and `best_cost`, if that is an
+/// improvement: OMPL samples at intervals. Throws InputError for values that cannot be.
+void AddProgress(const OmplProperties& sample, StoredRun* run);
+
 /// Collects runs as a session.
 class OmplSession {
  public:

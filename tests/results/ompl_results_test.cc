@@ -147,8 +147,32 @@ TEST_F(OmplResultsTest, ADatabaseIsReadLikeItsLog) {
   EXPECT_EQ(session.runs[1].status, PlanStatus::kTimedOut);
   EXPECT_EQ(session.runs[1].trial, 2);
   EXPECT_EQ(session.runs[1].time_limit_s, 5);
+  EXPECT_TRUE(session.runs[0].progress.empty());
   folder_.Write("other.db", std::string("SQLite format 3\0", 16) + std::string(600, 'x'));
   ExpectInputError([&] { ImportResults(folder_ / "other.db", "x", 1, &warnings_); }, {"other.db"});
+}
+
+TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
+  Fill(
+      "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
+      "INSERT INTO plannerConfigs VALUES (1, 'RRTstar', ''), (2, 'PRM', '');"
+      "INSERT INTO runs VALUES (3, 1, 1, 5, 1, 6, 4, NULL), (4, 1, 2, 1, 1, 6, 3, NULL);"
+      "CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, iterations INTEGER, "
+      "PRIMARY KEY (runid, time));"
+      "INSERT INTO progress VALUES (3, 0.4, 4, 9), (3, 0.1, NULL, 1), (3, 0.2, 5, 2), "
+      "(3, 0.3, 5, 3), (8, 0.1, 1, 1);");
+  const StoredSession session = Database();
+  ASSERT_EQ(session.runs.size(), 2u);
+  const std::vector<PlanProgress>& progress = session.runs[0].progress;
+  ASSERT_EQ(progress.size(), 2u) << "improvements alone";
+  EXPECT_EQ(progress[0].elapsed_s, 0.2);
+  EXPECT_EQ(progress[0].cost, 5);
+  EXPECT_EQ(progress[1].elapsed_s, 0.4);
+  EXPECT_EQ(progress[1].cost, 4);
+  EXPECT_TRUE(session.runs[1].progress.empty());
+  SqliteConnection(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate)
+      .Execute("UPDATE progress SET time = -1 WHERE iterations = 9");
+  ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: time: -1 is negative"});
 }
 
 constexpr char kTwoPrograms[] =
