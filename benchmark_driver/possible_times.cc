@@ -13,9 +13,6 @@ namespace {
 constexpr double kClockError = 1e-3;
 /// What costs that are summed or written otherwise differ by, the share of it.
 constexpr double kRounding = 1e-6;
-/// So much time, s, that is untold or beyond the limit is told. Searches of ours that look seldom
-/// at the clock have gone on for 0.6 s.
-constexpr double kMuch = 1;
 /// So much of what a failed attempt leaves untold, s, may be a slow bus's or a busy machine's.
 constexpr double kLittle = 0.05;
 
@@ -108,7 +105,8 @@ void CountToTheEnd(const PlanRequest& request, PlanResult* result) {
 /// What a search with a path in hand took beyond the limit. Of others that their time tells.
 void NoteOverrun(double time_limit_s, PlanResult* result) {
   const double overrun_s = result->total_time_s - time_limit_s;
-  if (result->Solves() && !IsLate(result->planning_time_s, time_limit_s) && overrun_s > kMuch) {
+  if (result->Solves() && !IsLate(result->planning_time_s, time_limit_s) &&
+      overrun_s > kMuchTime_s) {
     result->counters[kOverrunTime] = overrun_s;
   }
 }
@@ -137,7 +135,7 @@ void CountFailedAttempt(double roundtrip_time_s, double time_limit_s, bool is_ov
 void NoteUntoldTime(double roundtrip_time_s, double time_limit_s, PlanResult* result) {
   const double simplification_s = result->phases.simplification_s;
   const double untold_s = roundtrip_time_s - result->total_time_s - simplification_s;
-  if (roundtrip_time_s - simplification_s > time_limit_s + kMuch && untold_s > kMuch) {
+  if (roundtrip_time_s - simplification_s > time_limit_s + kMuchTime_s && untold_s > kMuchTime_s) {
     result->counters[kUntoldTime] = untold_s;
   }
 }

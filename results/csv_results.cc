@@ -16,7 +16,6 @@
 #include "common/error.h"
 #include "common/read_text.h"
 #include "common/text.h"
-#include "results/outcomes.h"
 
 namespace planbench {
 namespace {
@@ -132,7 +131,7 @@ int ReadProblemIndex(const Row& row) {
   return index;
 }
 
-StoredRun ReadRun(const Row& row, double time_limit_s) {
+StoredRun ReadRun(const Row& row) {
   StoredRun run;
   run.problem_set = row.Text("problem_set");
   if (run.problem_set.empty()) row.Fail("problem_set", "the name of a problem set");
@@ -141,7 +140,6 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
   run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
   run.time_s = row.Number("time_s", 0, kLongest);
   if (row.Has("time_limit_s")) run.time_limit_s = row.Number("time_limit_s", 0, kLongest);
-  if (run.time_limit_s == 0) run.time_limit_s = time_limit_s;
   if (row.Has("trial")) run.trial = row.Int("trial", 1, kMostProblems);
   if (row.Has("direction")) {
     const auto direction = ParseEnum<Direction>(row.Text("direction"));
@@ -149,11 +147,6 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
     run.direction = *direction;
   }
   if (row.Has("reason")) run.message = row.Text("reason");
-  if (run.claimed && run.time_limit_s > 0 && IsLate(*run.time_s, run.time_limit_s)) {
-    run.status = PlanStatus::kTimedOut;
-    run.message = fmt::format("solved after {} s, beyond the time limit of {} s", *run.time_s,
-                              run.time_limit_s);
-  }
   const auto measure = [&](const std::string& column, const char* name, MeasuredValues* values) {
     if (row.Has(column) && !row.Text(column).empty()) {
       (*values)[name] = row.Number(column, 0, kLongest);
@@ -168,8 +161,7 @@ StoredRun ReadRun(const Row& row, double time_limit_s) {
 
 }  // namespace
 
-StoredSession ReadCsvResults(const std::filesystem::path& file, const std::string& name,
-                             double time_limit_s, std::vector<std::string>* warnings) {
+StoredSession ReadCsvResults(const std::filesystem::path& file, const std::string& name) {
   const std::string file_name = file.string();
   std::string text = ReadText(file);
   RefuseUtf16(text, file_name);
@@ -182,7 +174,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
   using Key = std::tuple<std::string, int, Direction>;
   std::map<Key, int> num_rows;
   std::set<std::pair<Key, int>> trials;
-  int number = 0, num_late = 0;
+  int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.ends_with('\r')) line.pop_back();
@@ -194,7 +186,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
       continue;
     }
     const Row row(file_name, number, header, SplitLine(line));
-    StoredRun run = ReadRun(row, time_limit_s);
+    StoredRun run = ReadRun(row);
     run.id = number;
     const Key key(run.problem_set, run.problem_index, run.direction);
     if (!row.Has("trial")) run.trial = ++num_rows[key];
@@ -202,18 +194,7 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
       row.Fail("trial", fmt::format("a trial of its own of problem {} of '{}'", run.problem_index,
                                     run.problem_set));
     }
-    if (run.claimed && !run.confirmed()) ++num_late;
     session.runs.push_back(std::move(run));
-  }
-  if (num_late > 0) {
-    warnings->push_back(
-        num_late == 1
-            ? fmt::format(
-                  "{}: 1 solved row took longer than its time limit and counts as TIMED_OUT",
-                  file_name)
-            : fmt::format("{}: {} solved rows took longer than their time limits and count as "
-                          "TIMED_OUT",
-                          file_name, num_late));
   }
   return session;
 }

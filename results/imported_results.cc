@@ -14,6 +14,7 @@
 #include "results/csv_results.h"
 #include "results/ompl_database.h"
 #include "results/ompl_log_reader.h"
+#include "results/outcomes.h"
 
 namespace planbench {
 namespace {
@@ -25,6 +26,45 @@ std::string Beginning(const std::filesystem::path& file) {
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
   if (stream.bad() || !stream.is_open()) throw InputError("cannot read " + file.string());
   return bytes;
+}
+
+/// Whether there was a path when the time limit came, as far as is told: a search that ended later
+/// may have gone on to improve one.
+bool IsInTime(const StoredRun& run) {
+  if (run.time_limit_s == 0 || !IsLate(*run.time_s, run.time_limit_s)) return true;
+  return !run.progress.empty() && !IsLate(run.progress.front().elapsed_s, run.time_limit_s);
+}
+
+/// Of what the file calls solved, what would not be here is not; a path in hand when the limit came
+/// is, with the limit as its time. `warnings` gets a line for each kind.
+void JudgeTimes(const std::string& file, std::vector<StoredRun>* runs,
+                std::vector<std::string>* warnings) {
+  int num_late = 0, num_untold = 0;
+  for (StoredRun& run : *runs) {
+    if (!run.confirmed()) continue;
+    if (!run.time_s) {
+      run.status = PlanStatus::kTimedOut;
+      run.message = "solved, but in a time that is not told";
+      ++num_untold;
+    } else if (!IsInTime(run)) {
+      run.status = PlanStatus::kTimedOut;
+      run.message = fmt::format("solved after {} s, beyond the time limit of {} s", *run.time_s,
+                                run.time_limit_s);
+      ++num_late;
+    } else if (run.time_limit_s > 0 && *run.time_s > run.time_limit_s) {
+      const double overrun_s = *run.time_s - run.time_limit_s;
+      if (overrun_s > kMuchTime_s) run.odd_times_s[kOverrunIndex] = overrun_s;
+      run.time_s = run.time_limit_s;
+    }
+  }
+  const auto tell = [&](int number, const char* one, const char* several) {
+    if (number == 0) return;
+    warnings->push_back(
+        fmt::format("{}: {} solved {} as TIMED_OUT", file, number, number == 1 ? one : several));
+  };
+  tell(num_late, "run took longer than its time limit and counts",
+       "runs took longer than their time limits and count");
+  tell(num_untold, "run has no time and counts", "runs have no time and count");
 }
 
 /// Index of the contestant of that name, which is added if there is none.
@@ -69,7 +109,7 @@ StoredSession ImportResults(const std::filesystem::path& file, const std::string
              beginning.find("\nExperiment ") != std::string::npos) {
     session = ReadOmplLog(file, name, warnings);
   } else {
-    session = ReadCsvResults(file, name, time_limit_s, warnings);
+    session = ReadCsvResults(file, name);
   }
   if (session.runs.empty()) throw InputError(file.string() + ": no results");
   session.file = file;
@@ -78,6 +118,9 @@ StoredSession ImportResults(const std::filesystem::path& file, const std::string
   session.num_runs = static_cast<int>(session.runs.size());
   for (StoredRun& run : session.runs) {
     if (run.time_limit_s == 0) run.time_limit_s = time_limit_s;
+  }
+  JudgeTimes(file.string(), &session.runs, warnings);
+  for (StoredRun& run : session.runs) {
     run.roundtrip_time_s = run.time_s.value_or(run.time_limit_s);
   }
   return session;

@@ -13,9 +13,11 @@ namespace planbench {
 /// Results from elsewhere as the session of a contestant `name` that no referee has seen; of
 /// several planners one each, "NAME: PLANNER". docs/lineups.md says what the files may be: CSV,
 /// logs of OMPL's benchmarks, and OMPL's benchmark databases (of one of ours, the runs that other
-/// programs appended). `time_limit_s`: of runs whose file does not tell; 0: not known. `warnings`
-/// gets a line for each kind of run that does not count as the file says. Throws InputError with
-/// file, line and column.
+/// programs appended). `time_limit_s`: of runs whose file does not tell; 0: not known. What the
+/// file calls solved counts as TIMED_OUT if it tells of no path by the limit, or of no time;
+/// without a known limit nothing is late. A failed run without a time has taken its limit.
+/// `warnings` gets a line for each kind of run that does not count as the file says. Throws
+/// InputError with file, line and column.
 StoredSession ImportResults(const std::filesystem::path& file, const std::string& name,
                             double time_limit_s, std::vector<std::string>* warnings);
 

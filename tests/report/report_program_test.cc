@@ -193,7 +193,7 @@ TEST_F(ReportProgramTest, FilesImportedUnderOneNameAreOneRow) {
                  Path("two.csv"), "--as", "Y", "--out", Path("page.html"), "--csv", Path("csv")}),
             kExitOk);
   EXPECT_THAT(ReadText(folder_ / "csv" / "success.csv"), HasSubstr("\nshelf,Y,2,2,2,1,"));
-  EXPECT_THAT(errors_, HasSubstr("two.csv: 1 solved row took longer than its time limit"));
+  EXPECT_THAT(errors_, HasSubstr("two.csv: 1 solved run took longer than its time limit"));
   EXPECT_THAT(ReadText(folder_ / "page.html"), HasSubstr("one.csv, two.csv: 2 runs"));
   EXPECT_EQ(Run({Path("example"), "--import", Path("one.csv"), "--as", "A"}), kExitBadInput);
   EXPECT_THAT(errors_, HasSubstr("one.csv: a contestant is called 'A', too"));

@@ -149,7 +149,7 @@ TEST_F(ImportedCsvTest, APathAfterTheTimeLimitIsNone) {
   EXPECT_EQ(runs[3].status, PlanStatus::kTimedOut);  // the session's limit
   EXPECT_EQ(runs[3].time_limit_s, 60);
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("r.csv: 2 solved rows took longer"), std::string::npos);
+  EXPECT_NE(warnings_[0].find("r.csv: 2 solved runs took longer"), std::string::npos);
 }
 
 TEST_F(ImportedCsvTest, EncodingsOfSpreadsheets) {

@@ -85,8 +85,46 @@ TEST_F(OmplResultsTest, ALogsPlannersAreContestants) {
   EXPECT_EQ(session.runs[2].message, "Approximate solution");
   EXPECT_EQ(session.runs[3].message, "Timeout");
   EXPECT_EQ(session.runs[4].contestant, 1u);
-  EXPECT_TRUE(session.runs[4].confirmed());
-  EXPECT_EQ(session.runs[4].time_s, std::nullopt);
+  EXPECT_TRUE(session.runs[4].claimed);
+}
+
+TEST_F(OmplResultsTest, APathIsInTimeIfItWasInHandWhenTheLimitCame) {
+  std::string log = kLog;
+  const auto replace = [&](const std::string& text, const std::string& by) {
+    log.replace(log.find(text), text.size(), by);
+  };
+  replace("0.01; 1; 6", "1.6; 1; 6");  // with improvements from 0.2 s on
+  replace("0.02; 1; 6; 3.5; inf; 0", "3; 1; 6; 3.5; inf; 1");
+  replace("1.5; 1; 5; 9", "1.6; 1; 6; 9");
+  replace("0.2,6,;\n\n", "0.2,6,;\n1.6,6,;\n");
+  const StoredSession session = Log(log);
+  const std::vector<StoredRun>& runs = session.runs;
+  EXPECT_EQ(runs[0].status, PlanStatus::kSolved);
+  EXPECT_EQ(runs[0].time_s, 1.5) << "as of our own planners";
+  EXPECT_FALSE(OwesToOverrun(runs[0].odd_times_s));
+  EXPECT_EQ(runs[1].status, PlanStatus::kSolved);
+  EXPECT_EQ(runs[1].time_s, 1.5);
+  EXPECT_TRUE(OwesToOverrun(runs[1].odd_times_s)) << "by 1.5 s";
+  EXPECT_EQ(runs[2].status, PlanStatus::kTimedOut);
+  EXPECT_TRUE(runs[2].claimed);
+  EXPECT_EQ(runs[2].message, "solved after 1.6 s, beyond the time limit of 1.5 s");
+  EXPECT_EQ(runs[2].time_s, 1.6);
+  // The planner after it tells no time: the limit is none that it took.
+  EXPECT_EQ(runs[4].status, PlanStatus::kTimedOut);
+  EXPECT_EQ(runs[4].message, "solved, but in a time that is not told");
+  EXPECT_EQ(runs[4].time_s, std::nullopt);
+  EXPECT_THAT(warnings_,
+              testing::ElementsAre(
+                  testing::HasSubstr("own.log: 1 solved run took longer than its time limit and "
+                                     "counts as TIMED_OUT"),
+                  testing::HasSubstr("own.log: 1 solved run has no time and counts as TIMED_OUT")));
+  // The limit of the session, and none that is known.
+  replace("1.5 seconds per run", "inf seconds per run");
+  EXPECT_EQ(Log(log).runs[2].status, PlanStatus::kSolved);
+  EXPECT_EQ(ImportResults(folder_ / "own.log", "OMPL", 1, &warnings_).runs[2].status,
+            PlanStatus::kTimedOut);
+  EXPECT_EQ(ImportResults(folder_ / "own.log", "OMPL", 0, &warnings_).runs[2].status,
+            PlanStatus::kSolved);
 }
 
 TEST_F(OmplResultsTest, ADamagedLogIsRefusedByLine) {
@@ -156,7 +194,7 @@ TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
   Fill(
       "INSERT INTO experiments VALUES (1, 'box', 5, 'host', 'OMPL 1.6', 'today');"
       "INSERT INTO plannerConfigs VALUES (1, 'RRTstar', ''), (2, 'PRM', '');"
-      "INSERT INTO runs VALUES (3, 1, 1, 5, 1, 6, 4, NULL), (4, 1, 2, 1, 1, 6, 3, NULL);"
+      "INSERT INTO runs VALUES (3, 1, 1, 5.01, 1, 6, 4, NULL), (4, 1, 2, 1, 1, 6, 3, NULL);"
       "CREATE TABLE progress (runid INTEGER, time REAL, best_cost REAL, iterations INTEGER, "
       "PRIMARY KEY (runid, time));"
       "INSERT INTO progress VALUES (3, 0.4, 4, 9), (3, 0.1, NULL, 1), (3, 0.2, 5, 2), "
@@ -169,7 +207,9 @@ TEST_F(OmplResultsTest, ADatabasesProgressIsThatOfItsLog) {
   EXPECT_EQ(progress[0].cost, 5);
   EXPECT_EQ(progress[1].elapsed_s, 0.4);
   EXPECT_EQ(progress[1].cost, 4);
+  EXPECT_TRUE(session.runs[0].confirmed()) << "in hand when the limit came";
   EXPECT_TRUE(session.runs[1].progress.empty());
+  EXPECT_TRUE(warnings_.empty());
   SqliteConnection(folder_ / "own.db", SqliteConnection::Mode::kReadWriteCreate)
       .Execute("UPDATE progress SET time = -1 WHERE iterations = 9");
   ExpectInputError([&] { Database(); }, {"own.db: run 3 of experiment 1: time: -1 is negative"});
