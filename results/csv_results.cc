@@ -81,6 +81,11 @@ class Row {
   bool Has(const std::string& column) const { return Find(column) != nullptr; }
   /// Of a column that it has.
   const std::string& Text(const std::string& column) const { return *Find(column); }
+  /// Whether there is a number to be read: where there is none, cells are empty or say nan.
+  bool Tells(const std::string& column) const {
+    const std::string* text = Find(column);
+    return text != nullptr && !text->empty() && *text != "nan" && *text != "NaN";
+  }
   double Number(const std::string& column, double least, double most) const {
     const std::string& text = Text(column);
     double value = 0;
@@ -138,8 +143,8 @@ StoredRun ReadRun(const Row& row) {
   run.problem_index = ReadProblemIndex(row);
   run.claimed = row.Int("solved", 0, 1) == 1;
   run.status = run.claimed ? PlanStatus::kSolved : PlanStatus::kTimedOut;
-  run.time_s = row.Number("time_s", 0, kLongest);
-  if (row.Has("time_limit_s")) run.time_limit_s = row.Number("time_limit_s", 0, kLongest);
+  if (run.claimed || row.Tells("time_s")) run.time_s = row.Number("time_s", 0, kLongest);
+  if (row.Tells("time_limit_s")) run.time_limit_s = row.Number("time_limit_s", 0, kLongest);
   if (row.Has("trial")) run.trial = row.Int("trial", 1, kMostProblems);
   if (row.Has("direction")) {
     const auto direction = ParseEnum<Direction>(row.Text("direction"));
@@ -148,7 +153,7 @@ StoredRun ReadRun(const Row& row) {
   }
   if (row.Has("reason")) run.message = row.Text("reason");
   const auto measure = [&](const std::string& column, const char* name, MeasuredValues* values) {
-    if (row.Has(column) && !row.Text(column).empty()) {
+    if (row.Tells(column)) {
       (*values)[name] = row.Number(column, 0, kLongest);
     }
   };

@@ -90,6 +90,21 @@ TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   ExpectInputError([&] { ImportResults("/none/r.csv", "x", 1, &warnings_); }, {"/none/r.csv"});
 }
 
+TEST_F(ImportedCsvTest, AFailedRunNeedsNoTime) {
+  const auto runs = Read(
+      "problem_set,problem_index,solved,time_s,time_limit_s,path_length\n"
+      "box,1,0,,,\nbox,2,0,nan,10,NaN\nbox,3,0,4,,nan\n");
+  EXPECT_EQ(runs[0].time_s, std::nullopt);
+  EXPECT_EQ(runs[0].roundtrip_time_s, 60) << "its limit, here the session's";
+  EXPECT_EQ(runs[1].time_s, std::nullopt);
+  EXPECT_EQ(runs[1].roundtrip_time_s, 10);
+  EXPECT_EQ(runs[2].time_s, 4);
+  for (const StoredRun& run : runs) EXPECT_TRUE(run.measures.empty());
+  EXPECT_TRUE(warnings_.empty());
+  ExpectRefused("problem_set,problem_index,solved,time_s\nbox,1,0,soon\n",
+                {"r.csv:2: time_s: 'soon' is not a number"});
+}
+
 TEST_F(ImportedCsvTest, OtherSeparatorsThanCommasAreNamed) {
   ExpectRefused("\nproblem_set;problem_index;solved;time_s\nbox;1;1;0,5\n",
                 {"r.csv:2: columns are separated by ';': ", "commas", "points in numbers"});
