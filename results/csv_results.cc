@@ -20,23 +20,60 @@
 namespace planbench {
 namespace {
 
-/// Cells may be quoted; a quote within quotes is doubled.
-std::vector<std::string> SplitLine(const std::string& line) {
-  std::vector<std::string> cells = {""};
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[++i];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
+/// The rows of a file.
+class RowReader {
+ public:
+  RowReader(std::string file, std::string text) : file_(std::move(file)), lines_(std::move(text)) {}
+
+  /// Cells of the next row, nothing after the last; lines without anything are none. Throws
+  /// InputError for a quote that is not closed.
+  std::vector<std::string> Next() {
+    std::vector<std::string> cells;
+    bool in_quotes = false;
+    for (std::string text; (cells.empty() || in_quotes) && std::getline(lines_, text);) {
+      ++num_lines_;
+      if (text.ends_with('\r')) text.pop_back();
+      if (text.empty() && cells.empty()) continue;
+      if (cells.empty()) line_ = num_lines_;
+      in_quotes = TakeLine(text, in_quotes, &cells);
     }
+    if (!in_quotes) return cells;
+    throw InputError(fmt::format(
+        "{}:{}: a quote (\") is not closed: close it, or double it within the text", file_, line_));
   }
-  return cells;
-}
+  /// Where the row begins that was read last.
+  int line() const { return line_; }
+
+ private:
+  /// Adds the cells of a line, the first of which goes on with the last one of `cells` if that is
+  /// `in_quotes`, and returns whether the last one goes on so in the next line. Cells that begin
+  /// with a quote are quoted; a quote within is doubled, and the end of a line becomes a space.
+  static bool TakeLine(const std::string& text, bool in_quotes, std::vector<std::string>* cells) {
+    if (in_quotes) {
+      cells->back() += ' ';
+    } else {
+      cells->emplace_back();
+    }
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      std::string& cell = cells->back();
+      if (text[i] == '"' && in_quotes && i + 1 < text.size() && text[i + 1] == '"') {
+        cell += text[++i];
+      } else if (text[i] == '"' && (in_quotes || cell.find_first_not_of(' ') == cell.npos)) {
+        in_quotes = !in_quotes;
+      } else if (text[i] == ',' && !in_quotes) {
+        cells->emplace_back();
+      } else {
+        cell += text[i];
+      }
+    }
+    return in_quotes;
+  }
+
+  std::string file_;
+  std::istringstream lines_;
+  int num_lines_ = 0;
+  int line_ = 0;
+};
 
 /// Of two columns of one name only one could be believed. Columns without a name are never read.
 void RequireDistinct(const std::vector<std::string>& header, const std::string& file, int line) {
@@ -66,7 +103,7 @@ void RequireColumns(const std::vector<std::string>& header, const std::string& p
   }
 }
 
-/// The cells of one line, by column.
+/// The cells of one row, by column.
 class Row {
  public:
   Row(const std::string& file, int line, const std::vector<std::string>& header,
@@ -171,28 +208,21 @@ StoredSession ReadCsvResults(const std::filesystem::path& file, const std::strin
   std::string text = ReadText(file);
   RefuseUtf16(text, file_name);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);  // The mark of UTF-8.
-  std::istringstream lines(std::move(text));
-  std::vector<std::string> header;
+  RowReader rows(file_name, std::move(text));
+  const std::vector<std::string> header = rows.Next();
   StoredSession session;
   session.is_csv = true;
   session.contestants = {{name, "imported from " + file_name + "\n"}};
+  if (header.empty()) return session;
+  RequireDistinct(header, file_name, rows.line());
+  RequireColumns(header, fmt::format("{}:{}", file_name, rows.line()));
   using Key = std::tuple<std::string, int, Direction>;
   std::map<Key, int> num_rows;
   std::set<std::pair<Key, int>> trials;
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty()) continue;
-    if (header.empty()) {
-      header = SplitLine(line);
-      RequireDistinct(header, file_name, number);
-      RequireColumns(header, fmt::format("{}:{}", file_name, number));
-      continue;
-    }
-    const Row row(file_name, number, header, SplitLine(line));
+  for (auto cells = rows.Next(); !cells.empty(); cells = rows.Next()) {
+    const Row row(file_name, rows.line(), header, std::move(cells));
     StoredRun run = ReadRun(row);
-    run.id = number;
+    run.id = rows.line();
     const Key key(run.problem_set, run.problem_index, run.direction);
     if (!row.Has("trial")) run.trial = ++num_rows[key];
     if (!trials.emplace(key, run.trial).second) {

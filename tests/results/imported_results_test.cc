@@ -76,6 +76,21 @@ TEST_F(ImportedCsvTest, MeasuresAndReasonsAreRead) {
   EXPECT_EQ(runs[1].message, "hit, twice");
 }
 
+TEST_F(ImportedCsvTest, CellsInQuotesMayGoOnInTheNextLine) {
+  const std::string header = "problem_set,problem_index,solved,time_s,reason\r\n";
+  folder_.Write("r.csv", header +
+                             "box,1,0,9,\"hit,\r\n\r\nand \"\"stopped\"\"\"\r\n"
+                             "box,2,0,9,5\" short\r\nbox,3,1,2,\r\n");
+  const StoredSession session = Import("r.csv", "x");
+  ASSERT_EQ(session.runs.size(), 3u);
+  EXPECT_EQ(session.runs[0].message, "hit,  and \"stopped\"");
+  EXPECT_EQ(session.runs[1].message, "5\" short") << "of the text, as it does not begin with it";
+  EXPECT_EQ(session.runs[1].id, 5);
+  ExpectRefused(header + "box,1,0,9,\"a\r\nb\"\r\nbox,2,2,9,\r\n", {"r.csv:4: solved: '2'"});
+  ExpectRefused(header + "box,1,1,2,\r\nbox,2,0,9,\"hit\r\nbox,3,1,2,\r\n",
+                {"r.csv:3: a quote (\") is not closed"});
+}
+
 TEST_F(ImportedCsvTest, BadFilesAreRefusedByLineAndColumn) {
   const std::string header = "problem_set,problem_index,solved,time_s\n";
   ExpectRefused("", {"r.csv", "no results"});
