@@ -139,16 +139,7 @@ void WriteOmplLogs(const std::filesystem::path& file, const std::vector<StoredSe
   }
 }
 
-int Run(Flags flags) {
-  if (flags.sessions.empty() && flags.imports.empty()) {
-    throw InputError("session is required: a session folder, or --import FILE --as NAME");
-  }
-  const std::map<std::string, std::filesystem::path> packages = flags.robot.Packages();
-  if (!flags.merge.empty()) {
-    const std::string merged = MergeSessions(flags.sessions, flags.merge);
-    std::cout << "report: " << merged << "\n";
-    flags.sessions = {flags.merge};
-  }
+void MakeReport(const Flags& flags, const std::map<std::string, std::filesystem::path>& packages) {
   std::vector<StoredSession> sessions = ReadAll(flags);
   if (!flags.ompl_log.empty()) WriteOmplLogs(flags.ompl_log, sessions);
   const ComparedSessions compared(std::move(sessions));
@@ -162,6 +153,36 @@ int Run(Flags flags) {
   WriteFile(flags.out, ReportPage(data, views));
   for (const std::string& note : views.notes) std::cerr << "report: " << note << "\n";
   std::cout << "report: " << flags.out << "\n";
+}
+
+/// Leaves what was there before the merge: an empty folder or, `is_new`, none.
+void RemoveMerged(const std::filesystem::path& folder, bool is_new) {
+  std::error_code ignored;  // what is left is named when the merge is tried again
+  std::vector<std::filesystem::path> made = {folder};
+  if (!is_new) made.assign(std::filesystem::directory_iterator(folder, ignored), {});
+  for (const std::filesystem::path& path : made) std::filesystem::remove_all(path, ignored);
+}
+
+int Run(Flags flags) {
+  if (flags.sessions.empty() && flags.imports.empty()) {
+    throw InputError("session is required: a session folder, or --import FILE --as NAME");
+  }
+  const std::map<std::string, std::filesystem::path> packages = flags.robot.Packages();
+  if (flags.merge.empty()) {
+    MakeReport(flags, packages);
+    return kExitOk;
+  }
+  const bool is_new = !std::filesystem::exists(flags.merge);
+  const std::string merged = MergeSessions(flags.sessions, flags.merge);
+  flags.sessions = {flags.merge};
+  try {
+    MakeReport(flags, packages);
+  } catch (...) {
+    // The same command, mended, finds the folder as it was.
+    RemoveMerged(flags.merge, is_new);
+    throw;
+  }
+  std::cout << "report: " << merged << "\n";
   return kExitOk;
 }
 

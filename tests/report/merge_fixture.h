@@ -78,11 +78,13 @@ class MergeSessionsTest : public testing::Test {
 
   int Merge(const std::vector<std::string>& folders) { return MergeTo("whole", folders); }
 
-  int MergeTo(const std::string& whole, const std::vector<std::string>& folders) {
+  int MergeTo(const std::string& whole, const std::vector<std::string>& folders,
+              const std::vector<std::string>& flags = {}) {
     std::vector<std::string> arguments = {std::string(PLANBENCH_BIN_DIR) + "/report", "--merge",
                                           (folder_ / whole).string(), "--out",
                                           (folder_ / "page.html").string()};
     for (const std::string& folder : folders) arguments.push_back((folder_ / folder).string());
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
     ChildProcess process(arguments, folder_ / "report");
     const int code = process.Wait().value_or(-1);
     output_ = process.Output();

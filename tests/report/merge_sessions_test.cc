@@ -499,6 +499,24 @@ TEST_F(MergeSessionsTest, ARunThatWasNotAskedGivesWayToOneThatWas) {
   EXPECT_FALSE(ReadSessions(folder_ / "alone").sessions.front().finished) << "it is to be made";
 }
 
+TEST_F(MergeSessionsTest, WithoutAReportThereIsNoMergedSession) {
+  Write("one", Session("early", 1'000'000, 1), {{.contestant = "A"}});
+  const std::string header = "problem_set,problem_index,solved,time_s\n";
+  const std::vector<std::string> flags = {"--import", (folder_ / "own.csv").string(), "--as", "D"};
+  folder_.Write("own.csv", header + "shelf,1,1,-1\n");
+  EXPECT_EQ(MergeTo("whole", {"one"}, flags), kExitBadInput);
+  EXPECT_THAT(errors_, HasSubstr("own.csv:2: time_s"));
+  EXPECT_THAT(output_, Not(HasSubstr("runs of")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "whole"));
+  // An empty folder stays one.
+  std::filesystem::create_directory(folder_ / "whole");
+  EXPECT_EQ(MergeTo("whole", {"one"}, flags), kExitBadInput);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "whole"));
+  folder_.Write("own.csv", header + "shelf,1,1,1\n");
+  EXPECT_EQ(MergeTo("whole", {"one"}, flags), kExitOk) << errors_;
+  EXPECT_EQ(ReadSessions(folder_ / "whole").sessions.front().runs.size(), 1u);
+}
+
 TEST_F(MergeSessionsTest, WhatIsNoPartOfOneSessionIsRefused) {
   Write("one", Session("early", 1'000'000, 1), {{.contestant = "A"}});
   Write("again", Session("later", 2'000'000, 1), {{.contestant = "A", .time_s = 2}});
