@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "common/disjoint_sets.h"
 #include "geometry/degenerate_triangles.h"
 #include "geometry/lexicographic_less.h"
 
@@ -48,18 +48,11 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     int balance = 0;  // triangles that run along it less those that run against it
   };
   std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
-  std::vector<std::uint32_t> parent(joined.vertices.size());  // disjoint sets of vertices
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&parent](std::uint32_t v) {
-    while (parent[v] != v) {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
-    }
-    return v;
-  };
+  DisjointSets parts(joined.vertices.size());
   std::vector<Triangle> all;
-  std::vector<std::uint32_t> vertex_of;           // one vertex of each triangle
-  std::vector<bool> known(parent.size(), false);  // vertices, of what component_points_ tells of
+  std::vector<std::uint32_t> vertex_of;  // one vertex of each triangle
+  // Vertices, of what component_points_ tells of.
+  std::vector<bool> known(joined.vertices.size(), false);
   for (const auto& v : SurfaceTriangles(joined)) {
     all.push_back({joined.vertices[v[0]], joined.vertices[v[1]], joined.vertices[v[2]], true});
     vertex_of.push_back(v[0]);
@@ -69,7 +62,7 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
       Edge& edge = edges[std::minmax(a, b)];
       ++edge.triangles;
       edge.balance += a < b ? 1 : -1;
-      parent[root(a)] = root(b);
+      parts.Join(a, b);
       known[a] = true;
     }
   }
@@ -79,14 +72,14 @@ SolidMesh::SolidMesh(const TriangleMesh& mesh) {
     bool closed = true;
     bool oriented = true;
   };
-  std::vector<Component> components(parent.size());  // by root vertex
+  std::vector<Component> components(joined.vertices.size());  // by root vertex
   for (const auto& [ends, edge] : edges) {
-    Component& component = components[root(ends.first)];
+    Component& component = components[parts.Root(ends.first)];
     if (edge.triangles % 2 != 0) component.closed = false;
     if (edge.balance != 0) component.oriented = false;
   }
   for (std::size_t t = 0; t < all.size(); ++t) {
-    Component& component = components[root(vertex_of[t])];
+    Component& component = components[parts.Root(vertex_of[t])];
     if (!component.seen) {
       component_points_.push_back(all[t].a);
       ++survey_.components;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "common/disjoint_sets.h"
 #include "geometry/degenerate_triangles.h"
 
 namespace planbench {
@@ -21,28 +21,6 @@ double Area(const TriangleMesh& mesh, const Triangle& triangle) {
   const Eigen::Vector3d& a = mesh.vertices[triangle[0]];
   return (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).norm() / 2;
 }
-
-// Vertices that triangles join.
-class Parts {
- public:
-  Parts(std::size_t num_vertices, const std::vector<Triangle>& triangles) : up_(num_vertices) {
-    std::iota(up_.begin(), up_.end(), 0U);
-    for (const Triangle& t : triangles) {
-      up_[Root(t[0])] = Root(t[1]);
-      up_[Root(t[1])] = Root(t[2]);
-    }
-  }
-  Index Root(Index v) {
-    while (up_[v] != v) {
-      up_[v] = up_[up_[v]];
-      v = up_[v];
-    }
-    return v;
-  }
-
- private:
-  std::vector<Index> up_;
-};
 
 // The loops of edges that an odd number of triangles have, each as its vertices, run through
 // against the triangles that are there.
@@ -97,14 +75,18 @@ int FillSmallHoles(TriangleMesh* mesh) {
   const std::vector<Triangle> surface = SurfaceTriangles(*mesh);
   const std::vector<std::vector<Index>> loops = Loops(surface);
   if (loops.empty()) return 0;
-  Parts parts(mesh->vertices.size(), surface);
-  std::map<Index, double> area;
+  DisjointSets parts(mesh->vertices.size());
+  for (const auto& [a, b, c] : surface) {
+    parts.Join(a, b);
+    parts.Join(b, c);
+  }
+  std::map<std::size_t, double> area;
   for (const Triangle& t : surface) area[parts.Root(t[0])] += Area(*mesh, t);
-  std::map<Index, double> missing;
-  std::map<Index, std::vector<Triangle>> patches;
-  std::map<Index, int> holes;
+  std::map<std::size_t, double> missing;
+  std::map<std::size_t, std::vector<Triangle>> patches;
+  std::map<std::size_t, int> holes;
   for (const std::vector<Index>& loop : loops) {
-    const Index part = parts.Root(loop.front());
+    const std::size_t part = parts.Root(loop.front());
     ++holes[part];
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
       const Triangle t = {loop[0], loop[k], loop[k + 1]};
