@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <set>
 #include <utility>
+
+#include "common/disjoint_sets.h"
 
 namespace planbench {
 namespace {
@@ -13,13 +14,10 @@ namespace {
 using Corner = std::uint32_t;
 using Ends = std::pair<Corner, Corner>;
 
-struct EdgeOfSlivers {
-  bool is_odd = false;  // So is the number of triangles that have it.
-  std::vector<std::size_t> slivers;
-};
-
-std::array<Ends, 3> EdgesOf(const std::array<Corner, 3>& t) {
-  return {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])};
+/// The longest of all segments between ends of two that are on one line; nothing of others.
+std::optional<Segment> OnOneLine(const Segment& a, const Segment& b) {
+  const std::optional<Segment> longest = AsLine(a.a, a.b, b.a);
+  return longest ? AsLine(longest->a, longest->b, b.b) : std::nullopt;
 }
 
 }  // namespace
@@ -34,60 +32,51 @@ std::optional<Segment> AsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b
 }
 
 std::vector<std::array<Corner, 3>> SurfaceTriangles(const TriangleMesh& mesh) {
-  std::vector<std::array<Corner, 3>> triangles;
-  std::map<Ends, EdgeOfSlivers> edges;
-  std::set<std::pair<int, std::size_t>> open;  // Slivers that may have to go, by rank.
-  for (const auto& t : mesh.triangles) {
+  std::vector<std::array<Corner, 3>> surface;
+  DisjointSets lines(mesh.triangles.size());  // Slivers that share edges, by place in the mesh.
+  std::map<std::size_t, Segment> extents;     // Of a line, by its root.
+  std::map<Ends, std::size_t> line_of;        // Of each edge of slivers, any of the line.
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    if (AsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) {
-      open.emplace(0, triangles.size());
-      for (const Ends& ends : EdgesOf(t)) edges[ends].slivers.push_back(triangles.size());
+    const std::array<Ends, 3> edges = {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]),
+                                       std::minmax(t[2], t[0])};
+    std::optional<Segment> extent =
+        AsLine(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    for (const Ends& ends : edges) {
+      if (!extent) break;
+      const auto line = line_of.find(ends);
+      if (line == line_of.end()) continue;
+      extent = OnOneLine(*extent, extents.at(lines.Root(line->second)));
     }
-    triangles.push_back(t);
-  }
-  if (open.empty()) return triangles;
-  for (const auto& t : triangles) {
-    for (const Ends& ends : EdgesOf(t)) {
-      const auto edge = edges.find(ends);
-      if (edge != edges.end()) edge->second.is_odd = !edge->second.is_odd;
-    }
-  }
-  std::set<std::size_t> gone;
-  // Whatever is closed, no sliver is part of it that has an odd edge for itself. Of several that
-  // share one any may be the one too many: rather that with three such edges.
-  constexpr int kStays = 3;
-  const auto rank_of = [&](std::size_t sliver) {
-    if (gone.contains(sliver)) return kStays;
-    int num_odd = 0;
-    for (const Ends& ends : EdgesOf(triangles[sliver])) {
-      const EdgeOfSlivers& edge = edges[ends];
-      if (!edge.is_odd) continue;
-      if (edge.slivers.size() == 1) return 0;
-      ++num_odd;
-    }
-    return num_odd < 2 ? kStays : 4 - num_odd;
-  };
-  while (!open.empty()) {
-    const auto [rank, sliver] = *open.begin();
-    open.erase(open.begin());
-    if (const int now = rank_of(sliver); now > rank) {
-      if (now < kStays) open.emplace(now, sliver);
+    if (!extent) {
+      surface.push_back(t);
       continue;
     }
-    gone.insert(sliver);
-    for (const Ends& ends : EdgesOf(triangles[sliver])) {
-      EdgeOfSlivers& edge = edges[ends];
-      edge.is_odd = !edge.is_odd;
-      std::erase(edge.slivers, sliver);
-      if (!edge.is_odd) continue;
-      for (const std::size_t other : edge.slivers) open.emplace(0, other);
+    for (const Ends& ends : edges) lines.Join(line_of.try_emplace(ends, i).first->second, i);
+    extents.emplace(i, *extent);
+  }
+  if (extents.empty()) return surface;
+  DisjointSets parts(mesh.vertices.size());
+  for (const auto& [a, b, c] : surface) {
+    parts.Join(a, b);
+    parts.Join(b, c);
+  }
+  // On a line, edges cover every place of it an even number of times if an even number of them ends
+  // in every corner: so it is once each goes by way of one and the same corner.
+  std::map<std::pair<std::size_t, std::size_t>, Corner> hubs;  // By line and part.
+  for (std::size_t i = 0, end = surface.size(); i < end; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner a = surface[i][k];
+      const Corner b = surface[i][(k + 1) % 3];
+      const auto line = line_of.find(std::minmax(a, b));
+      if (line == line_of.end()) continue;
+      const Corner hub =
+          hubs.try_emplace({lines.Root(line->second), parts.Root(a)}, a).first->second;
+      if (hub != a && hub != b) surface.push_back({b, a, hub});
     }
   }
-  std::vector<std::array<Corner, 3>> kept;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!gone.contains(t)) kept.push_back(triangles[t]);
-  }
-  return kept;
+  return surface;
 }
 
 }  // namespace planbench

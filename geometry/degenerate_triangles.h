@@ -16,10 +16,11 @@ namespace planbench {
 std::optional<Segment> AsLine(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                               const Eigen::Vector3d& c);
 
-/// The triangles of a mesh that say what it encloses. Left out are those with two corners in one
-/// place, and slivers (AsLine) that open what is closed without them: one after the other those
-/// that have an edge of an odd number of triangles which no other sliver has, then those that have
-/// three such edges, or two, with others. Slivers that close a part stay. Vertices must be joined.
+/// The triangles of a mesh that say what it encloses: those that have an area, and slivers (AsLine)
+/// in the place of those that are there. These, of which those that share edges are in a row, tell
+/// what edges are on one line (one that is in no row with its neighbours stays); each such edge
+/// gets a sliver to one corner on it for all of a part. So what any slivers there can close is
+/// closed, by those that its orientation needs, and nothing is opened. Vertices must be joined.
 std::vector<std::array<std::uint32_t, 3>> SurfaceTriangles(const TriangleMesh& mesh);
 
 }  // namespace planbench

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <random>
 #include <utility>
 #include <vector>
@@ -94,6 +96,46 @@ TEST(SolidMeshTest, SliversCloseAPartAndOpenNone) {
   mesh.vertices.insert(mesh.vertices.end(), {{7, 0, 0}, {8, 0, 0}, {9, 0, 0}});
   mesh.triangles.push_back({17, 18, 19});
   expect_cube(2);
+}
+
+TEST(SolidMeshTest, TanglesOfSliversCloseAPart) {
+  std::mt19937_64 random(7);
+  for (int trial = 0; trial < 100; ++trial) {
+    TriangleMesh mesh = Cube(2);
+    const std::size_t split = random() % mesh.triangles.size();
+    const auto [a, b, c] = mesh.triangles[split];
+    const Eigen::Vector3d from = mesh.vertices[a];
+    const Eigen::Vector3d along = mesh.vertices[b] - from;
+    std::vector<std::uint32_t> row = {a, b};
+    for (const double share : {0.5, -1.0, -0.25, 0.125, 0.7, 1.5, 2.0}) {
+      row.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.emplace_back(from + share * along);
+    }
+    mesh.triangles[split] = {a, row[2], c};
+    mesh.triangles.push_back({row[2], b, c});
+    mesh.triangles.push_back({a, b, row[2]});
+    for (int i = 0; i < 9; ++i) {  // anywhere in the file
+      std::ranges::shuffle(row, random);
+      const auto place = static_cast<std::ptrdiff_t>(random() % mesh.triangles.size());
+      mesh.triangles.insert(mesh.triangles.begin() + place, {row[0], row[1], row[2]});
+    }
+    const SolidMesh solid(mesh);
+    EXPECT_EQ(solid.survey().components, 1);
+    EXPECT_EQ(solid.survey().open, 0);
+    EXPECT_EQ(solid.survey().not_oriented, 0);
+    EXPECT_NEAR(solid.survey().volume, 8, 1e-12);
+  }
+}
+
+/// Its walls are slivers, which share corners that are all but one.
+TEST(SolidMeshTest, AFilmIsOpenWithoutOneSide) {
+  TriangleMesh film = BoxMesh({2, 2, 1e-7});
+  EXPECT_TRUE(SolidMesh(film).has_inside());
+  std::erase_if(film.triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
+    return std::ranges::all_of(triangle,
+                               [&](std::uint32_t corner) { return film.vertices[corner].z() < 0; });
+  });
+  EXPECT_FALSE(SolidMesh(film).has_inside());
 }
 
 TEST(SolidMeshTest, RaysThroughEdgesAndVerticesCountOnce) {
