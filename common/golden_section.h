@@ -6,16 +6,17 @@
 namespace planbench {
 
 /// The least value that a convex function of [low, high] takes at its ends and in at most 60 golden
-/// sections, which end where less than `tolerance` times the upper end is left.
-template <typename Function>
-double LeastByGoldenSections(double low, double high, double tolerance, const Function& function) {
+/// sections, which end once `is_enough(low, high)` of what is left.
+template <typename Function, typename IsEnough>
+double LeastByGoldenSections(double low, double high, const Function& function,
+                             const IsEnough& is_enough) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double least = std::min(function(low), function(high));
   double a = high - golden * (high - low);
   double b = low + golden * (high - low);
   double at_a = function(a);
   double at_b = function(b);
-  for (int i = 0; i < 60 && high - low > tolerance * high; ++i) {
+  for (int i = 0; i < 60 && !is_enough(low, high); ++i) {
     least = std::min({least, at_a, at_b});
     if (at_a < at_b) {
       high = b;

@@ -100,16 +100,18 @@ double MeshSurface::Distance(const Vector3d& point, double at_most) const {
 }
 
 double MeshSurface::Distance(const Segment& segment, double at_most) const {
-  return std::sqrt(Least(
-      at_most * at_most,
-      [&](const Vector3d& low, const Vector3d& high, double) {
-        return LeastOnSegment(
-            segment, [&](const Vector3d& p) { return SquaredDistanceToBox(p, low, high); });
+  return Least(
+      at_most,
+      [&](const Vector3d& low, const Vector3d& high, double best) {
+        return LeastOnSegment(segment, best, [&](const Vector3d& p) {
+          return std::sqrt(SquaredDistanceToBox(p, low, high));
+        });
       },
-      [&](const Corners& corners, double) {
-        return LeastOnSegment(
-            segment, [&](const Vector3d& p) { return SquaredDistanceToTriangle(p, corners); });
-      }));
+      [&](const Corners& corners, double best) {
+        return LeastOnSegment(segment, best, [&](const Vector3d& p) {
+          return std::sqrt(SquaredDistanceToTriangle(p, corners));
+        });
+      });
 }
 
 }  // namespace planbench

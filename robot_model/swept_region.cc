@@ -27,7 +27,8 @@ double MaxDistanceToEllipse(const Eigen::Vector2d& w, double r, double s) {
   // quotient grows without bound, unless w_x = 0.
   const double low = r2 * (1 + 1e-14);
   const double high = r2 + r * distance + r2 * 1e-13;
-  const double best = LeastByGoldenSections(low, high, 1e-9, dual);
+  const double best = LeastByGoldenSections(
+      low, high, dual, [](double from, double to) { return to - from <= 1e-9 * to; });
   // The circle around the ellipse bounds it too (and exactly, where the ellipse is one).
   return std::min(std::sqrt(best), distance + r);
 }

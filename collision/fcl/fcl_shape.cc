@@ -303,22 +303,24 @@ bool FclShape::Contains(const FclShape& other, const Pose& X_SO) const {
 
 double FclShape::SegmentDistance(const Segment& segment, double at_most) const {
   if (geometry_->IsMesh()) return geometry_->surface.Distance(segment, at_most);
-  return std::min(at_most, LeastOnSegment(segment, [this](const Eigen::Vector3d& point) {
-                    return std::max(0.0, BallDistance(point, 0));
-                  }));
+  return LeastOnSegment(segment, at_most, [this](const Eigen::Vector3d& point) {
+    return std::max(0.0, BallDistance(point, 0));
+  });
 }
 
 double FclShape::LineDistance(const FclShape& other, const Pose& X_SO, double at_most) const {
   const auto nearest = [](const FclShape& of, const FclShape& to, const Pose& X_TF, double limit) {
+    const Eigen::Matrix3d turned = X_TF.rotation.cwiseAbs();
     return of.geometry_->lines.Least(
         limit,
-        [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high, double best) {
-          const Eigen::Vector3d center = X_TF * ((low + high) / 2);
-          const double radius = (high - low).norm() / 2;
-          return std::max(0.0, to.SegmentDistance({center, center}, best + 2 * radius) - radius);
+        [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high, double) {
+          const Eigen::Vector3d apart = (X_TF * ((low + high) / 2) - to.box_center_).cwiseAbs();
+          const Eigen::Vector3d halves = turned * ((high - low) / 2) + to.box_half_size_;
+          return (apart - halves).cwiseMax(0).norm();
         },
         [&](const Corners& line, double best) {
-          return to.SegmentDistance({X_TF * line[0], X_TF * line[1]}, best);
+          const double distance = to.SegmentDistance({X_TF * line[0], X_TF * line[1]}, best);
+          return distance < kTouchingLines ? 0 : distance;  // nothing is nearer
         });
   };
   return nearest(other, *this, X_SO, nearest(*this, other, X_SO.Inverse(), at_most));
@@ -338,7 +340,7 @@ bool FclShape::Touches(const FclShape& other, const Pose& X_SO) const {
     fcl::collide(geometry_->fcl.get(), fcl::Transform3d::Identity(), other.geometry_->fcl.get(),
                  X_SO.ToIsometry(), fcl::CollisionRequestd(), result);
   }
-  return result.isCollision() || LineDistance(other, X_SO, 2 * kTouchingLines) <= kTouchingLines ||
+  return result.isCollision() || LineDistance(other, X_SO, kTouchingLines) <= 0 ||
          Contains(other, X_SO) || other.Contains(*this, X_SO.Inverse());
 }
 

@@ -53,7 +53,8 @@ class FclShape {
   double SegmentDistance(const Segment& segment, double at_most) const;
   /// By FCL: of what lines and points are not.
   double FaceDistance(const FclShape& other, const Pose& X_SO, double at_most) const;
-  /// The least distance of the lines and points that either shape has from the other, or `at_most`.
+  /// The least distance of the lines and points that either shape has from the other, or `at_most`;
+  /// 0 if they touch.
   double LineDistance(const FclShape& other, const Pose& X_SO, double at_most) const;
 
   std::unique_ptr<Geometry> geometry_;
