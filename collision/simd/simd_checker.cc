@@ -233,12 +233,13 @@ void SimdChecker::DoFindClearances(std::span<const double> qs, int num, double a
                                    std::span<double> clearances) {
   const double most = std::min(at_most, CompiledWorld::kMaxDistance);
   const auto n = static_cast<std::size_t>(space().size());
-  const bool is_mesh = model() == CollisionModel::kMeshes;
-  if (!is_mesh) FindBounds(qs, num, most, clearances);
+  // A robot's geometry may be spheres alone.
+  const bool has_meshes = model() == CollisionModel::kMeshes && HasPatches();
+  if (!has_meshes) FindBounds(qs, num, most, clearances);
   for (int i = 0; HasPatches() && i < num; ++i) {
     const auto q = qs.subspan(static_cast<std::size_t>(i) * n, n);
     double& clearance = At(clearances, i);
-    if (is_mesh) {
+    if (has_meshes) {
       clearance = MarginAround(q, most);
     } else if (clearance <= 0) {
       clearance = PatchDistance(q, most);

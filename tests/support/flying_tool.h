@@ -38,11 +38,9 @@ inline Eigen::Isometry3d FlyerGeometryPose() {
 }
 
 /// Its tool turns about three axes and then slides along three: q is x, y, z in m, and three
-/// angles. The base is `far_m` from the origin, along x.
-inline Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
-                       const std::string& base_geometry = {}, bool with_middles = false,
+/// angles. Geometry is a URDF's; the base is `far_m` from the origin, along x.
+inline Robot MakeFlyer(const std::string& tool_geometry, const std::string& base_geometry = {},
                        double far_m = 0) {
-  folder.Write("tool.obj", ObjText(tool));
   const auto body = [](const std::string& name, const std::string& geometry) {
     if (geometry.empty()) return "<link name=\"" + name + "\"/>";
     return "<link name=\"" + name +
@@ -55,7 +53,7 @@ inline Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
   const std::vector<std::string> joints = {"x", "y", "z", "roll", "pitch", "yaw"};
   const char* axes[] = {"1 0 0", "0 1 0", "0 0 1"};
   for (std::size_t i = 0; i < links.size(); ++i) {
-    urdf += body(links[i], links[i] == "tool" ? R"(<mesh filename="tool.obj"/>)" : "");
+    urdf += body(links[i], links[i] == "tool" ? tool_geometry : "");
     urdf += "<joint name=\"" + joints[i] + "\" type=\"" + (i < 3 ? "prismatic" : "revolute") +
             "\"> <parent link=\"" + (i == 0 ? "base" : links[i - 1]) + "\"/> <child link=\"" +
             links[i] + "\"/> <axis xyz=\"" + axes[i % 3] +
@@ -65,6 +63,15 @@ inline Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
   robot.name = "flyer";
   robot.model = RobotModel::FromUrdf(urdf + "</robot>", "flyer.urdf");
   robot.groups = {robot.model.MakeGroup("flyer", joints, "tool")};
+  return robot;
+}
+
+/// The same of a mesh, which is put into the folder, where `base_geometry` may name others.
+inline Robot MakeFlyer(const TemporaryFolder& folder, const TriangleMesh& tool,
+                       const std::string& base_geometry = {}, bool with_middles = false,
+                       double far_m = 0) {
+  folder.Write("tool.obj", ObjText(tool));
+  Robot robot = MakeFlyer(R"(<mesh filename="tool.obj"/>)", base_geometry, far_m);
   robot.resources.base_folder = folder.path();
   if (with_middles) {
     const int link = robot.model.FindLink("tool");

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -350,25 +352,35 @@ TEST(RobotMeshTruthTest, WhatIsClosestDoesNotDependOnWhatWasAskedBefore) {
   }
 }
 
-TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
-  const TemporaryFolder folder;
-  std::mt19937_64 random(11);
+/// Beside every solid, while the tool holds each of `held` in turn, or nothing (nullopt). Returns
+/// how many clearances were greater than 0.
+int ExpectClearancesNotFarBelow(const Robot& robot, const std::vector<std::optional<Shape>>& held,
+                                std::mt19937_64* random) {
   int num_clear = 0;
-  for (const GeneratedMesh& mesh : ToolMeshes()) {
-    SCOPED_TRACE(mesh.what);
-    const Robot robot = MakeFlyer(folder, mesh.triangles, {}, true);
-    MeshComparison comparison(robot);
-    for (const Shape& shape : SolidsOfEveryKind()) {
-      SCOPED_TRACE(ShapeTypeName(shape));
-      comparison.SetScene(SceneWith("thing", shape, RandomPose(&random, 0.5)));
+  MeshComparison comparison(robot);
+  for (const Shape& shape : SolidsOfEveryKind()) {
+    SCOPED_TRACE(ShapeTypeName(shape));
+    Scene scene = SceneWith("thing", shape, RandomPose(random, 0.5));
+    scene.allowed_collisions.SetEntry("base", "thing", true);  // No motion makes these touch.
+    for (const std::optional<Shape>& in_tool : held) {
+      SCOPED_TRACE(in_tool ? ShapeTypeName(*in_tool) : "nothing held");
+      scene.attached.clear();
+      if (in_tool) {
+        AttachedObject& attached = scene.attached.emplace_back();
+        attached.link = "tool";
+        attached.object.id = "held";
+        attached.object.shapes.push_back({*in_tool, Eigen::Isometry3d::Identity()});
+      }
+      comparison.SetScene(scene);
       for (int i = 0; i < Trials(10); ++i) {
         std::vector<double> q;
-        for (int j = 0; j < 6; ++j) q.push_back(2 * UniformFraction(&random) - 1);
-        double clearance = 0;
+        for (int j = 0; j < 6; ++j) q.push_back(2 * UniformFraction(random) - 1);
+        double clearance = std::numeric_limits<double>::quiet_NaN();
         comparison.fast().FindClearances(q, 1, 0.4, {&clearance, 1});
         const double exact = std::min(0.4, comparison.exact().FindClosest(q).distance_m);
         EXPECT_LE(clearance, std::max(exact, 0.0) + kBand_m);
-        if (std::holds_alternative<Cone>(shape)) continue;  // known by its bounding box
+        // Cones are known by boxes and balls around them.
+        if (in_tool || std::holds_alternative<Cone>(shape) || exact <= 0) continue;
         // Margins go down in steps of a factor of 1.54, and reach up to the square root of 3
         // further from boxes.
         EXPECT_GE(clearance, 0.37 * exact - kBand_m - 4e-4);
@@ -376,7 +388,28 @@ TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
       }
     }
   }
+  return num_clear;
+}
+
+TEST(RobotMeshTruthTest, ClearancesAreLowerBoundsNotFarBelow) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(11);
+  int num_clear = 0;
+  for (const GeneratedMesh& mesh : ToolMeshes()) {
+    SCOPED_TRACE(mesh.what);
+    num_clear += ExpectClearancesNotFarBelow(MakeFlyer(folder, mesh.triangles, {}, true),
+                                             {std::nullopt}, &random);
+  }
   EXPECT_GT(num_clear, Trials(100));
+}
+
+TEST(RobotMeshTruthTest, ClearancesOfARobotWithoutMeshesAreLowerBounds) {
+  std::mt19937_64 random(12);
+  const Robot robot = MakeFlyer(R"(<sphere radius="0.15"/>)", R"(<sphere radius="0.1"/>)");
+  const int num_clear = ExpectClearancesNotFarBelow(
+      robot, {std::nullopt, Cone{0.1, 0.4}, std::nullopt, Box{{0.1, 0.1, 0.5}}, std::nullopt},
+      &random);
+  EXPECT_GT(num_clear, Trials(50));
 }
 
 TEST(RobotMeshTruthTest, APartOfALargeMeshIsInsideALink) {
