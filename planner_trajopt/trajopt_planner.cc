@@ -75,23 +75,22 @@ class TrajectorySearch {
       result.message = "cancelled";
     } else {
       result.status = query_->ShouldStop() ? PlanStatus::kTimedOut : PlanStatus::kExhausted;
-      result.message = is_given_unchecked_
-                           ? "the path given was not checked in time"
-                           : fmt::format("in collision all the same: {} optimised from {}",
-                                         EnumName(settings_.algorithm), Beginnings());
+      result.message = WhyThereIsNone();
     }
     return result;
   }
 
  private:
-  /// What was optimised, in words.
-  std::string Beginnings() const {
+  /// No path, when the search has ended by itself or by the time limit.
+  std::string WhyThereIsNone() const {
+    if (is_given_unchecked_) return "the path given was not checked in time";
     std::vector<std::string> beginnings;
     if (!query_->initial_path().empty()) beginnings.emplace_back("the path given");
     if (guesses_.count() == 1) beginnings.emplace_back("the straight motion");
     if (guesses_.count() > 1) beginnings.push_back(fmt::format("{} guesses", guesses_.count()));
-    return beginnings.empty() ? "nothing, for want of time"
-                              : fmt::format("{}", fmt::join(beginnings, " and "));
+    if (beginnings.empty()) return "the time was up before anything was optimised";
+    return fmt::format("in collision all the same: {} optimised from {}",
+                       EnumName(settings_.algorithm), fmt::join(beginnings, " and "));
   }
 
   bool MayGoOn() const {

@@ -223,5 +223,14 @@ TEST_F(TrajoptPlannerTest, APathThatIsGivenIsNotSaidToCollideIfThereWasNoTimeToC
   EXPECT_EQ(result.message, "the path given was not checked in time");
 }
 
+TEST_F(TrajoptPlannerTest, NothingIsSaidToCollideThatWasNotLookedAt) {
+  PlanRequest request = MakeRequest(robot_, {0.6, 0, 0}, {-0.6, 0, 0});
+  request.time_limit_s = 1e-6;  // Gone with the set-up.
+  const PlanResult result =
+      MakeTrajoptPlanner(robot_, Settings(""))->Plan(request, EmptyPlanarScene(), nullptr);
+  EXPECT_EQ(result.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(result.message, "the time was up before anything was optimised");
+}
+
 }  // namespace
 }  // namespace planbench
