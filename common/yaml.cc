@@ -142,6 +142,11 @@ int LineOf(std::string_view text, std::size_t offset) {
 YamlNode YamlNode::LoadFile(const std::string& path) { return Parse(ReadText(path), path); }
 
 YamlNode YamlNode::Parse(const std::string& text, const std::string& origin) {
+  RefuseUtf16(text, origin);
+  if (const auto zero = text.find('\0'); zero != text.npos) {
+    throw InputError(
+        fmt::format("{}:{}: a byte is 0; the file must be UTF-8 text", origin, LineOf(text, zero)));
+  }
   if (const auto bad = FindInvalidUtf8(text)) {
     throw InputError(origin + ":" + std::to_string(LineOf(text, *bad)) + ": the byte " +
                      text.substr(*bad, 1) + " is no UTF-8; the file must be UTF-8 text");

@@ -485,6 +485,16 @@ TEST(YamlNode, OtherTextThanUtf8IsRefusedWithItsLine) {
   EXPECT_EQ(ErrorOf([] { Parse("a: 1\nb: caf\xe9\n"); }),
             "file.yaml:2: the byte \\xe9 is no UTF-8; the file must be UTF-8 text");
   EXPECT_THAT(ErrorOf([] { Parse("# \xff\na: 1\n"); }), StartsWith("file.yaml:1: "));
+  EXPECT_EQ(ErrorOf([] { Parse(std::string("a: 1\nb\0: 2\n", 11)); }),
+            "file.yaml:2: a byte is 0; the file must be UTF-8 text");
+  std::string wide;
+  for (const char c : std::string("a: 1\n")) wide += {c, '\0'};
+  for (const std::string mark : {"", "\xff\xfe"}) {
+    EXPECT_EQ(ErrorOf([&] { Parse(mark + wide); }),
+              fmt::format("file.yaml: is UTF-16 text; it must be UTF-8: iconv -f UTF-16{} -t UTF-8 "
+                          "file.yaml > file.yaml.utf8",
+                          mark.empty() ? "LE" : ""));
+  }
   EXPECT_EQ(Parse("\xef\xbb\xbf"
                   "a: caf\xc3\xa9\n")
                 .At("a")
