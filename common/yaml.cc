@@ -77,12 +77,17 @@ std::string KindOf(const Node& node) {
 
 // from_chars and not yaml-cpp's streams: independent of the locale, and "010" is ten.
 template <typename Number>
-bool ParseNumber(std::string_view text, Number* value) {
+std::errc ReadNumber(std::string_view text, Number* value) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, *value);
-  return error == std::errc() && stop == end;
+  return stop == end ? error : std::errc::invalid_argument;
+}
+
+template <typename Number>
+bool ParseNumber(std::string_view text, Number* value) {
+  return ReadNumber(text, value) == std::errc();
 }
 
 std::string_view Trimmed(std::string_view text) {
@@ -417,6 +422,10 @@ double YamlNode::Double() const {
   RequireTag({"!!str", "!!int", "!!float", "!degrees", "!radians"}, "a number");
   const bool parsed = ParseDouble(node_->text, node_->tag, &value);
   if (parsed && std::isfinite(value)) return value;
+  if (ReadNumber(node_->text, &value) == std::errc::result_out_of_range) {
+    Fail(KindOf(*node_) +
+         " cannot be represented: it is nearer to 0 than 5e-324, or beyond 1.797e308");
+  }
   const bool non_finite =
       parsed ||
       (YAML::convert<double>::decode(YAML::Node(node_->text), value) && !std::isfinite(value));
@@ -432,6 +441,12 @@ double YamlNode::PositiveDouble() const {
   return value;
 }
 
+double YamlNode::NonNegativeDouble() const {
+  const double value = Double();
+  if (value < 0) Fail("must not be negative, found " + KindOf(*node_));
+  return value;
+}
+
 double YamlNode::DoubleWithin(double least, double most) const {
   const double value = Double();
   if (value < least || value > most) {
@@ -444,10 +459,20 @@ long long YamlNode::Int() const {
   long long value = 0;
   if (!IsScalar()) Fail("expected an integer, found " + KindOf(*node_));
   RequireTag({"!!str", "!!int"}, "an integer");
-  if (!ParseNumber(node_->text, &value)) {
-    Fail("expected an integer, found " + KindOf(*node_));
+  const std::errc error = ReadNumber(node_->text, &value);
+  if (error == std::errc::result_out_of_range) {
+    Fail(KindOf(*node_) + " cannot be represented: integers have 64 bits");
   }
+  if (error != std::errc()) Fail("expected an integer, found " + KindOf(*node_));
   return value;
+}
+
+int YamlNode::IntWithin(int least, int most) const {
+  const long long value = Int();
+  if (value < least || value > most) {
+    Fail(fmt::format("must be from {} to {}, found {}", least, most, value));
+  }
+  return static_cast<int>(value);
 }
 
 bool YamlNode::Bool() const {

@@ -68,8 +68,10 @@ class YamlNode {
   std::optional<int> RawByte() const;
   double Double() const;
   double PositiveDouble() const;                         ///< A finite number greater than zero.
+  double NonNegativeDouble() const;                      ///< The same, or zero.
   double DoubleWithin(double least, double most) const;  ///< A number from `least` to `most`.
   long long Int() const;                                 ///< A decimal integer.
+  int IntWithin(int least, int most) const;              ///< The same, from `least` to `most`.
   bool Bool() const;
   std::string String() const;
   template <typename Value>  ///< One of the names of an enum (enum_names.h).

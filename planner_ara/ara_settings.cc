@@ -36,9 +36,7 @@ void ApplyByJoint(const YamlNode& node, const std::string& key, double (*read)(c
 
 double NonNegative(const YamlNode& node, const std::string& key, double fallback) {
   const std::optional<YamlNode> value = node.Find(key);
-  if (!value) return fallback;
-  if (value->Double() < 0) value->Fail("must not be negative");
-  return value->Double();
+  return value ? value->NonNegativeDouble() : fallback;
 }
 
 double Factor(const YamlNode& node, const std::string& key, double fallback) {
@@ -57,9 +55,7 @@ double Positive(const YamlNode& node, const std::string& key, double fallback) {
 
 double AtLeastOne(const YamlNode& node, const std::string& key, double fallback) {
   const std::optional<YamlNode> value = node.Find(key);
-  if (!value) return fallback;
-  if (value->Double() < 1) value->Fail("must be at least 1");
-  return ReadFactor(*value);
+  return value ? value->DoubleWithin(1, kMostFactor) : fallback;
 }
 
 // What `read` reads, or infinity where the word for it stands.

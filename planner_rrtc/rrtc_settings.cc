@@ -25,12 +25,6 @@ const OmplAlgorithm* ReadAlgorithm(const YamlNode& node) {
   return algorithm;
 }
 
-double ReadDomainRadius(const YamlNode& node) {
-  const double radius = node.Double();
-  if (radius < 0) node.Fail(fmt::format("must not be negative, found {}", radius));
-  return radius;
-}
-
 std::optional<double> ReadRange(const YamlNode& node) {
   if (node.IsScalar() && node.String() == "default") return std::nullopt;
   return node.PositiveDouble();
@@ -79,7 +73,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   if (const auto value = node.Find("extension")) settings.extension = value->Enum<Extension>();
   if (const auto value = node.Find("balance")) settings.balance = value->Bool();
   if (const auto value = node.Find("domain_radius")) {
-    settings.domain_radius = ReadDomainRadius(*value);
+    settings.domain_radius = value->NonNegativeDouble();
   }
   if (const auto value = node.Find("experience")) settings.experience = value->String();
   if (const auto value = node.Find("recall")) {

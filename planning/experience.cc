@@ -34,10 +34,9 @@ void Experience::Describe(std::map<std::string, std::string>* settings) const {
 }
 
 int ReadRecall(const YamlNode& node, const std::string& experience) {
-  const long long recall = node.Int();
-  if (recall < 1 || recall > 1000) node.Fail("must be from 1 to 1000");
+  const int recall = node.IntWithin(1, 1000);
   if (experience.empty()) node.Fail("there is nothing to recall without 'experience'");
-  return static_cast<int>(recall);
+  return recall;
 }
 
 }  // namespace planbench

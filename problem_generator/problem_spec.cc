@@ -76,18 +76,7 @@ Range RangeOr0(const YamlNode& map, const std::string& key) {
   return node ? ReadRange(*node) : kZero;
 }
 
-double NonNegative(const YamlNode& node) {
-  const double value = node.Double();
-  if (value < 0) node.Fail("must not be negative");
-  return value;
-}
-
-int PositiveInt(const YamlNode& node) {
-  constexpr int kMost = 1'000'000;
-  const long long value = node.Int();
-  if (value < 1 || value > kMost) node.Fail(fmt::format("must be from 1 to {}", kMost));
-  return static_cast<int>(value);
-}
+int PositiveInt(const YamlNode& node) { return node.IntWithin(1, 1'000'000); }
 
 PartSpec ReadPart(const YamlNode& node) {
   node.AllowOnly({"name", "box", "cylinder", "sphere", "position", "rpy"});
@@ -185,7 +174,7 @@ ObjectSpec ReadObject(const YamlNode& node, const Robot& robot, const ProblemSpe
     }
   }
   if (const auto probability = node.Find("probability")) {
-    object.probability = NonNegative(*probability);
+    object.probability = probability->NonNegativeDouble();
     if (object.probability > 1) probability->Fail("a probability is at most 1");
   }
   const auto support = node.Find("stands_on");
@@ -352,10 +341,10 @@ GripperSpec ReadGripper(const YamlNode& node, const Setup& setup,
   gripper.position = ReadPosition(node.At("position"));
   gripper.rpy = RpyOr0(node);
   if (const auto tolerance = node.Find("position_tolerance")) {
-    gripper.position_tolerance_m = NonNegative(*tolerance);
+    gripper.position_tolerance_m = tolerance->NonNegativeDouble();
   }
   if (const auto tolerance = node.Find("orientation_tolerance")) {
-    gripper.orientation_tolerance_rad = NonNegative(*tolerance);
+    gripper.orientation_tolerance_rad = tolerance->NonNegativeDouble();
   }
   return gripper;
 }
@@ -412,9 +401,9 @@ ProblemSpec LoadProblemSpec(const std::filesystem::path& file, const Robot& robo
   const YamlNode setup_root = YamlNode::Parse(named.text, named.path.string());
   const Setup setup = ReadSetup(setup_root, robot, &spec);
   spec.warnings = setup_root.warnings();
-  spec.clearance_m = NonNegative(root.At("clearance"));
-  spec.object_gap_m = NonNegative(root.At("object_gap"));
-  spec.min_joint_distance = NonNegative(root.At("min_joint_distance"));
+  spec.clearance_m = root.At("clearance").NonNegativeDouble();
+  spec.object_gap_m = root.At("object_gap").NonNegativeDouble();
+  spec.min_joint_distance = root.At("min_joint_distance").NonNegativeDouble();
   spec.effort = ReadEffort(root.At("effort"));
   for (const YamlNode& object : root.At("objects").Elements()) {
     spec.objects.push_back(ReadObject(object, robot, spec));

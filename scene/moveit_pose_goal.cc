@@ -218,9 +218,8 @@ Orientation ReadOrientation(const YamlNode& constraint, const FrameTree& frames)
   orientation.R_BD =
       X_BF.linear() * ReadQuaternion(constraint.At("orientation")).toRotationMatrix();
   for (int i = 0; i < 3; ++i) {
-    const std::string key = fmt::format("absolute_{}_axis_tolerance", "xyz"[i]);
-    orientation.tolerance[i] = constraint.DoubleOr(key, 0);
-    if (orientation.tolerance[i] < 0) constraint.At(key).Fail("must not be negative");
+    const auto tolerance = constraint.Find(fmt::format("absolute_{}_axis_tolerance", "xyz"[i]));
+    orientation.tolerance[i] = tolerance ? tolerance->NonNegativeDouble() : 0;
   }
   if (const auto node = constraint.Find("parameterization")) {
     const long long number = node->Int();

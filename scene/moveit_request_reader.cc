@@ -22,10 +22,7 @@ constexpr double kLongestTime = 1e9;
 
 double ReadTolerance(const YamlNode& constraint, const std::string& key) {
   const std::optional<YamlNode> node = constraint.Find(key);
-  if (!node) return 0;
-  const double tolerance = node->Double();
-  if (tolerance < 0) node->Fail("must not be negative");
-  return tolerance;
+  return node ? node->NonNegativeDouble() : 0;
 }
 
 void RefusePathConstraints(const YamlNode& request) {
@@ -320,10 +317,7 @@ std::optional<Workspace> ReadCorners(const YamlNode& node, const std::string& fr
 
 double ReadTimeLimit(const YamlNode& motion_plan_request) {
   const auto limit = motion_plan_request.Find("allowed_planning_time");
-  if (!limit) return 0;
-  const double seconds = limit->Double();
-  if (seconds < 0) limit->Fail("must not be negative");
-  return std::min(seconds, kLongestTime);
+  return limit ? std::min(limit->NonNegativeDouble(), kLongestTime) : 0;
 }
 
 }  // namespace planbench

@@ -65,12 +65,31 @@ TEST(YamlNode, NumbersAreExactAndDecimal) {
   }
 }
 
+TEST(YamlNode, NumbersThatCannotBeRepresentedAreToldAsSuch) {
+  for (const std::string text : {"1e400", "-1e400", "1e-400", "!degrees 1e400"}) {
+    EXPECT_THAT(ErrorOf([&] { Parse(text).Double(); }),
+                HasSubstr(text.substr(text.find("1e")) + "' cannot be represented"))
+        << text;
+  }
+  EXPECT_THAT(ErrorOf([] { Parse("9223372036854775808").Int(); }),
+              HasSubstr("'9223372036854775808' cannot be represented"));
+}
+
 TEST(YamlNode, NonFiniteNumbersAreErrors) {
   for (const char* text : {".nan", ".NaN", "nan", ".inf", "-.inf", "inf"}) {
     EXPECT_THAT(ErrorOf([&] { Parse(text).Double(); }), HasSubstr("expected a finite number"))
         << text;
   }
+}
+
+TEST(YamlNode, NumbersBeyondLimitsAreErrors) {
   EXPECT_THAT(ErrorOf([] { Parse("0").PositiveDouble(); }), HasSubstr("greater than zero"));
+  EXPECT_EQ(ErrorOf([] { Parse("-1e-6").NonNegativeDouble(); }),
+            "file.yaml:1: must not be negative, found '-1e-6'");
+  EXPECT_EQ(Parse("0").NonNegativeDouble(), 0);
+  EXPECT_EQ(ErrorOf([] { Parse("0").IntWithin(1, 9); }),
+            "file.yaml:1: must be from 1 to 9, found 0");
+  EXPECT_EQ(Parse("9").IntWithin(1, 9), 9);
   EXPECT_EQ(Parse("1e-6").DoubleWithin(1e-6, 1), 1e-6);
   for (const char* text : {"1e-7", "1e300", "-1"}) {
     EXPECT_THAT(ErrorOf([&] { Parse(text).DoubleWithin(1e-6, 1); }),
