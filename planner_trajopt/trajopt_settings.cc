@@ -10,13 +10,9 @@ namespace {
 constexpr int kMostWaypoints = 1000;
 constexpr int kMany = 1'000'000;
 
-int ReadCount(const YamlNode& node, int least, int most) {
-  const long long count = node.Int();
-  if (count < least || count > most) {
-    node.Fail(fmt::format("must be from {} to {}, found {}", least, most, count));
-  }
-  return static_cast<int>(count);
-}
+// Products and squares of these are numbers still, in single precision, too.
+constexpr double kLeastPositive = 1e-6;
+constexpr double kMostOfAll = 1e6;
 
 }  // namespace
 
@@ -47,10 +43,10 @@ TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings&
     refuse({"rollouts", "noise", "gain"}, "STOMP");
   }
   const auto count = [&node](const char* key, int least, int most, int* setting) {
-    if (const auto value = node.Find(key)) *setting = ReadCount(*value, least, most);
+    if (const auto value = node.Find(key)) *setting = value->IntWithin(least, most);
   };
-  const auto positive = [&node](const char* key, double* setting) {
-    if (const auto value = node.Find(key)) *setting = value->PositiveDouble();
+  const auto number = [&node](const char* key, double least, double* setting) {
+    if (const auto value = node.Find(key)) *setting = value->DoubleWithin(least, kMostOfAll);
   };
   count("waypoints", 1, kMostWaypoints, &settings.waypoints);
   count("iterations", 1, kMany, &settings.iterations);
@@ -58,19 +54,15 @@ TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings&
   count("rollouts", 2, kMostWaypoints, &settings.rollouts);
   if (const auto value = node.Find("guesses")) {
     settings.guesses.reset();
-    if (value->String() != "unlimited") settings.guesses = ReadCount(*value, 1, kMany);
+    if (value->String() != "unlimited") settings.guesses = value->IntWithin(1, kMany);
   }
-  positive("clearance", &settings.clearance);
-  positive("noise", &settings.noise);
-  positive("gain", &settings.gain);
-  positive("step", &settings.step);
-  positive("gradient_step", &settings.gradient_step);
-  const auto not_negative = [&node](const char* key, double* setting) {
-    const auto value = node.Find(key);
-    if (value && (*setting = value->Double()) < 0) value->Fail("must not be negative");
-  };
-  not_negative("smoothness", &settings.smoothness);
-  not_negative("given_smoothness", &settings.given_smoothness);
+  number("clearance", kLeastPositive, &settings.clearance);
+  number("noise", kLeastPositive, &settings.noise);
+  number("gain", kLeastPositive, &settings.gain);
+  number("step", kLeastPositive, &settings.step);
+  number("gradient_step", kLeastPositive, &settings.gradient_step);
+  number("smoothness", 0, &settings.smoothness);
+  number("given_smoothness", 0, &settings.given_smoothness);
   return settings;
 }
 

@@ -57,12 +57,20 @@ TEST_F(TrajoptPlannerTest, RefusesBadSettingsByFileLineAndKey) {
   expect_refused("algorithm: TrajOpt",
                  {"trajopt.yaml:1", "algorithm", "TrajOpt", "STOMP or CHOMP"});
   expect_refused("clearance: 0.1\nclearence: 0.2", {"trajopt.yaml:2", "clearence"});
-  expect_refused("clearance: 0", {"trajopt.yaml:1", "clearance"});
   expect_refused("waypoints: 0", {"trajopt.yaml:1", "waypoints", "1 to 1000", "0"});
   expect_refused("rollouts: 1", {"trajopt.yaml:1", "rollouts", "1"});
   expect_refused("guesses: some", {"trajopt.yaml:1", "guesses", "some"});
-  expect_refused("smoothness: -1", {"trajopt.yaml:1", "smoothness"});
-  expect_refused("given_smoothness: -1", {"trajopt.yaml:1", "given_smoothness"});
+  for (const std::string key : {"clearance", "noise", "gain", "step", "gradient_step"}) {
+    const std::string owner = key.find("step") == key.npos ? "STOMP" : "CHOMP";
+    for (const std::string value : {"0", "-1", "1e-300", "1e300"}) {
+      expect_refused("algorithm: " + owner + "\n" + key + ": " + value,
+                     {"trajopt.yaml:2: " + key + ": must be from 1e-06 to 1000000, found "});
+    }
+  }
+  for (const std::string key : {"smoothness", "given_smoothness"}) {
+    expect_refused(key + ": -1", {"trajopt.yaml:1: " + key + ": must be from 0 to 1000000", "-1"});
+    expect_refused(key + ": 1e308", {"trajopt.yaml:1: " + key, "1e+308"});
+  }
   expect_refused("\nstep: 0.1", {"trajopt.yaml:2", "step", "CHOMP only"});
   expect_refused("algorithm: CHOMP\nnoise: 0.1", {"trajopt.yaml:2", "noise", "STOMP only"});
 }
