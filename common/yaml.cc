@@ -381,6 +381,10 @@ void YamlNode::AllowOnly(std::initializer_list<std::string_view> known) const {
   });
 }
 
+void YamlNode::RequireValues() const {
+  for (const std::string& key : Keys()) At(key);
+}
+
 void YamlNode::RequirePrinted() const {
   if (node_->kind != Kind::kScalar || !node_->text.ends_with('>')) return;
   for (const char* beginning : {"<array type: ", "<sequence type: ", "<string length: "}) {

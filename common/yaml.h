@@ -50,6 +50,9 @@ class YamlNode {
   /// twice.
   void RequireKeys(
       const std::function<std::optional<std::string>(const std::string& key)>& accepts) const;
+  /// Throws for the first key whose value is null: of a map of settings that is a mistake, not a
+  /// wish for the default.
+  void RequireValues() const;
   /// The keys of a map, in file order, merged ones last; throws if this is no map.
   std::vector<std::string> Keys() const;
 

@@ -231,8 +231,6 @@ class AraPlanner : public Planner {
     }
     AraSettings settings = settings_;
     settings.Apply(request);
-    // A parameter without a value is a mistake, not a wish for the default.
-    for (const std::string& key : request.Keys()) request.At(key);
     RequireKnownJoints(request);
     settings.Validate("request parameters");
     return settings;

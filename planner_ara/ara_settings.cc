@@ -106,6 +106,7 @@ void AraSettings::Apply(const YamlNode& node) {
                   "epsilon_decrement",
                   "epsilon_final",
                   "memory_limit_mb"});
+  node.RequireValues();
   ApplyByJoint(node, "discretization", ReadPositive, &discretization);
   ApplyByJoint(node, kEdgeWeights, ReadFactor, &edge_weights);
   fit_cells = node.BoolOr("fit_cells", fit_cells);

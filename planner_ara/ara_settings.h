@@ -105,7 +105,7 @@ struct AraSettings {
 
   /// Replaces the values that `node` names (a map or nothing); of discretization and joint_weights,
   /// those of the joints it names. Throws InputError naming file, line and key for unknown keys,
-  /// wrong types and values out of range.
+  /// those without a value, wrong types and values out of range.
   void Apply(const YamlNode& node);
   /// Throws InputError, prefixed by `origin`, unless the settings hold together.
   void Validate(const std::string& origin) const;

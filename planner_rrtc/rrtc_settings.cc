@@ -61,6 +61,7 @@ double ShrinkingRange(std::int64_t iterations) {
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults) {
   node.AllowOnly({"algorithm", "sampler", "range", "extension", "balance", "domain_radius",
                   "experience", "recall", "metric", kSegmentFraction, "ompl"});
+  node.RequireValues();
   RrtcSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) settings.ompl_algorithm = ReadAlgorithm(*value);
   if (const auto value = node.Find("sampler")) settings.sampler = value->Enum<SamplerKind>();
@@ -90,7 +91,7 @@ RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults
   }
   if (const auto value = node.Find("ompl")) {
     for (const std::string& key : value->Keys()) {
-      if (const auto own = value->Find(key)) settings.ompl_parameters[key] = own->String();
+      settings.ompl_parameters[key] = value->At(key).String();
     }
   }
   return settings;
@@ -127,8 +128,6 @@ RrtcSettings SettingsOfRequest(const RrtcSettings& settings,
     request.Override(key, text, "request parameter " + key);
   }
   request.AllowOnly({"sampler", "range", "extension", "balance", "domain_radius", "recall"});
-  // A parameter without a value is a mistake, not a wish for the default.
-  for (const std::string& key : request.Keys()) request.At(key).String();
   return ReadRrtcSettings(request, settings);
 }
 

@@ -77,8 +77,8 @@ struct RrtcSettings {
 double ShrinkingRange(std::int64_t iterations);
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for
-/// unknown keys, algorithms (naming the known ones), bad values, and settings that the algorithm
-/// has no use for, but `range`.
+/// unknown keys and algorithms (naming the known ones), bad values or none, and settings that the
+/// algorithm has no use for, but `range`.
 RrtcSettings ReadRrtcSettings(const YamlNode& node, const RrtcSettings& defaults);
 
 /// The settings that are in effect, as text.

@@ -27,6 +27,7 @@ TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings&
   node.AllowOnly({"algorithm", "waypoints", "clearance", "smoothness", "given_smoothness",
                   "iterations", "patience", "guesses", "rollouts", "noise", "gain", "step",
                   "gradient_step"});
+  node.RequireValues();
   TrajoptSettings settings = defaults;
   if (const auto value = node.Find("algorithm")) {
     settings.algorithm = value->Enum<TrajoptAlgorithm>();
@@ -96,8 +97,6 @@ TrajoptSettings SettingsOfRequest(const TrajoptSettings& settings,
   }
   request.AllowOnly({"waypoints", "clearance", "smoothness", "given_smoothness", "iterations",
                      "patience", "rollouts", "noise", "gain", "step", "gradient_step"});
-  // A parameter without a value is a mistake, not a wish for the default.
-  for (const std::string& key : request.Keys()) request.At(key).String();
   return ReadTrajoptSettings(request, settings);
 }
 

@@ -51,7 +51,7 @@ struct TrajoptSettings {
 };
 
 /// Reads settings; keys that are missing keep their values in `defaults`. Throws InputError for
-/// unknown keys and algorithms, bad values, and keys of the algorithm that is not chosen.
+/// unknown keys and algorithms, bad values or none, and keys of the algorithm that is not chosen.
 TrajoptSettings ReadTrajoptSettings(const YamlNode& node, const TrajoptSettings& defaults);
 
 /// The settings that are in effect, as text.

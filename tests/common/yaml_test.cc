@@ -173,6 +173,9 @@ TEST(YamlNode, AbsentAndNullAreTheSame) {
   EXPECT_EQ(node.DoubleOr("c", 2), 0);
   EXPECT_EQ(node.BoolOr("z", true), true);
   EXPECT_EQ(node.StringOr("b", "x"), "x");
+  EXPECT_EQ(ErrorOf([&] { node.RequireValues(); }), "file.yaml:1: a: the field 'a' has no value");
+  EXPECT_NO_THROW(Parse("a: ''").RequireValues());
+  EXPECT_NO_THROW(Parse("").RequireValues());
   EXPECT_TRUE(Parse("").IsNull());
   EXPECT_FALSE(Parse("").Find("a"));
   EXPECT_TRUE(Parse("").Keys().empty());

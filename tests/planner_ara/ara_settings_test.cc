@@ -129,6 +129,8 @@ TEST(AraSettings, RefusesWhatItCannotUse) {
   const std::vector<Case> cases = {
       {"[1, 2]", {"ara.yaml:1", "expected a map"}},
       {"\nepsilon: 3", {"ara.yaml:2", "epsilon", "unknown key"}},
+      {"\ntip_guide:", {"ara.yaml:2: tip_guide:", "has no value"}},
+      {"discretization: {lift: ~}", {"ara.yaml:1: discretization.lift:", "has no value"}},
       {"cost: cheap", {"ara.yaml:1: cost:", "distance or uniform", "cheap"}},
       {"discretization: 0.1", {"ara.yaml:1: discretization:", "map"}},
       {"discretization: {lift: 0}", {"ara.yaml:1: discretization.lift:", "greater than zero"}},

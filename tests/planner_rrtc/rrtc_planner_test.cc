@@ -113,6 +113,8 @@ TEST_F(RrtcPlannerTest, RefusesBadSettingsByFileLineAndKey) {
   expect_refused("[1, 2]", {"rrtc.yaml"});
   expect_refused("range: 1\nsampler: sobol", {"rrtc.yaml:2", "sampler", "sobol", "halton"});
   expect_refused("extension: jump", {"rrtc.yaml:1", "extension", "jump", "connect"});
+  expect_refused("range:", {"rrtc.yaml:1: range:", "has no value"});
+  expect_refused("range: 1\nompl: ~", {"rrtc.yaml:2: ompl:", "has no value"});
   expect_refused("domain_radius: -1", {"rrtc.yaml:1", "domain_radius", "-1"});
   expect_refused("balance: 2.5", {"rrtc.yaml:1", "balance"});
   expect_refused("range: 1\nalgorithm: RRTConect",
@@ -126,6 +128,8 @@ TEST_F(RrtcPlannerTest, RefusesBadParametersOfOmplsPlanners) {
   };
   expect_refused("algorithm: RRT\nompl: {goal_bais: 0.1}",
                  {"rrtc.yaml", "ompl.goal_bais", "RRT", "goal_bias"});
+  expect_refused("algorithm: RRT\nompl: {goal_bias: ~}",
+                 {"rrtc.yaml:2: ompl.goal_bias:", "has no value"});
   expect_refused("algorithm: RRT\nompl: {goal_bias: often}",
                  {"rrtc.yaml", "ompl.goal_bias", "often"});
   for (const std::string value : {"-1", "7", ".nan", "nan", "inf", "0.1x"}) {

@@ -57,6 +57,8 @@ TEST_F(TrajoptPlannerTest, RefusesBadSettingsByFileLineAndKey) {
   expect_refused("algorithm: TrajOpt",
                  {"trajopt.yaml:1", "algorithm", "TrajOpt", "STOMP or CHOMP"});
   expect_refused("clearance: 0.1\nclearence: 0.2", {"trajopt.yaml:2", "clearence"});
+  expect_refused("noise: 1\nclearance:", {"trajopt.yaml:2: clearance:", "has no value"});
+  expect_refused("clearance: ~", {"trajopt.yaml:1: clearance:", "has no value"});
   expect_refused("waypoints: 0", {"trajopt.yaml:1", "waypoints", "1 to 1000", "0"});
   expect_refused("rollouts: 1", {"trajopt.yaml:1", "rollouts", "1"});
   expect_refused("guesses: some", {"trajopt.yaml:1", "guesses", "some"});
