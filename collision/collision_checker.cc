@@ -66,12 +66,22 @@ bool CollisionChecker::IsFree(std::span<const double> q) {
 
 void CollisionChecker::CheckAll(std::span<const double> qs, int num,
                                 std::span<unsigned char> free) {
+  RequireVerdicts(qs, num, free);
+  DoCheckAll(qs, num, free);
+}
+
+void CollisionChecker::Screen(std::span<const double> qs, int num, std::span<unsigned char> free) {
+  RequireVerdicts(qs, num, free);
+  DoScreen(qs, num, free);
+}
+
+void CollisionChecker::RequireVerdicts(std::span<const double> qs, int num,
+                                       std::span<const unsigned char> free) const {
   RequireReady(qs, num);
   if (free.size() != static_cast<std::size_t>(num)) {
     throw InputError(fmt::format("collision checker: room for {} verdicts on {} configurations",
                                  free.size(), num));
   }
-  DoCheckAll(qs, num, free);
 }
 
 SampleVerdicts CollisionChecker::CheckSamples(std::span<const double> start,
@@ -125,6 +135,11 @@ void CollisionChecker::DoCheckAll(std::span<const double> qs, int num,
   for (std::size_t i = 0; i < static_cast<std::size_t>(num); ++i) {
     free[i] = DoIsFree(qs.subspan(i * n, n)) ? 1 : 0;
   }
+}
+
+void CollisionChecker::DoScreen(std::span<const double> qs, int num,
+                                std::span<unsigned char> free) {
+  DoCheckAll(qs, num, free);
 }
 
 SampleVerdicts CollisionChecker::DoCheckSamples(std::span<const double> start,

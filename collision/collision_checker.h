@@ -88,6 +88,9 @@ class CollisionChecker {
   bool IsFree(std::span<const double> q);
   /// free[i] = IsFree(configuration i), for `num` configurations (row-major, num x n).
   void CheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// As CheckAll, but what would take the engine long may be left out: what is not free collides,
+  /// what is free may collide all the same.
+  void Screen(std::span<const double> qs, int num, std::span<unsigned char> free);
   /// Checks samples of a straight motion: sample k is the configuration start + position * motion
   /// (n joints, signed, rad or m), and a stretch about it is free only if provably no configuration
   /// of it collides, as far as the bounds on the motion of the geometry tell (so it may count as
@@ -128,6 +131,8 @@ class CollisionChecker {
   virtual bool DoIsFree(std::span<const double> q) = 0;
   /// The default asks DoIsFree.
   virtual void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free);
+  /// The default asks DoCheckAll.
+  virtual void DoScreen(std::span<const double> qs, int num, std::span<unsigned char> free);
   /// The default asks DoIsFree and DoFindClosest.
   virtual SampleVerdicts DoCheckSamples(std::span<const double> start,
                                         std::span<const double> motion,
@@ -143,6 +148,8 @@ class CollisionChecker {
 
  private:
   void RequireReady(std::span<const double> qs, int num) const;
+  void RequireVerdicts(std::span<const double> qs, int num,
+                       std::span<const unsigned char> free) const;
   void RequireRoom(std::span<const double> qs, int num, double at_most,
                    std::span<double> distances) const;
 

@@ -114,6 +114,16 @@ bool EdgeChecker::IsValidState(std::span<const double> q) {
 }
 
 void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid) {
+  CheckStatesBy(&CollisionChecker::CheckAll, qs, num, valid);
+}
+
+void EdgeChecker::ScreenStates(std::span<const double> qs, int num,
+                               std::span<unsigned char> valid) {
+  CheckStatesBy(&CollisionChecker::Screen, qs, num, valid);
+}
+
+void EdgeChecker::CheckStatesBy(JudgeStates judge, std::span<const double> qs, int num,
+                                std::span<unsigned char> valid) {
   const auto n = static_cast<std::size_t>(space().size());
   const auto count = static_cast<std::size_t>(std::max(num, 0));
   if (num < 0 || qs.size() != count * n || valid.size() != count) {
@@ -128,7 +138,7 @@ void EdgeChecker::CheckStates(std::span<const double> qs, int num, std::span<uns
   const auto check_run = [&](std::size_t end) {
     if (end == begin) return;
     counters_.configurations += static_cast<std::int64_t>(end - begin);
-    checker_->CheckAll(qs.subspan(begin * n, (end - begin) * n), static_cast<int>(end - begin),
+    (checker_->*judge)(qs.subspan(begin * n, (end - begin) * n), static_cast<int>(end - begin),
                        valid.subspan(begin, end - begin));
   };
   for (std::size_t i = 0; i < count; ++i) {

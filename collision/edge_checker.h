@@ -75,6 +75,9 @@ class EdgeChecker {
   /// valid[i] = IsValidState(state i) for `num` states (row-major, num x n), at once where the
   /// engine can.
   void CheckStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
+  /// As CheckStates, but what would take the engine long may be left out: what is not valid is
+  /// invalid for certain. For ends of edges, which are checked if they pass.
+  void ScreenStates(std::span<const double> qs, int num, std::span<unsigned char> valid);
   /// Those of CollisionChecker, counted. Limits are the caller's to check.
   void FindClearances(std::span<const double> qs, int num, double at_most,
                       std::span<double> clearances);
@@ -115,6 +118,11 @@ class EdgeChecker {
 
  private:
   void Reserve();
+  /// Of CollisionChecker, for a run of states within the limits.
+  using JudgeStates = void (CollisionChecker::*)(std::span<const double> qs, int num,
+                                                 std::span<unsigned char> free);
+  void CheckStatesBy(JudgeStates judge, std::span<const double> qs, int num,
+                     std::span<unsigned char> valid);
   void RequireSize(std::span<const double> q) const;
   double NumIntervals(double motion) const;
   /// Sets `motion` to the edge's and returns its size, in the unit of the resolution.

@@ -68,6 +68,10 @@ void FollowerChecker::DoCheckAll(std::span<const double> qs, int num,
   engine_->CheckAll(WithFollowers(qs, num), num, free);
 }
 
+void FollowerChecker::DoScreen(std::span<const double> qs, int num, std::span<unsigned char> free) {
+  engine_->Screen(WithFollowers(qs, num), num, free);
+}
+
 SampleVerdicts FollowerChecker::DoCheckSamples(std::span<const double> start,
                                                std::span<const double> motion,
                                                std::span<const MotionSample> samples,

@@ -28,6 +28,7 @@ class FollowerChecker : public CollisionChecker {
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
   bool DoIsFree(std::span<const double> q) override;
   void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
+  void DoScreen(std::span<const double> qs, int num, std::span<unsigned char> free) override;
   SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
                                 std::span<const MotionSample> samples, SampleRole role) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,

@@ -94,7 +94,7 @@ void RrtConnect::Prepare(JointSampler* sampler, int num, int last) {
   }
   const auto count = static_cast<int>(unchecked_.size());
   verdicts_.resize(unchecked_.size());
-  edges_->CheckStates({unchecked_ends_.data(), At(count)}, count, verdicts_);
+  edges_->ScreenStates({unchecked_ends_.data(), At(count)}, count, verdicts_);
   for (std::size_t i = 0; i < unchecked_.size(); ++i) {
     candidates_[static_cast<std::size_t>(unchecked_[i])].end_is_valid = verdicts_[i] != 0;
   }

@@ -127,6 +127,18 @@ bool SimdChecker::DoIsFree(std::span<const double> q) {
 }
 
 void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) {
+  CheckRows(qs, num, kernels::Tests::kAll, free);
+}
+
+// Of unlike configurations the hulls of links are compared lane by lane: that costs more than
+// edges whose ends collide so, which are seldom. Spheres against spheres cost little.
+void SimdChecker::DoScreen(std::span<const double> qs, int num, std::span<unsigned char> free) {
+  const bool is_mesh = model() == CollisionModel::kMeshes && HasPatches();
+  CheckRows(qs, num, is_mesh ? kernels::Tests::kScreen : kernels::Tests::kAll, free);
+}
+
+void SimdChecker::CheckRows(std::span<const double> qs, int num, kernels::Tests tests,
+                            std::span<unsigned char> free) {
   const auto n = static_cast<std::size_t>(space().size());
   for (int first = 0; first < num; first += kBlock) {
     const int count = std::min(kBlock, num - first);
@@ -136,7 +148,7 @@ void SimdChecker::DoCheckAll(std::span<const double> qs, int num, std::span<unsi
       return Exact().CheckStretch(rows.subspan(static_cast<std::size_t>(lane) * n, n), {}, 0,
                                   pairs);
     };
-    const BlockVerdict verdict = Check(count, unfit, nullptr, false, exact);
+    const BlockVerdict verdict = Check(count, unfit, nullptr, false, exact, tests);
     for (int lane = 0; lane < count; ++lane) {
       At(free, first + lane) = (verdict.hits >> lane & 1) == 0 ? 1 : 0;
     }

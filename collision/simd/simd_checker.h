@@ -45,6 +45,7 @@ class SimdChecker : public CollisionChecker {
   MotionBound DoSetScene(const Scene& scene, std::span<const double> base_positions) override;
   bool DoIsFree(std::span<const double> q) override;
   void DoCheckAll(std::span<const double> qs, int num, std::span<unsigned char> free) override;
+  void DoScreen(std::span<const double> qs, int num, std::span<unsigned char> free) override;
   SampleVerdicts DoCheckSamples(std::span<const double> start, std::span<const double> motion,
                                 std::span<const MotionSample> samples, SampleRole role) override;
   void DoFindDistances(std::span<const double> qs, int num, double at_most,
@@ -70,6 +71,8 @@ class SimdChecker : public CollisionChecker {
   template <typename Judge>
   kernels::BlockVerdict Check(int num, LaneMask unfit, const float* half_widths, bool stop_at_first,
                               Judge exact, kernels::Tests tests = kernels::Tests::kAll);
+  void CheckRows(std::span<const double> qs, int num, kernels::Tests tests,
+                 std::span<unsigned char> free);
   /// Whether something is not made of balls: then those around it are but a lower bound of
   /// distances.
   bool HasPatches() const { return !compiled_.robot().patches.empty(); }

@@ -167,6 +167,7 @@ TEST_P(CertifiedEdges, VerdictsOnConfigurationsAreTheOracles) {
   Oracle oracle(robot_, model());
   int num_differ = 0;
   int num_free = 0;
+  int num_screened = 0;
   int num = 0;
   for (const NamedScene& world : MakeTestScenes()) {
     checker_->SetScene(world.scene, base_);
@@ -174,6 +175,10 @@ TEST_P(CertifiedEdges, VerdictsOnConfigurationsAreTheOracles) {
     for (int i = 0; i < 60; ++i, ++num) {
       const auto q = RandomConfiguration(space(), &generator_);
       const bool free = checker_->IsFree(q);
+      unsigned char passes = 0;
+      checker_->Screen(q, 1, {&passes, 1});
+      EXPECT_TRUE(passes != 0 || !free) << world.what;
+      num_screened += passes == 0 ? 1 : 0;
       num_free += free ? 1 : 0;
       num_differ += free == oracle.IsFree(q) ? 0 : 1;
       EXPECT_EQ(checker_->FindContact(q).has_value(), !free) << world.what;
@@ -182,6 +187,7 @@ TEST_P(CertifiedEdges, VerdictsOnConfigurationsAreTheOracles) {
   EXPECT_LE(num_differ, 1);  // single precision may tell one that all but touches otherwise
   EXPECT_GT(num_free, num / 10);
   EXPECT_LT(num_free, num * 9 / 10);
+  EXPECT_GE(num_screened, (num - num_free) * 8 / 10);
 }
 
 TEST_P(CertifiedEdges, CostIsBounded) {

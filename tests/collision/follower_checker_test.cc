@@ -111,6 +111,9 @@ TEST_P(FollowerCheckerTest, JudgesAsIfTheFollowersWereMovedThere) {
   std::vector<unsigned char> verdicts(300);
   std::vector<double> distances(300);
   mimic_->CheckAll(rows, 300, verdicts);
+  std::vector<unsigned char> passed(300);
+  mimic_->Screen(rows, 300, passed);
+  EXPECT_EQ(passed, verdicts);  // of spheres
   mimic_->FindDistances(rows, 300, 0.5, distances);
   for (std::size_t i = 0; i < 300; ++i) {
     const std::span<const double> q = std::span(rows).subspan(2 * i, 2);

@@ -30,6 +30,8 @@ TEST_P(CollisionCheckerContract, VerdictsAndDistancesAgreeWithTheOracle) {
     const auto qs = Configurations(checker->space(), kNum, 7);
     std::vector<unsigned char> verdicts(kNum);
     checker->CheckAll(qs, kNum, verdicts);
+    std::vector<unsigned char> passed(kNum);
+    checker->Screen(qs, kNum, passed);
     for (int i = 0; i < kNum; ++i) {
       SCOPED_TRACE(i);
       const auto q = Row(qs, n, i);
@@ -47,6 +49,7 @@ TEST_P(CollisionCheckerContract, VerdictsAndDistancesAgreeWithTheOracle) {
       num_free += free ? 1 : 0;
       EXPECT_EQ(free, clearance > 0) << clearance;
       EXPECT_EQ(verdicts[static_cast<std::size_t>(i)] != 0, free);
+      EXPECT_TRUE(passed[static_cast<std::size_t>(i)] != 0 || !free);
 
       const auto contact = checker->FindContact(q);
       ASSERT_EQ(contact.has_value(), !free);

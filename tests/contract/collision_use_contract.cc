@@ -30,6 +30,7 @@ TEST_P(CollisionCheckerContract, RefusesBadUse) {
   std::vector<unsigned char> verdicts(2);
   ExpectInputError([&] { checker->CheckAll(q, 2, verdicts); }, {"1", "2"});
   ExpectInputError([&] { checker->CheckAll(q, 1, verdicts); }, {"2"});
+  ExpectInputError([&] { checker->Screen(q, 1, verdicts); }, {"2"});
   const std::vector<double> infinite = {std::numeric_limits<double>::infinity()};
   ExpectInputError([&] { checker->CheckSamples(q, infinite, {}); }, {"not finite"});
   ExpectInputError([&] { checker->CheckSamples(q, too_many, {}); }, {"2 values"});

@@ -33,7 +33,7 @@ class CheckPass {
         query_(query),
         lane_(lane),
         placement_(robot, buffers, query.q, lane),
-        motions_(robot, buffers, query, lane),
+        motions_(robot, buffers, query, lane, placement_),
         hulls_(robot, buffers, placement_),
         alive_(alive),
         hits_(hn::FirstN(Lanes(), 0)),
@@ -53,6 +53,7 @@ class CheckPass {
     const int num_trees = static_cast<int>(world_.trees.size());
     for (std::size_t i = 0; i < num_tests; ++i) {
       const int test = order[i];
+      if (query_.tests == Tests::kScreen && test >= num_trees) continue;
       const bool found = test < num_trees ? TestWorld(trees[test])
                                           : TestPair(robot_.pairs.data()[test - num_trees]);
       if (finds_open) KeepIfOpen(test);
@@ -323,8 +324,8 @@ class CheckPass {
       M near = hn::And(alive_, hn::Le(squared, reach));
       if (None(near)) continue;
       const V motion = motions_.Of(reach_, ReachOfPoints(node));
-      near =
-          hulls_.NotApartFrom(solid, index, body, Margin(motion, 2 * HullOf(index).padding), near);
+      const MovingPart part = PartOf(index, body);
+      near = hulls_.NotApartFrom(solid, index, body, Motion(motion, part.weights, part), near);
       if (None(near)) continue;
       if (solid.doubtful) {
         doubts_ = hn::Or(doubts_, near);
@@ -338,10 +339,20 @@ class CheckPass {
     return false;
   }
 
-  /// What planes are to leave between what moves so far.
-  HWY_INLINE V Margin(V motion, float padding) const {
-    if constexpr (kAround) return Fill(padding) + hn::IfThenZeroElse(hits_, motion);
-    return Fill(padding);
+  MovingPart PartOf(int leaf, int body) const {
+    const Node& node = placement_.node(leaf);
+    return {leaf, body, node.radius, Weights(ReachOfPoints(node))};
+  }
+  const float* Weights(int first) const { return robot_.reaches.data() + first; }
+
+  /// What planes are to leave room for: see RelativeMotion.
+  HWY_INLINE auto Motion(V most, const float* moves, const MovingPart& part,
+                         const MovingPart* other = nullptr) const {
+    if constexpr (kAround) {
+      return RelativeMotion(motions_, most, moves, hn::Not(hits_), part, other);
+    } else {
+      return StandingStill();
+    }
   }
   HWY_INLINE bool TestLeaf(const Node& node, const Points& p, V motion, const std::int32_t* list,
                            int num) {
@@ -449,15 +460,23 @@ class CheckPass {
   /// NotApart of nodes that are not both leaves, if they have hulls, by the bound of their trees.
   M NotApartAsWhole(int a, int body_a, int b, M lanes) {
     if (doubtful_ || HullOf(a).num == 0 || HullOf(b).num == 0) return lanes;
-    return NotApart(a, body_a, b, motions_.Of(reach_, reach_.first + robot_.num_joints), lanes);
+    const int first = reach_.first + robot_.num_joints;
+    const auto part = [&](int node, int body) {
+      return MovingPart{node, body, placement_.node(node).radius, Weights(first)};
+    };
+    return NotApart(part(a, body_a), part(b, hulls_.Other(body_a)), motions_.Of(reach_, first),
+                    lanes);
   }
 
-  /// Lanes, of those given, in which two nodes are not known to be apart by their hulls; `motion`
-  /// bounds that of all of their points.
-  M NotApart(int a, int body_a, int b, V motion, M lanes) {
-    const V margin = Margin(motion, HullOf(a).padding + HullOf(b).padding);
-    return body_a == hulls_.body_a() ? hulls_.NotApart(a, b, margin, lanes)
-                                     : hulls_.NotApart(b, a, margin, lanes);
+  /// Lanes, of those given, in which two nodes are not known to be apart by their hulls; `most`
+  /// bounds the motion of all of their points.
+  M NotApart(const MovingPart& a, const MovingPart& b, V most, M lanes) {
+    return NotApart(a, b, Motion(most, Weights(reach_.first + robot_.num_joints), a, &b), lanes);
+  }
+  template <typename Motion>
+  M NotApart(const MovingPart& a, const MovingPart& b, const Motion& motion, M lanes) {
+    return a.body == hulls_.body_a() ? hulls_.NotApart(a.node, b.node, motion, lanes)
+                                     : hulls_.NotApart(b.node, a.node, motion, lanes);
   }
 
   HWY_INLINE M Within(V squared, V grown) const {
@@ -499,12 +518,14 @@ class CheckPass {
         return PatchWithin(patch, center, other.radius + margin);
       });
     }
-    touching = NotApart(index, body_a, other_index, motion, touching);
+    const MovingPart part = PartOf(index, body_a);
+    const MovingPart other_part = PartOf(other_index, hulls_.Other(body_a));
+    touching = NotApart(part, other_part, motion, touching);
     if (None(touching)) return false;
     if constexpr (kAround) {
       // Hulls that are apart at q itself tell how near the patches are, well enough not to ask
       // their triangles.
-      const M overlapping = NotApart(index, body_a, other_index, Zero(), touching);
+      const M overlapping = NotApart(part, other_part, StandingStill(), touching);
       hits_ = hn::Or(hits_, hn::AndNot(overlapping, touching));
       touching = overlapping;
       if (None(touching)) return false;

@@ -16,8 +16,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
 
-/// Planes between the hulls of nodes, and between these and solids, in all lanes. Margins: what is
-/// to be left between them, m.
+/// No motion, of configurations.
+struct StandingStill {
+  static constexpr bool kMoves = false;
+  static V most() { return Zero(); }
+};
+
+/// Planes between the hulls of nodes, and between these and solids, in all lanes. They leave what
+/// `motion`, a RelativeMotion or StandingStill, and the rounding ask for.
 class HullPlanes {
  public:
   HullPlanes(const SphereRobot& robot, SphereScratch::Buffers* buffers, const Placement& placement)
@@ -30,6 +36,7 @@ class HullPlanes {
     related_ = 0;
   }
   int body_a() const { return body_a_; }
+  int Other(int body) const { return body == body_a_ ? body_b_ : body_a_; }
 
   /// In one lane, from the frame of body b to that of body a.
   const Transform& Relation(int lane) {
@@ -42,21 +49,22 @@ class HullPlanes {
   }
 
   /// Lanes, of those given, in which no plane is found between two nodes' hulls.
-  M NotApart(int a, int b, V margin, M lanes) {
+  template <typename Motion>
+  M NotApart(int a, int b, const Motion& motion, M lanes) {
     const NodeHull& hull_a = HullOf(a);
     const NodeHull& hull_b = HullOf(b);
-    const V wide = margin + Fill(hull_a.slack + hull_b.slack);
+    const float least = hull_a.padding + hull_b.padding + hull_a.slack + hull_b.slack;
     Plane& last = buffers_.PlaneOf(a, b);
     Plane plane = last;
     const bool known = plane.a == a && plane.b == b;
     if (known) {
-      lanes = hn::AndNot(IsBetween(plane, hull_b, wide), lanes);
+      lanes = NotBetween(plane, hull_b, least, motion, lanes);
     } else {  // In each lane, one across the line between the middles.
       const Points d = placement_.Position(a) - placement_.Position(b);
       const V gap = LeastAlong(robot_.points + hull_a.first, hull_a.num,
                                placement_.PosesOf(body_a_).InverseRotate(d)) +
                     LeastBeyond(hull_b, d);
-      lanes = hn::AndNot(Exceeds(gap, wide, SquaredNorm(d)), lanes);
+      lanes = Within(gap, d, SquaredNorm(d), least, motion, lanes);
     }
     if (None(lanes)) return lanes;
     if (!known) {
@@ -66,25 +74,26 @@ class HullPlanes {
                  Relation(std::countr_zero(Bits(lanes))), plane.direction);
     }
     alignas(64) float margins[kBlock];
-    Store(margin, margins);
+    Store(Fill(least) + motion.most(), margins);
     // Configurations of a block are alike, and so are those of the next: a plane found in one lane
     // is the first that is tried in others, and where one lane has none these are not asked.
     while (!None(lanes)) {
       const int lane = std::countr_zero(Bits(lanes));
-      if (!HullsApart(robot_, hull_a, hull_b, Relation(lane), margins[lane], plane.direction)) {
+      if (HullGap(robot_, hull_a, hull_b, Relation(lane), margins[lane], plane.direction) == 0) {
         break;
       }
       plane.least_a = Extreme(robot_.points + hull_a.first, hull_a.num, plane.direction).value();
       last = plane;
-      const M apart = hn::Or(IsBetween(plane, hull_b, wide), MaskOf(LaneMask{1} << lane));
-      lanes = hn::AndNot(apart, lanes);
+      lanes = NotBetween(plane, hull_b, least, motion, lanes);
+      if ((Bits(lanes) >> lane & 1) != 0) break;
     }
     return lanes;
   }
 
   /// Lanes, of those given, in which the plane through the point of a solid that is nearest to the
   /// middle of a node is not between the solid and the node's hull.
-  M NotApartFrom(const Solid& solid, int node, int body, V margin, M lanes) const {
+  template <typename Motion>
+  M NotApartFrom(const Solid& solid, int node, int body, const Motion& motion, M lanes) const {
     const NodeHull& hull = HullOf(node);
     const Poses X_WC = placement_.PosesOf(body);
     const Points p = placement_.Position(node);
@@ -92,17 +101,20 @@ class HullPlanes {
     const V squared = SquaredNorm(d);
     const V gap = LeastAlong(robot_.points + hull.first, hull.num, X_WC.InverseRotate(d)) +
                   Dot(d, X_WC.translation() - p) + squared;
-    return hn::AndNot(Exceeds(gap, margin + Fill(hull.slack), squared), lanes);
+    return Within(gap, d, squared, 2 * hull.padding + hull.slack, motion, lanes);
   }
 
  private:
   const NodeHull& HullOf(int node) const { return robot_.hulls[static_cast<std::size_t>(node)]; }
 
-  /// Lanes in which a plane found before is between its hulls, of which b is given.
-  HWY_INLINE M IsBetween(const Plane& plane, const NodeHull& hull_b, V margin) const {
+  /// Lanes, of those given, in which a plane found before is not between its hulls, of which b is
+  /// given.
+  template <typename Motion>
+  HWY_INLINE M NotBetween(const Plane& plane, const NodeHull& hull_b, float least,
+                          const Motion& motion, M lanes) const {
     const Points d = placement_.PosesOf(body_a_).Rotate(Fill(plane.direction));
     const V gap = Fill(plane.least_a) + LeastBeyond(hull_b, d);
-    return Exceeds(gap, margin, Fill(Dot(plane.direction, plane.direction)));
+    return Within(gap, d, Fill(Dot(plane.direction, plane.direction)), least, motion, lanes);
   }
 
   /// Least d . (p - b) over the points b of a hull, p being the origin of body a; d in W.
@@ -112,6 +124,22 @@ class HullPlanes {
     return LeastAlong(robot_.points + hull_b.first, hull_b.num,
                       {hn::Neg(d_B.x), hn::Neg(d_B.y), hn::Neg(d_B.z)}) +
            Dot(d, placement_.PosesOf(body_a_).translation() - X_WB.translation());
+  }
+
+  /// Lanes, of those given, in which a gap along d (in W), of that squared length, is not wider
+  /// than `least` and the motion.
+  template <typename Motion>
+  static HWY_INLINE M Within(V gap, const Points& d, V squared, float least, const Motion& motion,
+                             M lanes) {
+    lanes = hn::AndNot(Exceeds(gap, Fill(least) + motion.most(), squared), lanes);
+    if constexpr (Motion::kMoves) {
+      const M open = hn::And(lanes, Exceeds(gap, Fill(least), squared));
+      if (None(open)) return lanes;
+      const V unit = Fill(1) / hn::Sqrt(squared);
+      const V along = motion.Along({d.x * unit, d.y * unit, d.z * unit});
+      lanes = hn::AndNot(hn::And(open, hn::Gt(gap * unit, Fill(least) + along)), lanes);
+    }
+    return lanes;
   }
 
   /// Whether a gap along a direction of that squared length is wider than a margin.

@@ -7,6 +7,7 @@
 #endif
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "collision/simd/kernels/transform-inl.h"
@@ -83,27 +84,32 @@ class Extreme {
 
 inline float Dot(const float* a, const float* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Whether a plane is found between two convex bodies that are more than `margin` apart.
-/// `gap(d, w, suffices)` finds the least d . (a - b) of points a, b of the one and the other;
-/// unless that suffices, and it returns true, it stores that a - b. `direction`: a guess from the
-/// other to the one, any but 0; becomes the plane's, if one is found.
+/// The widest gap found between two convex bodies, m; 0: no plane between them was. Ends once one
+/// is wider than `margin`, or none can be. `gap(d, w, suffices)` finds the least d . (a - b) of
+/// points a, b of the one and the other; unless that suffices, and it returns true, it stores that
+/// a - b. `direction`: a guess from the other to the one, any but 0; becomes that of the gap, if
+/// there is one.
 template <typename Gap>
-HWY_INLINE bool PlaneBetween(float* direction, float margin, Gap gap) {
+HWY_INLINE float GapBetween(float* direction, float margin, Gap gap) {
   Simplex<float> simplex;
   Eigen::Vector3f v = Eigen::Vector3f::Map(direction);
+  float widest = 0;  // Squared.
   for (int i = 0; i < kMostDirections; ++i) {
     Eigen::Vector3f w;
-    const float squared = v.squaredNorm();
-    if (gap(v.data(), w.data(),
-            [&](float apart) { return apart > 0 && apart * apart > margin * margin * squared; })) {
-      Eigen::Vector3f::Map(direction) = v;
-      return true;
-    }
+    const auto suffices = [&](float along) {
+      const float squared = along * along / v.squaredNorm();
+      if (along > 0 && squared > widest) {
+        widest = squared;
+        Eigen::Vector3f::Map(direction) = v;
+      }
+      return widest > margin * margin;
+    };
+    if (gap(v.data(), w.data(), suffices)) break;
     simplex.Add(w);
-    if (simplex.encloses_origin() || simplex.squared_distance() <= margin * margin) return false;
+    if (simplex.encloses_origin() || simplex.squared_distance() <= margin * margin) break;
     v = simplex.nearest();
   }
-  return false;
+  return std::sqrt(widest);
 }
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

@@ -6,11 +6,20 @@
 #define PLANBENCH_KERNELS_MOTION_BOUNDS_INL_H_
 #endif
 
+#include "collision/simd/kernels/placement-inl.h"
 #include "collision/simd/kernels/points-inl.h"
 #include "collision/simd/kernels/scratch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planbench::kernels::HWY_NAMESPACE {
+
+/// Points of a body, within `radius` of its node's middle.
+struct MovingPart {
+  int node;
+  int body;
+  float radius;
+  const float* weights;  ///< By joint: how far each moves them, m/rad or 1.
+};
 
 /// Upper bounds of motions over the boxes of configurations that lanes stand for, m, margins
 /// included. Not kAround: lanes stand for configurations.
@@ -18,8 +27,9 @@ template <bool kAround>
 class MotionBounds {
  public:
   MotionBounds(const SphereRobot& robot, SphereScratch::Buffers* buffers, const BlockQuery& query,
-               int lane)
+               int lane, const Placement& placement)
       : robot_(robot),
+        placement_(placement),
         sums_(buffers->width_sums.get()),
         query_(query),
         lane_(lane),
@@ -62,7 +72,47 @@ class MotionBounds {
     return sum;
   }
 
+  /// Along n (unit vectors in W) of a part, by the joints of `moves` between it and the body that
+  /// stands still; margins are not included. One joint after another moves it, the outermost first,
+  /// each about an axis that is where it is in the middle of the box.
+  V Along(const Points& n, const MovingPart& part, const float* moves) const {
+    const Points p = placement_.Position(part.node);
+    V along = Zero();
+    V most = Zero();  // In any direction.
+    for (int i = part.body; i != 0; i = BodyAt(i).parent) {
+      const Body& body = BodyAt(i);
+      const float weight = part.weights[body.joint];
+      if (moves[body.joint] == 0) continue;
+      const V width = HalfWidth(body.joint);
+      const V arc = width * Fill(weight);
+      const Poses X_WC = placement_.PosesOf(i);
+      V step;
+      if (body.prismatic) {
+        const V slope = hn::Abs(Dot(n, X_WC.Rotate(Fill(body.axis))));
+        step = width * (slope + Fill(kDirectionError));
+      } else {
+        const Points across = Cross(n, X_WC.Column(2));
+        const V lever = hn::Abs(Dot(across, p - X_WC.translation()));
+        // The square root of `squared`, which is at most 1, is less. An arc leaves its tangent by
+        // no more than half its length times its angle.
+        const V squared = SquaredNorm(across);
+        const V beside = hn::MulAdd(squared, Fill(0.5f), Fill(0.5f)) * (most + Fill(part.radius));
+        const V bend = hn::MulAdd(arc, Fill(0.5f), Fill(weight * kDirectionError));
+        step = width * (lever + beside + bend);
+      }
+      along = along + hn::Min(step, arc);
+      most = most + arc;
+    }
+    return along;
+  }
+  V margin() const { return margin_; }
+
  private:
+  /// What axes and directions are off by in single precision.
+  static constexpr float kDirectionError = 1e-5f;
+
+  const Body& BodyAt(int index) const { return robot_.bodies[static_cast<std::size_t>(index)]; }
+
   HWY_INLINE V HalfWidth(int joint) const {
     return hn::LoadU(Lanes(), query_.half_widths + joint * kBlock + lane_);
   }
@@ -78,10 +128,45 @@ class MotionBounds {
   }
 
   const SphereRobot& robot_;
+  const Placement& placement_;
   float* sums_;  ///< Of half widths, of the joints before each.
   const BlockQuery& query_;
   int lane_;
   V margin_;  ///< Part of every motion.
+};
+
+/// Bounds of how far parts move relative to each other, margins included, in lanes that `counts`;
+/// in others they stand still.
+template <bool kAround>
+class RelativeMotion {
+ public:
+  static constexpr bool kMoves = kAround;
+
+  /// `most`: in any direction. `moves`: of what joints between the parts.
+  RelativeMotion(const MotionBounds<kAround>& bounds, V most, const float* moves, M counts,
+                 const MovingPart& part, const MovingPart* other = nullptr)
+      : bounds_(bounds),
+        most_(hn::IfThenElseZero(counts, most)),
+        moves_(moves),
+        counts_(counts),
+        part_(part),
+        other_(other) {}
+
+  V most() const { return most_; }
+  /// Along unit vectors, in W.
+  V Along(const Points& n) const {
+    V sum = bounds_.margin() + bounds_.Along(n, part_, moves_);
+    if (other_ != nullptr) sum = sum + bounds_.Along(n, *other_, moves_);
+    return hn::IfThenElseZero(counts_, sum);
+  }
+
+ private:
+  const MotionBounds<kAround>& bounds_;
+  V most_;
+  const float* moves_;
+  M counts_;
+  const MovingPart& part_;
+  const MovingPart* other_;
 };
 
 }  // namespace planbench::kernels::HWY_NAMESPACE

@@ -37,10 +37,9 @@ HWY_INLINE void Difference(const float* point_A, const float* point_B, const Tra
   for (int k = 0; k < 3; ++k) difference[k] = point_A[k] - difference[k];
 }
 
-/// Whether a plane is found between two hulls that are more than `margin` apart. `direction`: see
-/// PlaneBetween, in A.
-inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const NodeHull& b,
-                       const Transform& X_AB, float margin, float* direction) {
+/// Of two hulls: see GapBetween, `direction` being in A.
+inline float HullGap(const SphereRobot& robot, const NodeHull& a, const NodeHull& b,
+                     const Transform& X_AB, float margin, float* direction) {
   const auto gap = [&](const float* v, float* w, auto suffices) {
     float v_B[3];
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +55,7 @@ inline bool HullsApart(const SphereRobot& robot, const NodeHull& a, const NodeHu
     Difference(point_A, point_B, X_AB, w);
     return false;
   };
-  return PlaneBetween(direction, margin + a.slack + b.slack, gap);
+  return GapBetween(direction, margin, gap);
 }
 
 /// Calls visit(index) of each bit until it returns true; whether it did.
@@ -78,9 +77,12 @@ inline bool PatchesMeet(const PatchView& a, const PatchView& b, const Transform&
     const BoxedGroup other = b.group(j);
     return AnyOf(near_a & BoxesNear(a.patch.boxes, other.box, X_AB, margin), [&](int i) {
       const BoxedGroup group = a.group(i);
+      const NodeHull& hull_a = a.patch.hulls[i];
+      const NodeHull& hull_b = b.patch.hulls[j];
+      const float wide = margin + hull_a.slack + hull_b.slack;
       float direction[3];
       Difference(group.box.center, other.box.center, X_AB, direction);
-      return !HullsApart(a.robot, a.patch.hulls[i], b.patch.hulls[j], X_AB, margin, direction) &&
+      return HullGap(a.robot, hull_a, hull_b, X_AB, wide, direction) <= wide &&
              GroupsMeet(group, other.triangles, &other.box, X_AB, margin);
     });
   });

@@ -41,6 +41,7 @@ class Poses {
     };
     return {row(0), row(1), row(2)};
   }
+  HWY_INLINE Points Column(int c) const { return {rotation(0, c), rotation(1, c), rotation(2, c)}; }
   /// The pose in one lane.
   Transform InLane(int lane) const {
     Transform X;
@@ -55,7 +56,6 @@ class Poses {
 
  private:
   float* At(int k) const { return lanes_ + k * kBlock; }
-  HWY_INLINE Points Column(int c) const { return {rotation(0, c), rotation(1, c), rotation(2, c)}; }
   HWY_INLINE V Row(int row, const Points& p) const {
     V sum = hn::MulAdd(rotation(row, 0), p.x, Load(At(9 + row)));
     sum = hn::MulAdd(rotation(row, 1), p.y, sum);

@@ -255,6 +255,7 @@ enum class Tests {
   kAll,
   kFindOpen,  ///< All; those that leave a lane open are added to the open ones.
   kOpen,      ///< The open ones, if they were found; else all.
+  kScreen,    ///< Those against the world, and whether parts of the robot are inside of others.
 };
 
 struct BlockQuery {
