@@ -11,7 +11,10 @@
 #include "common/version.h"
 #include "planning/path_measures.h"
 #include "report/answer.h"
+#include "report/cautions.h"
 #include "report/session_tables.h"
+#include "report/tables.h"
+#include "report/trained.h"
 #include "results/curves.h"
 #include "results/quality.h"
 

@@ -2,8 +2,9 @@
 
 #include <vector>
 
+#include "report/compared_pairs.h"
 #include "report/table.h"
-#include "report/tables.h"
+#include "results/compared_sessions.h"
 
 namespace planbench {
 

@@ -20,6 +20,7 @@
 #include "report/print_figures.h"
 #include "report/recorded_views.h"
 #include "report/session_shares.h"
+#include "report/tables.h"
 #include "results/imported_results.h"
 #include "results/ompl_log.h"
 

@@ -5,26 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "report/compared_pairs.h"
 #include "report/table.h"
 #include "results/compared_sessions.h"
-#include "results/comparison.h"
 
 namespace planbench {
-
-/// What stands for all sets together where there are several.
-inline constexpr char kAllSets[] = "all sets";
-
-/// Whether a contestant has learned from a set that it is tried on (training.h), or of kAllSets
-/// from any such.
-bool IsTrained(const ComparedSessions& compared, const std::string& set,
-               const ComparedContestant& contestant);
-
-/// The sets that it is tried on and has learned from.
-std::vector<std::string> SetsLearnedFrom(const ComparedSessions& compared,
-                                         const ComparedContestant& contestant);
-/// What stands behind its name, or in a column beside it, where all sets are shown together
-/// (TrainedMark).
-std::string MarkOf(const ComparedSessions& compared, const ComparedContestant& contestant);
 
 /// What is to be said where times are compared that were measured under different limits.
 inline constexpr char kLimitsNote[] =
@@ -34,17 +19,6 @@ inline constexpr char kLimitsNote[] =
 std::set<double> LimitsOn(const std::map<std::string, Outcomes>& by_contestant);
 /// kLimitsNote with the sets on which contestants had different limits; "" if there are none.
 std::string LimitsNote(const ComparedSessions& compared);
-
-/// One contestant against another on one set, or on all.
-struct ComparedPair {
-  std::string set;
-  std::string first;
-  std::string second;
-  PairedComparison result;
-  double adjusted_p = 1;  ///< Holm's, over the pairs of the set.
-};
-/// All pairs that tried a problem in common, those that rank higher first.
-std::vector<ComparedPair> ComparePairs(const ComparedSessions& compared);
 
 Table SuccessTable(const ComparedSessions& compared);
 Table TimeTable(const ComparedSessions& compared);

@@ -195,6 +195,25 @@ ComparedSessions::ComparedSessions(std::vector<StoredSession> sessions)
   }
 }
 
+const ComparedContestant& ContestantCalled(const ComparedSessions& compared,
+                                           const std::string& name) {
+  const auto& all = compared.contestants();
+  return *std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+}
+
+int NumCommonProblems(const ComparedSessions& compared) {
+  const auto& common = compared.pooled_common();
+  return common.empty() ? 0 : static_cast<int>(common.begin()->second.by_problem.size());
+}
+
+bool TriedDifferentProblems(const ComparedSessions& compared) {
+  return std::any_of(compared.pooled().begin(), compared.pooled().end(), [&](const auto& one) {
+    const auto common = compared.pooled_common().find(one.first);
+    return common == compared.pooled_common().end() ||
+           common->second.by_problem.size() < one.second.by_problem.size();
+  });
+}
+
 std::vector<FailureGroup> GroupFailures(const ComparedContestant& contestant,
                                         const std::string& problem_set) {
   std::map<std::pair<PlanStatus, std::string>, FailureGroup> groups;

@@ -81,6 +81,16 @@ class ComparedSessions {
   std::map<std::string, Outcomes> pooled_common_;
 };
 
+/// The contestant of that name, which there must be.
+const ComparedContestant& ContestantCalled(const ComparedSessions& compared,
+                                           const std::string& name);
+
+/// How many problems all contestants tried.
+int NumCommonProblems(const ComparedSessions& compared);
+
+/// Whether contestants tried other problems than those that all of them tried.
+bool TriedDifferentProblems(const ComparedSessions& compared);
+
 /// Runs without a confirmed path that ended alike: their reasons are equal WithoutFigures.
 struct FailureGroup {
   PlanStatus status = PlanStatus::kNoAnswer;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/answer.h"
+#include "report/cautions.h"
 #include "report/figures.h"
 #include "report/session_tables.h"
 #include "tests/report/report_fixture.h"
