@@ -44,9 +44,11 @@ class FirstPathTest : public RunExecutorTest {
     executor_.emplace(&bus_, &registry_, conditions);
   }
 
-  std::optional<RunRecordMessage> Execute() {
-    return executor_->Execute(Scheduled(), {&first_client_, &client_}, [] { return false; });
+  RunRecordMessage Execute(PlannerClient* improver) {
+    return executor_->Execute(Scheduled(), {&first_client_, improver}, [] { return false; })
+        .value();
   }
+  RunRecordMessage Execute() { return Execute(&client_); }
   void FirstAnswers(const PlanResult& result) { AnswerWith(result, &first_); }
   static PlanResult Found(double planning_time_s) {
     PlanResult result = FakePlanner::SolvedResult();
@@ -104,16 +106,15 @@ TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) 
   better.progress = {{0.5 * kTick, 0, 3, 1}};
   better.counters = {{"edges_checked", 10}};
   AnswerWith(better);
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
-  EXPECT_EQ(record->result.result.path, FakePath());
-  EXPECT_EQ(record->result.result.planning_time_s, 2.5 * kTick);
-  EXPECT_EQ(record->result.result.total_time_s, 3 * kTick);
-  EXPECT_EQ(record->result.result.phases.search_s, 3 * kTick);
-  EXPECT_EQ(record->result.result.phases.simplification_s, 0) << "of a path that is not the answer";
-  EXPECT_EQ(record->result.result.progress.at(0).elapsed_s, 2.5 * kTick);
-  const auto& counters = record->result.result.counters;
+  const RunRecordMessage record = Execute();
+  EXPECT_EQ(record.status, PlanStatus::kSolved) << record.message;
+  EXPECT_EQ(record.result.result.path, FakePath());
+  EXPECT_EQ(record.result.result.planning_time_s, 2.5 * kTick);
+  EXPECT_EQ(record.result.result.total_time_s, 3 * kTick);
+  EXPECT_EQ(record.result.result.phases.search_s, 3 * kTick);
+  EXPECT_EQ(record.result.result.phases.simplification_s, 0) << "of a path that is not the answer";
+  EXPECT_EQ(record.result.result.progress.at(0).elapsed_s, 2.5 * kTick);
+  const auto& counters = record.result.result.counters;
   EXPECT_EQ(counters.at("edges_checked"), 15);
   EXPECT_EQ(counters.at("samples"), 7);
   EXPECT_EQ(counters.at(kFirstPathTime), 2 * kTick);
@@ -134,7 +135,7 @@ TEST_F(FirstPathTest, IsGivenToThePlannerThatImprovesItWithinTheTimeThatIsLeft) 
   EXPECT_TRUE(asked.simplify && asked.anytime);
   PlanRequest recorded = asked;
   recorded.time_limit_s = 7 * kTick;
-  EXPECT_EQ(record->request, recorded);
+  EXPECT_EQ(record.request, recorded);
 }
 
 TEST_F(FirstPathTest, CountersThatAreNoCountsAreNotAddedUp) {
@@ -147,10 +148,9 @@ TEST_F(FirstPathTest, CountersThatAreNoCountsAreNotAddedUp) {
       planner->SendResult(request.request_id, result);
     });
   }
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kSolved) << record->message;
-  const auto& counters = record->result.result.counters;
+  const RunRecordMessage record = Execute();
+  EXPECT_EQ(record.status, PlanStatus::kSolved) << record.message;
+  const auto& counters = record.result.result.counters;
   EXPECT_EQ(counters.at("samples"), 14);
   EXPECT_EQ(counters.at(kToldTime), 500 + kTick) << "the longest";
   EXPECT_EQ(counters.at(kFirstPathTime), kTick);
@@ -161,32 +161,28 @@ TEST_F(FirstPathTest, WithoutOneThereIsNothingToImprove) {
   failed.status = PlanStatus::kTimedOut;
   failed.message = "too hard";
   FirstAnswers(failed);
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-  EXPECT_EQ(record->message, "first: too hard");
-  EXPECT_TRUE(record->request.initial_path.empty());
+  const RunRecordMessage record = Execute();
+  EXPECT_EQ(record.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(record.message, "first: too hard");
+  EXPECT_TRUE(record.request.initial_path.empty());
   EXPECT_TRUE(planner_.requests().messages().empty());
 }
 
 TEST_F(FirstPathTest, WithoutAnybodyToImproveItTheRunWasNotAsked) {
   FirstAnswers(Found(kTick));
   PlannerClient given_up(&bus_, &registry_, "nobody", {.given_up = [] { return "given up: it"; }});
-  const auto record =
-      executor_->Execute(Scheduled(), {&first_client_, &given_up}, [] { return false; });
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->message, "given up: it");
-  EXPECT_FALSE(WasAsked(*record));
+  const RunRecordMessage record = Execute(&given_up);
+  EXPECT_EQ(record.message, "given up: it");
+  EXPECT_FALSE(WasAsked(record));
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfThereIsNoOtherWhenTheLimitComes) {
   FirstAnswers(Found(6 * kTick));
   ImproverIsLate();
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  ExpectFirstPath(*record);
-  EXPECT_EQ(record->message, "the path of 'first': 'arm' had 0.0156 s left, and no path by then");
-  EXPECT_EQ(record->result.result.total_time_s, 8 * kTick);
+  const RunRecordMessage record = Execute();
+  ExpectFirstPath(record);
+  EXPECT_EQ(record.message, "the path of 'first': 'arm' had 0.0156 s left, and no path by then");
+  EXPECT_EQ(record.result.result.total_time_s, 8 * kTick);
 }
 
 TEST_F(FirstPathTest, IsNoAnswerIfWhoImprovesItGivesUpBeforeTheLimit) {
@@ -196,28 +192,25 @@ TEST_F(FirstPathTest, IsNoAnswerIfWhoImprovesItGivesUpBeforeTheLimit) {
   early.status = PlanStatus::kTimedOut;
   early.message = "no wish to";
   AnswerWith(early);
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-  EXPECT_EQ(record->message, "'arm' ended with 100 of 100 s unused: no wish to");
-  EXPECT_TRUE(record->result.result.path.empty());
+  const RunRecordMessage record = Execute();
+  EXPECT_EQ(record.status, PlanStatus::kTimedOut);
+  EXPECT_EQ(record.message, "'arm' ended with 100 of 100 s unused: no wish to");
+  EXPECT_TRUE(record.result.result.path.empty());
 }
 
 TEST_F(FirstPathTest, IsTheAnswerIfItTookTheWholeTime) {
   FirstAnswers(Found(7 * kTick));
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  ExpectFirstPath(*record);
-  EXPECT_EQ(record->message, "the path of 'first': 'arm' had 0 s left, and no path by then");
+  const RunRecordMessage record = Execute();
+  ExpectFirstPath(record);
+  EXPECT_EQ(record.message, "the path of 'first': 'arm' had 0 s left, and no path by then");
   EXPECT_TRUE(planner_.requests().messages().empty());
 }
 
 TEST_F(FirstPathTest, IsNoAnswerIfItTookLonger) {
   FirstAnswers(Found(8 * kTick));
-  const auto record = Execute();
-  ASSERT_TRUE(record);
-  EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-  EXPECT_THAT(record->message, testing::HasSubstr("the planner says that its path is late"));
+  const RunRecordMessage record = Execute();
+  EXPECT_EQ(record.status, PlanStatus::kTimedOut);
+  EXPECT_THAT(record.message, testing::HasSubstr("the planner says that its path is late"));
 }
 
 TEST_F(FirstPathTest, IsNoAnswerIfItWasCheckedOtherwise) {
@@ -225,17 +218,16 @@ TEST_F(FirstPathTest, IsNoAnswerIfItWasCheckedOtherwise) {
   const auto expect_none = [this](double planning_time_s) {
     SCOPED_TRACE(planning_time_s);
     FirstAnswers(Found(planning_time_s));
-    const auto record = Execute();
-    ASSERT_TRUE(record);
-    EXPECT_EQ(record->status, PlanStatus::kTimedOut);
-    EXPECT_THAT(record->message,
+    const RunRecordMessage record = Execute();
+    EXPECT_EQ(record.status, PlanStatus::kTimedOut);
+    EXPECT_THAT(record.message,
                 testing::HasSubstr(" s left, and no path by then; that of 'first' was found with "
                                    "another collision model or edge check"));
-    EXPECT_EQ(record->result.result.status, PlanStatus::kTimedOut);
-    EXPECT_TRUE(record->result.result.path.empty());
-    EXPECT_TRUE(record->result.result.simplified_path.empty());
-    EXPECT_EQ(record->result.result.phases.simplification_s, 0);
-    EXPECT_EQ(record->result.result.cost, 0);
+    EXPECT_EQ(record.result.result.status, PlanStatus::kTimedOut);
+    EXPECT_TRUE(record.result.result.path.empty());
+    EXPECT_TRUE(record.result.result.simplified_path.empty());
+    EXPECT_EQ(record.result.result.phases.simplification_s, 0);
+    EXPECT_EQ(record.result.result.cost, 0);
   };
   const std::vector<std::function<void(Contestant*)>> changes = {
       [](Contestant* first) { first->collision_model = CollisionModel::kSpheres; },

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -47,8 +46,11 @@ class RunExecutorTest : public testing::Test {
     run.request_id = "run/cans/" + std::to_string(index) + "/arm/backward/3";
     return run;
   }
-  std::optional<RunRecordMessage> Execute(const ScheduledRun& run = Scheduled()) {
-    return executor_.Execute(run, {&client_}, [this] { return interrupted_.load(); });
+  RunRecordMessage Execute(RunExecutor* executor, const ScheduledRun& run = Scheduled()) {
+    return executor->Execute(run, {&client_}, [] { return false; }).value();
+  }
+  RunRecordMessage Execute(const ScheduledRun& run = Scheduled()) {
+    return Execute(&executor_, run);
   }
   /// When the time that it tells has passed.
   static void AnswerWith(const PlanResult& result, FakePlanner* planner) {
