@@ -278,18 +278,11 @@ TEST_F(PlannerClientTest, AProcessThatEndsIsNotedAtOnce) {
 }
 
 TEST_F(PlannerClientTest, HowAProcessEndedIsToldAlsoIfThatIsKnownALittleLater) {
-  const pid_t pid = fork();
-  if (pid == 0) {
-    pause();
-    _exit(0);
-  }
+  const pid_t pid = StartProcess();
   FakePlanner planner(&bus_);
   planner.status.pid = pid;
   Reannounce(&registry_, &planner);
-  planner.OnRequest([&](const PlanRequest&) {
-    kill(pid, SIGKILL);
-    waitpid(pid, nullptr, 0);
-  });
+  planner.OnRequest([&](const PlanRequest&) { EndProcess(pid); });
   PlannerClient::Terms terms;
   int num_asked = 0;
   terms.how_ended = [&](auto since) {

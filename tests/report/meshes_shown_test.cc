@@ -110,11 +110,7 @@ TEST_F(MeshesShownTest, ThoseThatAreNotTheSessionsAreToldAsSuch) {
 
 TEST_F(MeshesShownTest, OfAProblemTheCollisionModelIsChosen) {
   folder_.Write("set/scene0001.yaml", "world: {}\n");
-  folder_.Write("set/request0001.yaml",
-                "{group_name: arm, allowed_planning_time: 1, start_state: {joint_state: {name: "
-                "[shoulder, elbow, wrist], position: [0, 0, 0]}}, goal_constraints: "
-                "[{joint_constraints: [{joint_name: shoulder, position: 1}, {joint_name: elbow, "
-                "position: 0}, {joint_name: wrist, position: 0}]}]}\n");
+  folder_.Write("set/request0001.yaml", kPlanarRequest);
   std::vector<std::string> view = {
       "--problems", (folder_ / "set/1").string(), "--robot", arm_, "--package-path", hands_};
   EXPECT_THAT(Page("view", view), Not(HasSubstr(NamesMesh())));

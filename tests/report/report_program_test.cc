@@ -291,11 +291,7 @@ TEST_F(ReportProgramTest, ViewFindsMeshesAndSpheresOfAProblemWhereItIsTold) {
   folder_.Write("set/scene0001.yaml",
                 "world: {collision_objects: [{id: sail, meshes: ['package://boat/sail.obj'], "
                 "mesh_poses: [{position: [1, 1, 0], orientation: [0, 0, 0, 1]}]}]}\n");
-  folder_.Write("set/request0001.yaml",
-                "{group_name: arm, allowed_planning_time: 1, start_state: {joint_state: {name: "
-                "[shoulder, elbow, wrist], position: [0, 0, 0]}}, goal_constraints: "
-                "[{joint_constraints: [{joint_name: shoulder, position: 1}, {joint_name: elbow, "
-                "position: 0}, {joint_name: wrist, position: 0}]}]}\n");
+  folder_.Write("set/request0001.yaml", kPlanarRequest);
   folder_.Write("elsewhere/sail.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.125\nf 1 2 3\n");
   folder_.Write("one.yaml", "links: {hand: [{center: [0.0625, 0, 0], radius: 0.25}]}\n");
   std::vector<std::string> view = {"--problems", Path("set/1"), "--robot",

@@ -42,11 +42,6 @@ TEST(ReproducingCommandTest, ValuesAreRecordedAsTheyWereGiven) {
     EXPECT_EQ(SplitFlagValues(JoinFlagValues(values)), values) << values.front();
   }
   EXPECT_EQ(JoinFlagValues({"/a", "/b c"}), "/a,/b c");
-  for (const char* flag : {"set", "planner-command", "package-path", "reference", "problems"}) {
-    EXPECT_TRUE(TakesSeveralValues(flag)) << flag;
-  }
-  EXPECT_EQ(Command({{"set", JoinFlagValues(given[0])}}),
-            "benchmark_driver --set x.y=1 --set a+b.k=2");
 }
 
 TEST(ReproducingCommandTest, OfAMergedSessionIsThatOfItsParts) {

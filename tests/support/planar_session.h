@@ -10,6 +10,13 @@
 
 namespace planbench {
 
+/// The file of a request for the planar arm.
+inline constexpr char kPlanarRequest[] =
+    "{group_name: arm, allowed_planning_time: 1, start_state: {joint_state: {name: [shoulder, "
+    "elbow, wrist], position: [0, 0, 0]}}, goal_constraints: [{joint_constraints: [{joint_name: "
+    "shoulder, position: 1}, {joint_name: elbow, position: 0}, {joint_name: wrist, position: "
+    "0}]}]}\n";
+
 /// Messages of a session with the planar arm, whose scene is empty.
 struct PlanarSession {
   PlanarSession() {
