@@ -13,19 +13,15 @@
 #include <thread>
 
 #include "benchmark_driver/await_nodes.h"
-#include "benchmark_driver/contestant_names.h"
 #include "benchmark_driver/earlier_plan.h"
+#include "benchmark_driver/session_contestants.h"
 #include "common/error.h"
-#include "common/file_kind.h"
 #include "common/lookup.h"
 #include "common/random_id.h"
-#include "common/sibling_program.h"
 #include "common/utime.h"
 #include "messaging/asked_runs.h"
-#include "messaging/codec.h"
 #include "messaging/node_announcer.h"
 #include "messaging/session_conditions.h"
-#include "planning/path_judge.h"
 #include "planning/told_edges.h"
 #include "planning/told_warnings.h"
 #include "results/reason_count.h"
@@ -34,11 +30,6 @@
 
 namespace planbench {
 namespace {
-
-/// Planbench's own, not one that a command starts, or somebody else's.
-bool IsOwn(const LineUpEntry& entry) {
-  return entry.contestant.command.empty() && IsFile(ProgramFolder() / ("planner_" + entry.program));
-}
 
 /// Tells among their settings how planners are asked to check for collisions: who finds first paths
 /// alone is none of the contestants, of which the conditions tell it.
@@ -53,18 +44,6 @@ void TellChecks(const SessionConditions& conditions, const std::vector<Contestan
                       DescribeEdges(one.edge_check, one.edge_resolution_m, node.settings));
     }
   }
-}
-
-/// Throws InputError for a planner that says more of itself than every record can hold: messages
-/// that are not much larger do not come.
-void RequireModest(const NodeStatusMessage& planner) {
-  constexpr std::size_t kMost = 1'000'000;
-  const std::size_t size = Encode(planner).size();
-  if (size <= kMost) return;
-  throw InputError(fmt::format(
-      "the planner '{}' announces itself in {} bytes (algorithm, class, settings), most of which "
-      "every record repeats: {} at most",
-      planner.name, size, kMost));
 }
 
 std::set<std::string> IdsOf(const std::vector<ScheduledRun>& runs) {
@@ -119,7 +98,9 @@ void Driver::Discover(bool need_logger, const std::function<void()>& watch,
   if (const auto found = registry_.Find(served_.server, NodeKind::kSceneServer)) {
     referee_misfits_ = Lookup(found->settings, kRefereeMisfits).value_or("");
   }
-  CompleteConditions();
+  FoundPlanners found_planners = CompleteConditions(registry_, served_, line_up_, &options_);
+  planners_ = std::move(found_planners.planners);
+  first_planners_ = std::move(found_planners.first_planners);
   const PlannedCall call = PlanCall(options_, PlannedPlanners(), served_);
   for (const std::string& line : ShortOfRange(options_, call)) spdlog::warn("{}", line);
   schedule_ = MakeSchedule(call, options_.conditions.request);
@@ -321,67 +302,6 @@ void Driver::CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
   if (schedule_.empty() && !bad.empty() && none_made) {
     throw InputError(fmt::format("all {} problems are bad: none is left to run", bad.size()));
   }
-}
-
-void Driver::CompleteConditions() {
-  SessionConditions& conditions = options_.conditions;
-  PlanRequest& request = conditions.request;
-  request.robot_id = served_.robot_id;
-  if (!request.edge_resolution_m) request.edge_resolution_m = served_.edge_resolution_m;
-  if (!request.edge_check) request.edge_check = served_.edge_check;
-  if (!conditions.referee_step_m) {
-    conditions.referee_step_m = DefaultRefereeStep(*request.edge_resolution_m);
-  }
-  conditions.referee_robot_id = served_.referee_robot_id;
-  for (const LineUpEntry& entry : line_up_) AddContestant(entry);
-  const std::map<std::string, std::string> names = ContestantNames(line_up_, planners_);
-  for (std::vector<Contestant>* contestants : {&conditions.contestants, &first_planners_}) {
-    for (Contestant& one : *contestants) one.name = names.at(one.planner);
-  }
-}
-
-void Driver::AddContestant(const LineUpEntry& entry) {
-  const PlanRequest& request = options_.conditions.request;
-  Contestant contestant = entry.contestant;
-  const std::string& name = entry.contestant.planner;
-  const auto planner = registry_.Find(name, NodeKind::kPlanner);
-  if (!planner) throw InputError("the planner '" + name + "' has left the bus");
-  if (IsOwn(entry)) RequireSameBuild(*planner);
-  if (planner->robot_id != served_.robot_id) {
-    throw InputError(fmt::format(
-        "the planner '{}' has another robot than the scene server: '{}' ({}) against '{}' ({})",
-        name, planner->robot_name, planner->robot_id, served_.robot_name, served_.robot_id));
-  }
-  RequireModest(*planner);
-  contestant.collision_model = options_.ModelOf(entry);
-  if (!contestant.edge_resolution_m) contestant.edge_resolution_m = request.edge_resolution_m;
-  if (!contestant.edge_check) contestant.edge_check = request.edge_check;
-  const std::string model(EnumName(*contestant.collision_model));
-  const auto& models = planner->collision_models;
-  if (std::find(models.begin(), models.end(), model) == models.end()) {
-    const auto why = planner->unusable_models.find(model);
-    throw InputError(fmt::format("--collision-model: the planner '{}' does not offer '{}'{}", name,
-                                 model,
-                                 why == planner->unusable_models.end() ? "" : ": " + why->second));
-  }
-  if (contestant.collision_model == CollisionModel::kMeshes) {
-    options_.conditions.mesh_robot_id = served_.mesh_robot_id;
-  }
-  const Directions directions = entry.directions.value_or(options_.directions);
-  if (!planner->can_backward &&
-      (directions == Directions::kBackward || directions == Directions::kBoth)) {
-    throw InputError("--directions: the planner '" + name + "' cannot search backward");
-  }
-  if (!planner->can_anytime && request.anytime && !entry.finds_first_paths_only) {
-    throw InputError(fmt::format(
-        "--anytime: the planner '{}' is no anytime planner: leave it out by --planners", name));
-  }
-  if (!contestant.first_path_of.empty() && !planner->can_improve) {
-    throw InputError(fmt::format("first_path_of: the planner '{}' does not improve paths", name));
-  }
-  (entry.finds_first_paths_only ? first_planners_ : options_.conditions.contestants)
-      .push_back(std::move(contestant));
-  planners_[name] = *planner;
 }
 
 std::vector<PlannedPlanner> Driver::PlannedPlanners() const {

@@ -100,10 +100,6 @@ class Driver {
   /// runs it has are recorded. One that is another than it was ends it.
   void CheckProblems(const std::map<ProblemKey, PlanRequest>& met,
                      const std::function<void()>& watch);
-  void CompleteConditions();
-  /// With its conditions, but for its name in tables; throws InputError for planners that do not
-  /// fit.
-  void AddContestant(const LineUpEntry& entry);
   std::vector<PlannedPlanner> PlannedPlanners() const;
   /// What is known of the session when this call goes on with it; of a new one that is the call.
   struct Known {
